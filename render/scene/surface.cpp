@@ -26,8 +26,13 @@ void grow(Box& box, Vec3f p) {
 std::vector<Box> clusters_of(const Mesh& mesh) {
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (i % kClusterTriangles == 0) boxes.push_back(kNothing);
-        for (const std::uint32_t vertex : mesh.triangles[i]) grow(boxes.back(), mesh.vertices_m[vertex]);
+        const bool first = i % kClusterTriangles == 0;
+        if (first) boxes.push_back(kNothing);
+        // Neighbours share most of their corners.
+        const auto& before = mesh.triangles[first ? i : i - 1];
+        for (const std::uint32_t vertex : mesh.triangles[i])
+            if (first || (vertex != before[0] && vertex != before[1] && vertex != before[2]))
+                grow(boxes.back(), mesh.vertices_m[vertex]);
     }
     return boxes;
 }
