@@ -57,10 +57,14 @@ double BoulderField::per_m2_at(Vec3d place, double diameter_m) const {
     return factor * per_m2(diameter_m);
 }
 
+double BoulderField::diameter_m(const SeededOctaves::Thing& thing) const {
+    return std::pow(thing.above / factor_, -1 / settings_.exponent);
+}
+
 BoulderField::Shaped BoulderField::shaped(const SeededOctaves::Thing& thing) const {
     Shaped b;
     b.place = thing.place;
-    b.diameter_m = std::pow(thing.above / factor_, -1 / settings_.exponent);
+    b.diameter_m = diameter_m(thing);
     b.turn_rad = kPi * thing.spare;
     const auto shape = thing.words(1);
     b.slim = kSlimFrom + (1 - kSlimFrom) * GroundCells::uniform(shape[0]);
@@ -87,13 +91,15 @@ void BoulderField::find(Vec3d middle, double reach_rad, double smallest_m,
 void BoulderField::add(const GroundPatch& patch) const {
     // A boulder of fewer posts is no boulder.
     constexpr double kPosts = 3;
-    octaves_.visit_on(patch, kPosts, 1,
-                      [&](const SeededOctaves::Thing& thing) { add_one(shaped(thing), patch); });
+    octaves_.visit_on(patch, kPosts, 1, [&](const SeededOctaves::Thing& thing) {
+        const double radius_m = 0.5 * diameter_m(thing);
+        if (length(thing.place - patch.middle) <= patch.reach_rad * 1.001 + radius_m / radius_m_)
+            add_one(shaped(thing), patch);
+    });
 }
 
 void BoulderField::add_one(const Shaped& b, const GroundPatch& patch) const {
     const double radius_m = 0.5 * b.diameter_m;
-    if (length(b.place - patch.middle) > patch.reach_rad * 1.001 + radius_m / radius_m_) return;
     const AlongGround axes = axes_along(b.place);
     const Vec3d east = axes.east, north = axes.north;
     const double c = std::cos(b.turn_rad), s = std::sin(b.turn_rad);

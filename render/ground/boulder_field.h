@@ -55,6 +55,7 @@ class BoulderField final : public GroundDetail {
     double factor_;  // K
     SeededOctaves octaves_;
 
+    double diameter_m(const SeededOctaves::Thing& thing) const;
     Shaped shaped(const SeededOctaves::Thing& thing) const;
     void add_one(const Shaped& boulder, const GroundPatch& patch) const;
 };

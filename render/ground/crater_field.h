@@ -12,6 +12,7 @@
 
 #include "render/ground/crater_law.h"
 #include "render/ground/crater_profile.h"
+#include "render/ground/crater_shape.h"
 #include "render/ground/ground_detail.h"
 #include "render/ground/seeded_octaves.h"
 #include "render/vocabulary/config_field.h"
@@ -46,19 +47,15 @@ class CraterField final : public GroundDetail {
     double per_m2_at(Vec3d, double diameter_m) const { return per_m2(diameter_m); }
 
   private:
-    struct Shaped : Crater {
-        std::array<double, 4> wave_cos, wave_sin;  // waves of the rim's outline, of 2 to 5 turns
-        double bright = 0, ray_phase_rad = 0;
-        int ray_count = 7;
-    };
     double radius_m_;
     CraterSettings settings_;
     CraterLaw law_;
     CraterProfile profile_;
     SeededOctaves octaves_;
 
-    Shaped shaped(const SeededOctaves::Thing& thing) const;
-    void add_one(const Shaped& crater, const GroundPatch& patch) const;
+    Crater crater_of(const SeededOctaves::Thing& thing) const;
+    double bright_of(const Crater& crater) const;
+    CraterShape shape_of(const Crater& crater, const SeededOctaves::Thing& thing) const;
 };
 
 }  // namespace hilcam

@@ -60,15 +60,21 @@ CraterProfile::CraterProfile() {
     }
 }
 
-double CraterProfile::height(double distance, double worn) const {
-    if (!(distance < kReach)) return 0;
+CraterProfile::Worn CraterProfile::at(double worn) const {
     const double state = kStates * std::sqrt(std::clamp(worn / kMostWorn, 0.0, 1.0));
     const auto s = std::min(static_cast<std::size_t>(state), static_cast<std::size_t>(kStates - 1));
+    return {states_[s].data(), states_[s + 1].data(), state - static_cast<double>(s)};
+}
+
+double CraterProfile::height(double distance, double worn) const {
+    if (!(distance < kReach)) return 0;
+    const Worn shape = at(worn);
     const double x = distance / kReach * kSteps;
     const auto i = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kSteps - 1));
-    const double t = x - static_cast<double>(i), u = state - static_cast<double>(s);
-    const auto at = [&](std::size_t k) { return states_[k][i] + t * (states_[k][i + 1] - states_[k][i]); };
-    return at(s) + u * (at(s + 1) - at(s));
+    const double t = x - static_cast<double>(i);
+    const auto between = [&](const double* state) { return state[i] + t * (state[i + 1] - state[i]); };
+    const double fresher = between(shape.fresher);
+    return fresher + shape.share * (between(shape.older) - fresher);
 }
 
 }  // namespace hilcam

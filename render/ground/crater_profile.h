@@ -17,14 +17,24 @@ class CraterProfile {
     static constexpr double kMostWorn = 0.5;  // a tenth of the depth is left
 
     CraterProfile();
+    static constexpr int kSteps = 192;  // distances at which heights are kept, to kReach
+
+    // The shape at one wear lies between two that are kept: heights at kSteps + 1 distances, of a depth of 1 under the rim when fresh.
+    struct Worn {
+        const double* fresher = nullptr;
+        const double* older = nullptr;
+        double share = 0;  // the share of the second
+    };
+    // worn: 0 to kMostWorn. Valid as long as this is.
+    Worn at(double worn) const;
     // Returns the height over the radius at a distance in radii; 0 beyond kReach. depth: of a fresh crater under its rim,
-    // over the radius. worn: 0 to kMostWorn.
+    // over the radius.
     double height(double distance, double worn) const;
     // Depth under the rim over the diameter of a fresh crater.
     static double fresh_depth(double diameter_m);
 
   private:
-    static constexpr int kStates = 24, kSteps = 192;
+    static constexpr int kStates = 24;
     std::vector<std::vector<double>> states_;  // by wear, by distance; of a fresh depth of 1
 };
 

@@ -42,12 +42,16 @@ inline AlongGround axes_along(Vec3d place) {
     return {east, cross(place, east)};
 }
 
+// Returns the tangent of a coordinate's angle; 45 deg is exact, so that faces meet.
+inline double cube_tangent(double at) { return std::abs(at) == 1 ? at : std::tan(0.25 * kPi * at); }
+// Returns the unit vector of a point by the tangents of its two coordinates.
+inline Vec3d cube_direction_of_tangents(int face, Vec2d tangents) {
+    const CubeFace& f = kCube[static_cast<std::size_t>(face)];
+    return normalized(f.axis + tangents.x * f.right + tangents.y * f.up);
+}
 // Returns the unit vector of a point; coordinates may go beyond the face a little.
 inline Vec3d cube_direction(int face, Vec2d at) {
-    const CubeFace& f = kCube[static_cast<std::size_t>(face)];
-    // 45 deg is exact, so that faces meet.
-    const auto tangent = [](double x) { return std::abs(x) == 1 ? x : std::tan(0.25 * kPi * x); };
-    return normalized(f.axis + tangent(at.x) * f.right + tangent(at.y) * f.up);
+    return cube_direction_of_tangents(face, {cube_tangent(at.x), cube_tangent(at.y)});
 }
 
 // Returns the point of a direction, of any length.

@@ -11,27 +11,15 @@
 namespace hilcam {
 namespace {
 
-// A tile as it lies in a mesh: so many quadrilaterals along an edge, and a skirt around them.
-struct Grid {
-    int quads;
-    std::size_t side() const { return static_cast<std::size_t>(quads) + 1; }
-    std::size_t border() const { return 4 * static_cast<std::size_t>(quads); }
-    std::size_t vertices() const { return side() * side() + border(); }
-    std::size_t triangles() const { return 2 * (side() - 1) * (side() - 1) + 2 * border(); }
-    // Returns a vertex around the tile, against the clock.
-    std::size_t border_vertex(std::size_t k) const {
-        const std::size_t n = side() - 1, along = k % n, turn = k / n % 4;
-        const std::size_t x = turn == 0 ? along : turn == 1 ? n : turn == 2 ? n - along : 0;
-        const std::size_t y = turn == 0 ? 0 : turn == 1 ? along : turn == 2 ? n : n - along;
-        return y * side() + x;
-    }
-};
-constexpr Grid kSeen{GroundTile::kQuads}, kBeside{GroundTile::kSketchQuads};
+// Quadrilaterals along the edge of a tile as it lies in a mesh.
+constexpr std::size_t kSeen = GroundTile::kQuads, kBeside = GroundTile::kSketchQuads;
 // Distances over which a vertex goes to the level above: of those at which tiles of its level are used.
 constexpr double kMorphFrom = 1.5, kMorphTo = 2;
 // A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
 constexpr double kLeastEdges = 128;
 constexpr int kFinestLevel = 27;
+// Sketches that keep their texels, of 0.25 MB each, until the mesh is made.
+constexpr std::size_t kMostTexels = 128;
 
 }  // namespace
 
@@ -55,14 +43,34 @@ Vec3d GlobeTerrain::up_at(Vec3d p) const {
 }
 
 // Makes those that are not kept.
-void GlobeTerrain::require(std::span<const GroundTileKey> keys, bool sketches) {
-    Tiles& tiles = sketches ? sketches_ : tiles_;
+void GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
     std::vector<GroundTileKey> missing;
     for (const GroundTileKey& key : keys)
-        if (!tiles.contains(key.word())) missing.push_back(key);
+        if (!sketches_.contains(key.word())) missing.push_back(key);
+    std::vector<std::unique_ptr<GroundTile>> made = maker_.sketch(missing);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        with_texels_.push_back(made[i].get());
+        sketches_[missing[i].word()] = std::move(made[i]);
+    }
+    keep_texels(kMostTexels);
+    for (const GroundTileKey& key : keys) sketches_[key.word()]->used = mesh_number_;
+}
+
+// Makes those that are not kept, of the sketches that there are.
+void GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
+    std::vector<GroundTileKey> missing;
+    std::vector<const GroundTile*> sketches;
+    for (const GroundTileKey& key : keys)
+        if (!tiles_.contains(key.word()))
+            missing.push_back(key), sketches.push_back(sketches_[key.word()].get());
     std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing, sketches);
-    for (std::size_t i = 0; i < made.size(); ++i) tiles[missing[i].word()] = std::move(made[i]);
-    for (const GroundTileKey& key : keys) tiles[key.word()]->used = mesh_number_;
+    for (std::size_t i = 0; i < made.size(); ++i) tiles_[missing[i].word()] = std::move(made[i]);
+    for (const GroundTileKey& key : keys) tiles_[key.word()]->used = mesh_number_;
+}
+
+// The last that were sketched keep their texels.
+void GlobeTerrain::keep_texels(std::size_t most) {
+    for (; with_texels_.size() > most; with_texels_.pop_front()) with_texels_.front()->texels.reset();
 }
 
 // Beside the field, or behind the ground's horizon.
@@ -86,7 +94,7 @@ bool GlobeTerrain::is_outside(const TerrainView& view, const GroundTile& tile) c
 
 std::size_t GlobeTerrain::triangles_of(std::span<const Leaf> leaves) {
     std::size_t sum = 0;
-    for (const Leaf& leaf : leaves) sum += (leaf.outside ? kBeside : kSeen).triangles();
+    for (const Leaf& leaf : leaves) sum += MeshGrid::triangles(leaf.outside ? kBeside : kSeen);
     return sum;
 }
 
@@ -99,8 +107,8 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
     wave.reserve(kCubeFaces);
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
-        if (triangles_of(leaves) + wave.size() * kBeside.triangles() > most_triangles) return false;
-        require(wave, true);
+        if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBeside) > most_triangles) return false;
+        require_sketches(wave);
         std::vector<GroundTileKey> next;
         for (const GroundTileKey& key : wave) {
             const GroundTile& tile = *sketches_[key.word()];
@@ -120,7 +128,7 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
         std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
     std::vector<GroundTileKey> seen;
     for (auto leaf = leaves.begin(); leaf != beside; ++leaf) seen.push_back(leaf->key);
-    require(seen, false);
+    require_tiles(seen);
     for (auto leaf = leaves.begin(); leaf != beside; ++leaf) leaf->tile = tiles_[leaf->key.word()].get();
     return true;
 }
@@ -145,6 +153,7 @@ TerrainMesh GlobeTerrain::mesh(const TerrainView& view) {
         edges = std::max(kLeastEdges, 0.9 * edges);
     }
     TerrainMesh out = assemble(view, edges, leaves);
+    keep_texels(0);
     forget_oldest(tiles_, most_tiles_);
     forget_oldest(sketches_, most_sketches_);
     return out;
@@ -165,7 +174,13 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
         std::count_if(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; }));
     const std::size_t beside = leaves.size() - seen;
     Mesh& mesh = out.mesh;
-    mesh.vertices_m.resize(seen * kSeen.vertices() + beside * kBeside.vertices());
+    for (std::size_t i = 0, vertex = 0, triangle = 0; i < leaves.size(); ++i) {
+        const std::size_t quads = i < seen ? kSeen : kBeside;
+        out.grids.push_back({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(triangle),
+                             static_cast<std::uint32_t>(quads)});
+        vertex += MeshGrid::vertices(quads), triangle += MeshGrid::triangles(quads);
+    }
+    mesh.vertices_m.resize(seen * MeshGrid::vertices(kSeen) + beside * MeshGrid::vertices(kBeside));
     mesh.normals.resize(mesh.vertices_m.size());
     if (surface_.has(GroundKind::kAlbedo) || !details_.empty()) mesh.colors.resize(mesh.vertices_m.size());
     if (surface_.has_hapke()) mesh.hapke.resize(mesh.vertices_m.size());
@@ -174,47 +189,45 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
     mesh.surfaces.resize(1);
     auto normals = std::make_shared<GroundNormals>();
     normals->tiles.resize(seen);
-    normals->triangles_per_tile = static_cast<std::uint32_t>(kSeen.triangles());
+    normals->triangles_per_tile = static_cast<std::uint32_t>(MeshGrid::triangles(kSeen));
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-        const std::size_t own = std::min(i, seen), other = i - own;
-        append(view, edges, leaves[i], out.anchor_m,
-               {own * kSeen.vertices() + other * kBeside.vertices(),
-                own * kSeen.triangles() + other * kBeside.triangles()},
-               mesh);
-        if (i < seen) take_normals(view, edges, leaves[i], normals->tiles[i]);
+        Shares shares;
+        find_shares(view, edges, leaves[i], shares);
+        append(leaves[i], shares, out.anchor_m, out.grids[i], mesh);
+        if (i >= seen) return;
+        GroundNormals::Tile& tile = normals->tiles[i];
+        tile.own = leaves[i].tile->own_normals, tile.above = leaves[i].tile->above_normals;
+        std::transform(shares.begin(), shares.end(), tile.share.begin(),
+                       [](float share) { return static_cast<std::uint8_t>(255 * share + 0.5f); });
     });
     out.normals = std::move(normals);
     return out;
 }
 
-// Returns a vertex' share of the ground of the level above.
-float GlobeTerrain::share_above(const TerrainView& view, double edges, const Leaf& leaf,
-                                std::size_t vertex) const {
-    const double distance_m =
-        length(leaf.tile->middle_m + to_double(leaf.tile->above[vertex].point_m) - view.camera_m);
-    const double reach_m = maker_.spacing_m(leaf.key.level) * edges;
-    return static_cast<float>(
-        std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
-}
-
-void GlobeTerrain::take_normals(const TerrainView& view, double edges, const Leaf& leaf,
-                                GroundNormals::Tile& normals) const {
-    normals.own = leaf.tile->own_normals, normals.above = leaf.tile->above_normals;
-    for (std::size_t i = 0; i < normals.share.size(); ++i)
-        normals.share[i] = static_cast<std::uint8_t>(std::lround(255 * share_above(view, edges, leaf, i)));
-}
-
-void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m,
-                          Place first, Mesh& mesh) const {
-    const Grid grid{leaf.tile->quads};
-    const std::size_t side = grid.side(), inner = side * side;
+// Finds the vertices' shares of the ground of the level above.
+void GlobeTerrain::find_shares(const TerrainView& view, double edges, const Leaf& leaf,
+                               Shares& shares) const {
     const GroundTile& tile = *leaf.tile;
+    const double reach_m = maker_.spacing_m(leaf.key.level) * edges;
+    if (length(tile.middle_m - view.camera_m) + tile.radius_m < kMorphFrom * reach_m) return shares.fill(0);
+    for (std::size_t i = 0; i < tile.above.size(); ++i) {
+        const double distance_m = length(tile.middle_m + to_double(tile.above[i].point_m) - view.camera_m);
+        shares[i] = static_cast<float>(
+            std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
+    }
+}
+
+void GlobeTerrain::append(const Leaf& leaf, const Shares& shares, Vec3d anchor_m, const MeshGrid& grid,
+                          Mesh& mesh) const {
+    const GroundTile& tile = *leaf.tile;
+    const std::size_t inner = static_cast<std::size_t>(tile.quads) + 1, side = MeshGrid::side(grid.quads);
+    const auto vertex = [&](std::size_t x, std::size_t y) { return grid.first_vertex + y * side + x; };
     const Vec3d shift_m = tile.middle_m - anchor_m;
-    for (std::size_t i = 0; i < inner; ++i) {
-        const std::size_t to = first.vertex + i;
+    for (std::size_t i = 0; i < inner * inner; ++i) {
+        const std::size_t to = vertex(i % inner + 1, i / inner + 1);
         const GroundTile::Look& own = tile.own[i];
         const GroundTile::Look& above = tile.above[i];
-        const float share = share_above(view, edges, leaf, i);
+        const float share = shares[i];
         const Vec3d own_m = to_double(own.point_m), above_m = to_double(above.point_m);
         mesh.vertices_m[to] = to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));
         mesh.normals[to] = normalized(own.normal + share * (above.normal - own.normal));
@@ -222,27 +235,23 @@ void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& lea
         if (!mesh.hapke.empty())
             mesh.hapke[to] = blend(tile.own_hapke[i], 1 - share, tile.above_hapke[i], share, {}, 0);
     }
-    std::size_t triangle = first.triangle;
-    const auto vertex = [&](std::size_t k) { return static_cast<std::uint32_t>(first.vertex + k); };
-    for (std::size_t y = 0; y + 1 < side; ++y)
-        for (std::size_t x = 0; x + 1 < side; ++x) {
-            const std::size_t k = y * side + x;
-            mesh.triangles[triangle++] = {vertex(k), vertex(k + 1), vertex(k + side)};
-            mesh.triangles[triangle++] = {vertex(k + 1), vertex(k + side + 1), vertex(k + side)};
-        }
     const Vec3f down =
-        to_float(-maker_.spacing_m(leaf.key.level) * kSeen.quads / grid.quads * up_at(tile.middle_m));
-    for (std::size_t k = 0; k < grid.border(); ++k) {
-        const std::size_t edge = grid.border_vertex(k), next = grid.border_vertex(k + 1);
-        const std::size_t from = first.vertex + edge, to = first.vertex + inner + k;
-        mesh.vertices_m[to] = mesh.vertices_m[from] + down;
-        mesh.normals[to] = mesh.normals[from];
-        if (!mesh.colors.empty()) mesh.colors[to] = mesh.colors[from];
-        if (!mesh.hapke.empty()) mesh.hapke[to] = mesh.hapke[from];
-        const std::uint32_t below = vertex(inner + k), next_below = vertex(inner + (k + 1) % grid.border());
-        mesh.triangles[triangle++] = {vertex(edge), below, vertex(next)};
-        mesh.triangles[triangle++] = {vertex(next), below, next_below};
-    }
+        to_float(-maker_.spacing_m(leaf.key.level) * (kSeen / grid.quads) * up_at(tile.middle_m));
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; x += y == 0 || y + 1 == side ? 1 : side - 1) {
+            const std::size_t from = vertex(std::clamp<std::size_t>(x, 1, inner),
+                                            std::clamp<std::size_t>(y, 1, inner)),
+                              to = vertex(x, y);
+            mesh.vertices_m[to] = mesh.vertices_m[from] + down;
+            mesh.normals[to] = mesh.normals[from];
+            if (!mesh.colors.empty()) mesh.colors[to] = mesh.colors[from];
+            if (!mesh.hapke.empty()) mesh.hapke[to] = mesh.hapke[from];
+        }
+    const auto step = static_cast<std::uint32_t>(side);
+    grid.for_each_quad([&](std::uint32_t triangle, std::uint32_t corner) {
+        mesh.triangles[triangle] = {corner, corner + 1, corner + step};
+        mesh.triangles[triangle + 1] = {corner + 1, corner + step + 1, corner + step};
+    });
 }
 
 }  // namespace hilcam

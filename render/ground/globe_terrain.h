@@ -9,6 +9,8 @@
 //
 // Terrain axes are the body's own, from its centre. Not modelled: overhangs.
 
+#include <array>
+#include <deque>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -46,10 +48,6 @@ class GlobeTerrain final : public Terrain {
         const GroundTile* tile;
         bool outside;  // beside the field or behind the horizon
     };
-    // A place is where a tile begins in a mesh.
-    struct Place {
-        std::size_t vertex, triangle;
-    };
     GroundSurface surface_;
     std::vector<std::unique_ptr<const GroundDetail>> details_;
     GroundTileMaker maker_;
@@ -65,16 +63,20 @@ class GlobeTerrain final : public Terrain {
     std::size_t tile_bytes() const {
         return GroundTile::kBytes + (surface_.has_hapke() ? GroundTile::kHapkeBytes : 0);
     }
-    void require(std::span<const GroundTileKey> keys, bool sketches);
+    // Sketches that still have their texels, the first ones longest.
+    std::deque<GroundTile*> with_texels_;
+
+    void require_sketches(std::span<const GroundTileKey> keys);
+    void require_tiles(std::span<const GroundTileKey> keys);
+    void keep_texels(std::size_t most);
     bool select(const TerrainView& view, double edges, std::size_t most_triangles, std::vector<Leaf>& leaves);
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
     static void forget_oldest(Tiles& tiles, std::size_t most);
     TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
-    void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, Place first,
+    using Shares = std::array<float, GroundTile::kSide * GroundTile::kSide>;  // at a tile's vertices
+    void append(const Leaf& leaf, const Shares& shares, Vec3d anchor_m, const MeshGrid& grid,
                 Mesh& mesh) const;
-    void take_normals(const TerrainView& view, double edges, const Leaf& leaf,
-                      GroundNormals::Tile& normals) const;
-    float share_above(const TerrainView& view, double edges, const Leaf& leaf, std::size_t vertex) const;
+    void find_shares(const TerrainView& view, double edges, const Leaf& leaf, Shares& shares) const;
     static std::size_t triangles_of(std::span<const Leaf> leaves);
 };
 

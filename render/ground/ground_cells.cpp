@@ -26,10 +26,11 @@ void GroundCells::find(Vec3d middle, double reach_rad, std::vector<Cell>& cells)
         return static_cast<std::int32_t>(
             std::clamp(std::floor(0.5 * (x + 1) * cells_across), 0.0, cells_across - 1));
     };
-    for (int j = -steps; j <= steps; ++j)
-        for (int i = -steps; i <= steps; ++i) {
-            const CubePoint point =
-                cube_point(middle + std::tan(i * pitch_rad) * right + std::tan(j * pitch_rad) * up);
+    std::vector<double> tangents;
+    for (int i = -steps; i <= steps; ++i) tangents.push_back(std::tan(i * pitch_rad));
+    for (const double ahead : tangents)
+        for (const double aside : tangents) {
+            const CubePoint point = cube_point(middle + aside * right + ahead * up);
             const std::int32_t column = index(point.at.x), row = index(point.at.y);
             const std::uint64_t number = (static_cast<std::uint64_t>(point.face) << 56) |
                                          (static_cast<std::uint64_t>(row) << 28) |

@@ -34,7 +34,8 @@ struct GroundPatch {
         const Vec3d away = place - places[i];
         const double r = dot(away, right), u = dot(away, up);
         const double x = (r * uu - u * ru) / area2 + side / 2, y = (u * rr - r * ru) / area2 + side / 2;
-        const double more = 2 + 0.03 * side;
+        // The grid bends by less than that, and a texel.
+        const double more = 1 + 1.5 * reach_rad * side;
         const double dx = within_rad * std::sqrt(uu / area2) + more,
                      dy = within_rad * std::sqrt(rr / area2) + more;
         const auto bound = [&](double value) { return static_cast<int>(std::clamp(value, 0.0, 1.0 * side)); };

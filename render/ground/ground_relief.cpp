@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "render/ground/cube_sphere.h"
-#include "render/vocabulary/random.h"
+#include "render/ground/relief_noise.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -14,37 +14,10 @@ namespace {
 
 constexpr int kMostOctaves = 32;
 
-// A gradient of the lattice's corner: towards the middles of a cube's edges, as Perlin has them.
-double gradient(std::uint64_t seed, int octave, std::int64_t x, std::int64_t y, std::int64_t z, Vec3d to) {
-    // A mixer of 64 bits (Stafford's 13th of splitmix64; Steele, Lea and Flood, OOPSLA 14): the lattice has too many corners
-    // for ten rounds of Philox each.
-    std::uint64_t h = seed ^ (static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u) ^
-                      (static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu) ^
-                      (static_cast<std::uint64_t>(z) * 0x165667B19E3779F9u) ^
-                      (static_cast<std::uint64_t>(octave) << 56);
-    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
-    h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
-    h ^= h >> 31;
-    const double u = h & 8u ? to.y : to.x,
-                 v = (h & 12u) == 12u ? to.x : (h & 8u ? to.z : (h & 4u ? to.z : to.y));
-    return (h & 1u ? -u : u) + (h & 2u ? -v : v);
-}
-
-double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
-
-double noise(std::uint64_t seed, int octave, Vec3d p) {
-    const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-    const auto x = static_cast<std::int64_t>(fx), y = static_cast<std::int64_t>(fy),
-               z = static_cast<std::int64_t>(fz);
-    const Vec3d t{p.x - fx, p.y - fy, p.z - fz};
-    const double u = fade(t.x), v = fade(t.y), w = fade(t.z);
-    double sum = 0;
-    for (int k = 0; k < 2; ++k)
-        for (int j = 0; j < 2; ++j)
-            for (int i = 0; i < 2; ++i)
-                sum += (i ? u : 1 - u) * (j ? v : 1 - v) * (k ? w : 1 - w) *
-                       gradient(seed, octave, x + i, y + j, z + k, {t.x - i, t.y - j, t.z - k});
-    return sum;
+double noise(Vec3d place) {
+    double value = 0;
+    add_wave({7, 0, 1, {}, 1}, {&place, 1}, {&value, 1});
+    return value;
 }
 
 // The mean square of differences of the noise over a distance in wavelengths, by its values at fixed places.
@@ -58,8 +31,7 @@ double mean_square_difference(double distance) {
                       37.3 * std::fmod(0.5497004779 * i, 1.0) + 0.1};
         const double turn = 2.39996 * i, z = std::fmod(0.754877666 * i, 1.0) * 2 - 1,
                      r = std::sqrt(1 - z * z);
-        const double d =
-            noise(7, 0, p + distance * Vec3d{r * std::cos(turn), r * std::sin(turn), z}) - noise(7, 0, p);
+        const double d = noise(p + distance * Vec3d{r * std::cos(turn), r * std::sin(turn), z}) - noise(p);
         sum += d * d;
     }
     return sum / kPlaces;
@@ -138,12 +110,10 @@ void GroundRelief::add_octaves(const GroundPatch& patch, double least_m, double 
     for (std::size_t k = 0; k < wavelength_m_.size(); ++k) {
         if (wavelength_m_[k] < least_m || wavelength_m_[k] >= below_m) continue;
         // Octaves' lattices are turned against each other by their offsets alone.
-        const double scale = radius_m_ / wavelength_m_[k], shift = 0.37 * static_cast<double>(k);
-        for (std::size_t i = 0; i < patch.places.size(); ++i) {
-            const Vec3d p = scale * patch.places[i] + Vec3d{shift, 0.5 * shift, -shift};
-            patch.heights_m[i] +=
-                amplitude_m_[k] * noise(static_cast<std::uint64_t>(settings_.seed), static_cast<int>(k), p);
-        }
+        const double shift = 0.37 * static_cast<double>(k);
+        add_wave({static_cast<std::uint64_t>(settings_.seed), static_cast<int>(k),
+                  radius_m_ / wavelength_m_[k], Vec3d{shift, 0.5 * shift, -shift}, amplitude_m_[k]},
+                 patch.places, patch.heights_m);
     }
 }
 

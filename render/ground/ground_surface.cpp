@@ -119,14 +119,24 @@ GroundSurface::Sample GroundSurface::sample(Layer& layer, Vec2d post, int level)
     const double x = (post.x + 0.5) / width - 0.5, y = (post.y + 0.5) / width - 0.5;
     const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
     const auto across = shares(layer.map.between, x - column), down = shares(layer.map.between, y - row);
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) {
-            const double share = across[static_cast<std::size_t>(i)] * down[static_cast<std::size_t>(j)];
-            if (share == 0) continue;
-            Vec3d value;
-            if (!value_at(layer, level, column + i - 1, row + j - 1, value)) return {};
-            out.value = out.value + share * value;
+    Posts& posts = layer.posts;
+    if (posts.level != level || posts.column != column || posts.row != row) posts = {level, column, row};
+    for (std::size_t k = 0; k < 16; ++k) {
+        const double share = across[k % 4] * down[k / 4];
+        if (share == 0) continue;
+        if (!posts.known[k]) {
+            const int i = static_cast<int>(k % 4), j = static_cast<int>(k / 4);
+            posts.there[k] = value_at(layer, level, column + i - 1, row + j - 1, posts.values[k]);
+            posts.known[k] = true;
         }
+        if (!posts.there[k]) return {};
+        // A map of one channel has the same value in all.
+        if (shape.channels == 1)
+            out.value.x += share * posts.values[k].x;
+        else
+            out.value = out.value + share * posts.values[k];
+    }
+    if (shape.channels == 1) out.value.y = out.value.z = out.value.x;
     return out;
 }
 

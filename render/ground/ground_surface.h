@@ -91,11 +91,18 @@ class GroundSurface {
     const GroundPages& pages() const { return pages_; }
 
   private:
+    // The 4 x 4 posts about a place; what is asked for next often has the same.
+    struct Posts {
+        int level = -1, column = 0, row = 0;  // those of the second post of the second row
+        std::array<Vec3d, 16> values{};
+        std::array<bool, 16> known{}, there{};  // it was looked at; it is no hole
+    };
     struct Layer {
         GroundMap map;
         std::uint32_t key;
         int levels;
         std::map<std::pair<int, int>, Vec3d> pole_means{};  // by level and row
+        Posts posts{};
     };
     Figure figure_;
     GroundPages pages_;

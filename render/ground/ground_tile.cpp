@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kTexels = GroundNormals::kTexels;
+constexpr int kTexels = GroundNormals::kTexels, kBorder = GroundTexels::kBorder;
 
 GroundTile::Look between(const GroundTile::Look& a, const GroundTile::Look& b) {
     return {0.5f * (a.point_m + b.point_m), 0.5f * (a.normal + b.normal), 0.5f * (a.color + b.color)};
@@ -29,11 +29,13 @@ template <class T>
 void add_between(const std::vector<T>& nodes, int node_side, int side, std::vector<T>& texels) {
     std::array<std::array<double, 4>, kTexels> shares;
     for (int t = 0; t < kTexels; ++t) shares[static_cast<std::size_t>(t)] = node_shares(t);
-    const auto blend = [&](const T* at, std::size_t step, int texel) {
+    // A color is three numbers.
+    using N = std::conditional_t<std::is_same_v<T, double>, double, float>;
+    constexpr std::size_t kNumbers = sizeof(T) / sizeof(N);
+    const auto blend = [&](const T* at, int texel) {
         const auto& s = shares[static_cast<std::size_t>(texel)];
-        using N = std::conditional_t<std::is_same_v<T, double>, double, float>;
-        return static_cast<N>(s[0]) * at[0] + static_cast<N>(s[1]) * at[step] +
-               static_cast<N>(s[2]) * at[2 * step] + static_cast<N>(s[3]) * at[3 * step];
+        return static_cast<N>(s[0]) * at[0] + static_cast<N>(s[1]) * at[1] + static_cast<N>(s[2]) * at[2] +
+               static_cast<N>(s[3]) * at[3];
     };
     const auto width = static_cast<std::size_t>(side);
     // The last texel is a node's own: it is looked at from the one before, at the end of whose interval it lies.
@@ -43,15 +45,28 @@ void add_between(const std::vector<T>& nodes, int node_side, int side, std::vect
         for (int x = 0; x < side; ++x) {
             const T* const row = nodes.data() + y * node_side;
             rows[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-                x / kTexels > interval(x) ? row[interval(x) + 2] : blend(row + interval(x), 1, x % kTexels);
+                x / kTexels > interval(x) ? row[interval(x) + 2] : blend(row + interval(x), x % kTexels);
         }
-    for (int y = 0; y < side; ++y)
-        for (std::size_t x = 0; x < width; ++x) {
-            const T* const column = rows.data() + static_cast<std::size_t>(interval(y)) * width + x;
-            texels[static_cast<std::size_t>(y) * width + x] =
-                texels[static_cast<std::size_t>(y) * width + x] +
-                (y / kTexels > interval(y) ? column[2 * width] : blend(column, width, y % kTexels));
-        }
+    const auto numbers_of = [](auto* at) {
+        if constexpr (kNumbers == 1)
+            return at;
+        else
+            return &at->x;
+    };
+    const std::size_t step = kNumbers * width;
+    for (int y = 0; y < side; ++y) {
+        const N* const above = numbers_of(rows.data() + static_cast<std::size_t>(interval(y)) * width);
+        N* const to = numbers_of(texels.data() + static_cast<std::size_t>(y) * width);
+        const auto& shares_of = shares[static_cast<std::size_t>(y % kTexels)];
+        const std::array<N, 4> s = {static_cast<N>(shares_of[0]), static_cast<N>(shares_of[1]),
+                                    static_cast<N>(shares_of[2]), static_cast<N>(shares_of[3])};
+        if (y / kTexels > interval(y))
+            for (std::size_t k = 0; k < step; ++k) to[k] = to[k] + above[2 * step + k];
+        else
+            for (std::size_t k = 0; k < step; ++k)
+                to[k] = to[k] + (s[0] * above[k] + s[1] * above[step + k] + s[2] * above[2 * step + k] +
+                                 s[3] * above[3 * step + k]);
+    }
 }
 
 // The weights of texels about a vertex: a tent as wide as the quadrilaterals.
@@ -65,24 +80,32 @@ double GroundTileMaker::spacing_m(int level) const {
 }
 
 // Places on a square grid: texels first, first + step, ... of the tile, `side` along an edge.
-std::vector<Vec3d> GroundTileMaker::places_of(const Grid& grid, int step, int first, int side) const {
+std::vector<Vec3d> GroundTileMaker::places_of(const GroundTexels& grid, int step, int first, int side) const {
     const double tiles = std::ldexp(1, grid.key.level);
     const int texels = grid.quads * kTexels;
-    const auto at = [&](std::int32_t tile, int k) {
+    const auto tangents_of = [&](std::int32_t tile) {
+        std::vector<double> tangents;
         // A whole number over a power of two: neighbours have the same bits.
-        return -1 + 2 * ((static_cast<double>(tile) * texels + first + step * k) / (tiles * texels));
+        for (int k = 0; k < side; ++k)
+            tangents.push_back(cube_tangent(
+                -1 + 2 * ((static_cast<double>(tile) * texels + first + step * k) / (tiles * texels))));
+        return tangents;
     };
+    const std::vector<double> across = tangents_of(grid.key.column), up = tangents_of(grid.key.row);
     std::vector<Vec3d> places;
     places.reserve(static_cast<std::size_t>(side * side));
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            places.push_back(cube_direction(grid.key.face, {at(grid.key.column, x), at(grid.key.row, y)}));
+    for (const double y : up)
+        for (const double x : across) places.push_back(cube_direction_of_tangents(grid.key.face, {x, y}));
     return places;
 }
 
-// Takes what the maps have at the texels, or where they are smooth between these, at the nodes.
-GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, double texel_m) {
-    Grid grid{key, quads, texel_m, texel_m * kTexels < 0.5 * surface_.finest_m(), {}, {}, {}, {}, {}, {}, {}};
+// Takes what the maps have at the texels, or where they are smooth between these, at the nodes. quads: along the tile's edge.
+std::shared_ptr<GroundTexels> GroundTileMaker::lay(const GroundTileKey& key, int quads) {
+    const double texel_m = spacing_m(key.level) * GroundTile::kQuads / quads / kTexels;
+    auto out = std::make_shared<GroundTexels>();
+    GroundTexels& grid = *out;
+    grid.key = key, grid.quads = quads, grid.texel_m = texel_m;
+    grid.by_nodes = texel_m * kTexels < 0.5 * surface_.finest_m();
     grid.places = places_of(grid, 1, -kBorder, grid.side());
     grid.heights_m.assign(grid.places.size(), 0);
     grid.node_places = places_of(grid, kTexels, -2 * kTexels, grid.nodes());
@@ -99,10 +122,10 @@ GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, 
         grid.hapke.assign(vertices.size(), hapke_);
         surface_.find_hapke(vertices, texel_m * kTexels, grid.hapke);
     }
-    return grid;
+    return out;
 }
 
-void GroundTileMaker::add_details(Grid& grid) const {
+void GroundTileMaker::add_details(GroundTexels& grid) const {
     const std::size_t middle = grid.places.size() / 2;
     GroundPatch patch{grid.side(), grid.places, grid.heights_m, {}, grid.places[middle], 0, grid.texel_m};
     for (const Vec3d& place : grid.places)
@@ -118,7 +141,7 @@ void GroundTileMaker::add_details(Grid& grid) const {
     for (const auto& detail : details_) detail->add(patch);
 }
 
-GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m, bool sketch) const {
+GroundTileMaker::Looks GroundTileMaker::looks(const GroundTexels& grid, Vec3d middle_m, bool sketch) const {
     std::vector<Vec3d> points(grid.places.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = surface_.point(grid.places[i], grid.heights_m[i]) - middle_m;
@@ -155,9 +178,9 @@ GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m, 
     return out;
 }
 
-std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above, bool sketch) const {
-    add_details(own);
-    add_details(above);
+std::unique_ptr<GroundTile> GroundTileMaker::finish(const GroundTexels& own,
+                                                    const GroundTexels& above) const {
+    const bool sketch = own.quads < GroundTile::kQuads;
     auto tile = std::make_unique<GroundTile>();
     tile->quads = own.quads;
     const std::size_t middle = own.places.size() / 2;
@@ -170,7 +193,7 @@ std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above, bool
     const auto at = [&](int x, int y) {
         return coarse.vertices[static_cast<std::size_t>(y / 2 * half + x / 2)];
     };
-    tile->own_hapke = std::move(own.hapke);
+    tile->own_hapke = own.hapke;
     const auto hapke_at = [&](int x, int y) {
         return above.hapke[static_cast<std::size_t>(y / 2 * half + x / 2)];
     };
@@ -189,24 +212,47 @@ std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above, bool
     return tile;
 }
 
-std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const GroundTileKey> keys,
-                                                               bool sketches) {
-    const int quads = sketches ? GroundTile::kSketchQuads : GroundTile::kQuads;
-    // A wave may be of many tiles, and their grids are large.
+std::unique_ptr<GroundTile> GroundTileMaker::make(Making& making) const {
+    add_details(*making.own);
+    if (making.above_laid) {
+        add_details(*making.above_laid);
+        making.above = making.above_laid;
+    }
+    std::unique_ptr<GroundTile> tile = finish(*making.own, *making.above);
+    if (tile->quads < GroundTile::kQuads) tile->texels = making.own;
+    return tile;
+}
+
+// lay_one(i): the tile of that number, laid.
+template <class Lay>
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make_all(std::size_t count, const Lay& lay_one) {
+    // A wave may be of many tiles, and their texels are large.
     constexpr std::size_t kTogether = 64;
-    std::vector<std::unique_ptr<GroundTile>> tiles(keys.size());
-    for (std::size_t first = 0; first < keys.size(); first += kTogether) {
-        std::vector<Grid> own, above;
-        const std::size_t count = std::min(kTogether, keys.size() - first);
-        for (const GroundTileKey& key : keys.subspan(first, count)) {
-            const double texel_m = spacing_m(key.level) * GroundTile::kQuads / quads / kTexels;
-            own.push_back(lay(key, quads, texel_m));
-            above.push_back(lay(key, quads / 2, 2 * texel_m));
-        }
-        tbb::parallel_for(std::size_t{0}, count,
-                          [&](std::size_t i) { tiles[first + i] = finish(own[i], above[i], sketches); });
+    std::vector<std::unique_ptr<GroundTile>> tiles(count);
+    for (std::size_t first = 0; first < count; first += kTogether) {
+        std::vector<Making> makings;
+        for (std::size_t i = first; i < std::min(count, first + kTogether); ++i)
+            makings.push_back(lay_one(i));
+        tbb::parallel_for(std::size_t{0}, makings.size(),
+                          [&](std::size_t i) { tiles[first + i] = make(makings[i]); });
     }
     return tiles;
+}
+
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::sketch(std::span<const GroundTileKey> keys) {
+    return make_all(keys.size(), [&](std::size_t i) {
+        return Making{lay(keys[i], GroundTile::kSketchQuads), nullptr,
+                      lay(keys[i], GroundTile::kSketchQuads / 2)};
+    });
+}
+
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const GroundTileKey> keys,
+                                                               std::span<const GroundTile* const> sketches) {
+    return make_all(keys.size(), [&](std::size_t i) {
+        Making making{lay(keys[i], GroundTile::kQuads), sketches[i]->texels, nullptr};
+        if (!making.above) making.above_laid = lay(keys[i], GroundTile::kSketchQuads);
+        return making;
+    });
 }
 
 }  // namespace hilcam

@@ -151,6 +151,7 @@ struct EmbreeScene::Implementation {
     std::vector<std::vector<MeshView>> meshes;  // their meshes, where Embree keeps them
     std::vector<std::size_t> shown;             // level of each
     std::vector<RTCGeometry> instances;
+    std::vector<PreparedMesh::Grids> grids;  // per object; of a mesh of triangles none
 
     struct Recorded {
         RayPacket rays;
@@ -189,13 +190,40 @@ struct EmbreeScene::Implementation {
         std::copy_n(mesh.vertices_m.data(), mesh.vertices_m.size(), static_cast<Vec3f*>(vertices));
         std::copy_n(mesh.triangles.data(), mesh.triangles.size(),
                     static_cast<std::array<std::uint32_t, 3>*>(triangles));
+        finish(scene, geometry, quality);
+        return scene;
+    }
+    // Embree reads sixteen bytes of the last vertex: one more than the grids have.
+    RTCScene build(const PreparedMesh::Grids& from) const {
+        RTCScene scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   from.vertices_m.data(), 0, sizeof(Vec3f), from.vertices_m.size() - 1);
+        void* all = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID,
+                                            sizeof(RTCGrid), from.all.size());
+        require_no_error("copying a mesh");
+        std::transform(from.all.begin(), from.all.end(), static_cast<RTCGrid*>(all), [](const MeshGrid& g) {
+            const auto side = static_cast<std::uint16_t>(MeshGrid::side(g.quads));
+            return RTCGrid{g.first_vertex, side, side, side};
+        });
+        finish(scene, geometry, RTC_BUILD_QUALITY_MEDIUM);
+        return scene;
+    }
+    void finish(RTCScene scene, RTCGeometry geometry, RTCBuildQuality quality) const {
         rtcSetGeometryBuildQuality(geometry, quality);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
         rtcCommitScene(scene);
         require_no_error("building a mesh's tree");
-        return scene;
+    }
+    // Finds which triangle of the object was met, and where, from what Embree says of a grid.
+    void name_triangle(std::size_t object, HitPacket& hits, std::size_t i) const {
+        const std::vector<MeshGrid>& all = grids[object].all;
+        if (all.empty()) return;
+        const MeshGrid::Place at = all[hits.triangle[i]].place_at(hits.u[i], hits.v[i]);
+        hits.triangle[i] = at.triangle, hits.u[i] = at.u, hits.v[i] = at.v;
     }
 };
 
@@ -222,6 +250,7 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
             views.push_back(view_of(scene, *mesh));
         }
         my.shown.push_back(0);
+        my.grids.emplace_back();
         RTCGeometry instance = rtcNewGeometry(my.device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(instance, scenes.front());
         rtcSetGeometryTimeStepCount(instance, 1);
@@ -261,12 +290,23 @@ PreparedMesh EmbreeScene::prepare(const Mesh& mesh) const {
     return out;
 }
 
+PreparedMesh EmbreeScene::prepare(Mesh mesh, std::vector<MeshGrid> grids) const {
+    PreparedMesh out;
+    mesh.vertices_m.emplace_back();
+    out.grids_ = {std::move(grids), std::move(mesh.vertices_m), std::move(mesh.triangles)};
+    out.mesh_ = {std::span(out.grids_.vertices_m).first(out.grids_.vertices_m.size() - 1),
+                 out.grids_.triangles};
+    out.scene_ = implementation_->build(out.grids_);
+    return out;
+}
+
 void EmbreeScene::adopt(std::size_t object, PreparedMesh& mesh) {
     RTCScene& first = implementation_->levels[object].front();
     void* const replaced = first;
     first = static_cast<RTCScene>(mesh.scene_);
     mesh.scene_ = replaced;
     std::swap(implementation_->meshes[object].front(), mesh.mesh_);
+    std::swap(implementation_->grids[object], mesh.grids_);
     implementation_->shown[object] = kNoLevel;
 }
 
@@ -278,17 +318,21 @@ void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacke
     if (implementation_->recorded) implementation_->recorded->push_back({rays, coherence, false});
     RTCRayHit16 query;
     met_in(implementation_->top, rays, coherence, query, hits);
-    for (std::size_t i = 0; i < kPacketSize; ++i)
-        hits.object[i] =
-            query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss : query.hit.instID[0][i];
+    for (std::size_t i = 0; i < kPacketSize; ++i) {
+        const bool met = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        hits.object[i] = met ? query.hit.instID[0][i] : HitPacket::kMiss;
+        if (met) implementation_->name_triangle(hits.object[i], hits, i);
+    }
 }
 
 void EmbreeScene::intersect_with(std::size_t object, const RayPacket& rays, HitPacket& hits) const {
     RTCRayHit16 query;
     met_in(implementation_->levels[object].front(), rays, Coherence::kIncoherent, query, hits);
-    for (std::size_t i = 0; i < kPacketSize; ++i)
-        hits.object[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss
-                                                                        : static_cast<std::uint32_t>(object);
+    for (std::size_t i = 0; i < kPacketSize; ++i) {
+        const bool met = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        hits.object[i] = met ? static_cast<std::uint32_t>(object) : HitPacket::kMiss;
+        if (met) implementation_->name_triangle(object, hits, i);
+    }
 }
 
 std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
@@ -298,10 +342,6 @@ std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
 
 std::uint32_t EmbreeScene::occluded_by(std::size_t object, const RayPacket& rays) const {
     return blocked_in(implementation_->levels[object].front(), rays);
-}
-
-std::uint32_t EmbreeScene::occluded_by(const PreparedMesh& mesh, const RayPacket& rays) const {
-    return blocked_in(static_cast<RTCScene>(mesh.scene_), rays);
 }
 
 void EmbreeScene::start_recording() {

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "render/scene/mesh_grid.h"
 #include "render/vocabulary/mesh.h"
 #include "render/vocabulary/pose.h"
 
@@ -57,7 +58,8 @@ struct MeshView {
 class PreparedMesh {
   public:
     PreparedMesh() = default;
-    PreparedMesh(PreparedMesh&& other) noexcept : scene_(other.scene_), mesh_(other.mesh_) {
+    PreparedMesh(PreparedMesh&& other) noexcept
+        : scene_(other.scene_), mesh_(other.mesh_), grids_(std::move(other.grids_)) {
         other.scene_ = nullptr;
     }
     PreparedMesh& operator=(PreparedMesh&&) = delete;
@@ -65,8 +67,15 @@ class PreparedMesh {
 
   private:
     friend class EmbreeScene;
+    // A mesh of grids is kept as it is.
+    struct Grids {
+        std::vector<MeshGrid> all;
+        std::vector<Vec3f> vertices_m;
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+    };
     void* scene_ = nullptr;
-    MeshView mesh_;  // the copy that the scene keeps
+    MeshView mesh_;  // the copy that the scene or the grids keep
+    Grids grids_;
 };
 
 class EmbreeScene {
@@ -86,6 +95,9 @@ class EmbreeScene {
     // a grid of heights looks along whole rows of its edges. Its tree is made in a quarter of the time of others', and rays through it
     // take a tenth more. Any thread, also while others trace.
     PreparedMesh prepare(const Mesh& mesh) const;
+    // The same of a mesh that is nothing but grids. Its tree is made in a quarter of that time, and a hit's barycentric place is
+    // good to 1e-5.
+    PreparedMesh prepare(Mesh mesh, std::vector<MeshGrid> grids) const;
     // Puts it in the place of the object's first level, from the next place() on; `mesh` then holds what was
     // there. Loop, one thread.
     void adopt(std::size_t object, PreparedMesh& mesh);
@@ -101,8 +113,6 @@ class EmbreeScene {
     // any time but while adopt() runs.
     void intersect_with(std::size_t object, const RayPacket& rays, HitPacket& hits) const;
     std::uint32_t occluded_by(std::size_t object, const RayPacket& rays) const;
-    // The same of a mesh that was made beside the scene; rays in its own axes. Any thread.
-    std::uint32_t occluded_by(const PreparedMesh& mesh, const RayPacket& rays) const;
 
     // Keeps a copy of every packet that is traced from now on, by any thread, for measurements.
     void start_recording();

@@ -3,34 +3,181 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
 
 constexpr int kQuads = GroundNormals::kQuads, kSide = kQuads + 1;
-using Seen = std::array<std::uint8_t, kSide * kSide>;  // 1: the vertex sees the Sun
+using Seen = std::array<std::uint8_t, kSide * kSide>;   // 1: the vertex sees the Sun
+constexpr int kAcross = 4, kLanes = kAcross * kAcross;  // vertices that are asked together
+constexpr std::uint32_t kBlock = 4;                     // quadrilaterals on an edge of a block
+constexpr float kFar = std::numeric_limits<float>::infinity();
 
-Seen seen_from_tile(const EmbreeScene& embree, const PreparedMesh& tree, const Mesh& mesh, std::size_t first,
-                    Vec3f sun) {
-    Seen seen{};
+// A box as the Sun sees it: z towards the Sun.
+struct Box {
+    float x0 = kFar, x1 = -kFar, y0 = kFar, y1 = -kFar, z0 = kFar, z1 = -kFar;
+
+    void grow(Vec3f p) {
+        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
+        y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
+        z0 = std::min(z0, p.z), z1 = std::max(z1, p.z);
+    }
+    void grow(const Box& other) {
+        grow(Vec3f{other.x0, other.y0, other.z0});
+        grow(Vec3f{other.x1, other.y1, other.z1});
+    }
+    // True where something in this box may stand between something in the other and the Sun.
+    bool may_shade(const Box& other) const {
+        return x0 <= other.x1 && x1 >= other.x0 && y0 <= other.y1 && y1 >= other.y0 && z1 > other.z0;
+    }
+};
+
+// The triangles of a tile that face away from the Sun, by blocks.
+struct Shades {
+    struct Block {
+        Box box;
+        std::size_t first, end;  // triangles
+    };
+    Box box;
+    std::vector<Block> blocks;
+    std::vector<std::array<Vec3f, 3>> triangles;
+};
+
+// A mesh as the Sun sees it.
+class SunView {
+  public:
+    SunView(const TerrainMesh& terrain, Vec3d sun_dir)
+        : mesh_(terrain.mesh), grids_(terrain.grids), z_(to_float(sun_dir)) {
+        const Vec3d aside = std::abs(sun_dir.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
+        const Vec3d x = normalized(cross(aside, sun_dir));
+        x_ = to_float(x), y_ = to_float(cross(sun_dir, x));
+        points_.resize(mesh_.vertices_m.size());
+        shades_.resize(grids_.size());
+        tbb::parallel_for(std::size_t{0}, grids_.size(), [&](std::size_t i) {
+            const std::size_t first = grids_[i].first_vertex;
+            for (std::size_t k = first; k < first + MeshGrid::vertices(grids_[i].quads); ++k)
+                points_[k] = seen_by_sun(mesh_.vertices_m[k]);
+            find_shades(grids_[i], shades_[i]);
+        });
+    }
+
+    Seen seen_from_tile(const MeshGrid& grid) const;
+
+  private:
+    struct alignas(64) Packet {
+        std::array<float, kLanes> x, y, z;
+        Box box;
+    };
+    struct Candidate {
+        const Shades::Block* block;
+        const std::array<Vec3f, 3>* triangles;  // all of its tile
+    };
+    const Mesh& mesh_;
+    const std::vector<MeshGrid>& grids_;
+    Vec3f x_, y_, z_;
+    std::vector<Vec3f> points_;  // vertices as the Sun sees them
+    std::vector<Shades> shades_;
+
+    Vec3f seen_by_sun(Vec3f v) const { return {dot(v, x_), dot(v, y_), dot(v, z_)}; }
+    void find_shades(const MeshGrid& grid, Shades& out) const;
+    std::vector<Candidate> shades_over(const Box& box) const;
+    static std::uint32_t blocked(const Packet& packet, const std::array<Vec3f, 3>& triangle);
+};
+
+void SunView::find_shades(const MeshGrid& grid, Shades& out) const {
+    const std::uint32_t cells = grid.quads + 2, side = cells + 1;
+    const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c, Box& box) {
+        if (!((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) < 0)) return;
+        out.triangles.push_back({a, b, c});
+        box.grow(a), box.grow(b), box.grow(c);
+    };
+    for (std::uint32_t y0 = 0; y0 < cells; y0 += kBlock)
+        for (std::uint32_t x0 = 0; x0 < cells; x0 += kBlock) {
+            Shades::Block block{{}, out.triangles.size(), 0};
+            for (std::uint32_t y = y0; y < std::min(cells, y0 + kBlock); ++y)
+                for (std::uint32_t x = x0; x < std::min(cells, x0 + kBlock); ++x) {
+                    const Vec3f* const at = points_.data() + grid.first_vertex + y * side + x;
+                    add(at[0], at[1], at[side], block.box);
+                    add(at[1], at[side + 1], at[side], block.box);
+                }
+            block.end = out.triangles.size();
+            if (block.end == block.first) continue;
+            out.blocks.push_back(block);
+            out.box.grow(block.box);
+        }
+}
+
+// Bit i set: the triangle, which faces away from the Sun, stands between vertex i and the Sun.
+std::uint32_t SunView::blocked(const Packet& p, const std::array<Vec3f, 3>& t) {
+    const auto& [a, b, c] = t;
+    std::array<std::uint32_t, kLanes> over;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        // Twice the areas on the other sides of the three edges; along an edge that two triangles share they differ in the sign alone.
+        const float ax = a.x - p.x[i], ay = a.y - p.y[i], bx = b.x - p.x[i], by = b.y - p.y[i],
+                    cx = c.x - p.x[i], cy = c.y - p.y[i];
+        const float ab = by * ax - bx * ay, bc = cy * bx - cx * by, ca = ay * cx - ax * cy;
+        const float above = bc * (a.z - p.z[i]) + ca * (b.z - p.z[i]) + ab * (c.z - p.z[i]);
+        over[i] = (ab <= 0) & (bc <= 0) & (ca <= 0) & (above < 0) ? 1u : 0u;
+    }
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) bits |= over[i] << i;
+    return bits;
+}
+
+// The blocks that may stand between something in a box and the Sun.
+std::vector<SunView::Candidate> SunView::shades_over(const Box& box) const {
+    std::vector<Candidate> out;
+    for (const Shades& shades : shades_)
+        if (!shades.blocks.empty() && shades.box.may_shade(box))
+            for (const Shades::Block& block : shades.blocks)
+                if (block.box.may_shade(box)) out.push_back({&block, shades.triangles.data()});
+    return out;
+}
+
+Seen SunView::seen_from_tile(const MeshGrid& grid) const {
+    const auto vertex = [&](int x, int y) {
+        return grid.first_vertex + static_cast<std::size_t>((y + 1) * (kQuads + 3) + x + 1);
+    };
     // Above the ground by a hundredth of an edge, so that no triangle at the vertex hides it.
     constexpr float kAbove = 0.01f;
-    const float above_m = kAbove * length(mesh.vertices_m[first + 1] - mesh.vertices_m[first]);
-    for (std::size_t i = 0; i < seen.size(); i += kPacketSize) {
-        RayPacket rays;
-        rays.count = static_cast<int>(std::min<std::size_t>(kPacketSize, seen.size() - i));
-        for (int k = 0; k < rays.count; ++k) {
-            const std::size_t v = first + i + static_cast<std::size_t>(k);
-            rays.set(k, mesh.vertices_m[v] + above_m * mesh.normals[v], sun, 0,
-                     std::numeric_limits<float>::infinity());
-        }
-        const std::uint32_t blocked = embree.occluded_by(tree, rays);
-        for (int k = 0; k < rays.count; ++k) {
-            const std::size_t v = i + static_cast<std::size_t>(k);
-            seen[v] = (blocked >> k & 1u) == 0 && dot(mesh.normals[first + v], sun) > 0 ? 1 : 0;
-        }
+    const float above_m = kAbove * length(mesh_.vertices_m[vertex(1, 0)] - mesh_.vertices_m[vertex(0, 0)]);
+    std::array<Vec3f, kSide * kSide> starts;
+    Seen seen;
+    Box all;  // about those that face the Sun
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const std::size_t v = vertex(static_cast<int>(i) % kSide, static_cast<int>(i) / kSide);
+        const Vec3f normal = seen_by_sun(mesh_.normals[v]);
+        starts[i] = points_[v] + above_m * normal;
+        seen[i] = normal.z > 0 ? 1 : 0;
+        if (seen[i]) all.grow(starts[i]);
     }
+    const std::vector<Candidate> candidates = shades_over(all);
+    if (candidates.empty()) return seen;
+    for (int y0 = 0; y0 < kSide; y0 += kAcross)
+        for (int x0 = 0; x0 < kSide; x0 += kAcross) {
+            Packet packet;
+            std::array<std::size_t, kLanes> of;  // beyond the tile's edge those at it
+            std::uint32_t lit = 0;
+            for (std::size_t i = 0; i < kLanes; ++i) {
+                const int dx = static_cast<int>(i) % kAcross, dy = static_cast<int>(i) / kAcross;
+                of[i] =
+                    static_cast<std::size_t>(std::min(y0 + dy, kQuads) * kSide + std::min(x0 + dx, kQuads));
+                const Vec3f p = starts[of[i]];
+                packet.x[i] = p.x, packet.y[i] = p.y, packet.z[i] = p.z;
+                if (!seen[of[i]]) continue;
+                packet.box.grow(p);
+                lit |= 1u << i;
+            }
+            for (const auto& [block, triangles] : candidates)
+                if (lit != 0 && block->box.may_shade(packet.box))
+                    for (std::size_t t = block->first; t < block->end; ++t)
+                        lit &= ~blocked(packet, triangles[t]);
+            for (std::size_t i = 0; i < kLanes; ++i) seen[of[i]] = static_cast<std::uint8_t>(lit >> i & 1u);
+        }
     return seen;
 }
 
@@ -45,18 +192,12 @@ KnownSun known_of(const Seen& seen, int x, int y) {
 
 }  // namespace
 
-std::vector<KnownSun> known_sun(const EmbreeScene& embree, const PreparedMesh& tree,
-                                const TerrainMesh& terrain, Vec3d sun_dir) {
-    const Mesh& mesh = terrain.mesh;
-    const GroundNormals& normals = *terrain.normals;
-    std::vector<KnownSun> known(mesh.triangles.size(), KnownSun::kAsk);
-    // Those of a tile follow each other, the first of its first triangle being the first of all.
-    const auto first_vertex = [&](std::size_t tile) -> std::size_t {
-        return mesh.triangles[tile * normals.triangles_per_tile][0];
-    };
-    tbb::parallel_for(std::size_t{0}, normals.tiles.size(), [&](std::size_t tile) {
-        const Seen seen = seen_from_tile(embree, tree, mesh, first_vertex(tile), to_float(sun_dir));
-        KnownSun* const at = known.data() + tile * normals.triangles_per_tile;
+std::vector<KnownSun> known_sun(const TerrainMesh& terrain, Vec3d sun_dir) {
+    std::vector<KnownSun> known(terrain.mesh.triangles.size(), KnownSun::kAsk);
+    const SunView view(terrain, sun_dir);
+    tbb::parallel_for(std::size_t{0}, terrain.normals->tiles.size(), [&](std::size_t tile) {
+        const Seen seen = view.seen_from_tile(terrain.grids[tile]);
+        KnownSun* const at = known.data() + terrain.grids[tile].first_triangle;
         for (int y = 0; y < kQuads; ++y)
             for (int x = 0; x < kQuads; ++x) {
                 const auto k = static_cast<std::size_t>(2 * (y * kQuads + x));

@@ -26,8 +26,13 @@ void grow(Box& box, Vec3f p) {
 std::vector<Box> clusters_of(const Mesh& mesh) {
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (i % kClusterTriangles == 0) boxes.push_back(kNothing);
-        for (const std::uint32_t vertex : mesh.triangles[i]) grow(boxes.back(), mesh.vertices_m[vertex]);
+        const bool first = i % kClusterTriangles == 0;
+        if (first) boxes.push_back(kNothing);
+        // Neighbours share most of their corners.
+        const auto& before = mesh.triangles[first ? i : i - 1];
+        for (const std::uint32_t vertex : mesh.triangles[i])
+            if (first || (vertex != before[0] && vertex != before[1] && vertex != before[2]))
+                grow(boxes.back(), mesh.vertices_m[vertex]);
     }
     return boxes;
 }
@@ -68,40 +73,38 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
       textures(std::move(textures_of_object)),
       cluster_bounds_m(clusters_of(mesh)) {
     HILCAM_CHECK(materials.size() == mesh.surfaces.size());
-    for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, length(to_double(v)));
+    for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, dot(to_double(v), to_double(v)));
+    radius_m = std::sqrt(radius_m);
     const bool no_normals = mesh.normals.empty();
     const bool textured = !mesh.uvs.empty() && std::any_of(materials.begin(), materials.end(),
                                                            [](const Material& m) { return m.texture >= 0; });
     if (!textured)
         for (Material& material : materials) material.texture = -1;
-    triangles.resize(mesh.triangles.size());
+    triangles.reserve(mesh.triangles.size());
     if (textured) {
         corner_uvs.resize(mesh.triangles.size());
         uv_per_m.resize(mesh.triangles.size());
     }
-    if (!mesh.colors.empty()) corner_colors.resize(mesh.triangles.size());
+    if (!mesh.colors.empty()) corner_colors.reserve(mesh.triangles.size());
     if (!mesh.hapke.empty()) corner_hapke.resize(mesh.triangles.size());
-    // A zero normal stands for "the file has none here".
-    const auto missing = [&](std::uint32_t vertex) {
-        return !(dot(mesh.normals[vertex], mesh.normals[vertex]) > 0);
-    };
     std::vector<std::uint32_t> normals(mesh.normals.size());
-    for (std::uint32_t i = 0; i < normals.size(); ++i)
-        if (!missing(i)) normals[i] = pack_normal(mesh.normals[i]);
+    // A zero normal stands for "the file has none here".
+    std::vector<std::uint8_t> missing(mesh.normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        missing[i] = dot(mesh.normals[i], mesh.normals[i]) > 0 ? 0 : 1;
+        if (!missing[i]) normals[i] = pack_normal(mesh.normals[i]);
+    }
     std::vector<PackedColor> colors(mesh.colors.size());
     std::transform(mesh.colors.begin(), mesh.colors.end(), colors.begin(), pack_color);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        triangles[i].surface = mesh.surface_of_triangle[i];
-        const bool flat =
-            no_normals || std::any_of(mesh.triangles[i].begin(), mesh.triangles[i].end(), missing);
-        triangles[i].flat = flat ? 1 : 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = mesh.triangles[i][k];
-            triangles[i].corner_normals[k] = flat ? 0 : normals[vertex];
-            if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
-            if (!mesh.colors.empty()) corner_colors[i][k] = colors[vertex];
-            if (!mesh.hapke.empty()) corner_hapke[i][k] = mesh.hapke[vertex];
-        }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        const bool flat = no_normals || (missing[a] | missing[b] | missing[c]) != 0;
+        triangles.push_back(
+            {flat ? std::array<std::uint32_t, 3>{} : std::array{normals[a], normals[b], normals[c]},
+             mesh.surface_of_triangle[i], static_cast<std::uint16_t>(flat)});
+        if (textured) corner_uvs[i] = {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]};
+        if (!mesh.colors.empty()) corner_colors.push_back({colors[a], colors[b], colors[c]});
+        if (!mesh.hapke.empty()) corner_hapke[i] = {mesh.hapke[a], mesh.hapke[b], mesh.hapke[c]};
         if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);
     }
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "render/scene/ground_normals.h"
+#include "render/scene/mesh_grid.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
@@ -24,6 +25,8 @@ struct TerrainView {
 struct TerrainMesh {
     Mesh mesh;                                     // about the anchor, one surface
     std::shared_ptr<const GroundNormals> normals;  // null: the vertices' own are all
+    // All that the mesh is made of, those with normals first; empty where there are none.
+    std::vector<MeshGrid> grids;
     Vec3d anchor_m;  // terrain axes; near the camera, so that single precision keeps its digits there
 };
 

@@ -24,8 +24,10 @@ std::unique_ptr<PreparedTerrain> TerrainStreamer::make(const TerrainView& view) 
     // A mesh with normals of its own is in their order.
     if (!terrain.normals) order_triangles(terrain.mesh);
     auto surfaces = std::make_shared<ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr);
-    PreparedMesh tree = embree_.prepare(terrain.mesh);
-    if (terrain.normals) surfaces->known_sun = known_sun(embree_, tree, terrain, view.sun_dir);
+    if (terrain.normals) surfaces->known_sun = known_sun(terrain, view.sun_dir);
+    PreparedMesh tree = terrain.grids.empty()
+                            ? embree_.prepare(terrain.mesh)
+                            : embree_.prepare(std::move(terrain.mesh), std::move(terrain.grids));
     surfaces->ground_normals = std::move(terrain.normals);
     return std::make_unique<PreparedTerrain>(
         PreparedTerrain{std::move(tree), std::move(surfaces), terrain.anchor_m, view});
