@@ -116,7 +116,7 @@ RenderQuality limited(const RenderQuality& from, const RenderQuality& configured
     return q;
 }
 
-// What makes other frames faster does nothing for ground that is alone, and rays take longer.
+// Nothing else makes ground that is alone faster, and rays take longer for it.
 std::vector<RenderQuality> levels_of_ground(RenderQuality quality) {
     if (quality.ground_step_px > 1) return {};
     quality.ground_step_px = 2;

@@ -42,30 +42,48 @@ Vec3d GlobeTerrain::up_at(Vec3d p) const {
     return length(p) > 0 ? normalized(Vec3d{p.x, p.y, p.z * ratio * ratio}) : Vec3d{0, 0, 1};
 }
 
-// Makes those that are not kept.
-void GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
+// False: not all of them.
+bool GlobeTerrain::take_of_those_that_may_be_made(std::vector<GroundTileKey>& missing) {
+    const bool all = missing.size() <= may_make_;
+    if (!all) missing.resize(may_make_);
+    if (may_make_ != kAnyNumber) may_make_ -= missing.size();
+    return all;
+}
+
+// Makes those that are not kept. False: not all of them yet.
+bool GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
     std::vector<GroundTileKey> missing;
     for (const GroundTileKey& key : keys)
         if (!sketches_.contains(key.word())) missing.push_back(key);
+    const bool all = take_of_those_that_may_be_made(missing);
     std::vector<std::unique_ptr<GroundTile>> made = maker_.sketch(missing);
     for (std::size_t i = 0; i < made.size(); ++i) {
+        made[i]->used = mesh_number_;
         with_texels_.push_back(made[i].get());
         sketches_[missing[i].word()] = std::move(made[i]);
     }
     keep_texels(kMostTexels);
+    if (!all) return false;
     for (const GroundTileKey& key : keys) sketches_[key.word()]->used = mesh_number_;
+    return true;
 }
 
-// Makes those that are not kept, of the sketches that there are.
-void GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
+// Makes those that are not kept, of the sketches that there are. False: not all of them yet.
+bool GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
     std::vector<GroundTileKey> missing;
-    std::vector<const GroundTile*> sketches;
     for (const GroundTileKey& key : keys)
-        if (!tiles_.contains(key.word()))
-            missing.push_back(key), sketches.push_back(sketches_[key.word()].get());
+        if (!tiles_.contains(key.word())) missing.push_back(key);
+    const bool all = take_of_those_that_may_be_made(missing);
+    std::vector<const GroundTile*> sketches;
+    for (const GroundTileKey& key : missing) sketches.push_back(sketches_[key.word()].get());
     std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing, sketches);
-    for (std::size_t i = 0; i < made.size(); ++i) tiles_[missing[i].word()] = std::move(made[i]);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        made[i]->used = mesh_number_;
+        tiles_[missing[i].word()] = std::move(made[i]);
+    }
+    if (!all) return false;
     for (const GroundTileKey& key : keys) tiles_[key.word()]->used = mesh_number_;
+    return true;
 }
 
 // The last that were sketched keep their texels.
@@ -98,17 +116,17 @@ std::size_t GlobeTerrain::triangles_of(std::span<const Leaf> leaves) {
     return sum;
 }
 
-// Finds the tiles to be shown. edges: distance over an edge of a triangle there, from which it is fine enough. False
-// where there would be more triangles than that.
-bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t most_triangles,
-                          std::vector<Leaf>& leaves) {
+// Finds the tiles to be shown. edges: distance over an edge of a triangle there, from which it is fine enough.
+GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edges, std::size_t most_triangles,
+                                            std::vector<Leaf>& leaves) {
     leaves.clear();
     std::vector<GroundTileKey> wave;
     wave.reserve(kCubeFaces);
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
-        if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBeside) > most_triangles) return false;
-        require_sketches(wave);
+        if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBeside) > most_triangles)
+            return Selected::kTooManyTriangles;
+        if (!require_sketches(wave)) return Selected::kNotYet;
         std::vector<GroundTileKey> next;
         for (const GroundTileKey& key : wave) {
             const GroundTile& tile = *sketches_[key.word()];
@@ -122,40 +140,65 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
         }
         wave = std::move(next);
     }
-    if (triangles_of(leaves) > most_triangles) return false;
+    if (triangles_of(leaves) > most_triangles) return Selected::kTooManyTriangles;
     // Those that are seen come first, and have more than their sketches.
     const auto beside =
         std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
     std::vector<GroundTileKey> seen;
     for (auto leaf = leaves.begin(); leaf != beside; ++leaf) seen.push_back(leaf->key);
-    require_tiles(seen);
+    if (!require_tiles(seen)) return Selected::kNotYet;
     for (auto leaf = leaves.begin(); leaf != beside; ++leaf) leaf->tile = tiles_[leaf->key.word()].get();
-    return true;
+    return Selected::kAll;
 }
 
-void GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most) {
-    if (tiles.size() <= most) return;
+// Of those that were not used since a mesh. False: more than the most are left.
+bool GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t before) {
+    if (tiles.size() <= most) return true;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> by_age;
     for (const auto& [word, tile] : tiles) by_age.push_back({tile->used, word});
     std::sort(by_age.begin(), by_age.end());
-    for (std::size_t i = 0; i < by_age.size() && tiles.size() > most; ++i) tiles.erase(by_age[i].second);
+    for (std::size_t i = 0; i < by_age.size() && tiles.size() > most && by_age[i].first < before; ++i)
+        tiles.erase(by_age[i].second);
+    return tiles.size() <= most;
+}
+
+// The tiles to be shown, and the edges at which they are not too many. False: not all of them are made yet.
+bool GlobeTerrain::find_leaves(const TerrainView& view, double& edges, std::vector<Leaf>& leaves) {
+    edges = std::max(kLeastEdges, 1 / (view.edge_px * view.pixel_rad));
+    Selected selected = select(view, edges, view.most_triangles, leaves);
+    while (selected == Selected::kTooManyTriangles) {
+        const bool least = edges == kLeastEdges;
+        edges = std::max(kLeastEdges, 0.9 * edges);
+        selected = select(view, edges, least ? std::numeric_limits<std::size_t>::max() : view.most_triangles,
+                          leaves);
+    }
+    return selected == Selected::kAll;
+}
+
+bool GlobeTerrain::make_ahead(const TerrainView& view) {
+    constexpr std::size_t kTogether = 4;
+    const bool room = most_tiles_ > kTogether && most_sketches_ > kTogether &&
+                      forget_oldest(tiles_, most_tiles_ - kTogether, mesh_number_) &&
+                      forget_oldest(sketches_, most_sketches_ - kTogether, mesh_number_);
+    if (!room) return false;
+    may_make_ = kTogether;
+    double edges;
+    std::vector<Leaf> leaves;
+    const bool all = find_leaves(view, edges, leaves);
+    const bool made_any = may_make_ < kTogether;
+    may_make_ = kAnyNumber;
+    return !all || made_any;
 }
 
 TerrainMesh GlobeTerrain::mesh(const TerrainView& view) {
     ++mesh_number_;
+    double edges;
     std::vector<Leaf> leaves;
-    double edges = std::max(kLeastEdges, 1 / (view.edge_px * view.pixel_rad));
-    while (!select(view, edges, view.most_triangles, leaves)) {
-        if (edges == kLeastEdges) {
-            select(view, edges, std::numeric_limits<std::size_t>::max(), leaves);
-            break;
-        }
-        edges = std::max(kLeastEdges, 0.9 * edges);
-    }
+    find_leaves(view, edges, leaves);
     TerrainMesh out = assemble(view, edges, leaves);
     keep_texels(0);
-    forget_oldest(tiles_, most_tiles_);
-    forget_oldest(sketches_, most_sketches_);
+    forget_oldest(tiles_, most_tiles_, mesh_number_ + 1);
+    forget_oldest(sketches_, most_sketches_, mesh_number_ + 1);
     return out;
 }
 

@@ -32,6 +32,7 @@ class GlobeTerrain final : public Terrain {
                  std::vector<std::unique_ptr<const GroundDetail>> details, const GlobeSettings& settings);
 
     TerrainMesh mesh(const TerrainView& view) override;
+    bool make_ahead(const TerrainView& view) override;
     bool depends_on_boresight() const override { return true; }
     Vec3d up_at(Vec3d point_m) const override;
     std::optional<double> height_above_ground_m(Vec3d) const override { return {}; }
@@ -66,12 +67,20 @@ class GlobeTerrain final : public Terrain {
     // Sketches that still have their texels, the first ones longest.
     std::deque<GroundTile*> with_texels_;
 
-    void require_sketches(std::span<const GroundTileKey> keys);
-    void require_tiles(std::span<const GroundTileKey> keys);
+    // Selections end so.
+    enum class Selected { kAll, kTooManyTriangles, kNotYet };
+    std::size_t may_make_ = kAnyNumber;  // tiles, until the selection stops as kNotYet
+    static constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
+
+    bool require_sketches(std::span<const GroundTileKey> keys);
+    bool require_tiles(std::span<const GroundTileKey> keys);
+    bool take_of_those_that_may_be_made(std::vector<GroundTileKey>& missing);
     void keep_texels(std::size_t most);
-    bool select(const TerrainView& view, double edges, std::size_t most_triangles, std::vector<Leaf>& leaves);
+    bool find_leaves(const TerrainView& view, double& edges, std::vector<Leaf>& leaves);
+    Selected select(const TerrainView& view, double edges, std::size_t most_triangles,
+                    std::vector<Leaf>& leaves);
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
-    static void forget_oldest(Tiles& tiles, std::size_t most);
+    static bool forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t before);
     TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
     using Shares = std::array<float, GroundTile::kSide * GroundTile::kSide>;  // at a tile's vertices
     void append(const Leaf& leaf, const Shares& shares, Vec3d anchor_m, const MeshGrid& grid,

@@ -35,6 +35,9 @@ class Terrain {
     virtual ~Terrain() = default;
     // Returns the mesh for a view. Any thread, one at a time; allocates.
     virtual TerrainMesh mesh(const TerrainView& view) = 0;
+    // Makes some of what a mesh for a view will need, a hundredth of a core-second's worth, about, so that it comes sooner when it
+    // is asked for. Meshes are the same without. False: there is nothing left to make. Threads as mesh().
+    virtual bool make_ahead(const TerrainView&) { return false; }
     // True where what the camera does not see is coarser, so that a camera that turns needs another mesh.
     virtual bool depends_on_boresight() const = 0;
     // Returns the vertical at a point, unit. Loop, any thread.

@@ -40,21 +40,37 @@ void TerrainStreamer::request(const TerrainView& view) {
 
 void TerrainStreamer::work() {
     tbb::task_arena alone(1);  // the frames have the other threads
-    TerrainView made_for;
-    bool any = false;
+    TerrainView made_for, before;
+    bool any = false, more_ahead = false;
     while (!stop_.load()) {
         delete used_.exchange(nullptr, std::memory_order_acquire);
         const TerrainView view = wanted_.read();
         const bool waiting = ready_.load() != nullptr;
         if (waiting || (any && view.camera_m == made_for.camera_m && view.boresight == made_for.boresight &&
                         view.sun_dir == made_for.sun_dir)) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            more_ahead = more_ahead && alone.execute([&] { return look_ahead(before, made_for); });
+            if (!more_ahead) std::this_thread::sleep_for(std::chrono::milliseconds(5));
             continue;
         }
         alone.execute([&] { ready_.store(make(view).release(), std::memory_order_release); });
+        before = any ? made_for : view;
         made_for = view;
-        any = true;
+        any = more_ahead = true;
     }
+}
+
+// Where the camera will be if it goes on as it does, some meshes from now: a camera that comes down by half needs a level of new tiles,
+// which would all fall to one mesh. False: there is nothing left to make.
+bool TerrainStreamer::look_ahead(const TerrainView& before, const TerrainView& now) {
+    constexpr double kMeshes[] = {2, 5, 10, 15, 20, 25};
+    const Vec3d step_m = now.camera_m - before.camera_m;
+    if (step_m == Vec3d{}) return false;
+    for (const double meshes : kMeshes) {
+        TerrainView ahead = now;
+        ahead.camera_m = now.camera_m + meshes * step_m;
+        if (ground_.make_ahead(ahead)) return true;
+    }
+    return false;
 }
 
 }  // namespace hilcam

@@ -45,6 +45,7 @@ class TerrainStreamer {
     std::thread thread_;
 
     void work();
+    bool look_ahead(const TerrainView& before, const TerrainView& now);
 };
 
 }  // namespace hilcam

@@ -13,7 +13,7 @@ constexpr int kMost = RadianceImage::kBlock_px / kStep_px + 2 * kRing;
 // Keys' weights of four places for what lies a quarter of the way from the second to the third; backwards: three quarters.
 constexpr std::array<float, 4> kQuarter = {-0.0703125f, 0.8671875f, 0.2265625f, -0.0234375f};
 
-// Of the four places from at[0] on, `apart` values apart each.
+// These are what lies between four places from at[0] on, `apart` values apart each.
 float near_second(const float* at, int apart) {
     return kQuarter[0] * at[0] + kQuarter[1] * at[apart] + kQuarter[2] * at[2 * apart] +
            kQuarter[3] * at[3 * apart];

@@ -191,7 +191,7 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
     return room && used_ + kGroups * kBlocksAtOnce <= heads_.size();
 }
 
-// By the planes through the camera and the picture's edges. Terms are good to 1e-15 of themselves, single corners to 1e-7.
+// The planes through the camera and the picture's edges decide. Terms are good to 1e-15 of themselves, single corners to 1e-7.
 bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const {
     const Vec3d least = to_double(box_m[0]), most = to_double(box_m[1]);
     const Mat3d& m = placed.camera_from_body;

@@ -115,6 +115,31 @@ TEST(GlobeTerrain, MemoryIsBoundedAndTheSameViewGivesTheSameMesh) {
     EXPECT_TRUE(std::equal(first.mesh.normals.begin(), first.mesh.normals.end(), again.mesh.normals.begin()));
 }
 
+// Tiles are made a few at a time, all that a mesh needs in the end, and it is the mesh that it would have been.
+TEST(GlobeTerrain, WhatIsMadeAheadIsWhatAMeshNeeds) {
+    GlobeTerrain plain(kMoonFigure, relief(1440, 3000), {}, {}),
+        ahead(kMoonFigure, relief(1440, 3000), {}, {});
+    const Vec3d up = place_on_sphere(23.4, 0.7);
+    TerrainView high, low;
+    for (TerrainView* const view : {&high, &low}) view->boresight = -up, view->half_field_rad = 0.4;
+    high.camera_m = (kMoonFigure.equatorial_radius_m + 20'000) * up;
+    low.camera_m = (kMoonFigure.equatorial_radius_m + 9'000) * up;
+    plain.mesh(high), ahead.mesh(high);
+    const std::size_t before = ahead.kept_bytes();
+    ASSERT_TRUE(ahead.make_ahead(low));
+    const std::size_t some = ahead.kept_bytes();
+    int calls = 1;
+    while (ahead.make_ahead(low)) ASSERT_LT(++calls, 1000);
+    EXPECT_GT(calls, 4);
+    const std::size_t all = ahead.kept_bytes();
+    EXPECT_GT(some, before);
+    EXPECT_LT(some - before, (all - before) / 4);
+    const TerrainMesh expected = plain.mesh(low), made = ahead.mesh(low);
+    EXPECT_EQ(ahead.kept_bytes(), all);
+    EXPECT_EQ(made.mesh.vertices_m, expected.mesh.vertices_m);
+    EXPECT_EQ(made.mesh.normals, expected.mesh.normals);
+}
+
 // No sky comes through between tiles, over a corner of the cube and a pole, straight down
 // and aslant.
 TEST(GlobeTerrain, ThereAreNoGapsBetweenTiles) {
