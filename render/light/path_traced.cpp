@@ -172,24 +172,27 @@ class TracedPaths final : public PathModel {
         }
     }
 
-    // A ray for each of the samples that see it, over the facets that they see: of what the lobe sends, each that
-    // leaves has an equal share. Four pixels side by side have other ones.
+    // A ray for each of the samples that see it, drawn as the lobe sends; each that leaves has an equal share of
+    // what that sends in all. Samples have numbers of their own of a sequence that fills the square evenly, however few
+    // follow each other (multiples of the plastic number's powers: Roberts 2018, extremelearning.com.au); four pixels
+    // side by side begin it at other places.
     void follow_lobe(Tile& tile, const Vertex& at, std::size_t& ray_count) {
-        const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-        const auto count = static_cast<std::size_t>(std::lround(std::max(at.weight_samples, 1.0f)));
+        constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
         const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
         const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
+        const auto count = static_cast<std::size_t>(std::lround(std::max(at.weight_samples, 1.0f)));
         const Frame local(at.normal);
         const std::size_t first = ray_count;
         for (std::size_t i = 0; i < count && ray_count < next_.size(); ++i) {
-            const float u1 = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-            const float u2 = std::fmod(0.61803399f * static_cast<float>(i) + 0.25f * quarter, 1.0f);
-            const Vec3f dir =
-                normalized(reflect(at.view_dir, local.to_world(sample_visible_normal(
-                                                    at.surface.alpha, local.to_local(at.view_dir), u1, u2))));
+            const auto number = static_cast<float>(at.sample + i);
+            const Vec3f facet = local.to_world(sample_visible_normal(
+                at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kAlong * number, 1.0f),
+                std::fmod(0.25f * quarter + kAbout * number, 1.0f)));
+            const Vec3f dir = normalized(reflect(at.view_dir, facet));
             if (dot(at.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
                 next_[ray_count++] = {&at, at.start(), dir, 0, at.surface.alpha, false, {}, false, false};
         }
+        const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
         const Spectrum weight =
             (1 / static_cast<float>(std::max<std::size_t>(ray_count - first, 1))) *
             (at.weight * tile.frame.kept->light(at.object).albedo(at.surface_number).lobe(no));
