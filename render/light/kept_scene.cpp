@@ -315,7 +315,7 @@ void KeptScene::reflect_lobe(const FrameView& frame, Place& place) const {
 // the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
 // than the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
 bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Place& place) {
-    constexpr float kFew = 4, kBeside = 2;
+    constexpr float kFew = 2, kBeside = 2;
     if (at.depth != 1 || at.surface.alpha < kNarrowestKept || at.surface.material->texture >= 0) return false;
     if (tile.frame.max_depth < 2 || !(place.directions > 0 && place.directions < kFew)) return false;
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);

@@ -172,7 +172,7 @@ class TracedPaths final : public PathModel {
         }
     }
 
-    // A ray for each of the samples that see it, drawn as the lobe sends; each that leaves has an equal share of
+    // A ray for every two of the samples that see it, drawn as the lobe sends; each that leaves has an equal share of
     // what that sends in all. Samples have numbers of their own of a sequence that fills the square evenly, however few
     // follow each other (multiples of the plastic number's powers: Roberts 2018, extremelearning.com.au); four pixels
     // side by side begin it at other places.
@@ -180,7 +180,7 @@ class TracedPaths final : public PathModel {
         constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
         const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
         const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
-        const auto count = static_cast<std::size_t>(std::lround(std::max(at.weight_samples, 1.0f)));
+        const auto count = static_cast<std::size_t>(std::lround(std::max(0.5f * at.weight_samples, 1.0f)));
         const Frame local(at.normal);
         const std::size_t first = ray_count;
         for (std::size_t i = 0; i < count && ray_count < next_.size(); ++i) {
