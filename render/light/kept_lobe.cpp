@@ -60,7 +60,7 @@ float cone_sum(const float* x, const float* y, const float* z, const float* weig
     return lane_sum(sums);
 }
 
-// What each direction brings, for Lobe::directions.
+// The light that directions bring, summed for Lobe::directions.
 struct Brought {
     float sum = 0, squares = 0;
     void add(float light) { sum += light, squares += light * light; }

@@ -310,8 +310,8 @@ void KeptScene::reflect_lobe(const FrameView& frame, Place& place) const {
         place.bodies += (share * lobe.free[b]) * sent_of_body(b, at, largest(reflectance));
 }
 
-// What a lobe meets is known by the directions of its node, some tens of them, and by the means of the nodes that
-// those meet. Light that hangs on one or two may be the light of what is beside: of a bar that one direction meets, of
+// The light that a lobe meets is known by the directions of its node, some tens of them, and by the means of the nodes
+// that those meet. Light that hangs on one or two may be the light of what is beside: of a bar that one direction meets, of
 // the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
 // than the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
 bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Place& place) {
