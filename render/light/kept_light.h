@@ -142,6 +142,9 @@ class KeptLight {
         // Share of what each cone gives to the whole lobe that comes without a way.
         std::array<float, SkyLight::kMaxBodies> free{1, 1};
         float of_irradiance = 0;  // radiance of what it meets, times the share, over the node's irradiance
+        // Number of directions of equal light whose sum would vary as much as that of what `kept` is made of: the
+        // square of the sum over the sum of squares (Kish, Survey Sampling, 1965, section 8.2). 0: nothing is kept.
+        float directions = 0;
     };
     struct Cone {
         Vec3f dir;  // body axes

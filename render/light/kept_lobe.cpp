@@ -60,6 +60,13 @@ float cone_sum(const float* x, const float* y, const float* z, const float* weig
     return lane_sum(sums);
 }
 
+// The light that directions bring, summed for Lobe::directions.
+struct Brought {
+    float sum = 0, squares = 0;
+    void add(float light) { sum += light, squares += light * light; }
+    float directions() const { return squares > 0 ? sum * sum / squares : 0.0f; }
+};
+
 }  // namespace
 
 void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
@@ -112,17 +119,24 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
     const TransferTable::Entry* const entries = table_->entry(node.first_entry);
     std::array<float, kMaxDirections> of_entry;  // a direction meets one thing at most
     for (std::size_t i = 0; i < node.entries; ++i) occupied += of_entry[i] = kept[entries[i].direction];
-    if (along) out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
+    Brought brought;
+    if (along) {
+        out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
+        for (std::size_t i = 0; i < node.entries; ++i) brought.add(of_entry[i] * along[i].greatest());
+    }
     if (links_ && !links_->empty()) {
         const PackedSpectrum* there =
             sun != kNoTerm ? terms_[sun].along_links.data() + links_->first(n) : nullptr;
         for (const KeptLinks::Link& link : links_->of(n)) {
             ++met_nodes;
             occupied += kept[link.direction];
-            if (there) out.kept += kept[link.direction] * (there++)->unpacked();
+            if (!there) continue;
+            brought.add(kept[link.direction] * there->greatest());
+            out.kept += kept[link.direction] * (there++)->unpacked();
         }
     }
     out.kept = (1 / all) * out.kept;
+    out.directions = brought.directions();
     // Light that comes along the directions that meet something makes the node's irradiance: pi / counted of
     // each one's radiance.
     if (met_nodes > 0)

@@ -181,6 +181,7 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
         Place* place;
     };
     std::array<Use, kMaxSharing> uses;
+    float room = kMostFollowed;
     for (std::size_t next = 0; next < vertices.size();) {
         std::size_t count = 0, used = 0;
         for (; next < vertices.size() && count < places.size() && used < uses.size(); ++next) {
@@ -196,17 +197,24 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
             if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
         for (Place& place : block) {
             Vertex& at = *place.at;
-            place.lobe = {};
+            place.met = place.bodies = {}, place.directions = 0;
             if (!at.surface.material->has_facets()) continue;
             if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(tile.frame, place);
-            if (at.surface.alpha >= kNarrowestLobe && is_lit(place))
-                place.lobe = reflect_lobe(tile.frame, place);
+            if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(tile.frame, place);
         }
         for (const Use& use : std::span(uses.data(), used)) {
             use.at->mirrors_near = use.place->at->mirrors_near;
             if (!is_lit(*use.place)) continue;
             Spectrum reflected = use.place->diffuse;
-            if (use.at->surface.material->has_facets()) reflected += use.place->lobe;
+            if (use.at->surface.material->has_facets()) {
+                reflected += use.place->bodies;
+                use.at->follows_lobe =
+                    use.at->weight_samples <= room && hangs_on_few(tile, *use.at, *use.place);
+                if (use.at->follows_lobe)
+                    room -= use.at->weight_samples;
+                else
+                    reflected += use.place->met;
+            }
             tile.add(*use.at, use.at->weight * reflected);
         }
     }
@@ -269,7 +277,7 @@ Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) 
     return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
 }
 
-Spectrum KeptScene::reflect_lobe(const FrameView& frame, const Place& place) const {
+void KeptScene::reflect_lobe(const FrameView& frame, Place& place) const {
     const Vertex& at = *place.at;
     const Object& object = objects_[at.object];
     const KeptLight& light = *object.light;
@@ -295,11 +303,26 @@ Spectrum KeptScene::reflect_lobe(const FrameView& frame, const Place& place) con
     Spectrum radiance;
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.kept;
-    Spectrum out = reflectance * radiance;
-    if (at.surface.material->texture >= 0) out = tint(at.surface) * out;
+    place.met = reflectance * radiance;
+    if (at.surface.material->texture >= 0) place.met = tint(at.surface) * place.met;
+    place.directions = lobe.directions;
     for (std::size_t b = 0; b < bodies; ++b)
-        out += (share * lobe.free[b]) * sent_of_body(b, at, largest(reflectance));
-    return out;
+        place.bodies += (share * lobe.free[b]) * sent_of_body(b, at, largest(reflectance));
+}
+
+// The light that a lobe meets is known by the directions of its node, some tens of them, and by the means of the nodes
+// that those meet. Light that hangs on one or two may be the light of what is beside: of a bar that one direction meets, of
+// the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
+// than the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
+bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Place& place) {
+    constexpr float kFew = 2, kBeside = 2;
+    if (at.depth != 1 || at.surface.alpha < kNarrowestKept || at.surface.material->texture >= 0) return false;
+    if (tile.frame.max_depth < 2 || !(place.directions > 0 && place.directions < kFew)) return false;
+    const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
+    const float light = at.weight_samples * largest(place.met);
+    const float white = largest(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
+    return light > samples * tile.frame.contribution_threshold * white &&
+           kBeside * light > largest(tile.pixels[at.pixel]);
 }
 
 // The radiance that a facet lobe sends of all of a body's light. reflectance: of the lobe.

@@ -46,8 +46,10 @@ class KeptScene {
     // Says in words what is kept on an object.
     std::string describe(std::size_t object) const;
 
-    // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes
-    // which of those have something near in the mirror's direction. Loop, any thread.
+    // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
+    static constexpr std::size_t kMostFollowed = 4096;
+    // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes which of
+    // those have something near in the mirror's direction, and which wide lobes are left to rays. Loop, any thread.
     void add_reflected(Tile& tile, std::span<Vertex> vertices) const;
     // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
     void add_mirrored_suns(Tile& tile, std::span<const Vertex> vertices) const {
@@ -86,7 +88,9 @@ class KeptScene {
         NodesAbout about;
         std::uint32_t nearest;  // node, where there is one
         bool found;
-        Spectrum diffuse, lobe;  // radiance that is reflected to the viewer
+        // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies.
+        Spectrum diffuse, met, bodies;
+        float directions;  // that bring what is met (KeptLight::Lobe)
     };
     Place* shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const;
     void find(const FrameView& frame, std::span<Place> places) const;
@@ -95,7 +99,8 @@ class KeptScene {
     template <class Where>
     Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
-    Spectrum reflect_lobe(const FrameView& frame, const Place& place) const;
+    void reflect_lobe(const FrameView& frame, Place& place) const;
+    static bool hangs_on_few(const Tile& tile, const Vertex& at, const Place& place);
     Spectrum sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
 };
 

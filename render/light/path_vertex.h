@@ -36,6 +36,7 @@ struct Vertex {
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     KnownSun known_sun;  // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
     bool mirrors_near;   // where that, something may stand in the mirror's direction
+    bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects of other surfaces
     float weight_samples;  // samples of sixteen a pixel that see it, where it is not one ray's
     HalfShares halves;     // where in the pixel they are
     float facet_alpha;     // alpha of the lobes of its facets

@@ -18,6 +18,8 @@ class PackedSpectrum {
         for (std::size_t i = 0; i < share_.size(); ++i)
             share_[i] = static_cast<std::uint16_t>(s.bin[i] * inverse + 0.5f);
     }
+    // Returns the greatest of its bins.
+    float greatest() const { return kMax * scale_; }
     Spectrum unpacked() const {
         Spectrum s;
         for (std::size_t i = 0; i < share_.size(); ++i) s.bin[i] = scale_ * static_cast<float>(share_[i]);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/brdf/microfacet.h"
@@ -87,6 +89,45 @@ TEST(KeptLight, NothingIsLeftToChance) {
     s.renderer->render(s.world, {2, 7}, s.radiance, s.points, s.stats);
     EXPECT_TRUE(std::equal(first.begin(), first.end(), s.radiance.plane(0).begin()));
     EXPECT_EQ(s.stats.secondary_rays, 0u);
+}
+
+// A metal plate in the shade mirrors a thin bar in the Sun: of its places some have a direction that meets the bar, of
+// sixty, and others have none. No part of the plate is much brighter than the brightest is by random paths.
+TEST(KeptLight, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
+    constexpr std::size_t kSize_px = 48, kBlock_px = 6;
+    const auto brightest = [](const char* model, int samples) {
+        MaterialConfig metal = lambert(0.9);
+        metal.model = kModel<brdf::Metal>;
+        metal.roughness = 0.45;
+        Stage s;
+        s.quality.path_model = model;
+        s.quality.max_depth = 2;
+        s.quality.contribution_threshold = 0;
+        s.quality.facets_behind_diffuse = 0;
+        s.quality.samples_per_axis = samples;
+        s.quality.rays_across = 0;
+        s.camera(kSize_px, 0.2);
+        s.add(object_of({{-1, -1, 0},
+                         {1, -1, 0},
+                         {1, 1, 0},
+                         {-1, 1, 0},
+                         {1.2f, -1, 1},
+                         {1.21f, -1, 1},
+                         {1.21f, 1, 1},
+                         {1.2f, 1, 1}},
+                        {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, metal, s.grid),
+              {0, 0, 4});
+        s.sun({0.5, 0, 1});
+        s.render();
+        std::array<double, kSize_px / kBlock_px*(kSize_px / kBlock_px)> blocks{};
+        for (std::size_t i = 0; i < kSize_px * kSize_px; ++i)
+            blocks[i / kSize_px / kBlock_px * (kSize_px / kBlock_px) + i % kSize_px / kBlock_px] +=
+                static_cast<double>(s.radiance.plane(0)[i]);
+        return *std::max_element(blocks.begin(), blocks.end());
+    };
+    const double paths = brightest("path", 24);
+    EXPECT_GT(paths, 0);
+    EXPECT_LT(brightest("kept", 4), 1.5 * paths);
 }
 
 // A frame does not depend on the frames before it, also where the light of another Sun was kept in between.
