@@ -151,7 +151,7 @@ GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edge
     return Selected::kAll;
 }
 
-// Of those that were not used since a mesh. False: more than the most are left.
+// Tiles that were used since a mesh stay. False: more than the most are left.
 bool GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t before) {
     if (tiles.size() <= most) return true;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> by_age;

@@ -39,7 +39,7 @@ struct FrameView {
     const VisibilityBuffer* ground =
         nullptr;             // buffer of ground that alone is seen (ground_light.h); null: likewise
     int ground_step_px = 1;  // pixels between the places that it sees
-    PixelSamples samples;  // those of the visibility buffer, or that it would have
+    PixelSamples samples;    // those of the visibility buffer, or that it would have
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
     const Lamps* lamps = nullptr;                 // lamp_light.h; null: none
