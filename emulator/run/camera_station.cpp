@@ -87,7 +87,8 @@ void CameraStation::load(const SpectralGrid& grid) {
                                           load_motion_sources(scenario_), lamp_mounts(scenario_));
     const WorldSnapshot first = snapshot_at(scenario_, start, start);
     renderer_->require_air(first);
-    renderer_->make_ground_ahead(first);
+    // In lockstep the first frame may be asked for elsewhere, and nobody minds how long it takes.
+    if (scenario_.mode != CameraMode::kLockstep) renderer_->make_ground_ahead(first);
     ExposureConfig exposures = exposure_config_of(scenario_);
     exposures.for_detector = true;
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, exposures, scenario_.camera, grid,
