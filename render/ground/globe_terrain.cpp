@@ -75,6 +75,7 @@ bool GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
         if (!tiles_.contains(key.word())) missing.push_back(key);
     const bool all = take_of_those_that_may_be_made(missing);
     std::vector<const GroundTile*> sketches;
+    sketches.reserve(missing.size());
     for (const GroundTileKey& key : missing) sketches.push_back(sketches_[key.word()].get());
     std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing, sketches);
     for (std::size_t i = 0; i < made.size(); ++i) {

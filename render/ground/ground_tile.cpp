@@ -31,7 +31,8 @@ void add_between(const std::vector<T>& nodes, int node_side, int side, std::vect
     for (int t = 0; t < kTexels; ++t) shares[static_cast<std::size_t>(t)] = node_shares(t);
     // A color is three numbers.
     using N = std::conditional_t<std::is_same_v<T, double>, double, float>;
-    constexpr std::size_t kNumbers = sizeof(T) / sizeof(N);
+    constexpr std::size_t kNumbers = std::is_same_v<T, double> ? 1 : 3;
+    static_assert(sizeof(T) == kNumbers * sizeof(N));
     const auto blend = [&](const T* at, int texel) {
         const auto& s = shares[static_cast<std::size_t>(texel)];
         return static_cast<N>(s[0]) * at[0] + static_cast<N>(s[1]) * at[1] + static_cast<N>(s[2]) * at[2] +
@@ -85,6 +86,7 @@ std::vector<Vec3d> GroundTileMaker::places_of(const GroundTexels& grid, int step
     const int texels = grid.quads * kTexels;
     const auto tangents_of = [&](std::int32_t tile) {
         std::vector<double> tangents;
+        tangents.reserve(static_cast<std::size_t>(side));
         // A whole number over a power of two: neighbours have the same bits.
         for (int k = 0; k < side; ++k)
             tangents.push_back(cube_tangent(
