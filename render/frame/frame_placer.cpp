@@ -109,7 +109,7 @@ void FramePlacer::make_visibility(const ImageGeometry& geometry, const RenderQua
 void FramePlacer::make_ground_visibility(const ImageGeometry& geometry, const RenderQuality& level) {
     const bool plain = radiance_model_->reflects_plainly() && lamps_.all().empty() &&
                        is_plain_ground(objects_.back().materials().front());
-    std::unique_ptr<VisibilityBuffer>& buffer = ground_visibility(level.ground_step_px);
+    auto& buffer = ground_visibility_[static_cast<std::size_t>(level.ground_step_px - 1)];
     if (buffer || !terrain_ || objects_.size() > 1 || !plain || !geometry.distortion.none() ||
         !rays_->is_still())
         return;
@@ -269,10 +269,9 @@ void FramePlacer::place_earth_picture() {
 
 // In space, and where its mesh is all there is to see of it.
 bool FramePlacer::ground_is_alone() const {
-    return ground_visibility_[static_cast<std::size_t>(ground_step_px_ - 1)] && sees_ground_ &&
-           !background_.camera_in_air() && frame_.start_before_m <= 0 &&
-           plans_.back().use == ObjectUse::kMesh && plans_.back().samples_per_axis == 1 &&
-           frame_.rays->linear();
+    return ground_visibility() && sees_ground_ && !background_.camera_in_air() &&
+           frame_.start_before_m <= 0 && plans_.back().use == ObjectUse::kMesh &&
+           plans_.back().samples_per_axis == 1 && frame_.rays->linear();
 }
 
 // A kept picture is of the map that memory holds, which is finer than its pixels.
@@ -294,9 +293,8 @@ void FramePlacer::place_visibility() {
         seen_.clear();
         seen_.push_back(
             {0, world_.objects.back(), radii_m_.back(), embree_.mesh(0, 0), shown_.back()->cluster_bounds_m});
-        VisibilityBuffer& buffer = *ground_visibility(ground_step_px_);
-        if (buffer.place(world_.camera, seen_))
-            frame_.ground = &buffer, frame_.ground_step_px = ground_step_px_;
+        if (ground_visibility()->place(world_.camera, seen_))
+            frame_.ground = ground_visibility(), frame_.ground_step_px = ground_step_px_;
         return;
     }
     VisibilityBuffer* const buffer = (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();

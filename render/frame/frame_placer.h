@@ -152,8 +152,9 @@ class FramePlacer {
     void place_earth_detail();
     void make_visibility(const ImageGeometry& geometry, const RenderQuality& level);
     void make_ground_visibility(const ImageGeometry& geometry, const RenderQuality& level);
-    std::unique_ptr<VisibilityBuffer>& ground_visibility(std::int64_t step_px) {
-        return ground_visibility_[static_cast<std::size_t>(step_px - 1)];
+    // That of the quality in use.
+    VisibilityBuffer* ground_visibility() const {
+        return ground_visibility_[static_cast<std::size_t>(ground_step_px_ - 1)].get();
     }
     bool ground_is_alone() const;
     VisibilityBuffer::Room visibility_room() const;

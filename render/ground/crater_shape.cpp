@@ -8,16 +8,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/ground/double_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::CappedTag<double, 8>;
-using Longs = hn::RebindToSigned<Doubles>;
-using V = hn::Vec<Doubles>;
-
-HWY_INLINE V number(double value) { return hn::Set(Doubles(), value); }
 
 struct Vector {
     V x, y, z;
@@ -96,7 +91,6 @@ void brighten(const CraterShape& c, Vec3d place, double x, Vec3f& color) {
 
 void add(const CraterShape& c, const GroundPatch& patch) {
     const Doubles d;
-    constexpr std::size_t kMost = 8;
     const std::size_t lanes = hn::Lanes(d);
     const CraterDistances distances(c);
     const GroundPatch::Window w =
@@ -110,12 +104,11 @@ void add(const CraterShape& c, const GroundPatch& patch) {
         const V sum = hn::Add(before, hn::Mul(number(c.depth_m), height(c.profile, x)));
         hn::StoreU(hn::IfThenElse(within, sum, before), d, heights_m);
         if (!colored) return;
-        double at[kMost] = {};
+        double at[kMostLanes] = {};
         hn::StoreU(hn::IfThenElse(within, x, number(CraterShape::kRayReach)), d, at);
         for (std::size_t k = 0; k < count; ++k)
             brighten(c, patch.places[first + k], at[k], patch.colors[first + k]);
     };
-    static_assert(sizeof(Vec3d) == 3 * sizeof(double));
     // Whole vectors, which may reach beyond the window: there are no places within the crater's reach.
     const int wanted =
         (w.x1 - w.x0 + static_cast<int>(lanes) - 1) / static_cast<int>(lanes) * static_cast<int>(lanes);
@@ -127,8 +120,8 @@ void add(const CraterShape& c, const GroundPatch& patch) {
             add_some(&patch.places[i].x, patch.heights_m.data() + i, i, lanes);
         if (i >= end) continue;
         // A narrow patch has less than a vector left.
-        Vec3d places[kMost] = {};
-        double heights_m[kMost] = {};
+        Vec3d places[kMostLanes] = {};
+        double heights_m[kMostLanes] = {};
         std::copy_n(patch.places.begin() + static_cast<std::ptrdiff_t>(i), end - i, places);
         std::copy_n(patch.heights_m.begin() + static_cast<std::ptrdiff_t>(i), end - i, heights_m);
         add_some(&places[0].x, heights_m, i, end - i);

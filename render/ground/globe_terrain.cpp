@@ -42,49 +42,47 @@ Vec3d GlobeTerrain::up_at(Vec3d p) const {
     return length(p) > 0 ? normalized(Vec3d{p.x, p.y, p.z * ratio * ratio}) : Vec3d{0, 0, 1};
 }
 
-// False: not all of them.
-bool GlobeTerrain::take_of_those_that_may_be_made(std::vector<GroundTileKey>& missing) {
-    const bool all = missing.size() <= may_make_;
-    if (!all) missing.resize(may_make_);
-    if (may_make_ != kAnyNumber) may_make_ -= missing.size();
-    return all;
-}
-
-// Makes those that are not kept. False: not all of them yet.
-bool GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
+// Those that are not kept, as many as may be made. all: false where that is not all.
+std::vector<GroundTileKey> GlobeTerrain::to_be_made(std::span<const GroundTileKey> keys, const Tiles& of,
+                                                    bool& all) {
     std::vector<GroundTileKey> missing;
     for (const GroundTileKey& key : keys)
-        if (!sketches_.contains(key.word())) missing.push_back(key);
-    const bool all = take_of_those_that_may_be_made(missing);
+        if (!of.contains(key.word())) missing.push_back(key);
+    all = missing.size() <= may_make_;
+    if (!all) missing.resize(may_make_);
+    if (may_make_ != kAnyNumber) may_make_ -= missing.size();
+    return missing;
+}
+
+void GlobeTerrain::mark_used(std::span<const GroundTileKey> keys, const Tiles& of) const {
+    for (const GroundTileKey& key : keys) of.at(key.word())->used = mesh_number_;
+}
+
+// Makes sketches that are not kept. False: not all of them yet.
+bool GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
+    bool all;
+    const std::vector<GroundTileKey> missing = to_be_made(keys, sketches_, all);
     std::vector<std::unique_ptr<GroundTile>> made = maker_.sketch(missing);
     for (std::size_t i = 0; i < made.size(); ++i) {
-        made[i]->used = mesh_number_;
         with_texels_.push_back(made[i].get());
         sketches_[missing[i].word()] = std::move(made[i]);
     }
     keep_texels(kMostTexels);
-    if (!all) return false;
-    for (const GroundTileKey& key : keys) sketches_[key.word()]->used = mesh_number_;
-    return true;
+    mark_used(all ? keys : missing, sketches_);
+    return all;
 }
 
-// Makes those that are not kept, of the sketches that there are. False: not all of them yet.
+// Makes tiles that are not kept, of the sketches that there are. False: not all of them yet.
 bool GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
-    std::vector<GroundTileKey> missing;
-    for (const GroundTileKey& key : keys)
-        if (!tiles_.contains(key.word())) missing.push_back(key);
-    const bool all = take_of_those_that_may_be_made(missing);
+    bool all;
+    const std::vector<GroundTileKey> missing = to_be_made(keys, tiles_, all);
     std::vector<const GroundTile*> sketches;
     sketches.reserve(missing.size());
     for (const GroundTileKey& key : missing) sketches.push_back(sketches_[key.word()].get());
     std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing, sketches);
-    for (std::size_t i = 0; i < made.size(); ++i) {
-        made[i]->used = mesh_number_;
-        tiles_[missing[i].word()] = std::move(made[i]);
-    }
-    if (!all) return false;
-    for (const GroundTileKey& key : keys) tiles_[key.word()]->used = mesh_number_;
-    return true;
+    for (std::size_t i = 0; i < made.size(); ++i) tiles_[missing[i].word()] = std::move(made[i]);
+    mark_used(all ? keys : missing, tiles_);
+    return all;
 }
 
 // The last that were sketched keep their texels.

@@ -74,7 +74,8 @@ class GlobeTerrain final : public Terrain {
 
     bool require_sketches(std::span<const GroundTileKey> keys);
     bool require_tiles(std::span<const GroundTileKey> keys);
-    bool take_of_those_that_may_be_made(std::vector<GroundTileKey>& missing);
+    std::vector<GroundTileKey> to_be_made(std::span<const GroundTileKey> keys, const Tiles& of, bool& all);
+    void mark_used(std::span<const GroundTileKey> keys, const Tiles& of) const;
     void keep_texels(std::size_t most);
     bool find_leaves(const TerrainView& view, double& edges, std::vector<Leaf>& leaves);
     Selected select(const TerrainView& view, double edges, std::size_t most_triangles,

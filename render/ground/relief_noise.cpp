@@ -7,18 +7,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/ground/double_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::CappedTag<double, 8>;
-using Longs = hn::RebindToSigned<Doubles>;
 using Words = hn::RebindToUnsigned<Doubles>;
-using V = hn::Vec<Doubles>;
 using W = hn::Vec<Words>;
 
-HWY_INLINE V number(double value) { return hn::Set(Doubles(), value); }
 HWY_INLINE W word(std::uint64_t value) { return hn::Set(Words(), value); }
 
 HWY_INLINE V fade(V t) {
@@ -87,15 +84,13 @@ void add(const ReliefWave& wave, std::span<const Vec3d> places, std::span<double
         return hn::Mul(number(wave.amplitude_m), noise(seed, placed(x, wave.shift.x), placed(y, wave.shift.y),
                                                        placed(z, wave.shift.z)));
     };
-    static_assert(sizeof(Vec3d) == 3 * sizeof(double));
     std::size_t i = 0;
     for (; i + lanes <= places.size(); i += lanes) {
         double* const to = heights_m.data() + i;
         hn::StoreU(hn::Add(hn::LoadU(d, to), heights_at(&places[i].x)), d, to);
     }
     // What is left is less than a vector.
-    constexpr std::size_t kMost = 8;
-    double rest[3 * kMost] = {}, added[kMost] = {};
+    double rest[3 * kMostLanes] = {}, added[kMostLanes] = {};
     for (std::size_t k = i; k < places.size(); ++k)
         rest[3 * (k - i)] = places[k].x, rest[3 * (k - i) + 1] = places[k].y,
                       rest[3 * (k - i) + 2] = places[k].z;

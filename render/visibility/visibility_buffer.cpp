@@ -68,12 +68,15 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
     for (const Shown& object : shown) {
         if (placed_.size() == room_.objects) return false;
         const Vec3d offset_m = object.pose.position_world_m - camera.position_world_m;
+        const Mat3d camera_from_body = camera_from_world * to_matrix(object.pose.world_from_body);
+        const Vec3d origin_camera_m = camera_from_world * offset_m;
         placed_.push_back({object,
                            vertices,
                            triangle_count_,
-                           camera_from_world * to_matrix(object.pose.world_from_body),
-                           camera_from_world * offset_m,
-                           {}});
+                           camera_from_body,
+                           origin_camera_m,
+                           {},
+                           planes_of(camera_from_body, origin_camera_m)});
         vertices += object.mesh.vertices_m.size();
         triangle_count_ += object.mesh.triangles.size();
         if (vertices > room_.vertices || triangle_count_ > room_.triangles) return false;
@@ -125,7 +128,7 @@ class VisibilityBuffer::Sorter {
                 const std::size_t cluster = first / kRun;
                 next = std::min(to, (cluster + 1) * kRun);
                 const auto boxes_m = object->shown.cluster_bounds_m;
-                if (!boxes_m.empty() && !my_.may_show(*object, boxes_m[cluster])) continue;
+                if (!boxes_m.empty() && !may_show(*object, boxes_m[cluster])) continue;
                 if (!sort_run(*object, first, next - first)) return false;
             }
         }
@@ -191,23 +194,27 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
     return room && used_ + kGroups * kBlocksAtOnce <= heads_.size();
 }
 
-// The planes through the camera and the picture's edges decide. Terms are good to 1e-15 of themselves, single corners to 1e-7.
-bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const {
-    const Vec3d least = to_double(box_m[0]), most = to_double(box_m[1]);
-    const Mat3d& m = placed.camera_from_body;
-    const Vec3d middle = m * (0.5 * (least + most)) + placed.origin_camera_m;
-    const Vec3d half = 0.5 * (most - least);
-    const double rounding_m = 1e-6 * (std::abs(middle.z) + length(half));
-    // The greatest of a box along a direction of the camera's.
-    const auto reaches = [&](Vec3d along) {
-        const Vec3d in_body = transposed(m) * along;
-        return dot(along, middle) + std::abs(in_body.x) * half.x + std::abs(in_body.y) * half.y +
-                   std::abs(in_body.z) * half.z >=
-               -rounding_m;
+std::array<VisibilityBuffer::Placed::Plane, 5> VisibilityBuffer::planes_of(const Mat3d& camera_from_body,
+                                                                           Vec3d origin_camera_m) const {
+    const Mat3d body_from_camera = transposed(camera_from_body);
+    const auto plane = [&](Vec3d along) {
+        return Placed::Plane{body_from_camera * along, dot(along, origin_camera_m)};
     };
     const LensTiles::Slopes& s = lens_.slopes();
-    return reaches({0, 0, 1}) && reaches({1, 0, -s.left}) && reaches({-1, 0, s.right}) &&
-           reaches({0, 1, -s.top}) && reaches({0, -1, s.bottom});
+    return {plane({0, 0, 1}), plane({1, 0, -s.left}), plane({-1, 0, s.right}), plane({0, 1, -s.top}),
+            plane({0, -1, s.bottom})};
+}
+
+// False: all of the box is beyond one of the planes. Corners on the screen are good to 1e-7 of the way to them.
+bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) {
+    const Vec3d least = to_double(box_m[0]), most = to_double(box_m[1]);
+    const Vec3d middle = 0.5 * (least + most), half = 0.5 * (most - least);
+    const double rounding_m = 1e-6 * (length(middle) + length(half) + length(placed.origin_camera_m));
+    return std::all_of(placed.planes.begin(), placed.planes.end(), [&](const Placed::Plane& plane) {
+        const double reach_m = std::abs(plane.along.x) * half.x + std::abs(plane.along.y) * half.y +
+                               std::abs(plane.along.z) * half.z;
+        return dot(plane.along, middle) + plane.offset_m + reach_m >= -rounding_m;
+    });
 }
 
 std::array<Vec3d, 3> VisibilityBuffer::corners_camera_m(const Placed& placed, std::uint32_t triangle) const {

@@ -89,6 +89,12 @@ class VisibilityBuffer {
         Mat3d camera_from_body;
         Vec3d origin_camera_m;
         ScreenProjection projection;
+        // The picture's edges and the camera's plane, body axes: a place is within where along * place + offset_m is not below zero.
+        struct Plane {
+            Vec3d along;
+            double offset_m;
+        };
+        std::array<Plane, 5> planes;
     };
     class Sorter;
 
@@ -108,7 +114,8 @@ class VisibilityBuffer {
 
     bool take(const Pose& camera, std::span<const Shown> shown);
     void project();
-    bool may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const;
+    std::array<Placed::Plane, 5> planes_of(const Mat3d& camera_from_body, Vec3d origin_camera_m) const;
+    static bool may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m);
     std::array<Vec3d, 3> corners_camera_m(const Placed& placed, std::uint32_t triangle) const;
     bool bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const;
     void set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,

@@ -46,7 +46,7 @@ ONLY_IN = {
     "google": {"io/vizard/vizard_message.cpp"},
     "vizard.pb": {"io/vizard/vizard_message.cpp"},
     "zmq": {"io/vizard/commands_vizard.cpp"},
-    "hwy": {"render/ground/crater_shape.cpp", "render/ground/relief_noise.cpp", "render/light/primary_vertices.cpp",
+    "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp", "render/light/primary_vertices.cpp",
             "render/sunlit_ground/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
             "render/visibility/lane_vectors-inl.h",
             "render/visibility/visibility_raster.cpp", "sensor/convolution/fourier.cpp"},
