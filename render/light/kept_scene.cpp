@@ -182,6 +182,7 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
     };
     std::array<Use, kMaxSharing> uses;
     float room = kMostFollowed;
+    Lobes lobes;
     for (std::size_t next = 0; next < vertices.size();) {
         std::size_t count = 0, used = 0;
         for (; next < vertices.size() && count < places.size() && used < uses.size(); ++next) {
@@ -200,7 +201,8 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
             place.met = place.bodies = {}, place.directions = 0;
             if (!at.surface.material->has_facets()) continue;
             if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(tile.frame, place);
-            if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(tile.frame, place);
+            if (at.surface.alpha >= kNarrowestLobe && is_lit(place))
+                reflect_lobe(tile.frame, lobes, place);
         }
         for (const Use& use : std::span(uses.data(), used)) {
             use.at->mirrors_near = use.place->at->mirrors_near;
@@ -277,18 +279,27 @@ Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) 
     return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
 }
 
-void KeptScene::reflect_lobe(const FrameView& frame, Place& place) const {
+void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
     const Vertex& at = *place.at;
-    const Object& object = objects_[at.object];
-    const KeptLight& light = *object.light;
-    const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
-    const bool sunlit = largest(sun) > 0;
-    const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-    const Spectrum reflectance = light.albedo(at.surface_number).lobe(no);
     // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
     // does, it has all of them.
     const bool narrow = at.surface.alpha < kNarrowestKept, whole = narrow && !at.mirrors_near;
     const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
+    const std::uint32_t node = place.found ? place.nearest : LightNodes::kClosed;
+    const MetByLobe* met = lobes.met.find(at, node);
+    if (!met || met->whole != whole) met = &lobes.met.keep(at, node, met_by_lobe(frame, place, whole));
+    place.met = met->radiance, place.directions = met->directions;
+    const SentOfBodies* sent = lobes.bodies.find(at, 0);
+    if (!sent) sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        place.bodies += (share * met->free[b]) * (*sent)[b];
+}
+
+KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place& place, bool whole) const {
+    const Vertex& at = *place.at;
+    const KeptLight& light = *objects_[at.object].light;
+    const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
+    const bool sunlit = largest(sun) > 0;
     const std::size_t bodies = sky_.bodies().size();
     KeptLight::Lobe lobe;
     if (place.found) {
@@ -303,11 +314,21 @@ void KeptScene::reflect_lobe(const FrameView& frame, Place& place) const {
     Spectrum radiance;
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.kept;
-    place.met = reflectance * radiance;
-    if (at.surface.material->texture >= 0) place.met = tint(at.surface) * place.met;
-    place.directions = lobe.directions;
-    for (std::size_t b = 0; b < bodies; ++b)
-        place.bodies += (share * lobe.free[b]) * sent_of_body(b, at, largest(reflectance));
+    radiance = lobe_albedo(at) * radiance;
+    if (at.surface.material->texture >= 0) radiance = tint(at.surface) * radiance;
+    return {radiance, lobe.free, lobe.directions, whole};
+}
+
+Spectrum KeptScene::lobe_albedo(const Vertex& at) const {
+    const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+    return objects_[at.object].light->albedo(at.surface_number).lobe(no);
+}
+
+KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
+    SentOfBodies sent;
+    const float reflectance = largest(lobe_albedo(at));
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sent[b] = sent_of_body(b, at, reflectance);
+    return sent;
 }
 
 // The light that a lobe meets is known by the directions of its node, some tens of them, and by the means of the nodes

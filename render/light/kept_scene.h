@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "render/light/alike_lobes.h"
 #include "render/light/kept_updates.h"
 #include "render/light/mirrored_suns.h"
 #include "render/light/tile.h"
@@ -92,6 +93,19 @@ class KeptScene {
         Spectrum diffuse, met, bodies;
         float directions;  // that bring what is met (KeptLight::Lobe)
     };
+    // What a lobe meets of other surfaces.
+    struct MetByLobe {
+        Spectrum radiance;
+        std::array<float, SkyLight::kMaxBodies> free;  // share of each body's light that comes without a way
+        float directions;
+        bool whole;  // the bodies are not looked for, as nothing is in their way
+    };
+    // The radiance that a lobe sends of each body, if nothing is in the way.
+    using SentOfBodies = std::array<Spectrum, SkyLight::kMaxBodies>;
+    struct Lobes {
+        AlikeLobes<MetByLobe> met;
+        AlikeLobes<SentOfBodies> bodies;
+    };
     Place* shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const;
     void find(const FrameView& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
@@ -99,7 +113,10 @@ class KeptScene {
     template <class Where>
     Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
-    void reflect_lobe(const FrameView& frame, Place& place) const;
+    void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
+    MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
+    Spectrum lobe_albedo(const Vertex& at) const;
+    SentOfBodies sent_of_bodies(const Vertex& at) const;
     static bool hangs_on_few(const Tile& tile, const Vertex& at, const Place& place);
     Spectrum sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
 };
