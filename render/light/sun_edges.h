@@ -34,7 +34,7 @@ class SunEdges {
     void add_light(Tile& tile, const SunSampler& sun);
 
   private:
-    static constexpr int kReach_px = 2, kMaxRows = 32;
+    static constexpr int kReach_px = 1, kMaxRows = 32;
     static constexpr std::uint32_t kAgain = 4;  // rays
     struct Asked {
         const Vertex* at;
