@@ -32,7 +32,9 @@ KeptLight::Bounds sphere_about(std::span<const LightNode> nodes) {
 
 }  // namespace
 
-KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float min_alpha) {
+KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
+                         float min_alpha)
+    : neighbours(nodes.neighbours()) {
     std::vector<float> throws;
     for (const Material& material : surfaces.materials) {
         own.emplace_back(material);

@@ -38,13 +38,15 @@ inline constexpr std::size_t kDirectionLanes = 16;
 // normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
-// The albedos of an object's materials, and its mirrors. Objects of one make share it.
+// The albedos of an object's materials, its mirrors, and which of its nodes lie side by side. Objects of one make share it.
 struct KeptAlbedos {
     // mesh: with the object's triangles. min_alpha: of facets as other surfaces see them.
-    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float min_alpha);
+    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
+                float min_alpha);
 
     std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
     std::vector<FlatMirror> mirrors;  // flat mirrors of the object; whoever looks them up has their sunlight
+    NodeNeighbours neighbours;
 };
 
 // A term that is solved: what one source gives to every node, per unit of it.
@@ -111,6 +113,9 @@ class KeptLight {
     const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_->own[surface]; }
     std::span<const MaterialAlbedo> albedos() const { return albedos_->own; }
     std::span<const FlatMirror> mirrors() const { return albedos_->mirrors; }
+    std::span<const std::uint32_t> neighbours(std::size_t node) const {
+        return albedos_->neighbours.of(node);
+    }
     // Returns the irradiance by way of other surfaces, per unit of the source.
     Spectrum irradiance(std::size_t term, const NodesAbout& about) const {
         return PackedSpectrum::weighted_sum(irradiance_.data() + term, terms_.size(), about.node.data(),

@@ -52,6 +52,7 @@ KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& sc
         std::shared_ptr<const KeptAlbedos>& of_make = albedos[objects[i].levels.front().get()];
         if (!of_make)
             of_make = std::make_shared<const KeptAlbedos>(*objects[i].levels.front(), scene.mesh(i, 0),
+                                                          objects[i].transfer->nodes(),
                                                           KeptLight::min_alpha(*objects[i].transfer));
         objects_[i].light =
             std::make_unique<KeptLight>(objects[i], of_make, bands, step_of(objects[i], settings.step_rad));

@@ -52,7 +52,7 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
         base_.push_back(nodes);
         if (light) nodes += light->table().size();
     }
-    senders_.resize(nodes), radiosity_.resize(nodes), first_.resize(nodes), now_.resize(nodes),
+    senders_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes), now_.resize(nodes),
         before_.resize(nodes);
     if (std::any_of(lights_.begin(), lights_.end(),
                     [](const KeptLight* light) { return light && light->throws_sun(); }))
@@ -63,7 +63,7 @@ void KeptSolver::solve(std::span<const Member> group) {
     for (const Member& member : group) light_nodes(member);
     for (const Member& member : group) gather_first(member, group);
     bounce(group);
-    for (const Member& member : group) store(member);
+    for (const Member& member : group) smooth(member), store(member);
 }
 
 void KeptSolver::gather_first(const Member& member, std::span<const Member> group) {
@@ -95,6 +95,12 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
                 return axes.body({light.local_x_[d], light.local_y_[d], light.local_z_[d]});
             };
             Spectrum sum, mirrored;
+            Brought brought;
+            const auto add = [&](const Spectrum& radiance) {
+                const float bright = largest(radiance);
+                sum += radiance;
+                brought += {bright, bright * bright};
+            };
             for (const TransferTable::Entry e : table.entries(n)) {
                 const Sender& from = senders_[base + e.node];
                 Spectrum radiance = from.diffuse.unpacked();
@@ -102,7 +108,7 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
                     add_lobe(from, direction(e.direction), source_dir,
                              keeps_along && light.throws_sun(e.node) ? mirrored : radiance);
                 if (along) *along++ = PackedSpectrum(radiance);
-                sum += radiance;
+                add(radiance);
             }
             const std::span<const KeptLinks::Link> links = member.links->of(n);
             for (std::size_t i = 0; i < links.size(); ++i) {
@@ -115,12 +121,13 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
                     add_lobe(from, member.links->neighbour(link.object).dir(direction(link.direction)),
                              source_of(link.object), radiance);
                 if (keeps_along) out.along_links[member.links->first(n) + i] = PackedSpectrum(radiance);
-                sum += radiance;
+                add(radiance);
             }
             if (light.throws_sun()) {
                 mirrored_[base + n] = (kPiF / static_cast<float>(table.counted(n))) * mirrored;
                 sum += mirrored;
             }
+            brought_[base + n] = brought;
             first_[base + n] = now_[base + n] = (kPiF / static_cast<float>(table.counted(n))) * sum;
         }
     });
@@ -194,6 +201,33 @@ KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
         });
 }
 
+// Leaves what the nodes keep in before_. A node's directions are too few to tell how much of a small bright part it
+// sees: one of sixty meets a lit rim, and the next node's none. Where that is so, a node and those beside it have
+// their mean, the more so the fewer directions of equal light their sum hangs on (Kish's effective size of a weighted
+// sample, Survey Sampling, 1965, section 8.2). What many directions see is left as sharp as it is.
+void KeptSolver::smooth(const Member& member) {
+    constexpr float kFew = 4;
+    const KeptLight& light = *lights_[member.object];
+    const std::size_t base = base_[member.object];
+    const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
+    const auto kept = [&](std::size_t n) {
+        return subtract ? at_least_zero(now_[base + n] + -1.0f * mirrored_[base + n]) : now_[base + n];
+    };
+    tbb::parallel_for(Nodes(0, light.table().size(), kBlock), [&](const Nodes& r) {
+        for (std::size_t n = r.begin(); n < r.end(); ++n) {
+            const std::span<const std::uint32_t> beside = light.neighbours(n);
+            const auto count = static_cast<float>(beside.size() + 1);
+            Brought brought = brought_[base + n];
+            Spectrum sum = kept(n);
+            for (const std::uint32_t other : beside) brought += brought_[base + other], sum += kept(other);
+            const float each =
+                brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kFew;
+            const float share = kFew / (kFew + each);
+            before_[base + n] = (1 - share) * kept(n) + (share / count) * sum;
+        }
+    });
+}
+
 void KeptSolver::store(const Member& member) {
     const KeptLight& light = *lights_[member.object];
     const std::size_t base = base_[member.object];
@@ -204,11 +238,8 @@ void KeptSolver::store(const Member& member) {
     };
     tbb::parallel_for(Nodes(0, light.table().size(), kBlock), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            out.irradiance[n] = PackedSpectrum(now_[base + n]);
+            out.irradiance[n] = PackedSpectrum(before_[base + n]);
             if (!keeps_along) continue;
-            if (light.throws_sun())
-                out.irradiance[n] =
-                    PackedSpectrum(at_least_zero(now_[base + n] + -1.0f * mirrored_[base + n]));
             std::size_t to = light.lobes_[n].first_along;
             if (to != KeptLight::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n))

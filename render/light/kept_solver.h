@@ -41,7 +41,7 @@ class KeptSolver {
     // Returns an object's share of the workspace.
     std::size_t bytes(std::size_t object) const {
         return lights_[object]->table().size() *
-               (sizeof(Sender) + (mirrored_.empty() ? 4 : 5) * sizeof(Spectrum));
+               (sizeof(Sender) + sizeof(Brought) + (mirrored_.empty() ? 4 : 5) * sizeof(Spectrum));
     }
     // One term. On oneTBB. Nothing is allocated but by links that are more than ever before.
     void solve(std::span<const Member> group);
@@ -56,6 +56,15 @@ class KeptSolver {
         float alpha;           // 0: no facets that shine
         float ni;              // cosine of the source
     };
+    // The light that a node's directions bring the first way, by its brightest bin: sums of it and of its squares.
+    struct Brought {
+        float sum = 0, squares = 0;
+
+        Brought& operator+=(const Brought& other) {
+            sum += other.sum, squares += other.squares;
+            return *this;
+        }
+    };
     struct Progress {
         double change = 0, light = 0;  // weighed sums over all nodes and bins
     };
@@ -65,6 +74,7 @@ class KeptSolver {
     std::vector<std::size_t> base_;  // by object: of its nodes in what follows
     std::vector<Sender> senders_;
     std::vector<Spectrum> radiosity_;             // over pi
+    std::vector<Brought> brought_;
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
     // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
     std::vector<Spectrum> mirrored_;
@@ -79,6 +89,7 @@ class KeptSolver {
     void gather_first(const Member& member, std::span<const Member> group);
     void bounce(std::span<const Member> group);
     Progress gather_again(const Member& member);
+    void smooth(const Member& member);
     void store(const Member& member);
 };
 

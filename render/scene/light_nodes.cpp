@@ -325,6 +325,21 @@ std::size_t LightNodes::bytes() const {
     return slots_.size() * sizeof(Slot) + cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(LightNode);
 }
 
+NodeNeighbours LightNodes::neighbours() const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (const Cell& cell : cells_)
+        for (std::size_t i = 0; i < cell.count; ++i)
+            for (std::size_t j = 0; j < cell.count; ++j)
+                if (cell.node[i] != cell.node[j]) pairs.emplace_back(cell.node[i], cell.node[j]);
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    NodeNeighbours out;
+    out.first.assign(nodes_.size() + 1, 0);
+    for (const auto& [from, to] : pairs) ++out.first[from + 1], out.node.push_back(to);
+    for (std::size_t n = 0; n < nodes_.size(); ++n) out.first[n + 1] += out.first[n];
+    return out;
+}
+
 bool LightNodes::is_whole() const {
     if (!(cube_m_ > 0) || (!slots_.empty() && !std::has_single_bit(slots_.size()))) return false;
     std::size_t used = 0;

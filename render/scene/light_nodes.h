@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "render/scene/light_cell_key.h"
+#include "render/scene/node_neighbours.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
@@ -100,6 +101,8 @@ class LightNodes {
     const std::vector<LightNode>& nodes() const { return nodes_; }
     float cube_m() const { return cube_m_; }
     std::size_t bytes() const;
+    // Returns which nodes are corners of one cell with each. Owner thread.
+    NodeNeighbours neighbours() const;
 
     // Renumbers: new_number[old], or kClosed for nodes that go.
     void keep(std::span<const std::uint32_t> new_number);
