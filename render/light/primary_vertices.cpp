@@ -1,7 +1,5 @@
 #include "render/light/primary_vertices.h"
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,25 +13,10 @@
 namespace hilcam {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 // The greatest lean of two facets against each other that make one vertex: its kept light and its mirrored
 // rays are those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
-
-// A bit for each of a pixel's samples that sees it.
-std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
-    const hn::Full128<std::uint32_t> d;
-    const auto wanted = hn::Set(d, id);
-    std::uint32_t same = 0;
-    for (std::size_t i = 0; i < kVisibilitySamples; i += 4) {
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(d, hn::Eq(hn::Load(d, ids + i), wanted), bits);
-        same |= std::uint32_t{bits[0]} << i;
-    }
-    return same;
-}
 
 }  // namespace
 
@@ -92,33 +75,33 @@ void PrimaryVertices::take_next_pixel() {
 
 void PrimaryVertices::take_pixel(int x, int y) {
     const PixelSamples& grid = tile_.frame.samples;
-    std::array<const std::uint32_t*, 4> ids{};  // by quarter
-    SampleMask rest = 0;
-    for (int q = 0; q < grid.quarters(); ++q) {
-        const std::uint32_t* of = tile_.seen->ids(grid.buffer_px() * (x - part_.x0) + q % 2,
-                                                  grid.buffer_px() * (y - part_.y0) + q / 2);
-        ids[static_cast<std::size_t>(q)] = of;
-        rest |= SampleMask{kAllSamples & ~equal_ids(of, VisibilityTile::kNothing)}
-                << (kVisibilitySamples * q);
-    }
     const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
-    uncovered_[static_cast<std::size_t>(pixel)] = grid.all() & ~rest;
-    if (rest != 0) tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
-    tile_.stats.covered_px += static_cast<double>(grid.weight(rest)) * (1.0 / kVisibilitySamples);
     const std::size_t first = fragment_count_;
-    while (rest != 0) {
-        const int sample = std::countr_zero(rest);
-        const std::uint32_t id =
-            ids[static_cast<std::size_t>(sample / kVisibilitySamples)][sample % kVisibilitySamples];
-        SampleMask same = 0;
-        for (int q = sample / kVisibilitySamples; q < grid.quarters(); ++q)
-            if (rest >> (kVisibilitySamples * q) & kAllSamples)
-                same |= SampleMask{equal_ids(ids[static_cast<std::size_t>(q)], id)}
-                        << (kVisibilitySamples * q);
-        fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), same};
-        rest &= ~same;
+    SampleMask nothing = 0;
+    PixelFragments part;
+    for (int q = 0; q < grid.quarters(); ++q) {
+        list_fragments(tile_.seen->ids(grid.buffer_px() * (x - part_.x0) + q % 2,
+                                       grid.buffer_px() * (y - part_.y0) + q / 2),
+                       part);
+        nothing |= SampleMask{part.nothing} << (kVisibilitySamples * q);
+        for (const auto& [id, samples, others] : std::span(part.fragments).first(part.count)) {
+            const SampleMask mask = SampleMask{samples} << (kVisibilitySamples * q);
+            const auto end = fragments_.begin() + fragment_count_;
+            const auto same = q == 0 ? end
+                                     : std::find_if(fragments_.begin() + first, end,
+                                                    [&](const Fragment& f) { return f.id == id; });
+            if (same != end)
+                same->samples |= mask;
+            else
+                fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), mask};
+        }
     }
-    if (fragment_count_ - first < 2) return;
+    uncovered_[static_cast<std::size_t>(pixel)] = nothing;
+    if (fragment_count_ == first) return;
+    tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
+    tile_.stats.covered_px +=
+        static_cast<double>(grid.weight(grid.all() & ~nothing)) * (1.0 / kVisibilitySamples);
+    if (grid.quarters() == 1) return;
     // The greatest first: others join it.
     std::sort(fragments_.begin() + first, fragments_.begin() + fragment_count_,
               [](const Fragment& a, const Fragment& b) {
