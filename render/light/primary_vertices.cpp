@@ -75,7 +75,8 @@ void PrimaryVertices::take_next_pixel() {
 
 void PrimaryVertices::take_pixel(int x, int y) {
     const PixelSamples& grid = tile_.frame.samples;
-    const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
+    const auto left = static_cast<std::uint8_t>(x - tile_.box.x0), top = static_cast<std::uint8_t>(y - tile_.box.y0);
+    const int pixel = top * (tile_.box.x1 - tile_.box.x0) + left;
     const std::size_t first = fragment_count_;
     SampleMask nothing = 0;
     PixelFragments part;
@@ -93,7 +94,7 @@ void PrimaryVertices::take_pixel(int x, int y) {
             if (same != end)
                 same->samples |= mask;
             else
-                fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), mask};
+                fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), left, top, mask};
         }
     }
     uncovered_[static_cast<std::size_t>(pixel)] = nothing;
@@ -137,7 +138,6 @@ std::size_t PrimaryVertices::look_at_fragments() {
     const LinearRays* rays = frame.rays->linear();
     const Vec3d corner =
         rays ? rays->corner + tile_.box.x0 * rays->right + tile_.box.y0 * rays->down : Vec3d{};
-    const int width = tile_.box.x1 - tile_.box.x0;
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
     const Vec3f body_m = to_float(shown.pose.position_world_m - frame.rays_world_m);
     const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
@@ -147,13 +147,15 @@ std::size_t PrimaryVertices::look_at_fragments() {
         const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
         if (seen.shown != &shown) break;
         const Vec2f at = frame.samples.middle(fragment.samples);
-        const int x = fragment.pixel % width, y = fragment.pixel / width;
+        const int x = fragment.x, y = fragment.y;
         dirs_[n] = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
                               static_cast<double>(static_cast<float>(y) + at.y) * rays->down
                         : direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, at);
         origins_[n] =
             frame.start_before_m > 0 ? frame.start_of(normalized(dirs_[n])) : to_float(frame.camera_m);
         packet_.triangle[n] = seen.triangle;
+        __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
+        __builtin_prefetch(&surfaces.triangles[seen.triangle]);
         if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets[seen.triangle]);
         packet_.dir.set(n, to_float(dirs_[n]));
         packet_.origin.set(n, origins_[n] - body_m);

@@ -309,9 +309,11 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
 }
 
 void VisibilityBuffer::prefetch_corners(std::uint32_t block) const {
-    const TriangleCorners* const all = placed_[heads_[block].placed].shown.mesh.triangles.data();
-    for (const std::uint32_t triangle : std::span(blocks_[block].triangles).first(heads_[block].count))
-        __builtin_prefetch(&all[triangle]);
+    const Shown& shown = placed_[heads_[block].placed].shown;
+    for (const std::uint32_t triangle : std::span(blocks_[block].triangles).first(heads_[block].count)) {
+        __builtin_prefetch(&shown.mesh.triangles[triangle]);
+        if (!shown.patches.empty()) __builtin_prefetch(&shown.patches[triangle]);
+    }
 }
 
 void VisibilityBuffer::prefetch_vertices(std::uint32_t block) const {

@@ -26,6 +26,7 @@ HWY_INLINE T times_plus(T a, T b, T c) {
 
 constexpr int kSide_px = kVisibilityTile_px;
 constexpr float kPlace_px = 1e-3f;      // ten times what corners are rounded by
+constexpr float kEdge_px = 0.01f;       // ten times what edges are rounded by
 constexpr float kFarBeside_px = 16384;  // where floats still tell a thousandth of a pixel
 
 void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, ScreenVertex* out) {
@@ -286,12 +287,15 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
         hn::Store(hn::Sub(c.depth[0], times_plus(gx, c.x[0], hn::Mul(gy, c.y[0]))), d, s.depth.data() + k);
         hn::Store(least(c.depth), d, s.min_depth.data() + k),
             hn::Store(most(c.depth), d, s.max_depth.data() + k);
-        const V last = hn::Set(d, kSide_px - 1);
+        // Pixels whose samples lie between least and greatest, a little wider for what edges are rounded by.
+        const V last = hn::Set(d, kSide_px - 1), beside = hn::Set(d, sample_x(0) - kEdge_px);
         const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
+        const auto from = [&](const V* of) { return pixel(hn::Add(least(of), beside)); };
+        const auto to = [&](const V* of) { return pixel(hn::Sub(most(of), beside)); };
         const auto flat = hn::RebindMask(di, hn::Eq(area, zero));
-        hn::Store(pixel(least(c.x)), di, s.x0.data() + k);
-        hn::Store(hn::IfThenElse(flat, hn::Set(di, -1), pixel(most(c.x))), di, s.x1.data() + k);
-        hn::Store(pixel(least(c.y)), di, s.y0.data() + k), hn::Store(pixel(most(c.y)), di, s.y1.data() + k);
+        hn::Store(from(c.x), di, s.x0.data() + k);
+        hn::Store(hn::IfThenElse(flat, hn::Set(di, -1), to(c.x)), di, s.x1.data() + k);
+        hn::Store(from(c.y), di, s.y0.data() + k), hn::Store(to(c.y), di, s.y1.data() + k);
         hn::Store(hn::Add(number, hn::Set(di, static_cast<std::int32_t>(mesh.first_id))), di,
                   reinterpret_cast<std::int32_t*>(s.id.data()) + k);
         if (mesh.patches)

@@ -133,6 +133,19 @@ struct SquarePlaces {
 };
 constexpr SquarePlaces kSquare;
 
+// The first four of each row, as many rows as there are lanes for. They are put together in registers: memory would be slow
+// to give back what was written to it in parts.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> rows(Tag d, const float* first) {
+    if constexpr (hn::MaxLanes(Tag()) == kSquare_px) {
+        return hn::LoadU(d, first);
+    } else {
+        const hn::Half<Tag> half;
+        constexpr std::size_t kHalfRows = hn::MaxLanes(hn::Half<Tag>()) / kSquare_px;
+        return hn::Combine(d, rows(half, first + kHalfRows * kSide_px), rows(half, first));
+    }
+}
+
 // A triangle in a tile.
 class Filler {
   public:
@@ -167,6 +180,7 @@ class Filler {
         constexpr std::size_t lanes = hn::MaxLanes(d);
         const V x0 = hn::Set(d, static_cast<float>(left)), y0 = hn::Set(d, static_cast<float>(top));
         const V x1 = hn::Set(d, static_cast<float>(x1_)), y1 = hn::Set(d, static_cast<float>(y1_));
+        const float* behind = &tile_.farthest_of[static_cast<std::size_t>(top * kSide_px + left)];
         unsigned out = 0;
         for (std::size_t part = 0; part < kSquare_px * kSquare_px; part += lanes) {
             const V x = hn::Add(hn::Load(d, kSquare.column + part), x0);
@@ -178,25 +192,13 @@ class Filler {
             const V least = hn::Min(hn::Min(most(bounds.edge[0]), most(bounds.edge[1])), most(bounds.edge[2]));
             const V nearest = hn::Min(hn::Max(most(bounds.depth), far_most_), near_most_);
             const auto within = hn::And(hn::Le(x, x1), hn::Le(y, y1));
-            const auto seen = hn::And(hn::Ge(least, hn::Zero(d)), hn::Gt(nearest, behind(left, top, part)));
+            const auto seen = hn::And(hn::Ge(least, hn::Zero(d)), hn::Gt(nearest, rows(d, behind + part / kSquare_px * kSide_px)));
             std::uint8_t bits[8] = {};
             hn::StoreMaskBits(d, hn::And(within, seen), bits);
             out |= (bits[0] | unsigned{bits[1]} << 8) << part;
         }
         return out;
     }
-    // The least depths of a square's pixels.
-    HWY_INLINE V behind(int left, int top, std::size_t part) const {
-        const Floats d;
-        HWY_ALIGN float rows[kSquare_px * kSquare_px];
-        const hn::Full128<float> four;
-        const float* from = &tile_.farthest_of[static_cast<std::size_t>(top * kSide_px + left) +
-                                               part / kSquare_px * kSide_px];
-        for (std::size_t i = 0; i < hn::MaxLanes(d); i += kSquare_px, from += kSide_px)
-            hn::Store(hn::LoadU(four, from), four, rows + i);
-        return hn::Load(d, rows);
-    }
-
     HWY_INLINE void fill(int px, int row) {
         const Floats d;
         const Ints di;
