@@ -41,8 +41,8 @@ class PatchFinder {
         std::sort(all.begin(), all.end(),
                   [](const Candidate& a, const Candidate& b) { return a.order() < b.order(); });
         for (auto first = all.begin(); first != all.end();) {
-            const auto last = std::find_if(first, all.end(),
-                                           [&](const Candidate& c) { return c.key != first->key; });
+            const auto last =
+                std::find_if(first, all.end(), [&](const Candidate& c) { return c.key != first->key; });
             divide({first, last});
             first = last;
         }
@@ -55,7 +55,8 @@ class PatchFinder {
 
     std::array<Vec3d, 3> corners(std::uint32_t triangle) const {
         const auto& [a, b, c] = mesh_.triangles[triangle];
-        return {to_double(mesh_.vertices_m[a]), to_double(mesh_.vertices_m[b]), to_double(mesh_.vertices_m[c])};
+        return {to_double(mesh_.vertices_m[a]), to_double(mesh_.vertices_m[b]),
+                to_double(mesh_.vertices_m[c])};
     }
 
     void add(std::uint32_t t, std::vector<Candidate>& all) const {
@@ -99,12 +100,16 @@ class PatchFinder {
     class Plane {
       public:
         explicit Plane(const std::array<Vec3d, 3>& corners)
-            : corner_(corners[0]), u_(corners[1] - corners[0]), v_(corners[2] - corners[0]), normal_(cross(u_, v_)) {}
+            : corner_(corners[0]),
+              u_(corners[1] - corners[0]),
+              v_(corners[2] - corners[0]),
+              normal_(cross(u_, v_)) {}
 
         bool holds(const std::array<Vec3d, 3>& corners, double tolerance_m) const {
             if (dot(cross(corners[1] - corners[0], corners[2] - corners[0]), normal_) <= 0) return false;
             const double squared = dot(normal_, normal_), off = tolerance_m * std::sqrt(squared);
-            constexpr double kReach = static_cast<double>(kPatchReach) - 1;  // less what a place is rounded by
+            constexpr double kReach =
+                static_cast<double>(kPatchReach) - 1;  // less what a place is rounded by
             return std::all_of(corners.begin(), corners.end(), [&](Vec3d at) {
                 const Vec3d way = at - corner_;
                 return std::abs(dot(way, normal_)) <= off &&

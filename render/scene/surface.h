@@ -54,7 +54,7 @@ struct ObjectSurfaces {
     // Least and greatest corner of each kClusterTriangles triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     std::vector<std::uint32_t> patches;  // by triangle the one that stands for it; empty: each for itself
-    double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
+    double radius_m = 0;                 // radius of a sphere about the body's origin that holds the object
 
     // Returns the factor on the base at barycentric (u, v) of a triangle; only where there are corner_colors.
     Vec3f color_at(std::size_t triangle, float u, float v) const {

@@ -33,8 +33,7 @@ const Sixteen kSixteen = [] {
         }
         const float share = 1 / static_cast<float>(std::popcount(samples));
         out.sum[samples] = sum;
-        out.nearest[samples] =
-            static_cast<std::uint8_t>(nearest_to(samples, {share * sum.x, share * sum.y}));
+        out.nearest[samples] = static_cast<std::uint8_t>(nearest_to(samples, {share * sum.x, share * sum.y}));
     }
     return out;
 }();

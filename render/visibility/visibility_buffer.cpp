@@ -336,8 +336,8 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
         const auto& [nearest, order, block] = blocks[i];
         const BlockHead& head = heads_[block];
         if (nearest <= *std::min_element(tile.farthest.begin(), tile.farthest.end())) break;
-        if (i + 2 < blocks.size()) prefetch_corners(blocks[i + 2].block);
-        if (i + 1 < blocks.size()) prefetch_vertices(blocks[i + 1].block);
+        if (i + 4 < blocks.size()) prefetch_corners(blocks[i + 4].block);
+        if (i + 2 < blocks.size()) prefetch_vertices(blocks[i + 2].block);
         const Placed& placed = placed_[head.placed];
         if (head.cut)
             set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);

@@ -53,7 +53,8 @@ HWY_INLINE void bound(V a, V b, V c, std::size_t k, PixelBounds::Plane& out) {
     const V first = hn::Set(d, kFirst), last = hn::Set(d, kLast);
     const auto greatest = [&](V slope) { return hn::Max(hn::Mul(slope, first), hn::Mul(slope, last)); };
     const V size = times_plus(hn::Set(d, kSide_px), hn::Add(hn::Abs(a), hn::Abs(b)), hn::Abs(c));
-    const V most = hn::Add(hn::Add(c, hn::Add(greatest(a), greatest(b))), hn::Mul(size, hn::Set(d, kRounding)));
+    const V most =
+        hn::Add(hn::Add(c, hn::Add(greatest(a), greatest(b))), hn::Mul(size, hn::Set(d, kRounding)));
     hn::Store(a, d, out.a + k), hn::Store(b, d, out.b + k), hn::Store(most, d, out.c + k);
 }
 void bound_pixels(const TriangleSetup& s, PixelBounds& out) {
@@ -93,14 +94,19 @@ HWY_INLINE void least_of_four(const float* depth, float* out) {
     auto least = hn::Set(four, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < kVisibilitySamples; i += lanes) {
         // In each block of four samples the least of each pixel.
-        const auto of = [&](std::size_t pixel) { return hn::Load(d, depth + pixel * kVisibilitySamples + i); };
-        const auto two = [&](V a, V b) { return hn::Min(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b)); };
+        const auto of = [&](std::size_t pixel) {
+            return hn::Load(d, depth + pixel * kVisibilitySamples + i);
+        };
+        const auto two = [&](V a, V b) {
+            return hn::Min(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+        };
         const auto p = hn::BitCast(Pairs(), two(of(0), of(1))), q = hn::BitCast(Pairs(), two(of(2), of(3)));
         HWY_ALIGN float blocks[kVisibilitySamples];
         hn::Store(hn::Min(hn::BitCast(d, hn::InterleaveLower(Pairs(), p, q)),
                           hn::BitCast(d, hn::InterleaveUpper(Pairs(), p, q))),
                   d, blocks);
-        for (std::size_t block = 0; block < lanes; block += 4) least = hn::Min(least, hn::Load(four, blocks + block));
+        for (std::size_t block = 0; block < lanes; block += 4)
+            least = hn::Min(least, hn::Load(four, blocks + block));
     }
     hn::Store(least, four, out);
 }
@@ -189,10 +195,12 @@ class Filler {
                 return times_plus(hn::Set(d, plane.a[k]), x,
                                   times_plus(hn::Set(d, plane.b[k]), y, hn::Set(d, plane.c[k])));
             };
-            const V least = hn::Min(hn::Min(most(bounds.edge[0]), most(bounds.edge[1])), most(bounds.edge[2]));
+            const V least =
+                hn::Min(hn::Min(most(bounds.edge[0]), most(bounds.edge[1])), most(bounds.edge[2]));
             const V nearest = hn::Min(hn::Max(most(bounds.depth), far_most_), near_most_);
             const auto within = hn::And(hn::Le(x, x1), hn::Le(y, y1));
-            const auto seen = hn::And(hn::Ge(least, hn::Zero(d)), hn::Gt(nearest, rows(d, behind + part / kSquare_px * kSide_px)));
+            const auto seen = hn::And(hn::Ge(least, hn::Zero(d)),
+                                      hn::Gt(nearest, rows(d, behind + part / kSquare_px * kSide_px)));
             std::uint8_t bits[8] = {};
             hn::StoreMaskBits(d, hn::And(within, seen), bits);
             out |= (bits[0] | unsigned{bits[1]} << 8) << part;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "render/visibility/visibility_raster.h"
@@ -24,7 +26,8 @@ void fill_plainly(const TriangleSetup& s, VisibilityTile& tile) {
                 const float y = static_cast<float>(p / kVisibilityTile_px) + sample_y(i);
                 bool inside = true;
                 for (std::size_t e = 0; e < 3; ++e)
-                    inside &= std::signbit(s.a[e][k] * x + (s.b[e][k] * y + s.c[e][k])) != (s.flip[e][k] != 0);
+                    inside &=
+                        std::signbit(s.a[e][k] * x + (s.b[e][k] * y + s.c[e][k])) != (s.flip[e][k] != 0);
                 const float z = std::clamp(s.depth_x[k] * x + (s.depth_y[k] * y + s.depth[k]), s.min_depth[k],
                                            s.max_depth[k]);
                 const auto at = static_cast<std::size_t>(p * kVisibilitySamples + i);
@@ -53,8 +56,8 @@ struct Shower {
         TriangleSetup out;
         std::array<std::uint32_t, kTrianglesAtOnce> numbers{};
         for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-        set_up_triangles({vertices.data(), triangles.data(), first_id}, numbers, numbers.size(), 32, 48, nullptr,
-                         out);
+        set_up_triangles({vertices.data(), triangles.data(), first_id}, numbers, numbers.size(), 32, 48,
+                         nullptr, out);
         return out;
     }
 };
@@ -73,8 +76,10 @@ TEST(VisibilityTile, HasWhatEachSampleSees) {
         }
         EXPECT_EQ(tile->id, plain->id);
         EXPECT_EQ(tile->depth, plain->depth);
-        covered += static_cast<std::size_t>(std::count_if(
-            tile->id.begin(), tile->id.end(), [](std::uint32_t id) { return id != VisibilityTile::kNothing; }));
+        covered +=
+            static_cast<std::size_t>(std::count_if(tile->id.begin(), tile->id.end(), [](std::uint32_t id) {
+                return id != VisibilityTile::kNothing;
+            }));
     }
     EXPECT_GT(covered, 20 * VisibilityTile::kSize / 2);
 }
@@ -104,8 +109,9 @@ TEST(VisibilityTile, ListsWhatAPixelSees) {
     std::mt19937 engine(2);
     for (int round = 0; round < 1000; ++round) {
         alignas(64) std::array<std::uint32_t, kVisibilitySamples> ids;
-        const unsigned kinds = 1 + engine() % 16;
-        for (std::uint32_t& id : ids) id = engine() % kinds == 0 ? VisibilityTile::kNothing : 7 + engine() % kinds;
+        const auto any = [&](std::uint32_t below) { return static_cast<std::uint32_t>(engine() % below); };
+        const std::uint32_t kinds = 1 + any(16);
+        for (std::uint32_t& id : ids) id = any(kinds) == 0 ? VisibilityTile::kNothing : 7 + any(kinds);
         Listed wanted;
         std::uint32_t nothing = 0;
         for (std::size_t i = 0; i < ids.size(); ++i) {
