@@ -77,7 +77,7 @@ struct ScreenMesh {
     const ScreenVertex* vertices;
     const TriangleCorners* triangles;
     std::uint32_t first_id;  // id of its first triangle
-    // By triangle the one whose id stands for it (flat_patches.h); null: each has its own.
+    // They say for each triangle whose id stands for it (flat_patches.h); null: each has its own.
     const std::uint32_t* patches = nullptr;
 };
 // numbers: of triangles; what is beyond count must be a triangle, too. lens: of the tile; null without.

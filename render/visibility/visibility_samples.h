@@ -1,6 +1,6 @@
 #pragma once
-// Where the visibility buffer's samples stand: on a regular grid of 4 x 4 in each of its pixels. Of sixteen places
-// these have the least error.
+// The visibility buffer's samples stand on a regular grid of 4 x 4 in each of its pixels: of sixteen places these have
+// the least error.
 
 #include <cstdint>
 

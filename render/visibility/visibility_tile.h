@@ -39,13 +39,13 @@ struct alignas(64) VisibilityTile {
 void fill_tile(const TriangleSetup& setup, VisibilityTile& tile);
 void find_farthest(VisibilityTile& tile);
 
-// What a pixel's samples see: each id once, the one that most of them see first; of equal ones the one with the first
-// samples.
+// This is what a pixel's samples see: each id once, first the one that most of them see; of two with as many the one whose
+// mask is less.
 struct PixelFragments {
     struct Fragment {
         std::uint32_t id;
         std::uint16_t samples;  // a bit each
-        std::uint16_t others;   // how many see something else
+        std::uint16_t others;   // number of samples that see something else
     };
     std::array<Fragment, kVisibilitySamples> fragments;
     std::size_t count = 0;
