@@ -17,9 +17,9 @@
 namespace hilcam {
 namespace {
 
-// A plate of 2 x 2 m that leans against all axes, so that its corners are rounded.
+// A plate of 2 x 2 m that leans against all axes, so that its corners are rounded; waves on it have no symmetry.
 Mesh leaning_plate(int steps, double amplitude_m = 0) {
-    Mesh mesh = wavy_plate(steps, -1, 1, amplitude_m);
+    Mesh mesh = wavy_plate(steps, -1.03, 0.97, amplitude_m);
     const Mat3d turn = to_matrix(normalized(Quat{0.8, 0.3, -0.4, 0.2}));
     for (Vec3f& at : mesh.vertices_m) at = to_float(turn * to_double(at) + Vec3d{2, 3, 1});
     return mesh;
@@ -46,7 +46,7 @@ TEST(FlatPatches, APlateIsOne) {
 }
 
 TEST(FlatPatches, WhatLiesOtherwiseStaysByItself) {
-    EXPECT_TRUE(surfaces_of(leaning_plate(9, 0.1)).patches.empty()) << "waves";
+    EXPECT_TRUE(surfaces_of(leaning_plate(16, 2e-2)).patches.empty()) << "waves";
 
     Mesh mesh = leaning_plate(16);
     mesh.surfaces.resize(2);
