@@ -14,8 +14,8 @@
 #include "emulator/progress/progress.h"
 #include "emulator/scenario/scene_loader.h"
 #include "io/system/durable_file.h"
-#include "render/scene/point_diameter.h"
 #include "render/vocabulary/mesh.h"
+#include "render/vocabulary/point_diameter.h"
 
 namespace hilcam {
 namespace {

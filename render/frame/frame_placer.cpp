@@ -303,7 +303,7 @@ void FramePlacer::place_visibility() {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh)
             seen_.push_back({static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i],
-                             embree_.mesh(i, levels_[i]), shown_[i]->cluster_bounds_m});
+                             embree_.mesh(i, levels_[i]), shown_[i]->cluster_bounds_m, shown_[i]->patches});
     if (buffer->place(world_.camera, seen_)) frame_.visibility = buffer;
 }
 

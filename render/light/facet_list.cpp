@@ -156,20 +156,22 @@ void FacetList::push(const Facet& facet, Vertex& vertex) {
     vertex.facets = &added;
 }
 
-void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first, Vertex& vertex) {
+void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t triangle, bool first,
+                    Vertex& vertex) {
     const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
     float flattened = 0;
+    const LevelFacets* wrinkles = nullptr;
     if (!object.facets.empty()) {
         flattened = object.flattened_alpha[vertex.surface_number];
-        if (!object.facets[triangle].is_flat()) part.flattened = &object.facets[triangle];
+        if (!object.facets[triangle].is_flat()) wrinkles = &object.facets[triangle];
         const float alpha = vertex.surface.alpha;
         if (first) vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened));
     }
     const bool alike = first || dot(vertex.normal, part.normal) > kSame;
-    if (alike && !part.flattened && flattened == 0 && !vertex.facets) return;
+    if (alike && !wrinkles && flattened == 0 && !vertex.facets) return;
     if (!first && !vertex.facets)
         push({vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples}, vertex);
-    push(part, vertex);
+    push({part.geometric_normal, part.normal, part.start_m, part.samples, wrinkles}, vertex);
 }
 
 FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir) {

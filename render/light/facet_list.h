@@ -18,7 +18,7 @@ class FacetList {
 
     // Adds a part to a vertex, whose own is the first. Facets are made where there is more than one, and of
     // what a level has flattened: its own lobe is wider than theirs. Loop, any thread.
-    void add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first, Vertex& vertex);
+    void add(const FrameView& frame, const Facet& part, std::uint32_t triangle, bool first, Vertex& vertex);
 
   private:
     static constexpr std::size_t kMax = 4096;

@@ -98,7 +98,12 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
                            : object.known_sun[hits.triangle[k]];
 
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
-    vertex.surface = {&material, alpha, material.base, material.highlight};
+    // Member by member: a Scatterer that is made first and copied then waits for its own stores.
+    vertex.surface.material = &material;
+    vertex.surface.alpha = alpha;
+    vertex.surface.base = material.base;
+    vertex.surface.highlight = material.highlight;
+    vertex.surface.hapke.reset();
     vertex.facet_alpha = alpha;
     if (!object.corner_colors.empty())
         vertex.surface.base =

@@ -1,7 +1,5 @@
 #include "render/light/primary_vertices.h"
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,25 +13,10 @@
 namespace hilcam {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 // The greatest lean of two facets against each other that make one vertex: its kept light and its mirrored
 // rays are those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
-
-// A bit for each of a pixel's samples that sees it.
-std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
-    const hn::Full128<std::uint32_t> d;
-    const auto wanted = hn::Set(d, id);
-    std::uint32_t same = 0;
-    for (std::size_t i = 0; i < kVisibilitySamples; i += 4) {
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(d, hn::Eq(hn::Load(d, ids + i), wanted), bits);
-        same |= std::uint32_t{bits[0]} << i;
-    }
-    return same;
-}
 
 }  // namespace
 
@@ -84,41 +67,45 @@ bool PrimaryVertices::open_next_part() {
 
 // Four neighbours after each other: they may share what changes slowly (KeptScene::add_reflected()).
 void PrimaryVertices::take_next_pixel() {
-    const int pairs = part_px_ / 2;
-    const int i = next_pixel_++, pair = i / 4;
-    const int x = part_.x0 + 2 * (pair % pairs) + i % 2, y = part_.y0 + 2 * (pair / pairs) + i / 2 % 2;
+    // 16 or 8 pixels: a power of two, as divisions would take a third of the time.
+    const auto pairs = static_cast<unsigned>(part_px_ / 2), i = static_cast<unsigned>(next_pixel_++),
+               pair = i / 4;
+    const int x = part_.x0 + static_cast<int>(2 * (pair & (pairs - 1)) + i % 2);
+    const int y = part_.y0 + static_cast<int>(2 * (pair >> std::countr_zero(pairs)) + i / 2 % 2);
     if (x < part_.x1 && y < part_.y1) take_pixel(x, y);
 }
 
 void PrimaryVertices::take_pixel(int x, int y) {
     const PixelSamples& grid = tile_.frame.samples;
-    std::array<const std::uint32_t*, 4> ids{};  // by quarter
-    SampleMask rest = 0;
-    for (int q = 0; q < grid.quarters(); ++q) {
-        const std::uint32_t* of = tile_.seen->ids(grid.buffer_px() * (x - part_.x0) + q % 2,
-                                                  grid.buffer_px() * (y - part_.y0) + q / 2);
-        ids[static_cast<std::size_t>(q)] = of;
-        rest |= SampleMask{kAllSamples & ~equal_ids(of, VisibilityTile::kNothing)}
-                << (kVisibilitySamples * q);
-    }
-    const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
-    uncovered_[static_cast<std::size_t>(pixel)] = grid.all() & ~rest;
-    if (rest != 0) tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
-    tile_.stats.covered_px += static_cast<double>(grid.weight(rest)) * (1.0 / kVisibilitySamples);
+    const auto left = static_cast<std::uint8_t>(x - tile_.box.x0),
+               top = static_cast<std::uint8_t>(y - tile_.box.y0);
+    const int pixel = top * (tile_.box.x1 - tile_.box.x0) + left;
     const std::size_t first = fragment_count_;
-    while (rest != 0) {
-        const int sample = std::countr_zero(rest);
-        const std::uint32_t id =
-            ids[static_cast<std::size_t>(sample / kVisibilitySamples)][sample % kVisibilitySamples];
-        SampleMask same = 0;
-        for (int q = sample / kVisibilitySamples; q < grid.quarters(); ++q)
-            if (rest >> (kVisibilitySamples * q) & kAllSamples)
-                same |= SampleMask{equal_ids(ids[static_cast<std::size_t>(q)], id)}
-                        << (kVisibilitySamples * q);
-        fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), same};
-        rest &= ~same;
+    SampleMask nothing = 0;
+    PixelFragments part;
+    for (int q = 0; q < grid.quarters(); ++q) {
+        list_fragments(tile_.seen->ids(grid.buffer_px() * (x - part_.x0) + q % 2,
+                                       grid.buffer_px() * (y - part_.y0) + q / 2),
+                       part);
+        nothing |= SampleMask{part.nothing} << (kVisibilitySamples * q);
+        for (const auto& [id, samples, others] : std::span(part.fragments).first(part.count)) {
+            const SampleMask mask = SampleMask{samples} << (kVisibilitySamples * q);
+            const auto end = fragments_.begin() + fragment_count_;
+            const auto same = q == 0 ? end
+                                     : std::find_if(fragments_.begin() + first, end,
+                                                    [&](const Fragment& f) { return f.id == id; });
+            if (same != end)
+                same->samples |= mask;
+            else
+                fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), left, top, mask};
+        }
     }
-    if (fragment_count_ - first < 2) return;
+    uncovered_[static_cast<std::size_t>(pixel)] = nothing;
+    if (fragment_count_ == first) return;
+    tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
+    tile_.stats.covered_px +=
+        static_cast<double>(grid.weight(grid.all() & ~nothing)) * (1.0 / kVisibilitySamples);
+    if (grid.quarters() == 1) return;
     // The greatest first: others join it.
     std::sort(fragments_.begin() + first, fragments_.begin() + fragment_count_,
               [](const Fragment& a, const Fragment& b) {
@@ -154,7 +141,6 @@ std::size_t PrimaryVertices::look_at_fragments() {
     const LinearRays* rays = frame.rays->linear();
     const Vec3d corner =
         rays ? rays->corner + tile_.box.x0 * rays->right + tile_.box.y0 * rays->down : Vec3d{};
-    const int width = tile_.box.x1 - tile_.box.x0;
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
     const Vec3f body_m = to_float(shown.pose.position_world_m - frame.rays_world_m);
     const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
@@ -164,13 +150,15 @@ std::size_t PrimaryVertices::look_at_fragments() {
         const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
         if (seen.shown != &shown) break;
         const Vec2f at = frame.samples.middle(fragment.samples);
-        const int x = fragment.pixel % width, y = fragment.pixel / width;
+        const int x = fragment.x, y = fragment.y;
         dirs_[n] = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
                               static_cast<double>(static_cast<float>(y) + at.y) * rays->down
                         : direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, at);
         origins_[n] =
             frame.start_before_m > 0 ? frame.start_of(normalized(dirs_[n])) : to_float(frame.camera_m);
         packet_.triangle[n] = seen.triangle;
+        __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
+        __builtin_prefetch(&surfaces.triangles[seen.triangle]);
         if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets[seen.triangle]);
         packet_.dir.set(n, to_float(dirs_[n]));
         packet_.origin.set(n, origins_[n] - body_m);

@@ -25,6 +25,7 @@ class PrimaryVertices {
     struct Fragment {
         std::uint32_t id;
         std::uint16_t pixel;  // in the tile
+        std::uint8_t x, y;    // where it is there [px]
         SampleMask samples;
     };
     Tile& tile_;

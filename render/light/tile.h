@@ -9,7 +9,7 @@
 #include "render/light/facet_list.h"
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
-#include "render/visibility/visibility_raster.h"
+#include "render/visibility/visibility_tile.h"
 #include "render/vocabulary/half_light.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/ray_counts.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/scene/flat_patches.h"
 #include "render/scene/triangle_order.h"
 
 namespace hilcam {
@@ -49,13 +50,16 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         std::vector<MipTexture> pictures;
         for (Texture& texture : object.mesh.textures) pictures.emplace_back(std::move(texture));
         const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));
-        out.levels.push_back(std::make_shared<const ObjectSurfaces>(object.mesh, object.materials, textures));
+        auto finest = std::make_shared<ObjectSurfaces>(object.mesh, object.materials, textures);
+        find_patches(object.mesh, *finest);
+        out.levels.push_back(std::move(finest));
         out.error_m.push_back(0);
         for (MeshLevel& level : object.levels) {
             auto surfaces = std::make_shared<ObjectSurfaces>(
                 level.mesh, widened(object.materials, level.flattened_alpha), textures);
             surfaces->flattened_alpha = level.flattened_alpha;
             surfaces->facets = std::move(level.facets);
+            find_patches(level.mesh, *surfaces);
             out.levels.push_back(std::move(surfaces));
             out.error_m.push_back(level.error_m);
         }

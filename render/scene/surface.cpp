@@ -101,7 +101,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
         const bool flat = no_normals || (missing[a] | missing[b] | missing[c]) != 0;
         triangles.push_back(
             {flat ? std::array<std::uint32_t, 3>{} : std::array{normals[a], normals[b], normals[c]},
-             mesh.surface_of_triangle[i], static_cast<std::uint16_t>(flat)});
+             mesh.surface_of_triangle[i], static_cast<std::uint8_t>(flat), 0});
         if (textured) corner_uvs[i] = {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]};
         if (!mesh.colors.empty()) corner_colors.push_back({colors[a], colors[b], colors[c]});
         if (!mesh.hapke.empty()) corner_hapke[i] = {mesh.hapke[a], mesh.hapke[b], mesh.hapke[c]};

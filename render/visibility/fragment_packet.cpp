@@ -58,7 +58,10 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
 
         const Meeting m = meeting_of(at, origin, dir);
         const V u = m.u, v = m.v;
-        const Vector meets = minus(plus(times(u, m.e1), times(v, m.e2)), m.from_corner);
+        // What stands for a patch is met wherever its plane is.
+        const auto patch = hn::RebindMask(d, hn::Ne(hn::ShiftRight<24>(kind), hn::Zero(di)));
+        const V along = hn::IfThenElse(patch, m.plane_u, u), across = hn::IfThenElse(patch, m.plane_v, v);
+        const Vector meets = minus(plus(times(along, m.e1), times(across, m.e2)), m.from_corner);
         hn::Store(hn::Div(dotted(meets, dir), dotted(dir, dir)), d, p.distance.data() + k);
         hn::Store(u, d, p.u.data() + k), hn::Store(v, d, p.v.data() + k);
 
@@ -69,7 +72,8 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
         const V w = hn::Sub(hn::Sub(number(1), u), v);
         const Vector smooth = plus(plus(times(w, unpacked(normals[0])), times(u, unpacked(normals[1]))),
                                    times(v, unpacked(normals[2])));
-        const auto flat = hn::Or(hn::RebindMask(d, hn::Ne(hn::ShiftRight<16>(kind), hn::Zero(di))),
+        const I flags = hn::And(kind, hn::Set(di, 0x00FF0000));
+        const auto flat = hn::Or(hn::RebindMask(d, hn::Ne(flags, hn::Zero(di))),
                                  hn::Le(dotted(smooth, smooth), number(1e-6f)));
         const Vector body = chosen(flat, geometric_body, unit(smooth));
         const Vector view = times(number(-1), unit(world_dir));

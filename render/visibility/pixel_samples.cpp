@@ -17,21 +17,23 @@ int nearest_to(std::uint32_t samples, Vec2f place) {
     return nearest;
 }
 
-// For each set of sixteen samples the sum of their places, and the one next to their middle.
+// For each set of sixteen samples the sum of their places, and the one next to their middle: by themselves, as they are
+// asked for each fragment and fit a cache.
 struct Sixteen {
-    Vec2f sum;
-    std::uint8_t nearest;
+    std::vector<Vec2f> sum;
+    std::vector<std::uint8_t> nearest;
 };
-const std::vector<Sixteen> kSixteen = [] {
-    std::vector<Sixteen> out(0x10000u);
-    for (std::uint32_t samples = 1; samples < out.size(); ++samples) {
+const Sixteen kSixteen = [] {
+    Sixteen out{std::vector<Vec2f>(0x10000u), std::vector<std::uint8_t>(0x10000u)};
+    for (std::uint32_t samples = 1; samples < out.sum.size(); ++samples) {
         Vec2f sum{};
         for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
             const int i = std::countr_zero(rest);
             sum.x += sample_x(i), sum.y += sample_y(i);
         }
         const float share = 1 / static_cast<float>(std::popcount(samples));
-        out[samples] = {sum, static_cast<std::uint8_t>(nearest_to(samples, {share * sum.x, share * sum.y}))};
+        out.sum[samples] = sum;
+        out.nearest[samples] = static_cast<std::uint8_t>(nearest_to(samples, {share * sum.x, share * sum.y}));
     }
     return out;
 }();
@@ -44,13 +46,13 @@ std::uint32_t of_quarter(SampleMask samples, int quarter) {
 
 Vec2f PixelSamples::middle(SampleMask samples) const {
     if (samples == all()) return {0.5f, 0.5f};
-    if (quarters_ == 1) return place(kSixteen[samples].nearest);
+    if (quarters_ == 1) return place(kSixteen.nearest[samples]);
     Vec2f sum{};
     for (int q = 0; q < 4; ++q) {
         const std::uint32_t part = of_quarter(samples, q);
         const auto count = static_cast<float>(std::popcount(part));
-        sum.x += (count * static_cast<float>(q % 2) + kSixteen[part].sum.x) / 2;
-        sum.y += (count * static_cast<float>(q / 2) + kSixteen[part].sum.y) / 2;
+        sum.x += (count * static_cast<float>(q % 2) + kSixteen.sum[part].x) / 2;
+        sum.y += (count * static_cast<float>(q / 2) + kSixteen.sum[part].y) / 2;
     }
     const float share = 1 / static_cast<float>(std::popcount(samples));
     const Vec2f middle{share * sum.x, share * sum.y};

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "render/visibility/visibility_raster.h"
+#include "render/visibility/visibility_samples.h"
 #include "render/vocabulary/half_light.h"
 #include "render/vocabulary/vec.h"
 

@@ -270,7 +270,8 @@ void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, 
     setup.y1[0] = kVisibilityTile_px - 1;
     setup.x1[0] = volume == 0 ? -1 : kVisibilityTile_px - 1;
     setup.min_depth[0] = -1, setup.max_depth[0] = 1e30f;
-    setup.id[0] = static_cast<std::uint32_t>(placed.first_triangle) + triangle;
+    setup.id[0] = static_cast<std::uint32_t>(placed.first_triangle) +
+                  (placed.shown.patches.empty() ? triangle : placed.shown.patches[triangle]);
     if (volume == 0) return;
     Vec3d sum;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -307,6 +308,21 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
     return any;
 }
 
+void VisibilityBuffer::prefetch_corners(std::uint32_t block) const {
+    const Shown& shown = placed_[heads_[block].placed].shown;
+    for (const std::uint32_t triangle : std::span(blocks_[block].triangles).first(heads_[block].count)) {
+        __builtin_prefetch(&shown.mesh.triangles[triangle]);
+        if (!shown.patches.empty()) __builtin_prefetch(&shown.patches[triangle]);
+    }
+}
+
+void VisibilityBuffer::prefetch_vertices(std::uint32_t block) const {
+    const Placed& placed = placed_[heads_[block].placed];
+    for (const std::uint32_t triangle : std::span(blocks_[block].triangles).first(heads_[block].count))
+        for (const std::uint32_t corner : placed.shown.mesh.triangles[triangle])
+            __builtin_prefetch(&vertices_[placed.first_vertex + corner]);
+}
+
 // Fills blocks from near to far, so that what is hidden is found to be so before it is looked at.
 void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px,
                                    VisibilityTile& tile) const {
@@ -316,15 +332,19 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
     constexpr std::size_t kTriangles = 64;  // between two looks at what is hidden
     TriangleSetup setup;
     std::size_t filled = 0;
-    for (const auto& [nearest, order, block] : blocks) {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const auto& [nearest, order, block] = blocks[i];
         const BlockHead& head = heads_[block];
         if (nearest <= *std::min_element(tile.farthest.begin(), tile.farthest.end())) break;
+        if (i + 4 < blocks.size()) prefetch_corners(blocks[i + 4].block);
+        if (i + 2 < blocks.size()) prefetch_vertices(blocks[i + 2].block);
         const Placed& placed = placed_[head.placed];
         if (head.cut)
             set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);
         else
             set_up_triangles({&vertices_[placed.first_vertex], placed.shown.mesh.triangles.data(),
-                              static_cast<std::uint32_t>(placed.first_triangle)},
+                              static_cast<std::uint32_t>(placed.first_triangle),
+                              placed.shown.patches.empty() ? nullptr : placed.shown.patches.data()},
                              blocks_[block].triangles, head.count, x_px, y_px, lens_.forward(x_px, y_px),
                              setup);
         fill_tile(setup, tile);

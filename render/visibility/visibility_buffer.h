@@ -21,6 +21,7 @@
 #include "render/scene/embree_scene.h"
 #include "render/visibility/lens_tiles.h"
 #include "render/visibility/visibility_raster.h"
+#include "render/visibility/visibility_tile.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/pose.h"
@@ -45,6 +46,8 @@ class VisibilityBuffer {
         MeshView mesh;  // outlives the frame
         // Boxes of its clusters (ObjectSurfaces), likewise: those beside the picture are left out. Empty: all triangles are looked at.
         std::span<const std::array<Vec3f, 2>> cluster_bounds_m{};
+        // They say for each triangle which one's id stands for it (flat_patches.h), likewise. Empty: each has its own.
+        std::span<const std::uint32_t> patches{};
     };
     // Sorts the triangles of a frame. False: there is no room for them. Loop.
     bool place(const Pose& camera, std::span<const Shown> shown);
@@ -120,6 +123,9 @@ class VisibilityBuffer {
     bool bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const;
     void set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,
                     TriangleSetup& setup) const;
+    // They ask for memory that a block of triangles needs soon: first where its corners are, then those.
+    void prefetch_corners(std::uint32_t block) const;
+    void prefetch_vertices(std::uint32_t block) const;
     void fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px, VisibilityTile& tile) const;
     std::size_t tile_index(int x_px, int y_px) const {
         return static_cast<std::size_t>(y_px / kVisibilityTile_px * tiles_across_ +

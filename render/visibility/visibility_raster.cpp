@@ -26,6 +26,7 @@ HWY_INLINE T times_plus(T a, T b, T c) {
 
 constexpr int kSide_px = kVisibilityTile_px;
 constexpr float kPlace_px = 1e-3f;      // ten times what corners are rounded by
+constexpr float kEdge_px = 0.01f;       // ten times what edges are rounded by
 constexpr float kFarBeside_px = 16384;  // where floats still tell a thousandth of a pixel
 
 void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, ScreenVertex* out) {
@@ -286,119 +287,19 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
         hn::Store(hn::Sub(c.depth[0], times_plus(gx, c.x[0], hn::Mul(gy, c.y[0]))), d, s.depth.data() + k);
         hn::Store(least(c.depth), d, s.min_depth.data() + k),
             hn::Store(most(c.depth), d, s.max_depth.data() + k);
-        const V last = hn::Set(d, kSide_px - 1);
+        // Pixels whose samples lie between least and greatest, a little wider for what edges are rounded by.
+        const V last = hn::Set(d, kSide_px - 1), beside = hn::Set(d, sample_x(0) - kEdge_px);
         const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
+        const auto from = [&](const V* of) { return pixel(hn::Add(least(of), beside)); };
+        const auto to = [&](const V* of) { return pixel(hn::Sub(most(of), beside)); };
         const auto flat = hn::RebindMask(di, hn::Eq(area, zero));
-        hn::Store(pixel(least(c.x)), di, s.x0.data() + k);
-        hn::Store(hn::IfThenElse(flat, hn::Set(di, -1), pixel(most(c.x))), di, s.x1.data() + k);
-        hn::Store(pixel(least(c.y)), di, s.y0.data() + k), hn::Store(pixel(most(c.y)), di, s.y1.data() + k);
+        hn::Store(from(c.x), di, s.x0.data() + k);
+        hn::Store(hn::IfThenElse(flat, hn::Set(di, -1), to(c.x)), di, s.x1.data() + k);
+        hn::Store(from(c.y), di, s.y0.data() + k), hn::Store(to(c.y), di, s.y1.data() + k);
         hn::Store(hn::Add(number, hn::Set(di, static_cast<std::int32_t>(mesh.first_id))), di,
                   reinterpret_cast<std::int32_t*>(s.id.data()) + k);
-    }
-}
-
-struct SamplePlaces {
-    HWY_ALIGN float x[kSide_px][kVisibilitySamples];
-    HWY_ALIGN float y[kSide_px][kVisibilitySamples];
-    constexpr SamplePlaces() : x(), y() {
-        for (int p = 0; p < kSide_px; ++p)
-            for (int i = 0; i < kVisibilitySamples; ++i)
-                x[p][i] = static_cast<float>(p) + sample_x(i), y[p][i] = static_cast<float>(p) + sample_y(i);
-    }
-};
-constexpr SamplePlaces kPlaces;
-
-// The pixels of a row that a triangle can meet, a little wider.
-struct Span {
-    int from, to;
-};
-Span span_of_row(const TriangleSetup& s, std::size_t k, int row) {
-    constexpr float kMargin_px = 0.01f;  // for rounding
-    const auto top = static_cast<float>(row);
-    float from = static_cast<float>(s.x0[k]), to = static_cast<float>(s.x1[k]) + 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const float side = s.flip[i][k] != 0 ? 1.0f : -1.0f;
-        const float a = side * s.a[i][k], b = side * s.b[i][k], c = side * s.c[i][k];
-        const float greatest = c + std::max(b * top, b * (top + 1));
-        if (a > 0)
-            from = std::max(from, -greatest / a - kMargin_px);
-        else if (a < 0)
-            to = std::min(to, greatest / -a + kMargin_px);
-    }
-    // Not yet integers: they may lie far outside.
-    from = std::clamp(from, static_cast<float>(s.x0[k]), static_cast<float>(kSide_px));
-    to = std::clamp(to, -1.0f, static_cast<float>(s.x1[k]));
-    return {static_cast<int>(from), static_cast<int>(std::floor(to))};
-}
-
-// True when everything that a triangle may cover is nearer.
-bool is_hidden(const TriangleSetup& s, std::size_t k, const VisibilityTile& tile) {
-    constexpr int kHalf = kSide_px / 2;
-    const float nearest = s.max_depth[k];
-    for (int j = s.y0[k] / kHalf; j <= s.y1[k] / kHalf; ++j)
-        for (int i = s.x0[k] / kHalf; i <= s.x1[k] / kHalf; ++i)
-            if (nearest > tile.farthest[static_cast<std::size_t>(2 * j + i)]) return false;
-    return true;
-}
-
-void farthest(VisibilityTile& tile) {
-    const Floats d;
-    constexpr std::size_t lanes = hn::MaxLanes(d);
-    constexpr int kHalf = kSide_px / 2;
-    constexpr std::size_t kRun = kHalf * kVisibilitySamples;  // samples of half a row
-    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        V least = hn::Set(d, std::numeric_limits<float>::infinity());
-        for (std::size_t row = 0; row < kHalf; ++row) {
-            const float* depth =
-                tile.depth.data() + (quarter / 2 * kHalf + row) * 2 * kRun + quarter % 2 * kRun;
-            for (std::size_t i = 0; i < kRun; i += lanes) least = hn::Min(least, hn::Load(d, depth + i));
-        }
-        tile.farthest[quarter] = hn::GetLane(hn::MinOfLanes(d, least));
-    }
-}
-
-void fill(const TriangleSetup& s, VisibilityTile& tile) {
-    const Floats d;
-    const Ints di;
-    constexpr std::size_t lanes = hn::MaxLanes(d);
-    for (std::size_t k = 0; k < s.count; ++k) {
-        const int x0 = s.x0[k], x1 = s.x1[k];
-        if (x1 < x0 || is_hidden(s, k, tile)) continue;
-        const V a0 = hn::Set(d, s.a[0][k]), a1 = hn::Set(d, s.a[1][k]), a2 = hn::Set(d, s.a[2][k]);
-        const V b0 = hn::Set(d, s.b[0][k]), b1 = hn::Set(d, s.b[1][k]), b2 = hn::Set(d, s.b[2][k]);
-        const V c0 = hn::Set(d, s.c[0][k]), c1 = hn::Set(d, s.c[1][k]), c2 = hn::Set(d, s.c[2][k]);
-        const auto flip = [&](std::size_t i) { return hn::Set(di, static_cast<std::int32_t>(s.flip[i][k])); };
-        const I f0 = flip(0), f1 = flip(1), f2 = flip(2);
-        const V gx = hn::Set(d, s.depth_x[k]), gy = hn::Set(d, s.depth_y[k]), g = hn::Set(d, s.depth[k]);
-        const V near_most = hn::Set(d, s.max_depth[k]), far_most = hn::Set(d, s.min_depth[k]);
-        const I id = hn::Set(di, static_cast<std::int32_t>(s.id[k]));
-        for (int row = s.y0[k]; row <= s.y1[k]; ++row) {
-            Span span{x0, x1};
-            if (x1 - x0 > 3) span = span_of_row(s, k, row);
-            for (std::size_t sample = 0; sample < kVisibilitySamples; sample += lanes) {
-                const V y = hn::Load(d, &kPlaces.y[row][sample]);
-                const V r0 = times_plus(b0, y, c0), r1 = times_plus(b1, y, c1), r2 = times_plus(b2, y, c2);
-                const V rg = times_plus(gy, y, g);
-                const auto at =
-                    static_cast<std::size_t>(row * kSide_px + span.from) * kVisibilitySamples + sample;
-                float* depth = tile.depth.data() + at;
-                auto* ids = reinterpret_cast<std::int32_t*>(tile.id.data()) + at;
-                for (int px = span.from; px <= span.to;
-                     ++px, depth += kVisibilitySamples, ids += kVisibilitySamples) {
-                    const V x = hn::Load(d, &kPlaces.x[px][sample]);
-                    const auto side = [&](V a, V r, I f) {
-                        return hn::Xor(hn::BitCast(di, times_plus(a, x, r)), f);
-                    };
-                    const I all = hn::And(hn::And(side(a0, r0, f0), side(a1, r1, f1)), side(a2, r2, f2));
-                    const auto inside = hn::RebindMask(d, hn::Lt(all, hn::Zero(di)));
-                    const V z = hn::Min(hn::Max(times_plus(gx, x, rg), far_most), near_most);
-                    const auto seen = hn::And(inside, hn::Gt(z, hn::Load(d, depth)));
-                    if (hn::AllFalse(d, seen)) continue;
-                    hn::BlendedStore(z, seen, d, depth);
-                    hn::BlendedStore(id, hn::RebindMask(di, seen), di, ids);
-                }
-            }
-        }
+        if (mesh.patches)
+            for (std::size_t i = k; i < k + lanes; ++i) s.id[i] = mesh.first_id + mesh.patches[numbers[i]];
     }
 }
 
@@ -412,8 +313,6 @@ namespace hilcam {
 HWY_EXPORT(project);
 HWY_EXPORT(tiles);
 HWY_EXPORT(set_up);
-HWY_EXPORT(fill);
-HWY_EXPORT(farthest);
 
 void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
                       ScreenVertex* out) {
@@ -430,8 +329,6 @@ void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kT
                       TriangleSetup& setup) {
     HWY_DYNAMIC_DISPATCH(set_up)(mesh, numbers, count, tile_x_px, tile_y_px, lens, setup);
 }
-void fill_tile(const TriangleSetup& setup, VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(fill)(setup, tile); }
-void find_farthest(VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(farthest)(tile); }
 
 }  // namespace hilcam
 #endif

@@ -1,28 +1,19 @@
 #pragma once
-// The loops of the visibility buffer (visibility_buffer.h) that touch every vertex, triangle and sample. They
-// are compiled for several widths of vectors, and the widest that the processor has runs; all of them give
-// the same results, bit by bit. Loop, any thread.
-//
-// Samples stand on a regular grid of 4 x 4 in each pixel: of sixteen places the ones with the least error.
+// The loops of the visibility buffer (visibility_buffer.h) that touch every vertex and triangle; visibility_tile.h has
+// those that touch every sample. They are compiled for several widths of vectors, and the widest that the processor has
+// runs; all of them give the same results, bit by bit. Loop, any thread.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "render/visibility/visibility_samples.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
 
-inline constexpr int kVisibilityTile_px = 16;       // edge
-inline constexpr int kVisibilitySamplesAcross = 4;  // a pixel, and down it
-inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibilitySamplesAcross;
-inline constexpr std::uint32_t kAllSamples = 0xFFFF;  // a bit each
 inline constexpr std::size_t kTrianglesAtOnce = 16;
-
-// Returns where samples lie in their pixel: sample i is at ((i % 4 + 0.5) / 4, (i / 4 + 0.5) / 4).
-constexpr float sample_x(int sample) { return (static_cast<float>(sample % 4) + 0.5f) / 4; }
-constexpr float sample_y(int sample) { return (static_cast<float>(sample / 4) + 0.5f) / 4; }
 
 // Takes vertices of one object to the screen. x = offset_x + focal (p.x + lean_x p.z + start_x) / z with p =
 // axes * vertex and z = p.z + distance; y alike. Depth is (depth_origin - z) / z: linear on the screen,
@@ -86,33 +77,12 @@ struct ScreenMesh {
     const ScreenVertex* vertices;
     const TriangleCorners* triangles;
     std::uint32_t first_id;  // id of its first triangle
+    // They say for each triangle whose id stands for it (flat_patches.h); null: each has its own.
+    const std::uint32_t* patches = nullptr;
 };
 // numbers: of triangles; what is beyond count must be a triangle, too. lens: of the tile; null without.
 void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
                       std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens,
                       TriangleSetup& setup);
-
-// The nearest triangle that each sample of a tile sees.
-struct alignas(64) VisibilityTile {
-    static constexpr std::uint32_t kNothing = ~std::uint32_t{0};
-    static constexpr std::size_t kSize =
-        std::size_t{kVisibilityTile_px} * kVisibilityTile_px * kVisibilitySamples;
-    static constexpr float kBehindAll = -2;
-    std::array<float, kSize> depth;
-    std::array<std::uint32_t, kSize> id;
-    // The least depth in each quarter when find_farthest() looked last: what is behind that is hidden.
-    std::array<float, 4> farthest;
-
-    void clear() {
-        depth.fill(kBehindAll);
-        id.fill(kNothing);
-        farthest.fill(kBehindAll);
-    }
-    const std::uint32_t* ids(int x, int y) const {
-        return &id[static_cast<std::size_t>((y * kVisibilityTile_px + x) * kVisibilitySamples)];
-    }
-};
-void fill_tile(const TriangleSetup& setup, VisibilityTile& tile);
-void find_farthest(VisibilityTile& tile);
 
 }  // namespace hilcam

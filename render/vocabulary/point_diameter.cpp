@@ -1,4 +1,4 @@
-#include "render/scene/point_diameter.h"
+#include "render/vocabulary/point_diameter.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // The tree's diameter against all pairs, and against forms whose diameter is known.
 
-#include "render/scene/point_diameter.h"
+#include "render/vocabulary/point_diameter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,140 @@
+#include "render/scene/flat_patches.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+#include "render/scene/surface.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kNeighbours = 4096;  // triangles in memory among which patches are looked for
+constexpr int kMostElsewhere = 256;        // that one meets in other planes before it looks no further
+
+// Triangles with equal keys may be of one patch.
+struct Candidate {
+    std::uint64_t key;
+    float area;  // twice that of the triangle [m^2]
+    std::uint32_t triangle;
+    auto order() const { return std::tuple(key, -area, triangle); }
+};
+
+class PatchFinder {
+  public:
+    PatchFinder(const Mesh& mesh, ObjectSurfaces& surfaces)
+        : mesh_(mesh),
+          surfaces_(surfaces),
+          // Of corners that were rounded where the body is widest, and of the plane through three such.
+          tolerance_m_(0x1p-21 * surfaces.radius_m) {
+        surfaces_.patches.resize(mesh.triangles.size());
+        std::iota(surfaces_.patches.begin(), surfaces_.patches.end(), 0u);
+    }
+
+    void find_among(std::size_t begin, std::size_t end) {
+        std::vector<Candidate> all;
+        for (std::size_t t = begin; t < end; ++t) add(static_cast<std::uint32_t>(t), all);
+        std::sort(all.begin(), all.end(),
+                  [](const Candidate& a, const Candidate& b) { return a.order() < b.order(); });
+        for (auto first = all.begin(); first != all.end();) {
+            const auto last =
+                std::find_if(first, all.end(), [&](const Candidate& c) { return c.key != first->key; });
+            divide({first, last});
+            first = last;
+        }
+    }
+
+  private:
+    const Mesh& mesh_;
+    ObjectSurfaces& surfaces_;
+    double tolerance_m_;
+
+    std::array<Vec3d, 3> corners(std::uint32_t triangle) const {
+        const auto& [a, b, c] = mesh_.triangles[triangle];
+        return {to_double(mesh_.vertices_m[a]), to_double(mesh_.vertices_m[b]),
+                to_double(mesh_.vertices_m[c])};
+    }
+
+    void add(std::uint32_t t, std::vector<Candidate>& all) const {
+        const PackedTriangle& packed = surfaces_.triangles[t];
+        const auto& n = packed.corner_normals;
+        if (surfaces_.materials[packed.surface].texture >= 0) return;
+        if (!packed.flat && (n[0] != n[1] || n[0] != n[2])) return;
+        if (!surfaces_.facets.empty() && !surfaces_.facets[t].is_flat()) return;
+        const auto [a, b, c] = corners(t);
+        const Vec3d across = cross(b - a, c - a);
+        const double area = length(across);
+        if (!(area > 0)) return;
+        const std::uint64_t normal = packed.flat ? steps(across / area) : n[0];
+        all.push_back({std::uint64_t{packed.surface} << 33 | std::uint64_t{packed.flat} << 32 | normal,
+                       static_cast<float>(area), t});
+    }
+    // A geometric normal in steps so wide that those of one plane hardly ever differ.
+    static std::uint64_t steps(Vec3d normal) {
+        const auto step = [](double x) { return static_cast<std::uint64_t>(std::lround(16 * x) + 16); };
+        return step(normal.x) | step(normal.y) << 8 | step(normal.z) << 16;
+    }
+
+    // Candidates of one key, the largest first.
+    void divide(std::span<const Candidate> all) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::uint32_t one = all[i].triangle;
+            if (surfaces_.patches[one] != one) continue;
+            const Plane plane(corners(one));
+            int elsewhere = 0;
+            for (std::size_t j = i + 1; j < all.size() && elsewhere < kMostElsewhere; ++j) {
+                const std::uint32_t other = all[j].triangle;
+                if (surfaces_.patches[other] != other) continue;
+                if (plane.holds(corners(other), tolerance_m_))
+                    surfaces_.patches[other] = one, surfaces_.triangles[one].patch = 1;
+                else
+                    ++elsewhere;
+            }
+        }
+    }
+
+    class Plane {
+      public:
+        explicit Plane(const std::array<Vec3d, 3>& corners)
+            : corner_(corners[0]),
+              u_(corners[1] - corners[0]),
+              v_(corners[2] - corners[0]),
+              normal_(cross(u_, v_)) {}
+
+        bool holds(const std::array<Vec3d, 3>& corners, double tolerance_m) const {
+            if (dot(cross(corners[1] - corners[0], corners[2] - corners[0]), normal_) <= 0) return false;
+            const double squared = dot(normal_, normal_), off = tolerance_m * std::sqrt(squared);
+            constexpr double kReach =
+                static_cast<double>(kPatchReach) - 1;  // less what a place is rounded by
+            return std::all_of(corners.begin(), corners.end(), [&](Vec3d at) {
+                const Vec3d way = at - corner_;
+                return std::abs(dot(way, normal_)) <= off &&
+                       std::abs(dot(cross(way, v_), normal_)) <= kReach * squared &&
+                       std::abs(dot(cross(u_, way), normal_)) <= kReach * squared;
+            });
+        }
+
+      private:
+        Vec3d corner_, u_, v_, normal_;
+    };
+};
+
+}  // namespace
+
+void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces) {
+    if (!mesh.colors.empty() || !mesh.hapke.empty()) return;
+    PatchFinder finder(mesh, surfaces);
+    const std::size_t count = mesh.triangles.size();
+    tbb::parallel_for(std::size_t{0}, (count + kNeighbours - 1) / kNeighbours, [&](std::size_t part) {
+        finder.find_among(part * kNeighbours, std::min(count, (part + 1) * kNeighbours));
+    });
+    if (std::none_of(surfaces.triangles.begin(), surfaces.triangles.end(),
+                     [](const PackedTriangle& t) { return t.patch != 0; }))
+        surfaces.patches = {};
+}
+
+}  // namespace hilcam

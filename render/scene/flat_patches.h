@@ -1,0 +1,25 @@
+#pragma once
+// Finds the triangles of a mesh that a pixel may take for one, as they go on in one plane: the cells of a solar panel, the
+// two halves of a quadrangle. One of them, the largest, stands for all: light meets its plane wherever the others are.
+//
+// Triangles of a patch have the same surface and face the same way, they have one normal (no texture, colours, parameters of
+// their own, or wrinkles that a level has flattened), and their corners lie in the largest one's plane but for the rounding of
+// single precision. They are looked for among neighbours in memory (triangle_order.h), so that patches end here and there where
+// the plane goes on.
+
+#include <cstddef>
+
+#include "render/vocabulary/mesh.h"
+
+namespace hilcam {
+
+struct ObjectSurfaces;
+
+// Corners of a patch lie no farther from the first corner of what stands for it than so many of its edges.
+inline constexpr float kPatchReach = 64;
+
+// Writes ObjectSurfaces::patches and the marks of those that stand for others, after the facets of a level. The same for any
+// number of threads. mesh: that of which the surfaces were made. Owner thread; some tenths of a second for a million triangles.
+void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces);
+
+}  // namespace hilcam
