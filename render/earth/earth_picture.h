@@ -62,7 +62,8 @@ class EarthPicture {
               std::array<Spectrum, kCount>& radiance) const;
 
   private:
-    // Rings with as many columns each; neighbours share one, so that a look needs one band.
+    // Rings with as many columns each; neighbours share one, so that a look needs one band. Columns lie one behind the other, so that
+    // what a tile of a camera's picture looks at is in a few pages.
     struct Band {
         float first, per_step;  // row = (b - first) per_step, b: closest approach over the radius
         int rows, columns;      // the first column is stored once more behind the last
