@@ -257,27 +257,54 @@ void EarthPicture::look(const Tile& tile, const Floats& x, const Floats& y, std:
                 turn.data());
     Looks looks;
     for (std::size_t i = 0; i < count; ++i) {
-        const float b = approach[i], ring = b * inner_per_b_;
-        const bool limb = !(b < limb_from_), dark = b > dark_from_;
-        const auto row_of_disk = static_cast<std::size_t>(ring);
-        const Band& band = limb ? bands_.back() : bands_[row_of_disk / kRings];
-        const float column = turn[i] * static_cast<float>(band.columns);
-        const int left = std::min(static_cast<int>(column), band.columns - 1);
-        looks.in_column[i] = column - static_cast<float>(left);
-        looks.stride[i] = static_cast<std::size_t>(band.rows);
-        std::size_t row = row_of_disk % kRings;
-        looks.in_row[i] = ring - static_cast<float>(row_of_disk);
-        looks.at_limb[i] = limb && !dark;
-        if (dark)
-            row = static_cast<std::size_t>(band.rows) - 2, looks.in_row[i] = 0;
-        else if (limb)
-            row = weigh_limb(b, share, looks.by_row[i]);
-        const Coded* place = &light_[band.offset + static_cast<std::size_t>(left) * looks.stride[i] + row];
-        looks.light[i] = place->data();
-        // Memory is asked for all sixteen before the first is waited for.
-        __builtin_prefetch(place), __builtin_prefetch(place + looks.stride[i]);
+        Spot spot = spot_of(approach[i], turn[i]);
+        looks.in_column[i] = spot.in_column;
+        looks.in_row[i] = spot.in_row;
+        looks.stride[i] = static_cast<std::size_t>(spot.band.rows);
+        looks.at_limb[i] = spot.limb && !spot.dark;
+        if (looks.at_limb[i]) spot.row = weigh_limb(approach[i], share, looks.by_row[i]);
+        looks.light[i] = spot.of(light_)->data();
     }
     mix_looks(looks, count, radiance.data());
+}
+
+EarthPicture::Spot EarthPicture::spot_of(float b, float turn) const {
+    const float ring = b * inner_per_b_;
+    const bool limb = !(b < limb_from_);
+    const auto row = static_cast<std::size_t>(ring);
+    const Band& band = limb ? bands_.back() : bands_[row / kRings];
+    const float column = turn * static_cast<float>(band.columns);
+    const int left = std::min(static_cast<int>(column), band.columns - 1);
+    Spot out{band,          0, static_cast<std::size_t>(left), 0, column - static_cast<float>(left), limb,
+             b > dark_from_};
+    if (out.dark)
+        out.row = static_cast<std::size_t>(band.rows) - 2;
+    else if (!limb)
+        out.row = row % kRings, out.in_row = ring - static_cast<float>(row);
+    return out;
+}
+
+void EarthPicture::find_squares(const Tile& tile, const Floats& x, const Floats& y, Squares& squares) const {
+    Floats approach, turn;
+    place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / kEarthRadius_m), approach.data(),
+                turn.data());
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const Spot spot = spot_of(approach[i], turn[i]);
+        squares.middle[i] = spot.of(light_);
+        squares.column_bytes[i] = static_cast<std::size_t>(spot.band.rows) * sizeof(Coded);
+    }
+}
+
+// Six places each way, in lines of 64 bytes.
+void EarthPicture::Squares::fetch(std::size_t square) const {
+    constexpr std::uintptr_t kReach = 3, kLine_bytes = 64;
+    const auto at = reinterpret_cast<std::uintptr_t>(middle[square]);
+    for (std::uintptr_t c = 0; c <= 2 * kReach; ++c) {
+        const std::uintptr_t first =
+            at + c * column_bytes[square] - kReach * (column_bytes[square] + sizeof(Coded));
+        __builtin_prefetch(reinterpret_cast<const void*>(first));
+        __builtin_prefetch(reinterpret_cast<const void*>(first + kLine_bytes));
+    }
 }
 
 // A pixel's mean across the limb: four places have its variance, at any angle. Returns the first of the rows.

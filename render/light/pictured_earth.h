@@ -1,0 +1,37 @@
+#pragma once
+// The Earth in a tile of a frame, as the picture of it that is kept has it (render/earth/earth_picture.h).
+
+#include "render/earth/earth_picture.h"
+#include "render/light/frame_view.h"
+
+namespace hilcam {
+
+class PicturedEarth {
+  public:
+    enum class Seen {
+        kNothing,  // the Earth is not in the tile
+        kPicture,  // look() has it
+        kRays,     // the tile is too wide against the sky for the picture
+    };
+    // The frame has a picture, and nothing else is seen behind the objects. Loop.
+    Seen place(const FrameView& frame, const PixelBox& box);
+    // Has the memory of the block of 4 x 4 px that follows this one in its row on its way. Loop.
+    void expect(int block_x, int block_y);
+    // Looks at places of the tile, from its corner [px], each of which stands for a share of a pixel's width. Loop.
+    void look(const EarthPicture::Floats& x_px, const EarthPicture::Floats& y_px, std::size_t count,
+              float share);
+    // Radiance of the place that was looked at last, for the Sun at 1 AU [W m^-2 sr^-1 um^-1].
+    const Spectrum& light(std::size_t place) const { return light_[place]; }
+
+  private:
+    const EarthPicture* picture_ = nullptr;
+    PixelBox box_{};
+    float per_x_ = 0, per_y_ = 0;
+    EarthPicture::Tile tile_{};
+    std::array<Spectrum, EarthPicture::kCount> light_;
+    static constexpr int kSquares = static_cast<int>(EarthPicture::kCount);
+    EarthPicture::Squares squares_{};  // of blocks in a row of them
+    int squares_y_ = -1;
+};
+
+}  // namespace hilcam
