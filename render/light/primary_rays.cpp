@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "render/earth/earth_patch.h"
+#include "render/earth/pictured_earth.h"
 #include "render/light/earth_limbs.h"
-#include "render/light/pictured_earth.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/place_sequence.h"
 
@@ -83,7 +83,7 @@ class PrimaryRays {
     bool pictured_ = false;    // the Earth alone is in view, and its picture is kept
     bool patched_;             // the Earth is seen in patches, where that is good enough
     PicturedEarth earth_;      // looked at for the packet's samples
-    Spectrum picture_weight_;  // of a pixel that sees nothing else
+    Spectrum picture_weight_;  // the weight of a pixel that sees nothing else
     std::optional<EarthPatch> patch_;
     float sample_rad_;  // angle between neighbouring rays
     Spectrum weight_;
@@ -157,7 +157,14 @@ class PrimaryRays {
     }
 
     void place_picture() {
-        const PicturedEarth::Seen seen = earth_.place(frame_, tile_.box);
+        std::array<CameraRay, PicturedEarth::kNodes> rays;
+        frame_.rays->generate(PicturedEarth::nodes(tile_.box), rays);
+        std::array<Vec3d, PicturedEarth::kNodes> dirs;
+        for (std::size_t i = 0; i < dirs.size(); ++i) dirs[i] = rays[i].dir;
+        const PlacedBody& earth = frame_.background->disks()[0];
+        const PicturedEarth::Seen seen =
+            earth_.place(*frame_.earth_picture, tile_.box,
+                         {earth.camera_m, earth.fixed_from_world, earth.world_dir, earth.cone_cosine}, dirs);
         bodies_ = seen != PicturedEarth::Seen::kNothing;
         pictured_ = seen == PicturedEarth::Seen::kPicture;
     }

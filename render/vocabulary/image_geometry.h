@@ -27,7 +27,7 @@ struct LensDistortion {
     double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
     double k4 = 0;  // fourth coefficient of a fisheye
     Projection projection = Projection::kRectilinear;
-    LensPolynomial polynomial{};  // of a rectilinear lens
+    LensPolynomial polynomial{};  // added by a rectilinear lens
 
     bool none() const { return projection == Projection::kRectilinear && !brown() && polynomial.none(); }
     bool brown() const { return k1 != 0 || k2 != 0 || k3 != 0 || p1 != 0 || p2 != 0; }
@@ -55,7 +55,7 @@ struct LensDistortion {
             const double slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // d radial / d(r^2) * 2
             double xx = radial + p.x * p.x * slope + 2 * p1 * p.y + 6 * p2 * p.x;
             double yy = radial + p.y * p.y * slope + 6 * p1 * p.y + 2 * p2 * p.x;
-            double xy = p.x * p.y * slope + 2 * p1 * p.x + 2 * p2 * p.y;  // of x along y
+            double xy = p.x * p.y * slope + 2 * p1 * p.x + 2 * p2 * p.y;  // growth of x along y
             double yx = xy;
             if (!polynomial.none()) {
                 const LensPolynomial::Shift s = polynomial.shift(p);

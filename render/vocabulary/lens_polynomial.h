@@ -20,7 +20,7 @@ struct LensPolynomial {
     static constexpr std::size_t kMaxTerms = (kMaxOrder + 1) * (kMaxOrder + 2) / 2;
 
     std::array<double, kMaxTerms> x{}, y{};
-    int order = -1;  // of the highest term that is used; -1: nothing moves
+    int order = -1;  // the order of the highest term that is used; -1: nothing moves
 
     bool none() const { return order < 0; }
     // The terms up to the order that is used.
@@ -58,7 +58,7 @@ struct LensPolynomial {
 inline LensPolynomial lens_polynomial(std::span<const double> x_mm, std::span<const double> y_mm,
                                       double focal_length_mm) {
     LensPolynomial out;
-    double unit = 1 / focal_length_mm;  // of terms of an order
+    double unit = 1 / focal_length_mm;  // the unit of an order's terms
     for (std::size_t n = 0, first = 0; first < std::max(x_mm.size(), y_mm.size()); first += ++n) {
         out.order = static_cast<int>(n);
         for (std::size_t i = first; i <= first + n; ++i) {

@@ -1,37 +1,36 @@
-#include "render/light/pictured_earth.h"
+#include "render/earth/pictured_earth.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "render/light/ray_generator.h"
-#include "render/scene/background.h"
-
 namespace hilcam {
 
-PicturedEarth::Seen PicturedEarth::place(const FrameView& frame, const PixelBox& box) {
-    picture_ = frame.earth_picture, box_ = box, squares_y_ = -1;
+std::array<Vec2d, PicturedEarth::kNodes> PicturedEarth::nodes(const PixelBox& box) {
+    std::array<Vec2d, kNodes> out;
+    for (std::size_t i = 0; i < kNodes; ++i)
+        out[i] = {box.x0 + 0.5 * static_cast<double>(i % 3) * (box.x1 - box.x0),
+                  box.y0 + 0.5 * static_cast<double>(i / 3) * (box.y1 - box.y0)};
+    return out;
+}
+
+PicturedEarth::Seen PicturedEarth::place(const EarthPicture& picture, const PixelBox& box, const View& earth,
+                                         const std::array<Vec3d, kNodes>& dirs) {
+    picture_ = &picture, box_ = box, squares_y_ = -1;
     per_x_ = 1 / static_cast<float>(box.x1 - box.x0), per_y_ = 1 / static_cast<float>(box.y1 - box.y0);
-    std::array<Vec2d, 9> points;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        points[i] = {box.x0 + 0.5 * static_cast<double>(i % 3) * (box.x1 - box.x0),
-                     box.y0 + 0.5 * static_cast<double>(i / 3) * (box.y1 - box.y0)};
-    std::array<CameraRay, 9> rays;
-    frame.rays->generate(points, rays);
     const auto angle_rad = [](Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); };
-    const PlacedBody& earth = frame.background->disks()[0];
-    const Vec3d middle = normalized(rays[4].dir);
-    std::array<Vec3d, 9> dirs;
+    const Vec3d middle = normalized(dirs[kNodes / 2]);
+    std::array<Vec3d, kNodes> fixed_dirs;
     double reach_rad = 0;
-    for (std::size_t i = 0; i < dirs.size(); ++i) {
-        reach_rad = std::max(reach_rad, angle_rad(middle, normalized(rays[i].dir)));
-        dirs[i] = earth.fixed_from_world * rays[i].dir;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        reach_rad = std::max(reach_rad, angle_rad(middle, normalized(dirs[i])));
+        fixed_dirs[i] = earth.fixed_from_world * dirs[i];
     }
     // The box of a body beside the field may be all of the picture: a tile that the Earth is not in has nothing of it.
     if (angle_rad(middle, earth.world_dir) > std::acos(earth.cone_cosine) + reach_rad) return Seen::kNothing;
     // One that is wide against the sky is no parabola (EarthPicture::Tile).
     constexpr double kWidest_rad = 0.2;
     if (reach_rad > kWidest_rad) return Seen::kRays;
-    tile_ = picture_->tile(earth.camera_m, dirs);
+    tile_ = picture_->tile(earth.camera_m, fixed_dirs);
     return Seen::kPicture;
 }
 

@@ -2,7 +2,7 @@
 // The Earth in a tile of a frame, as the picture of it that is kept has it (render/earth/earth_picture.h).
 
 #include "render/earth/earth_picture.h"
-#include "render/light/frame_view.h"
+#include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {
 
@@ -13,8 +13,19 @@ class PicturedEarth {
         kPicture,  // look() has it
         kRays,     // the tile is too wide against the sky for the picture
     };
-    // The frame has a picture, and nothing else is seen behind the objects. Loop.
-    Seen place(const FrameView& frame, const PixelBox& box);
+    // The camera's place in the Earth's axes, and the Earth's middle and cone in the world's, as the camera sees them.
+    struct View {
+        Vec3d camera_m;
+        Mat3d fixed_from_world;
+        Vec3d world_dir;
+        double cone_cosine;
+    };
+    static constexpr std::size_t kNodes = EarthPicture::kNodes * EarthPicture::kNodes;
+    // The places of a tile whose directions place() needs [px], row by row.
+    static std::array<Vec2d, kNodes> nodes(const PixelBox& box);
+    // Places the picture, which outlives this, in a tile. dirs: the nodes', in the world, of any length. Loop.
+    Seen place(const EarthPicture& picture, const PixelBox& box, const View& earth,
+               const std::array<Vec3d, kNodes>& dirs);
     // Has the memory of the block of 4 x 4 px that follows this one in its row on its way. Loop.
     void expect(int block_x, int block_y);
     // Looks at places of the tile, from its corner [px], each of which stands for a share of a pixel's width. Loop.
@@ -30,7 +41,7 @@ class PicturedEarth {
     EarthPicture::Tile tile_{};
     std::array<Spectrum, EarthPicture::kCount> light_;
     static constexpr int kSquares = static_cast<int>(EarthPicture::kCount);
-    EarthPicture::Squares squares_{};  // of blocks in a row of them
+    EarthPicture::Squares squares_{};  // a row of blocks
     int squares_y_ = -1;
 };
 
