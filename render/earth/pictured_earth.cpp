@@ -55,4 +55,17 @@ void PicturedEarth::look(const EarthPicture::Floats& x_px, const EarthPicture::F
     picture_->look(tile_, x, y, count, share, light_);
 }
 
+void PicturedEarth::add_block(int block_x, int block_y, const Spectrum& weight, std::span<Spectrum> pixels) {
+    EarthPicture::Floats x, y;
+    for (std::size_t k = 0; k < EarthPicture::kCount; ++k) {
+        x[k] = static_cast<float>(block_x - box_.x0) + static_cast<float>(k % 4) + 0.5f;
+        y[k] = static_cast<float>(block_y - box_.y0) + static_cast<float>(k / 4) + 0.5f;
+    }
+    look(x, y, EarthPicture::kCount, 1);
+    const int width = box_.x1 - box_.x0;
+    Spectrum* row = pixels.data() + (block_y - box_.y0) * width + block_x - box_.x0;
+    for (std::size_t k = 0; k < EarthPicture::kCount; k += 4, row += width)
+        for (std::size_t i = 0; i < 4; ++i) row[i] += weight * light_[k + i];
+}
+
 }  // namespace hilcam

@@ -1,6 +1,8 @@
 #pragma once
 // The Earth in a tile of a frame, as the picture of it that is kept has it (render/earth/earth_picture.h).
 
+#include <span>
+
 #include "render/earth/earth_picture.h"
 #include "render/vocabulary/pixel_box.h"
 
@@ -31,6 +33,9 @@ class PicturedEarth {
     // Looks at places of the tile, from its corner [px], each of which stands for a share of a pixel's width. Loop.
     void look(const EarthPicture::Floats& x_px, const EarthPicture::Floats& y_px, std::size_t count,
               float share);
+    // Looks at the middles of a block's 4 x 4 pixels, all of them the tile's, and adds what is there. pixels: the tile's, row by row.
+    // Loop.
+    void add_block(int block_x, int block_y, const Spectrum& weight, std::span<Spectrum> pixels);
     // Radiance of the place that was looked at last, for the Sun at 1 AU [W m^-2 sr^-1 um^-1].
     const Spectrum& light(std::size_t place) const { return light_[place]; }
 

@@ -53,7 +53,7 @@ class PrimaryRays {
                 if (!objects && !bodies_ && !sun_) continue;
                 if (pictured_) earth_.expect(bx, by);
                 if (pictured_ && sees_nothing_else(bx, by)) {
-                    add_picture(bx, by);
+                    earth_.add_block(bx, by, picture_weight_, tile_.pixels);
                     continue;
                 }
                 if (!gather(bx, by, kAllPixels)) continue;
@@ -179,19 +179,6 @@ class PrimaryRays {
             for (int x = bx - box.x0; x < bx - box.x0 + 4; ++x)
                 whole &= uncovered_[y * (box.x1 - box.x0) + x] == all;
         return whole;
-    }
-    // As trace_block() would add it, one place a pixel.
-    void add_picture(int bx, int by) {
-        const PixelBox& box = tile_.box;
-        const auto left = static_cast<float>(bx - box.x0), top = static_cast<float>(by - box.y0);
-        for (std::size_t k = 0; k < kPacketSize; ++k) {
-            x_at_[k] = left + static_cast<float>(k % 4) + 0.5f;
-            y_at_[k] = top + static_cast<float>(k / 4) + 0.5f;
-        }
-        earth_.look(x_at_, y_at_, kPacketSize, 1);
-        Spectrum* row = tile_.pixels.data() + (by - box.y0) * (box.x1 - box.x0) + bx - box.x0;
-        for (std::size_t k = 0; k < kPacketSize; k += 4, row += box.x1 - box.x0)
-            for (std::size_t i = 0; i < 4; ++i) row[i] += picture_weight_ * earth_.light(k + i);
     }
 
     // The packet's samples, each of which stands for a part of its pixel's width.
