@@ -41,6 +41,11 @@ Fields optics_fields(CameraModel& c) {
         choice("projection", c.projection, {"rectilinear", "fisheye"}, "projection of the lens"),
         numbers("distortion", c.distortion, 1, {-100, 100}, {1, 5},
                 "distortion coefficients k1, k2, p1, p2, k3 (Brown, as OpenCV); fisheye: k1 to k4"),
+        numbers("distortion_x_mm", c.distortion_x_mm, 1, {-1000, 1000}, {1, LensPolynomial::kMaxTerms},
+                "shift to the right that `distortion` does not have [mm], as a polynomial of the ideal place "
+                "x, y from the principal point [mm]: terms of 1, x, y, x^2, x y, y^2, x^3, ... to y^5"),
+        numbers("distortion_y_mm", c.distortion_y_mm, 1, {-1000, 1000}, {1, LensPolynomial::kMaxTerms},
+                "the same down"),
         numbers("principal_point_px", c.principal_point_px, 1, {-16384, 32768}, {2, 2},
                 "point where the boresight meets the sensor; default: its middle"),
         required(number("f_number", c.f_number, 1, {0.5, 100}, "focal length over aperture diameter")),
@@ -195,6 +200,9 @@ void check_settings(const CameraModel& c) {
 void check_lens(const CameraModel& c) {
     if (c.projection == Projection::kFisheye && c.distortion.size() > 4)
         throw InputError("distortion: found 5 coefficients; accepted with projection fisheye: k1 to k4");
+    if (c.projection == Projection::kFisheye && !(c.distortion_x_mm.empty() && c.distortion_y_mm.empty()))
+        throw InputError(
+            "distortion_x_mm, distortion_y_mm: found with projection fisheye; accepted: rectilinear");
     const ImageGeometry geometry = geometry_of(c, 0);
     for (const double x : {0.0, 0.5 * geometry.width_px, 1.0 * geometry.width_px})
         for (const double y : {0.0, 0.5 * geometry.height_px, 1.0 * geometry.height_px}) {
@@ -360,6 +368,8 @@ ImageGeometry geometry_of(const CameraModel& c, int guard_px, int oversampling) 
         g.distortion.k1 = coefficient(0), g.distortion.k2 = coefficient(1);
         g.distortion.p1 = coefficient(2), g.distortion.p2 = coefficient(3);
         g.distortion.k3 = coefficient(4);
+        g.distortion.polynomial =
+            lens_polynomial(c.distortion_x_mm, c.distortion_y_mm, c.focal_length_m * 1e3);
     }
     const bool given = c.principal_point_px.size() == 2;
     const Vec2d principal =

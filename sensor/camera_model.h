@@ -62,7 +62,9 @@ struct CameraModel {
     double focal_length_m = 0.016;
     std::vector<double> principal_point_px;  // place on the sensor; empty: its middle
     Projection projection = Projection::kRectilinear;
-    std::vector<double> distortion;  // k1, k2, p1, p2, k3 (or k1..k4 of a fisheye) as OpenCV orders them
+    std::vector<double> distortion;       // k1, k2, p1, p2, k3 (or k1..k4 of a fisheye) as OpenCV orders them
+    std::vector<double> distortion_x_mm;  // terms of a LensPolynomial, of mm in the picture's plane
+    std::vector<double> distortion_y_mm;
 
     // Optics.
     double f_number = 4;

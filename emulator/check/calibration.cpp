@@ -159,6 +159,10 @@ CameraCalibration calibration_of(const CameraModel& camera) {
             "--calibration: camera.shutter.kind is line_scan, whose rows look along one line at different "
             "times: no pinhole; accepted: global, rolling, frame_transfer");
     const ImageGeometry geometry = geometry_of(camera, 0);
+    if (!geometry.distortion.polynomial.none())
+        throw InputError(
+            "--calibration: camera has distortion_x_mm, distortion_y_mm, and none of the formats has a "
+            "polynomial; accepted: camera.distortion");
     const FrameLayout layout{camera.binning_x, camera.binning_y};
     const FrameRaster raster = raster_of(camera, 1, layout);
     const FrameIntrinsics lens = intrinsics_of(geometry, raster);

@@ -23,6 +23,7 @@
 #include "io/files/mesh_level_cache.h"
 #include "io/pictures/picture_file.h"
 #include "render/brdf/brdf_table.h"
+#include "render/earth/air_from_space.h"
 #include "render/earth/earth_model.h"
 #include "render/frame/plugin.h"
 #include "render/ground/terrain_patch.h"
@@ -388,6 +389,8 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
         if (!scenario.earth_surface.map.empty()) {
             const Progress earth("Earth");
             scene.earth = load_earth(scenario.earth_surface, scene.air.get(), grid);
+        } else if (air.model == "precomputed") {
+            scene.air = looked_up_from_space(std::move(scene.air));
         }
     }
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");

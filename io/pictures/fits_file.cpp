@@ -150,7 +150,7 @@ void put_sky(const SkyMap& sky, const PictureNotes& notes, Cards& cards) {
     cards.real("CD2_1", sky.north_deg_px[0], "");
     cards.real("CD2_2", sky.north_deg_px[1], "");
     if (find_note(notes, "distortion"))
-        cards.comment("The WCS leaves out the lens's distortion: DISTORT1 and on, as OpenCV has it.");
+        cards.comment("The WCS leaves out the lens's distortion: DISTORT1 and on.");
     cards.comment("Stars are seen aberrated by the camera's velocity; the WCS is its attitude's.");
 }
 

@@ -44,6 +44,14 @@ void add_lens(const CameraModel& model, const PictureLayout& layout, PictureNote
         notes.push_back(
             {"distortion", "DISTORT", distortion_of(distortion),
              fisheye ? "k1, k2, k3, k4 as OpenCV orders them" : "k1, k2, p1, p2, k3 as in OpenCV"});
+    const LensPolynomial& polynomial = distortion.polynomial;
+    if (polynomial.none()) return;
+    notes.push_back({"distortion_x", "DISTX",
+                     std::vector(polynomial.terms_x().begin(), polynomial.terms_x().end()),
+                     "added to x: terms 1, x, y, x2, xy, y2, x3.."});
+    notes.push_back({"distortion_y", "DISTY",
+                     std::vector(polynomial.terms_y().begin(), polynomial.terms_y().end()),
+                     "added to y, likewise"});
 }
 
 // Camera axes: +x right, +y down, +z along the boresight; world: ICRF axes about the scenario's origin.

@@ -46,17 +46,21 @@ Json image_of(const FrameTruth& t, const FrameRecord& record, const CameraModel&
     const FrameIntrinsics lens = intrinsics_of(t.geometry, t.raster);
     const LensDistortion& d = t.geometry.distortion;
     const bool fisheye = d.projection == Projection::kFisheye;
-    return {{"width_px", t.raster.width_px},
-            {"height_px", t.raster.height_px},
-            {"binning", {record.binning_x, record.binning_y}},
-            {"reverse", {record.reverse_x, record.reverse_y}},
-            {"black_columns", model.black_columns},
-            {"black_rows", model.black_rows},
-            {"projection", fisheye ? "fisheye" : "rectilinear"},
-            {"focal_length_px", of(lens.focal_length_px)},
-            {"principal_point_px", of(lens.principal_point_px)},
-            {"distortion",
-             fisheye ? Json::array({d.k1, d.k2, d.k3, d.k4}) : Json::array({d.k1, d.k2, d.p1, d.p2, d.k3})}};
+    Json out = {{"width_px", t.raster.width_px},
+                {"height_px", t.raster.height_px},
+                {"binning", {record.binning_x, record.binning_y}},
+                {"reverse", {record.reverse_x, record.reverse_y}},
+                {"black_columns", model.black_columns},
+                {"black_rows", model.black_rows},
+                {"projection", fisheye ? "fisheye" : "rectilinear"},
+                {"focal_length_px", of(lens.focal_length_px)},
+                {"principal_point_px", of(lens.principal_point_px)},
+                {"distortion", fisheye ? Json::array({d.k1, d.k2, d.k3, d.k4})
+                                       : Json::array({d.k1, d.k2, d.p1, d.p2, d.k3})}};
+    if (d.polynomial.none()) return out;
+    out["distortion_x"] = d.polynomial.terms_x();
+    out["distortion_y"] = d.polynomial.terms_y();
+    return out;
 }
 
 // Returns the part that objects and bodies share; the Sun has no axes.

@@ -96,6 +96,31 @@ Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_d
     return out;
 }
 
+std::optional<Atmosphere::Sight> AirColumns::from_space(Vec3d origin_m, Vec3d dir, double distance_m,
+                                                        Vec3d sun_dir) const {
+    constexpr double kOnGround_m = 10;  // the figure's and the ray's rounding
+    const double top_m = kEarthEquatorialRadius_m + static_cast<double>(top_m_);
+    if (dot(origin_m, origin_m) < top_m * top_m) return {};
+    const double to_lowest_m = -dot(origin_m, dir);
+    const Vec3d lowest = origin_m + to_lowest_m * dir;
+    const double lowest_m = length(lowest);
+    if (to_lowest_m <= 0 || lowest_m >= top_m) {
+        Atmosphere::Sight clear;
+        clear.transmittance.bin.fill(1);
+        return clear;
+    }
+    if (distance_m == std::numeric_limits<double>::infinity())
+        return look_past(static_cast<float>(lowest_m - kEarthEquatorialRadius_m),
+                         static_cast<float>(dot(lowest, sun_dir) / lowest_m),
+                         static_cast<float>(dot(dir, sun_dir)));
+    const Vec3d end = origin_m + distance_m * dir;
+    const double end_m = length(end);
+    if (std::abs(end_m - kEarthEquatorialRadius_m) > kOnGround_m || distance_m > to_lowest_m) return {};
+    return look(static_cast<float>(-dot(end, dir) / end_m), static_cast<float>(dot(end, sun_dir) / end_m),
+                static_cast<float>(-dot(dir, sun_dir)))
+        .low;
+}
+
 AirColumns::Looks AirColumns::look(float mu, float mu0, float cos_phase) const {
     const float view = std::max(0.0f, root_of_cosine(mu)) * (kViews - 1);
     const float root = std::max(kLowestRoot, root_of_cosine(mu0));

@@ -6,6 +6,7 @@
 // Grids: 41 zenith angles of the viewer, crowded at the horizon, 64 of the Sun to 20 degrees below it, 13 azimuths, two
 // heights. Linear between; against Atmosphere::look(): tests/unit/render/earth/air_columns_test.cpp.
 
+#include <optional>
 #include <vector>
 
 #include "render/sky/atmosphere.h"
@@ -27,6 +28,10 @@ class AirColumns {
     // The same of a ray from space that misses the ground and has its lowest point ahead: that point's height, 0 to the
     // air's top; mu0: there; ahead_dot_sun: cosine of the angle between the ray's way and the Sun.
     Atmosphere::Sight look_past(float height_m, float mu0, float ahead_dot_sun) const;
+    // Returns what Atmosphere::look() says of a ray; nothing for one that begins within the air or ends within it above the
+    // ground. Loop, any thread.
+    std::optional<Atmosphere::Sight> from_space(Vec3d origin_m, Vec3d dir, double distance_m,
+                                                Vec3d sun_dir) const;
     float top_m() const { return top_m_; }
     std::size_t bytes() const {
         return sizeof(Spectrum) *

@@ -305,19 +305,9 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
 Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
     const Vec3d origin = stretched(ray.origin_m), dir = normalized(stretched(ray.dir)),
                 sun = normalized(stretched(ray.sun_dir));
-    const double to_lowest_m = -dot(origin, dir);
-    const Vec3d lowest = origin + to_lowest_m * dir;
-    const double radius_m = length(lowest), top_m = kEarth.equatorial_radius_m + air_->top_m();
-    if (to_lowest_m <= 0 || dot(origin, origin) < top_m * top_m)
-        return air_->look(origin, dir, std::numeric_limits<double>::infinity(), sun);
-    if (radius_m >= top_m) {
-        Atmosphere::Sight clear;
-        clear.transmittance.bin.fill(1);
-        return clear;
-    }
-    return columns_->look_past(static_cast<float>(radius_m - kEarth.equatorial_radius_m),
-                               static_cast<float>(dot(lowest, sun) / radius_m),
-                               static_cast<float>(dot(dir, sun)));
+    constexpr double kEndless_m = std::numeric_limits<double>::infinity();
+    const std::optional<Atmosphere::Sight> seen = columns_->from_space(origin, dir, kEndless_m, sun);
+    return seen ? *seen : air_->look(origin, dir, kEndless_m, sun);
 }
 
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {

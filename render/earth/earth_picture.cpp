@@ -77,11 +77,11 @@ std::uint16_t coded(float value) {
     return static_cast<std::uint16_t>(std::min((bits - kLowest) >> kDropped, 0xFFFFu));
 }
 
-// Sixteen looks: where they begin in the picture's rows, and their weights.
+// Sixteen looks: where they begin in the picture's columns, and their weights.
 struct Looks {
     static constexpr std::size_t kCount = EarthPicture::kCount;
     std::array<const std::uint16_t*, kCount> light;  // place in the row before and the column before
-    std::array<std::size_t, kCount> stride;          // to the next row, in values of a place
+    std::array<std::size_t, kCount> stride;          // places to the next column; the next row is beside it
     EarthPicture::Floats in_row, in_column;          // from there, 0..1
     std::array<bool, kCount> at_limb;
     std::array<EarthPicture::LimbRows, kCount> by_row;  // where it is at the limb, instead of in_row
@@ -101,8 +101,8 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
                                           kLowest);
         };
         const auto row = [&](std::size_t r) {
-            const Bins left = value(r * stride);
-            return left + looks.in_column[i] * (value(r * stride + 1) - left);
+            const Bins left = value(r);
+            return left + looks.in_column[i] * (value(r + stride) - left);
         };
         Bins sum;
         if (looks.at_limb[i]) {
@@ -177,12 +177,13 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
     const int looks = limb ? kLimbLooks : 1;
     const double spacing = 1 / static_cast<double>(band.per_step);
     const double b = static_cast<double>(band.first) + row * spacing;
-    Coded* out = light_.data() + band.offset +
-                 static_cast<std::size_t>(row) * static_cast<std::size_t>(band.columns + 1);
+    const auto rows = static_cast<std::size_t>(band.rows);
+    Coded* first = light_.data() + band.offset + row;
+    Coded* out = first;
     EarthModel::Ray ray{camera_m_,          {}, sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_, irradiance,
                         {numbers_, nullptr}};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
-    for (int column = 0; column < band.columns; ++column) {
+    for (int column = 0; column < band.columns; ++column, out += rows) {
         const double turn = 2 * kPi * column / band.columns;
         const Vec3d out_dir = std::cos(turn) * right_ + std::sin(turn) * down_;
         Spectrum sum;
@@ -195,9 +196,9 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
             earth.add(ray, weight, sum);
         }
         for (int k = 0; k < kMaxBins; ++k)
-            out[column][static_cast<std::size_t>(k)] = coded(sum[k] / static_cast<float>(looks));
+            (*out)[static_cast<std::size_t>(k)] = coded(sum[k] / static_cast<float>(looks));
     }
-    out[band.columns] = out[0];
+    *out = *first;
 }
 
 void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance) {
@@ -256,24 +257,54 @@ void EarthPicture::look(const Tile& tile, const Floats& x, const Floats& y, std:
                 turn.data());
     Looks looks;
     for (std::size_t i = 0; i < count; ++i) {
-        const float b = approach[i], ring = b * inner_per_b_;
-        const bool limb = !(b < limb_from_), dark = b > dark_from_;
-        const auto row_of_disk = static_cast<std::size_t>(ring);
-        const Band& band = limb ? bands_.back() : bands_[row_of_disk / kRings];
-        const float column = turn[i] * static_cast<float>(band.columns);
-        const int left = std::min(static_cast<int>(column), band.columns - 1);
-        looks.in_column[i] = column - static_cast<float>(left);
-        looks.stride[i] = static_cast<std::size_t>(band.columns) + 1;
-        std::size_t row = row_of_disk % kRings;
-        looks.in_row[i] = ring - static_cast<float>(row_of_disk);
-        looks.at_limb[i] = limb && !dark;
-        if (dark)
-            row = static_cast<std::size_t>(band.rows) - 2, looks.in_row[i] = 0;
-        else if (limb)
-            row = weigh_limb(b, share, looks.by_row[i]);
-        looks.light[i] = light_[band.offset + row * looks.stride[i] + static_cast<std::size_t>(left)].data();
+        Spot spot = spot_of(approach[i], turn[i]);
+        looks.in_column[i] = spot.in_column;
+        looks.in_row[i] = spot.in_row;
+        looks.stride[i] = static_cast<std::size_t>(spot.band.rows);
+        looks.at_limb[i] = spot.limb && !spot.dark;
+        if (looks.at_limb[i]) spot.row = weigh_limb(approach[i], share, looks.by_row[i]);
+        looks.light[i] = spot.of(light_)->data();
     }
     mix_looks(looks, count, radiance.data());
+}
+
+EarthPicture::Spot EarthPicture::spot_of(float b, float turn) const {
+    const float ring = b * inner_per_b_;
+    const bool limb = !(b < limb_from_);
+    const auto row = static_cast<std::size_t>(ring);
+    const Band& band = limb ? bands_.back() : bands_[row / kRings];
+    const float column = turn * static_cast<float>(band.columns);
+    const int left = std::min(static_cast<int>(column), band.columns - 1);
+    Spot out{band,          0, static_cast<std::size_t>(left), 0, column - static_cast<float>(left), limb,
+             b > dark_from_};
+    if (out.dark)
+        out.row = static_cast<std::size_t>(band.rows) - 2;
+    else if (!limb)
+        out.row = row % kRings, out.in_row = ring - static_cast<float>(row);
+    return out;
+}
+
+void EarthPicture::find_squares(const Tile& tile, const Floats& x, const Floats& y, Squares& squares) const {
+    Floats approach, turn;
+    place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / kEarthRadius_m), approach.data(),
+                turn.data());
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const Spot spot = spot_of(approach[i], turn[i]);
+        squares.middle[i] = spot.of(light_);
+        squares.column_bytes[i] = static_cast<std::size_t>(spot.band.rows) * sizeof(Coded);
+    }
+}
+
+// Six places each way, in lines of 64 bytes.
+void EarthPicture::Squares::fetch(std::size_t square) const {
+    constexpr std::uintptr_t kReach = 3, kLine_bytes = 64;
+    const auto at = reinterpret_cast<std::uintptr_t>(middle[square]);
+    for (std::uintptr_t c = 0; c <= 2 * kReach; ++c) {
+        const std::uintptr_t first =
+            at + c * column_bytes[square] - kReach * (column_bytes[square] + sizeof(Coded));
+        __builtin_prefetch(reinterpret_cast<const void*>(first));
+        __builtin_prefetch(reinterpret_cast<const void*>(first + kLine_bytes));
+    }
 }
 
 // A pixel's mean across the limb: four places have its variance, at any angle. Returns the first of the rows.

@@ -53,6 +53,15 @@ class EarthPicture {
 
     static constexpr std::size_t kCount = 16;
     using Floats = std::array<float, kCount>;
+    // Where in memory squares of 4 x 4 px are looked up: half a microsecond away, so that they are asked for beforehand.
+    struct Squares {
+        std::array<const void*, kCount> middle;
+        std::array<std::size_t, kCount> column_bytes;
+        // Asks for a square's places. Loop, any thread.
+        void fetch(std::size_t square) const;
+    };
+    // x, y: the squares' middles in a tile, 0 to 1. Loop, any thread.
+    void find_squares(const Tile& tile, const Floats& x, const Floats& y, Squares& squares) const;
     // A look at the limb takes four places of a pixel, 0.75 px apart at most, each between two rings.
     static constexpr int kLimbRows = 6;
     using LimbRows = std::array<float, kLimbRows>;  // their weights
@@ -62,7 +71,8 @@ class EarthPicture {
               std::array<Spectrum, kCount>& radiance) const;
 
   private:
-    // Rings with as many columns each; neighbours share one, so that a look needs one band.
+    // Rings with as many columns each; neighbours share one, so that a look needs one band. Columns lie one behind the other, so that
+    // what a tile of a camera's picture looks at is in a few pages.
     struct Band {
         float first, per_step;  // row = (b - first) per_step, b: closest approach over the radius
         int rows, columns;      // the first column is stored once more behind the last
@@ -83,6 +93,17 @@ class EarthPicture {
 
     void place_bands();
     void fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row);
+    // The row and the column before a place, and how far it is behind them, 0..1.
+    struct Spot {
+        const Band& band;
+        std::size_t row, column;
+        float in_row, in_column;
+        bool limb, dark;
+        const Coded* of(const std::vector<Coded>& light) const {
+            return light.data() + band.offset + column * static_cast<std::size_t>(band.rows) + row;
+        }
+    };
+    Spot spot_of(float b, float turn) const;
     std::size_t weigh_limb(float b, float share, LimbRows& by_row) const;
     Vec3d to_place(Vec3d stretched_m) const;
 };

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "render/earth/earth_patch.h"
-#include "render/earth/earth_picture.h"
+#include "render/earth/pictured_earth.h"
 #include "render/light/earth_limbs.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/place_sequence.h"
@@ -36,6 +36,8 @@ class PrimaryRays {
             corner_ = linear_->corner + tile.box.x0 * linear_->right + tile.box.y0 * linear_->down;
         }
         if (frame_.sees_earth_picture_only(tile.box)) place_picture();
+        picture_weight_ =
+            frame_.earth_picture_factor * (frame_.samples.weight(frame_.samples.all()) * weight_);
         patched_ = bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches();
     }
 
@@ -49,6 +51,11 @@ class PrimaryRays {
             for (int bx = box.x0; bx < box.x1; bx += 4) {
                 const bool objects = !uncovered_ && frame_.object_mask->at(bx, by);
                 if (!objects && !bodies_ && !sun_) continue;
+                if (pictured_) earth_.expect(bx, by);
+                if (pictured_ && sees_nothing_else(bx, by)) {
+                    earth_.add_block(bx, by, picture_weight_, tile_.pixels);
+                    continue;
+                }
                 if (!gather(bx, by, kAllPixels)) continue;
                 const Block block = !uncovered_ ? Block::kUneven
                                     : pictured_ ? Block::kEven
@@ -72,11 +79,11 @@ class PrimaryRays {
     bool even_ = false;  // one ray a pixel
     bool bodies_, sun_;
     const LinearRays* linear_;
-    bool plain_;             // the one body in view is done sixteen rays at a time
-    bool pictured_ = false;  // the Earth alone is in view, and its picture is kept
-    bool patched_;           // the Earth is seen in patches, where that is good enough
-    EarthPicture::Tile picture_{};
-    std::array<Spectrum, kPacketSize> earth_;  // radiance of the packet's samples by the picture
+    bool plain_;               // the one body in view is done sixteen rays at a time
+    bool pictured_ = false;    // the Earth alone is in view, and its picture is kept
+    bool patched_;             // the Earth is seen in patches, where that is good enough
+    PicturedEarth earth_;      // looked at for the packet's samples
+    Spectrum picture_weight_;  // the weight of a pixel that sees nothing else
     std::optional<EarthPatch> patch_;
     float sample_rad_;  // angle between neighbouring rays
     Spectrum weight_;
@@ -149,41 +156,36 @@ class PrimaryRays {
         return out;
     }
 
-    // The box of a body beside the field may be all of the picture: a tile that the Earth is not in has nothing of it.
-    // One that is wide against the sky is no parabola (EarthPicture::Tile), and is left to rays.
     void place_picture() {
-        const PixelBox& box = tile_.box;
-        std::array<Vec2d, 9> points;
-        for (std::size_t i = 0; i < points.size(); ++i)
-            points[i] = {box.x0 + 0.5 * static_cast<double>(i % 3) * (box.x1 - box.x0),
-                         box.y0 + 0.5 * static_cast<double>(i / 3) * (box.y1 - box.y0)};
-        std::array<CameraRay, 9> rays;
-        frame_.rays->generate(points, rays);
-        const auto angle_rad = [](Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); };
+        std::array<CameraRay, PicturedEarth::kNodes> rays;
+        frame_.rays->generate(PicturedEarth::nodes(tile_.box), rays);
+        std::array<Vec3d, PicturedEarth::kNodes> dirs;
+        for (std::size_t i = 0; i < dirs.size(); ++i) dirs[i] = rays[i].dir;
         const PlacedBody& earth = frame_.background->disks()[0];
-        const Vec3d middle = normalized(rays[4].dir);
-        std::array<Vec3d, 9> dirs;
-        double reach_rad = 0;
-        for (std::size_t i = 0; i < dirs.size(); ++i) {
-            reach_rad = std::max(reach_rad, angle_rad(middle, normalized(rays[i].dir)));
-            dirs[i] = earth.fixed_from_world * rays[i].dir;
-        }
-        constexpr double kWidest_rad = 0.2;
-        bodies_ = angle_rad(middle, earth.world_dir) <= std::acos(earth.cone_cosine) + reach_rad;
-        pictured_ = bodies_ && reach_rad <= kWidest_rad;
-        if (!pictured_) return;
-        picture_ = frame_.earth_picture->tile(earth.camera_m, dirs);
+        const PicturedEarth::Seen seen =
+            earth_.place(*frame_.earth_picture, tile_.box,
+                         {earth.camera_m, earth.fixed_from_world, earth.world_dir, earth.cone_cosine}, dirs);
+        bodies_ = seen != PicturedEarth::Seen::kNothing;
+        pictured_ = seen == PicturedEarth::Seen::kPicture;
+    }
+
+    // No object hides anything of a block's 4 x 4 pixels, all of which the tile has.
+    bool sees_nothing_else(int bx, int by) const {
+        const PixelBox& box = tile_.box;
+        if (!uncovered_ || tile_.scattered || bx + 4 > box.x1 || by + 4 > box.y1) return false;
+        const SampleMask all = frame_.samples.all();
+        bool whole = true;
+        for (int y = by - box.y0; y < by - box.y0 + 4; ++y)
+            for (int x = bx - box.x0; x < bx - box.x0 + 4; ++x)
+                whole &= uncovered_[y * (box.x1 - box.x0) + x] == all;
+        return whole;
     }
 
     // The packet's samples, each of which stands for a part of its pixel's width.
     void look_at_picture(bool whole) {
-        const float per_x = 1 / static_cast<float>(tile_.box.x1 - tile_.box.x0),
-                    per_y = 1 / static_cast<float>(tile_.box.y1 - tile_.box.y0);
-        EarthPicture::Floats x, y;
-        for (std::size_t k = 0; k < kPacketSize; ++k) x[k] = per_x * x_at_[k], y[k] = per_y * y_at_[k];
         const float share =
             whole ? 1.0f : (tile_.scattered ? 0.0f : 1 / static_cast<float>(tile_.samples_per_axis));
-        frame_.earth_picture->look(picture_, x, y, static_cast<std::size_t>(rays_.count), share, earth_);
+        earth_.look(x_at_, y_at_, static_cast<std::size_t>(rays_.count), share);
     }
 
     // By its model, which filters what a ray stands for, the Earth is uneven only within this of its limbs.
@@ -285,7 +287,7 @@ class PrimaryRays {
 
     void add_backdrop(std::size_t k, float sun_cosine, Spectrum weight, Spectrum& pixel) {
         if (pictured_) {
-            pixel += frame_.earth_picture_factor * weight * earth_[k];
+            pixel += frame_.earth_picture_factor * weight * earth_.light(k);
             return;
         }
         if (plain_) {

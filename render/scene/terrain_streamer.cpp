@@ -39,6 +39,7 @@ void TerrainStreamer::request(const TerrainView& view) {
 }
 
 void TerrainStreamer::work() {
+    pthread_setname_np(pthread_self(), kTerrainThreadName);
     tbb::task_arena alone(1);  // the frames have the other threads
     TerrainView made_for, before;
     bool any = false, more_ahead = false;

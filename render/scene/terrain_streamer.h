@@ -13,6 +13,8 @@
 
 namespace hilcam {
 
+inline constexpr const char* kTerrainThreadName = "terrain";
+
 // Ready for rays: tree, surfaces, and where its anchor is.
 struct PreparedTerrain {
     PreparedMesh tree;

@@ -133,6 +133,7 @@ double tile_error_px(const ImageGeometry& g) {
 bool LensTiles::takes(const ImageGeometry& geometry) {
     if (geometry.distortion.none()) return true;
     if (geometry.distortion.projection != Projection::kRectilinear) return false;
+    if (!geometry.distortion.polynomial.none()) return false;
     const Box box = ideal_box(geometry);
     if (!(box.x1 - box.x0 < 1e5 && box.y1 - box.y0 < 1e5)) return false;
     return !curvature_in(geometry, box).folds && tile_error_px(geometry) <= kMaxError_px;

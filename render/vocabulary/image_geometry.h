@@ -10,11 +10,13 @@
 // x, y = X/Z, Y/Z and r^2 = x^2 + y^2
 //   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 changed
 //   over.
+// What else such a lens does is a polynomial of x and y that is added (lens_polynomial.h).
 // Fisheye lenses, as OpenCV's: with theta = atan r
 //   x' = x / r theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8), y' likewise.
 
 #include <cmath>
 
+#include "render/vocabulary/lens_polynomial.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
@@ -25,16 +27,19 @@ struct LensDistortion {
     double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
     double k4 = 0;  // fourth coefficient of a fisheye
     Projection projection = Projection::kRectilinear;
+    LensPolynomial polynomial{};  // added by a rectilinear lens
 
-    bool none() const {
-        return projection == Projection::kRectilinear && k1 == 0 && k2 == 0 && k3 == 0 && p1 == 0 && p2 == 0;
-    }
+    bool none() const { return projection == Projection::kRectilinear && !brown() && polynomial.none(); }
+    bool brown() const { return k1 != 0 || k2 != 0 || k3 != 0 || p1 != 0 || p2 != 0; }
     Vec2d distorted(Vec2d p) const {
         if (projection == Projection::kFisheye) return fisheye(p);
         const double r2 = p.x * p.x + p.y * p.y;
         const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-        return {p.x * radial + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x),
-                p.y * radial + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
+        const Vec2d moved{p.x * radial + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x),
+                          p.y * radial + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
+        if (polynomial.none()) return moved;
+        const Vec2d by = polynomial.shift(p).by;
+        return {moved.x + by.x, moved.y + by.y};
     }
     // Inverts the distortion by Newton's method with the matrix of derivatives; 1e-12 after some steps where
     // the lens does not fold over.
@@ -48,13 +53,18 @@ struct LensDistortion {
             const double r2 = p.x * p.x + p.y * p.y;
             const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
             const double slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // d radial / d(r^2) * 2
-            const double xx = radial + p.x * p.x * slope + 2 * p1 * p.y + 6 * p2 * p.x;
-            const double yy = radial + p.y * p.y * slope + 6 * p1 * p.y + 2 * p2 * p.x;
-            const double xy = p.x * p.y * slope + 2 * p1 * p.x + 2 * p2 * p.y;
-            const double determinant = xx * yy - xy * xy;
+            double xx = radial + p.x * p.x * slope + 2 * p1 * p.y + 6 * p2 * p.x;
+            double yy = radial + p.y * p.y * slope + 6 * p1 * p.y + 2 * p2 * p.x;
+            double xy = p.x * p.y * slope + 2 * p1 * p.x + 2 * p2 * p.y;  // growth of x along y
+            double yx = xy;
+            if (!polynomial.none()) {
+                const LensPolynomial::Shift s = polynomial.shift(p);
+                xx += s.along_x.x, xy += s.along_y.x, yx += s.along_x.y, yy += s.along_y.y;
+            }
+            const double determinant = xx * yy - xy * yx;
             if (!(std::abs(determinant) > 1e-12)) break;
             p.x -= (yy * error.x - xy * error.y) / determinant;
-            p.y -= (xx * error.y - xy * error.x) / determinant;
+            p.y -= (xx * error.y - yx * error.x) / determinant;
         }
         return p;
     }

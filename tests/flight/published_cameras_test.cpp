@@ -6,52 +6,19 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "render/light/ray_generators.h"
-#include "render/vocabulary/attitude.h"
-#include "render/vocabulary/image_geometry.h"
-#include "render/vocabulary/pose.h"
+#include "tests/flight/published_view.h"
 
 namespace hilcam {
 namespace {
-
-constexpr double kTarget_px = 0.01;
-constexpr double kDegree = std::numbers::pi / 180;
-
-// Their quaternions, scalar first, take a vector's components in ICRF to those in the frame; hilcam's go back.
-struct View {
-    ImageGeometry geometry;
-    Pose camera;
-    Quat icrf_from_body;
-
-    Vec2d place_px(Vec3d ground_body) const {
-        const Vec3d ground_icrf = to_matrix(icrf_from_body) * ground_body;
-        return geometry.project_px(transposed(to_matrix(camera.world_from_body)) *
-                                   (ground_icrf - camera.position_world_m));
-    }
-};
-
-ImageGeometry pinhole(int width_px, int height_px, double focal_length_px) {
-    ImageGeometry out;
-    out.width_px = width_px, out.height_px = height_px, out.focal_length_px = focal_length_px;
-    return out;
-}
-
-// The point of an ellipsoid, half axes a, b, b, at a planetocentric latitude and longitude.
-Vec3d on_ellipsoid(double a, double b, double latitude_deg, double longitude_deg) {
-    const double lat = latitude_deg * kDegree, lon = longitude_deg * kDegree;
-    const Vec3d d{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
-    return d / std::sqrt(d.x * d.x / (a * a) + (d.y * d.y + d.z * d.z) / (b * b));
-}
 
 // MSI on NEAR above Eros, 26 January 2001 (NearMsiCameraTests.cpp, m0155881376f3_2p_cif_dbl.isd): 166.85 mm,
 // 16 um, ideal radius r (1 - 7e-5 r^2 / mm^2).
 TEST(PublishedCameras, MsiOnNearSeesErosWhereIsisHasIt) {
     constexpr double kFocal_mm = 166.85, kDistortion_mm2 = 7e-5;
     const double c = kDistortion_mm2 * kFocal_mm * kFocal_mm;
-    View view;
+    PublishedView view;
     view.geometry = pinhole(537, 412, kFocal_mm / 0.016);
     // The inverse of r = d (1 - c d^2) is d = r (1 + c r^2 + 3 c^2 r^4 + 12 c^3 r^6 ...).
     view.geometry.distortion.k1 = c, view.geometry.distortion.k2 = 3 * c * c;
@@ -75,7 +42,8 @@ TEST(PublishedCameras, MsiOnNearSeesErosWhereIsisHasIt) {
                                          {34, 379, -20.18045520120209, 40.577715588340105},
                                          {268.5, 206, -22.852443468381061, 37.504660702426833}}};
     for (const Seen& seen : kSeen) {
-        const Vec2d place = view.place_px(on_ellipsoid(17000, 5500, seen.latitude_deg, seen.longitude_deg));
+        const Vec2d place =
+            view.place_px(on_ellipsoid({17000, 5500, 5500}, seen.latitude_deg, seen.longitude_deg));
         EXPECT_NEAR(place.x, seen.sample - 0.5, kTarget_px) << seen.sample << ' ' << seen.line;
         EXPECT_NEAR(place.y, 412 - (seen.line - 0.5), kTarget_px) << seen.sample << ' ' << seen.line;
     }
@@ -83,7 +51,7 @@ TEST(PublishedCameras, MsiOnNearSeesErosWhereIsisHasIt) {
 
 // simpleFramerISD.json and FrameCameraTests.cpp: 50 mm, 10 px/mm, 990 m above a ball of 10 m.
 TEST(PublishedCameras, AFramerSeesThePointsOfUsgscsm) {
-    View view;
+    PublishedView view;
     view.geometry = pinhole(15, 15, 500);
     view.camera = {{1000, 0, 0}, conjugate(Quat{0.0, -0.707106781186547, 0.0, 0.707106781186547})};
     struct Seen {

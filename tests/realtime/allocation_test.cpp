@@ -32,6 +32,7 @@
 #include "io/system/bytes.h"
 #include "io/system/fd.h"
 #include "io/truth/sink_truth.h"
+#include "render/scene/terrain_streamer.h"
 #include "tests/support/spice_writer.h"
 
 namespace {
@@ -46,10 +47,11 @@ bool lies_in(const void* address, const char* file) {
 }
 void count(const void* caller) {
     if (!armed.load(std::memory_order_relaxed) || !lies_in(caller, own_file)) return;
-    // They make text and pictures of what the loop has handed over, or what they hand to it.
+    // They make text and pictures of what the loop has handed over, or light and ground that they hand to it.
     std::array<char, 16> thread{};
     prctl(PR_GET_NAME, thread.data());
-    for (const char* name : {hilcam::kTruthThreadName, hilcam::kPreviewThreadName, hilcam::kLightThreadName})
+    for (const char* name : {hilcam::kTruthThreadName, hilcam::kPreviewThreadName, hilcam::kLightThreadName,
+                             hilcam::kTerrainThreadName})
         if (std::strcmp(thread.data(), name) == 0) return;
     std::array<void*, 64> frames;
     const int depth = backtrace(frames.data(), static_cast<int>(frames.size()));
@@ -212,10 +214,12 @@ struct Seen {
     int allocations = 0;
     std::uint32_t level_changes = 0;
 };
-Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesystem::path& record = {}) {
+// A camera that does not fly by itself is commanded to a place beside the satellite.
+Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesystem::path& record = {},
+         const char* scenario_file = "tests/protocol/minimal_scenario.yaml") {
     const bool streaming = loop == Loop::kStreaming, looked_at = loop == Loop::kLookedAt;
     const ScenarioConfig scenario =
-        load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", overrides);
+        load_scenario(std::string(HILCAM_SOURCE_DIR) + "/" + scenario_file, overrides);
     RunLimits limits;
     limits.frames = streaming ? 300 : looked_at ? 150 : 80;
     limits.paced = loop != Loop::kUnpaced && loop != Loop::kTold;
@@ -255,7 +259,7 @@ Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesy
     for (std::uint32_t i = 0; frames() < until && !emulator.loop().finished(); ++i) {
         motion.time = emulator.clock().now();
         motion.rate_body_rad_s = scenario.camera_pose.rate_body_rad_s;
-        emulator.world().set(0, motion, {i, monotonic_ns()});
+        if (!scenario.camera_motion) emulator.world().set(0, motion, {i, monotonic_ns()});
         if (reader) packets += reader->drain();
         std::this_thread::yield();
     }
@@ -314,6 +318,42 @@ TEST_F(Allocation, NorWithAKeptPictureOfTheEarth) {
                      "camera_pose.look_at_m=[-1, 0.5, 0]",
                      std::string("earth_surface.map=") + HILCAM_SOURCE_DIR + "/configs/maps/earth.map"}),
         0);
+}
+
+// Layers of 8192 x 4096 posts below a camera in low orbit, two hundred times as fast as it is: tiles come in all the time.
+TEST_F(Allocation, NorWhileTilesOfTheEarthsLayersAreRead) {
+    if (!HILCAM_HAS_GDAL) GTEST_SKIP() << "built without GDAL";
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("hilcam_allocation_layers_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    constexpr int kColumns = 8192, kRows = 4096;
+    std::ofstream(folder / "lights.img").put('\0');
+    std::filesystem::resize_file(folder / "lights.img", std::uintmax_t{kColumns} * kRows);
+    std::ofstream(folder / "lights.hdr")
+        << "ENVI\nsamples = " << kColumns << "\nlines = " << kRows
+        << "\nbands = 1\nheader offset = 0\ndata type = 1\ninterleave = bsq\nbyte order = 0\n"
+        << "map info = {Geographic Lat/Lon, 1, 1, -180, 90, " << 360.0 / kColumns << ", " << 180.0 / kRows
+        << ", WGS-84}\n";
+    EXPECT_EQ(run({"camera.width_px=256", "camera.height_px=192", "clock.scale=200",
+                   "camera_motion.attitude={law: nadir, second_axis: [1, 0, 0], second: velocity}",
+                   "objects.0.generate.triangles=20000", "quality.path_model=direct",
+                   "earth_surface.layers=[{file: " + (folder / "lights.img").string() +
+                       ", kind: lights, scale: 0.003}]",
+                   "earth_surface.memory_mb=16", "events=[]"},
+                  Loop::kPaced, {}, "configs/scenarios/leo_inspection.yaml")
+                  .allocations,
+              0);
+    std::filesystem::remove_all(folder);
+}
+
+// On its way down, every second pixel of every second row: meshes change while it is watched.
+TEST_F(Allocation, NorInALandingByEverySecondPixel) {
+    EXPECT_EQ(run({"quality.ground_step_px=2", "loop.frame_budget_ms=0", "camera.width_px=256",
+                   "camera.height_px=192", "camera.focal_length_mm=4", "terrain.most_triangles=60000",
+                   "outputs.gige.interface=", "commands.udp.address="},
+                  Loop::kPaced, {}, "configs/scenarios/lunar_landing.yaml")
+                  .allocations,
+              0);
 }
 
 TEST_F(Allocation, NorWithANoiseBudget) { EXPECT_EQ(allocations({"quality.noise_budget=0.2"}), 0); }

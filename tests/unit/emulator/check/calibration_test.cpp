@@ -191,6 +191,9 @@ TEST(Calibration, WhatAFormatHasNoPlaceForIsRefused) {
     s.more_cameras.back().thing = 1;
     EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv), HasSubstr("camera 2 does not ride with camera 1"));
     s.more_cameras.clear();
+    s.camera.projection = Projection::kRectilinear, s.camera.distortion_x_mm = {0.1};
+    EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv),
+                HasSubstr("camera has distortion_x_mm, distortion_y_mm, and none of the formats"));
     s.camera.shutter.kind = ShutterKind::kLineScan;
     EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv), HasSubstr("no pinhole"));
 }

@@ -66,6 +66,17 @@ TEST(PictureNotes, SayWhenHowAndFromWhereItWasTaken) {
     EXPECT_FALSE(v.contains("faults"));
 }
 
+// Terms are those of places in units of the focal length, here of 1/64 m.
+TEST(PictureNotes, SayALensThatIsAPolynomial) {
+    PictureRun run = run_of_camera();
+    run.model.distortion_x_mm = {0, 0, 0, 0.5}, run.model.distortion_y_mm = {0.25};
+    const FrameRecord record = record_of_frame();
+    const json v = json::parse(json_of(notes_of(run, record, layout_of(record), "DN")));
+    EXPECT_EQ(v["distortion_x"], json({0, 0, 0, 0.5 * 1000 / 64, 0, 0}));
+    EXPECT_EQ(v["distortion_y"], json({0.25 * 64 / 1000, 0, 0, 0, 0, 0}));
+    EXPECT_FALSE(values().contains("distortion_x"));
+}
+
 TEST(PictureNotes, ABinnedMirroredFrameHasItsOwnLens) {
     FrameRecord record = record_of_frame();
     record.binning_x = record.binning_y = 2;
