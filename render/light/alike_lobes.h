@@ -1,6 +1,6 @@
 #pragma once
-// What a tile's facet lobes have been found to reflect, for those that are alike: what they look into lies so far off
-// that it does not change within the few pixels of a tile.
+// A memory of what a tile's facet lobes have been found to reflect: lobes that are alike look into the same, which lies so
+// far off that it does not change within the few pixels of a tile.
 
 #include <array>
 #include <cstdint>
@@ -46,9 +46,9 @@ class AlikeLobes {
     // Normals that lean differently mostly have different slots.
     static std::size_t number(const Vertex& at, std::uint32_t node) {
         constexpr float kSteps = 8;
-        const auto lean = static_cast<std::uint32_t>(
-            static_cast<int>(kSteps * (at.normal.x + 1)) + 17 * static_cast<int>(kSteps * (at.normal.y + 1)) +
-            289 * static_cast<int>(kSteps * (at.normal.z + 1)));
+        const auto lean = static_cast<std::uint32_t>(static_cast<int>(kSteps * (at.normal.x + 1)) +
+                                                     17 * static_cast<int>(kSteps * (at.normal.y + 1)) +
+                                                     289 * static_cast<int>(kSteps * (at.normal.z + 1)));
         // Fibonacci hashing (Knuth, The Art of Computer Programming 3, 1998, section 6.4).
         constexpr std::uint32_t kGolden = 2654435769u;
         return ((node * 31 + at.surface_number) * 31 + lean) * kGolden >> 24;

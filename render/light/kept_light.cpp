@@ -154,7 +154,7 @@ std::size_t KeptLight::bytes() const {
     std::size_t bytes = colors_.size() * sizeof(Spectrum) + lobes_.size() * sizeof(LobeNode) +
                         throws_sun_.size() + (white_.size() + irradiance_.size()) * sizeof(PackedSpectrum);
     for (const KeptSolution& term : terms_) bytes += term.bytes();
-    return bytes + (links_ ? links_->bytes() : 0);
+    return bytes + albedos_->neighbours.bytes() + (links_ ? links_->bytes() : 0);
 }
 
 KeptLight::Local KeptLight::local(const LobeNode& node) {

@@ -202,8 +202,7 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
             place.met = place.bodies = {}, place.directions = 0;
             if (!at.surface.material->has_facets()) continue;
             if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(tile.frame, place);
-            if (at.surface.alpha >= kNarrowestLobe && is_lit(place))
-                reflect_lobe(tile.frame, lobes, place);
+            if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(tile.frame, lobes, place);
         }
         for (const Use& use : std::span(uses.data(), used)) {
             use.at->mirrors_near = use.place->at->mirrors_near;

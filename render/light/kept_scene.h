@@ -93,7 +93,7 @@ class KeptScene {
         Spectrum diffuse, met, bodies;
         float directions;  // that bring what is met (KeptLight::Lobe)
     };
-    // What a lobe meets of other surfaces.
+    // The light that a lobe meets of other surfaces.
     struct MetByLobe {
         Spectrum radiance;
         std::array<float, SkyLight::kMaxBodies> free;  // share of each body's light that comes without a way

@@ -52,8 +52,8 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
         base_.push_back(nodes);
         if (light) nodes += light->table().size();
     }
-    senders_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes), now_.resize(nodes),
-        before_.resize(nodes);
+    senders_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes),
+        now_.resize(nodes), before_.resize(nodes);
     if (std::any_of(lights_.begin(), lights_.end(),
                     [](const KeptLight* light) { return light && light->throws_sun(); }))
         mirrored_.resize(nodes);

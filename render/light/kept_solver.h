@@ -73,7 +73,7 @@ class KeptSolver {
     const EmbreeScene& scene_;
     std::vector<std::size_t> base_;  // by object: of its nodes in what follows
     std::vector<Sender> senders_;
-    std::vector<Spectrum> radiosity_;             // over pi
+    std::vector<Spectrum> radiosity_;  // over pi
     std::vector<Brought> brought_;
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
     // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.

@@ -8,8 +8,8 @@
 #include "render/earth/earth_patch.h"
 #include "render/earth/pictured_earth.h"
 #include "render/light/earth_limbs.h"
+#include "render/light/place_sequence.h"
 #include "render/visibility/visibility_buffer.h"
-#include "render/vocabulary/place_sequence.h"
 
 namespace hilcam {
 namespace {

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "render/scene/light_cell_key.h"
-#include "render/scene/node_neighbours.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
@@ -52,6 +51,17 @@ struct LightNode {
 
 // The share of what a place just above a surface sees that is further away than within_m. Any thread.
 using Openness = std::function<float(Vec3f point_m, Vec3f geometric_normal, float within_m)>;
+
+// A list for each node of those that lie beside it on its surface.
+struct NodeNeighbours {
+    std::vector<std::uint32_t> first;  // by node, and one more: where its list begins
+    std::vector<std::uint32_t> node;   // the lists, each in the order of numbers, without the node itself
+
+    std::span<const std::uint32_t> of(std::size_t n) const {
+        return std::span(node).subspan(first[n], first[n + 1] - first[n]);
+    }
+    std::size_t bytes() const { return (first.size() + node.size()) * sizeof(std::uint32_t); }
+};
 
 class LightNodes {
   public:

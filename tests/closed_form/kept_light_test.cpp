@@ -130,6 +130,46 @@ TEST(KeptLight, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
     EXPECT_LT(brightest("kept", 4), 1.5 * paths);
 }
 
+// White paint in the shade below a thin bar in the Sun: how many of a place's sixty directions meet the bar is chance, but
+// where few do, places have what they have together with those beside them. The light of a pixel scatters about that of the
+// 6 x 6 about it.
+TEST(KeptLight, PaintBelowABarThatFewDirectionsMeetIsEven) {
+    constexpr std::size_t kSize_px = 48, kBlock_px = 6, kAcross = kSize_px / kBlock_px;
+    Stage s;
+    s.quality.path_model = "kept";
+    s.quality.max_depth = 2;
+    s.quality.contribution_threshold = 0;
+    s.quality.samples_per_axis = 4;
+    s.quality.rays_across = 0;
+    s.camera(kSize_px, 0.2);
+    s.add(object_of({{-1, -1, 0},
+                     {1, -1, 0},
+                     {1, 1, 0},
+                     {-1, 1, 0},
+                     {1.2f, -1, 1},
+                     {1.23f, -1, 1},
+                     {1.23f, 1, 1},
+                     {1.2f, 1, 1}},
+                    {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, lambert(0.9), s.grid),
+          {0, 0, 4});
+    s.sun({0.5, 0, 1});
+    s.render();
+    const auto block_of = [](std::size_t i) {
+        return i / kSize_px / kBlock_px * kAcross + i % kSize_px / kBlock_px;
+    };
+    std::array<double, kAcross * kAcross> blocks{};
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < kSize_px * kSize_px; ++i)
+        blocks[block_of(i)] += static_cast<double>(s.radiance.plane(0)[i]) / (kBlock_px * kBlock_px);
+    for (std::size_t i = 0; i < kSize_px * kSize_px; ++i) {
+        const double value = static_cast<double>(s.radiance.plane(0)[i]), off = value - blocks[block_of(i)];
+        sum += value, squares += off * off;
+    }
+    ASSERT_GT(sum, 0);
+    const double count = kSize_px * kSize_px;
+    EXPECT_LT(std::sqrt(squares / count) / (sum / count), 0.6);
+}
+
 // A frame does not depend on the frames before it, also where the light of another Sun was kept in between.
 TEST(KeptLight, AFrameIsAFunctionOfItsWorld) {
     Stage s = corner_stage("kept", lambert(0.8), 1);
@@ -412,6 +452,28 @@ TEST(LightNodes, WallsBehindEachOtherAreApart) {
                     EXPECT_NEAR(point.z, z, 0.1f * above_m) << x;
         }
     EXPECT_TRUE(nodes.is_whole());
+}
+
+// Two walls that stand on one edge: each node has others beside it, they have it, and all of them lie near on its own wall.
+TEST(LightNodes, HaveThoseBesideThemOnTheirWall) {
+    const SpectralGrid grid{{0.5, 0.6}};
+    const SceneObject walls = corner(lambert(0.5), grid);
+    const LightNodes nodes(walls.mesh, std::vector<std::uint8_t>(1, 1), 3000,
+                           [](Vec3f, Vec3f, float) { return 1.0f; });
+    const NodeNeighbours neighbours = nodes.neighbours();
+    ASSERT_EQ(neighbours.first.size(), nodes.nodes().size() + 1);
+    for (std::uint32_t n = 0; n < nodes.nodes().size(); ++n) {
+        const LightNode& node = nodes.nodes()[n];
+        const std::span<const std::uint32_t> beside = neighbours.of(n);
+        EXPECT_FALSE(beside.empty()) << n;
+        for (const std::uint32_t other : beside) {
+            EXPECT_NE(other, n);
+            const std::span<const std::uint32_t> back = neighbours.of(other);
+            EXPECT_TRUE(std::binary_search(back.begin(), back.end(), n));
+            EXPECT_EQ(nodes.nodes()[other].mean_normal, node.mean_normal);
+            EXPECT_LT(length(nodes.nodes()[other].point_m[0] - node.point_m[0]), 4 * nodes.cube_m());
+        }
+    }
 }
 
 // Meshes that no one would draw: without area, with holes, with the normals inwards, with a sliver.

@@ -63,9 +63,7 @@ TEST(CameraModel, RefusesWhatCannotBeByName) {
         {"defects: column 64; accepted: whole, below width_px 64",
          [](CameraModel& c) { c.defects.dead_columns = {64}; }},
         {"distortion_x_mm, distortion_y_mm: found with projection fisheye",
-         [](CameraModel& c) {
-             c.projection = Projection::kFisheye, c.distortion_y_mm = {0.1};
-         }},
+         [](CameraModel& c) { c.projection = Projection::kFisheye, c.distortion_y_mm = {0.1}; }},
         {"the lens folds over", [](CameraModel& c) { c.focal_length_m = 2e-4, c.distortion = {-2}; }},
     };
     EXPECT_NO_THROW(validate(camera_64()));
