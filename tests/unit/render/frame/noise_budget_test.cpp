@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "render/light/place_sequence.h"
+#include "render/visibility/place_sequence.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {
