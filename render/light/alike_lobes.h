@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "render/light/path_vertex.h"
 
@@ -26,20 +27,21 @@ class AlikeLobes {
     // Returns the value of a lobe that is alike; null: there is none.
     const Value* find(const Vertex& at, std::uint32_t node) const {
         const Slot& slot = slots_[number(at, node)];
-        return slot.at && slot.node == node && sends_alike(*slot.at, at) ? &slot.value : nullptr;
+        return slot.value && slot.node == node && sends_alike(*slot.at, at) ? &*slot.value : nullptr;
     }
     const Value& keep(const Vertex& at, std::uint32_t node, const Value& value) {
         Slot& slot = slots_[number(at, node)];
-        slot = {&at, node, value};
-        return slot.value;
+        slot.at = &at, slot.node = node;
+        return slot.value.emplace(value);
     }
 
   private:
     static constexpr std::size_t kSlots = 256;
+    // A value that is not there is not made either: a memory begins with each part of a tile.
     struct Slot {
-        const Vertex* at = nullptr;
-        std::uint32_t node = 0;
-        Value value;
+        const Vertex* at;
+        std::uint32_t node;
+        std::optional<Value> value;
     };
     std::array<Slot, kSlots> slots_;
 

@@ -175,6 +175,7 @@ KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> pla
 }
 
 void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
+    if (vertices.empty()) return;
     constexpr std::size_t kMaxSharing = 128;
     std::array<Place, 32> places;
     struct Use {

@@ -52,7 +52,9 @@ TEST(AlikeLobes, DifferByWhatTheyAreOf) {
     EXPECT_TRUE(differs([](Vertex& v) { v.normal = leaning(0.03f); }));
     EXPECT_TRUE(differs([](Vertex& v) { v.surface.alpha = 0.4f; }));
     // Each place of a texture is another colour.
-    EXPECT_TRUE(differs([&](Vertex& v) { v.surface.material = &pictured; }));
+    const Vertex picture = vertex_of(pictured);
+    lobes.keep(picture, 7, 43);
+    EXPECT_EQ(lobes.find(picture, 7), nullptr);
 }
 
 }  // namespace
