@@ -88,16 +88,17 @@ void PrimaryVertices::take_pixel(int x, int y) {
                                        grid.buffer_px() * (y - part_.y0) + q / 2),
                        part);
         nothing |= SampleMask{part.nothing} << (kVisibilitySamples * q);
-        for (const auto& [id, samples, others] : std::span(part.fragments).first(part.count)) {
-            const SampleMask mask = SampleMask{samples} << (kVisibilitySamples * q);
+        for (const PixelFragments::Fragment& found : std::span(part.fragments).first(part.count)) {
+            const SampleMask mask = SampleMask{found.samples} << (kVisibilitySamples * q);
             const auto end = fragments_.begin() + fragment_count_;
             const auto same = q == 0 ? end
                                      : std::find_if(fragments_.begin() + first, end,
-                                                    [&](const Fragment& f) { return f.id == id; });
+                                                    [&](const Fragment& f) { return f.id == found.id; });
             if (same != end)
                 same->samples |= mask;
             else
-                fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), left, top, mask};
+                fragments_[fragment_count_++] = {found.id, static_cast<std::uint16_t>(pixel), left, top,
+                                                 mask};
         }
     }
     uncovered_[static_cast<std::size_t>(pixel)] = nothing;
