@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,7 +25,8 @@ float root_of_cosine(float mu) {
 
 }  // namespace
 
-AirColumns::AirColumns(const Atmosphere& air, double high_m) : top_m_(static_cast<float>(air.top_m())) {
+AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
+    : top_m_(static_cast<float>(air.top_m())) {
     transmittance_.resize(2 * kViews);
     radiance_.resize(static_cast<std::size_t>(2) * kAzimuths * kSuns * kViews);
     tbb::parallel_for(0, kAzimuths * kSuns, [&](int row) {
@@ -34,16 +36,20 @@ AirColumns::AirColumns(const Atmosphere& air, double high_m) : top_m_(static_cas
                                           row % kSuns * (1 - static_cast<double>(kLowestRoot)) / (kSuns - 1));
         const double azimuth = kPi * (row / kSuns) / (kAzimuths - 1), sine0 = std::sqrt(1 - mu0 * mu0);
         const Vec3d sun{sine0 * std::cos(azimuth), sine0 * std::sin(azimuth), mu0};
-        for (int i = 0; i < kViews; ++i)
-            for (int k = 0; k < 2; ++k) {
-                const Vec3d point{0, 0, kEarthEquatorialRadius_m + (k ? high_m : 1)};
-                const double mu = cosine_of_root(static_cast<double>(i) / (kViews - 1));
-                const Vec3d to_viewer{std::sqrt(1 - mu * mu), 0, mu};
-                const Atmosphere::Sight sight =
-                    air.look(point + kAway_m * to_viewer, -to_viewer, kAway_m, sun);
-                radiance_[static_cast<std::size_t>((row * kViews + i) * 2 + k)] = sight.radiance_sr;
-                if (row == 0) transmittance_[static_cast<std::size_t>(2 * i + k)] = sight.transmittance;
+        const auto look_up = [&](double height_m, Vec3d to_viewer) {
+            const Vec3d point{0, 0, kEarthEquatorialRadius_m + height_m};
+            return air.look(point + kAway_m * to_viewer, -to_viewer, kAway_m, sun);
+        };
+        for (int i = 0; i < kViews; ++i) {
+            const double mu = cosine_of_root(static_cast<double>(i) / (kViews - 1));
+            const Vec3d to_viewer{std::sqrt(1 - mu * mu), 0, mu};
+            const Atmosphere::Sight low = look_up(1, to_viewer);
+            const std::array heights{low, high_m ? look_up(*high_m, to_viewer) : low};
+            for (std::size_t k = 0; k < heights.size(); ++k) {
+                radiance_[static_cast<std::size_t>((row * kViews + i) * 2) + k] = heights[k].radiance_sr;
+                if (row == 0) transmittance_[static_cast<std::size_t>(2 * i) + k] = heights[k].transmittance;
             }
+        }
     });
     fill_passing(air);
 }

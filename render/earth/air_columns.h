@@ -15,8 +15,9 @@ namespace hilcam {
 
 class AirColumns {
   public:
-    // high_m: the upper of the two heights. Works the table out on all threads. The air is not kept.
-    AirColumns(const Atmosphere& air, double high_m);
+    // high_m: the upper of the two heights; nothing: it is not asked for, and looks have the lower in its place. Works the
+    // table out on all threads. The air is not kept.
+    AirColumns(const Atmosphere& air, std::optional<double> high_m);
 
     struct Looks {
         Atmosphere::Sight low, high;  // to a point on the ground, and to one at high_m

@@ -8,7 +8,7 @@ namespace {
 class AirFromSpace final : public Atmosphere {
   public:
     explicit AirFromSpace(std::unique_ptr<Atmosphere> air)
-        : air_(std::move(air)), columns_(*air_, kUnusedHigh_m) {}
+        : air_(std::move(air)), columns_(*air_, std::nullopt) {}
 
     double top_m() const override { return air_->top_m(); }
     Sight look(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const override {
@@ -28,8 +28,6 @@ class AirFromSpace final : public Atmosphere {
     std::string describe() const override { return air_->describe() + ", from space by a table"; }
 
   private:
-    static constexpr double kUnusedHigh_m =
-        8000;  // a second height, which clouds of the Earth's model ask for
     std::unique_ptr<Atmosphere> air_;
     AirColumns columns_;
 };

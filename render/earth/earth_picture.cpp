@@ -295,7 +295,7 @@ void EarthPicture::find_squares(const Tile& tile, const Floats& x, const Floats&
     }
 }
 
-// Six places each way, in lines of 64 bytes.
+// Three places to either side: seven columns, of each the two lines of 64 bytes that its places are in.
 void EarthPicture::Squares::fetch(std::size_t square) const {
     constexpr std::uintptr_t kReach = 3, kLine_bytes = 64;
     const auto at = reinterpret_cast<std::uintptr_t>(middle[square]);

@@ -53,7 +53,7 @@ class EarthPicture {
 
     static constexpr std::size_t kCount = 16;
     using Floats = std::array<float, kCount>;
-    // Where in memory squares of 4 x 4 px are looked up: half a microsecond away, so that they are asked for beforehand.
+    // The places in memory where squares of 4 x 4 px are looked up. They are far apart, so that they are asked for beforehand.
     struct Squares {
         std::array<const void*, kCount> middle;
         std::array<std::size_t, kCount> column_bytes;

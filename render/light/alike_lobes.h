@@ -10,12 +10,17 @@
 
 namespace hilcam {
 
-// True when two vertices send lobes of one kind the same way, within a degree: of lobes that are seven wide at least.
-inline bool sends_alike(const Vertex& a, const Vertex& b) {
-    constexpr float kSame = 0.9998f;  // cosine
+// Directions that differ by no more are one to a lobe: a degree, of lobes that are seven wide at least.
+inline constexpr float kSameLobe = 0.9998f;  // cosine
+
+// True when two vertices lie the same way, and are of one surface that has no texture.
+inline bool lies_alike(const Vertex& a, const Vertex& b) {
     return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
-           a.surface.alpha == b.surface.alpha && a.surface.material->texture < 0 &&
-           dot(a.normal, b.normal) > kSame && dot(a.view_dir, b.view_dir) > kSame;
+           a.surface.material->texture < 0 && dot(a.normal, b.normal) > kSameLobe;
+}
+// True when they send lobes of one kind the same way besides.
+inline bool sends_alike(const Vertex& a, const Vertex& b) {
+    return lies_alike(a, b) && a.surface.alpha == b.surface.alpha && dot(a.view_dir, b.view_dir) > kSameLobe;
 }
 
 // Keeps a value for each kind of lobe at each node; of those that share a slot, the last. Vertices outlive this. One
@@ -36,14 +41,14 @@ class AlikeLobes {
     }
 
   private:
-    static constexpr std::size_t kSlots = 256;
+    static constexpr unsigned kSlotBits = 8;
     // A value that is not there is not made either: a memory begins with each part of a tile.
     struct Slot {
         const Vertex* at;
         std::uint32_t node;
         std::optional<Value> value;
     };
-    std::array<Slot, kSlots> slots_;
+    std::array<Slot, std::size_t{1} << kSlotBits> slots_;
 
     // Normals that lean differently mostly have different slots.
     static std::size_t number(const Vertex& at, std::uint32_t node) {
@@ -53,7 +58,7 @@ class AlikeLobes {
                                                      289 * static_cast<int>(kSteps * (at.normal.z + 1)));
         // Fibonacci hashing (Knuth, The Art of Computer Programming 3, 1998, section 6.4).
         constexpr std::uint32_t kGolden = 2654435769u;
-        return ((node * 31 + at.surface_number) * 31 + lean) * kGolden >> 24;
+        return ((node * 31 + at.surface_number) * 31 + lean) * kGolden >> (32 - kSlotBits);
     }
 };
 

@@ -51,7 +51,8 @@ struct KeptAlbedos {
 
 // A term that is solved: what one source gives to every node, per unit of it.
 struct KeptSolution {
-    std::vector<PackedSpectrum> irradiance;  // by way of other surfaces
+    // By way of other surfaces; where few directions bring it, the mean with the nodes beside (KeptSolver::smooth).
+    std::vector<PackedSpectrum> irradiance;
     // Radiance along each entry of nodes with facets, and along each link; of the Sun only.
     std::vector<PackedSpectrum> along, along_links;
     std::vector<std::uint8_t> seen;  // share of a cone that is free, of 255

@@ -153,11 +153,8 @@ std::uint32_t quad_of(const Tile& tile, const Vertex& at) {
 }
 // near_m: what lies so close together is lit alike.
 bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
-    constexpr float kSameLobe = 0.9998f;  // a degree, of lobes that are seven wide at least
     const Vec3f apart_m = a.point_m - b.point_m;
-    return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
-           a.surface.material->texture < 0 && dot(a.normal, b.normal) > kSameLobe &&
-           dot(apart_m, apart_m) < near_m * near_m;
+    return lies_alike(a, b) && dot(apart_m, apart_m) < near_m * near_m;
 }
 
 }  // namespace

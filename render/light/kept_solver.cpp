@@ -204,9 +204,10 @@ KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
 // Leaves what the nodes keep in before_. A node's directions are too few to tell how much of a small bright part it
 // sees: one of sixty meets a lit rim, and the next node's none. Where that is so, a node and those beside it have
 // their mean, the more so the fewer directions of equal light their sum hangs on (Kish's effective size of a weighted
-// sample, Survey Sampling, 1965, section 8.2). What many directions see is left as sharp as it is.
+// sample, Survey Sampling, 1965, section 8.2). What many directions see is left as sharp as it is, and so is what has
+// come by further bounces alone.
 void KeptSolver::smooth(const Member& member) {
-    constexpr float kFew = 4;
+    constexpr float kFew = 4, kMany = 1e9f;
     const KeptLight& light = *lights_[member.object];
     const std::size_t base = base_[member.object];
     const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
@@ -220,9 +221,10 @@ void KeptSolver::smooth(const Member& member) {
             Brought brought = brought_[base + n];
             Spectrum sum = kept(n);
             for (const std::uint32_t other : beside) brought += brought_[base + other], sum += kept(other);
-            const float each =
-                brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kFew;
-            const float share = kFew / (kFew + each);
+            // Of one of them.
+            const float directions =
+                brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kMany;
+            const float share = kFew / (kFew + directions);
             before_[base + n] = (1 - share) * kept(n) + (share / count) * sum;
         }
     });

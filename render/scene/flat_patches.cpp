@@ -29,7 +29,8 @@ class PatchFinder {
     PatchFinder(const Mesh& mesh, ObjectSurfaces& surfaces)
         : mesh_(mesh),
           surfaces_(surfaces),
-          // Of corners that were rounded where the body is widest, and of the plane through three such.
+          // Eight times what single precision rounds a corner by where the body is widest: the plane through three such
+          // corners is off by some times as much.
           tolerance_m_(0x1p-21 * surfaces.radius_m) {
         surfaces_.patches.resize(mesh.triangles.size());
         std::iota(surfaces_.patches.begin(), surfaces_.patches.end(), 0u);

@@ -1,6 +1,7 @@
 #include "render/scene/light_nodes.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
@@ -331,7 +332,7 @@ NodeNeighbours LightNodes::neighbours() const {
         for (std::size_t i = 0; i < cell.count; ++i)
             for (std::size_t j = 0; j < cell.count; ++j)
                 if (cell.node[i] != cell.node[j]) pairs.emplace_back(cell.node[i], cell.node[j]);
-    std::sort(pairs.begin(), pairs.end());
+    tbb::parallel_sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     NodeNeighbours out;
     out.first.assign(nodes_.size() + 1, 0);

@@ -11,17 +11,12 @@
 #include <hwy/highway.h>
 
 #include "render/scene/flat_patches.h"
+#include "render/visibility/sixteen_lanes-inl.h"
 #include "render/vocabulary/vec.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, 16>;
-using Ints = hn::RebindToSigned<Floats>;
-using V = hn::Vec<Floats>;
-using I = hn::Vec<Ints>;
 
 HWY_INLINE V number(float value) { return hn::Set(Floats(), value); }
 

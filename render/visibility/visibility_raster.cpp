@@ -9,21 +9,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/visibility/sixteen_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, kTrianglesAtOnce>;
-using Ints = hn::RebindToSigned<Floats>;
-using V = hn::Vec<Floats>;
-using I = hn::Vec<Ints>;
-// One sum and one product after the other, never fused: every width must round alike.
-template <class T>
-HWY_INLINE T times_plus(T a, T b, T c) {
-    return hn::Add(hn::Mul(a, b), c);
-}
-
+static_assert(kTrianglesAtOnce == 16);
 constexpr int kSide_px = kVisibilityTile_px;
 constexpr float kPlace_px = 1e-3f;      // ten times what corners are rounded by
 constexpr float kEdge_px = 0.01f;       // ten times what edges are rounded by

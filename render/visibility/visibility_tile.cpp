@@ -9,18 +9,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/visibility/sixteen_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, kVisibilitySamples>;
-using Ints = hn::RebindToSigned<Floats>;
-using V = hn::Vec<Floats>;
-using I = hn::Vec<Ints>;
-// One sum and one product after the other, never fused: every width must round alike.
-HWY_INLINE V times_plus(V a, V b, V c) { return hn::Add(hn::Mul(a, b), c); }
-
+static_assert(kVisibilitySamples == 16);
 constexpr int kSide_px = kVisibilityTile_px;
 
 struct SamplePlaces {

@@ -48,7 +48,7 @@ ONLY_IN = {
     "zmq": {"io/vizard/commands_vizard.cpp"},
     "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp",
             "render/sunlit_ground/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
-            "render/visibility/lane_vectors-inl.h",
+            "render/visibility/lane_vectors-inl.h", "render/visibility/sixteen_lanes-inl.h",
             "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp"},
     "gdal": {"io/maps/gdal_raster.cpp"},
     "ogr_": {"io/maps/gdal_raster.cpp"},
