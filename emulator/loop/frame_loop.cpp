@@ -20,6 +20,8 @@ void FrameLoop::start() {
 
 void FrameLoop::stop() noexcept {
     stopping_.store(true);
+    // Who ends a run and who waits for its end may be two; a thread can be joined once.
+    const std::lock_guard lock(joining_);
     if (render_thread_.joinable()) render_thread_.join();
     if (sense_thread_.joinable()) sense_thread_.join();
 }

@@ -16,6 +16,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <semaphore>
 #include <thread>
 
@@ -33,6 +34,7 @@ class FrameLoop {
     ~FrameLoop() { stop(); }
 
     void start();
+    // Any thread, more than one at a time, too.
     void stop() noexcept;
     bool finished() const { return finished_.load(); }
 
@@ -61,6 +63,7 @@ class FrameLoop {
     std::counting_semaphore<> free_, rendered_{0};
     std::int64_t warm_processor_ns_ = 0;
     std::atomic<bool> stopping_{false}, finished_{false};
+    std::mutex joining_;  // for who stops it
     std::thread render_thread_, sense_thread_;
 };
 

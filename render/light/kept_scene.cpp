@@ -14,14 +14,16 @@ namespace {
 
 Vec3f to_body(const Mat3f& world_from_body, Vec3f world) { return transposed(world_from_body) * world; }
 
-// Returns the ratio of the texture's spectrum to the material's own there.
-Spectrum tint(const Scatterer& at) {
+Spectrum ratio(const Spectrum& here, const Spectrum& own) {
     Spectrum out;
-    const bool shiny = at.material->is_bare();
-    const Spectrum& own = shiny ? at.material->highlight : at.material->base;
-    const Spectrum& here = shiny ? at.highlight : at.base;
     for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : 1.0f;
     return out;
+}
+// Returns the ratio of the texture's spectrum to the material's own there: of its facets, and of all the rest.
+Spectrum facet_tint(const Scatterer& at) { return ratio(at.highlight, at.material->highlight); }
+bool is_tinted(const Scatterer& at) { return at.base.bin != at.material->base.bin; }
+Spectrum base_tint(const Scatterer& at) {
+    return at.material->is_bare() ? facet_tint(at) : ratio(at.base, at.material->base);
 }
 
 // The grid for an object that turns: light is made anew twice a second at most, up to steps of 10 degrees,
@@ -95,7 +97,8 @@ void KeptScene::take_inputs(const FrameView& frame, const WorldSnapshot& world) 
 }
 
 void KeptScene::set_target(const FrameView& frame, const WorldSnapshot& world) {
-    sky_.place(*frame.background);
+    // Four pixels, of which one stands for all.
+    sky_.place(*frame.background, 3 / static_cast<float>(frame.geometry.focal_length_px));
     take_inputs(frame, world);
     target_.set(now_, lights_, terms_);
 }
@@ -159,14 +162,15 @@ bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
 
 }  // namespace
 
-// The place whose light a vertex shares; null: it needs its own.
+// The place whose light a vertex shares; null: it needs its own. What mirrors show may be seen from anywhere.
 KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const {
-    if (!tile.seen || at.depth != 1) return nullptr;
+    if (!tile.seen) return nullptr;
     const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
     const std::uint32_t quad = quad_of(tile, at);
     for (auto place = places.rbegin(); place != places.rend(); ++place) {
-        if (place->at->depth != 1 || quad_of(tile, *place->at) != quad) return nullptr;
-        if (is_alike(*place->at, at, near_m)) return &*place;
+        if (quad_of(tile, *place->at) != quad) return nullptr;
+        if (is_alike(*place->at, at, near_m) && (at.depth == 1 || sends_alike(*place->at, at)))
+            return &*place;
     }
     return nullptr;
 }
@@ -198,26 +202,39 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
         for (Place& place : block) {
             Vertex& at = *place.at;
             place.met = place.bodies = {}, place.directions = 0;
+            place.follower = nullptr;
             if (!at.surface.material->has_facets()) continue;
             if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(tile.frame, place);
             if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(tile.frame, lobes, place);
+            if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
         }
         for (const Use& use : std::span(uses.data(), used)) {
             use.at->mirrors_near = use.place->at->mirrors_near;
+            use.at->has_bodies = use.place->at->has_bodies;
             if (!is_lit(*use.place)) continue;
+            const Scatterer& surface = use.at->surface;
             Spectrum reflected = use.place->diffuse;
-            if (use.at->surface.material->has_facets()) {
-                reflected += use.place->bodies;
+            if (is_tinted(surface)) reflected = base_tint(surface) * reflected;
+            if (surface.material->has_facets()) {
                 use.at->follows_lobe =
                     use.at->weight_samples <= room && hangs_on_few(tile, *use.at, *use.place);
                 if (use.at->follows_lobe)
-                    room -= use.at->weight_samples;
+                    room -= use.at->weight_samples, follow_together(*use.at, *use.place);
                 else
-                    reflected += use.place->met;
+                    reflected += use.place->met + use.place->bodies;
             }
             tile.add(*use.at, use.at->weight * reflected);
         }
     }
+}
+
+void KeptScene::follow_together(Vertex& at, Place& place) {
+    if (!place.follower) {
+        place.follower = &at, at.follows_too = nullptr;
+        return;
+    }
+    at.follows_lobe = false;
+    at.follows_too = place.follower->follows_too, place.follower->follows_too = &at;
 }
 
 void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
@@ -254,7 +271,7 @@ Spectrum KeptScene::others(const FrameView& frame, const KeptLight& light, const
     return sum;
 }
 
-// This is what a surface reflects without its facets.
+// This is what a surface of the material's own colour reflects without its facets.
 Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) const {
     const Vertex& at = *place.at;
     const Object& object = objects_[at.object];
@@ -273,8 +290,7 @@ Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) 
     if (sunlit) all += sun * light.irradiance(KeptTerms::kSun, about);
 
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-    const Spectrum out = (1 / kPiF) * (light.albedo(at.surface_number).base(no) * all);
-    return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
+    return (1 / kPiF) * (light.albedo(at.surface_number).base(no) * all);
 }
 
 void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
@@ -291,6 +307,16 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
     if (!sent) sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
         place.bodies += (share * met->free[b]) * (*sent)[b];
+}
+
+// A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
+void KeptScene::reflect_far_bodies(Place& place) const {
+    Vertex& at = *place.at;
+    const Vec3f mirror = reflect(at.view_dir, at.normal);
+    at.has_bodies = !at.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
+                    sky_.is_clear_of_bodies(mirror);
+    if (!at.has_bodies) return;
+    for (const Spectrum& sent : sent_of_bodies(at)) place.bodies += sent;
 }
 
 KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place& place, bool whole) const {
@@ -312,14 +338,13 @@ KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place&
     Spectrum radiance;
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.kept;
-    radiance = lobe_albedo(at) * radiance;
-    if (at.surface.material->texture >= 0) radiance = tint(at.surface) * radiance;
-    return {radiance, lobe.free, lobe.directions, whole};
+    return {lobe_albedo(at) * radiance, lobe.free, lobe.directions, whole};
 }
 
 Spectrum KeptScene::lobe_albedo(const Vertex& at) const {
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-    return objects_[at.object].light->albedo(at.surface_number).lobe(no);
+    const Spectrum of_material = objects_[at.object].light->albedo(at.surface_number).lobe(no);
+    return at.surface.material->texture >= 0 ? facet_tint(at.surface) * of_material : of_material;
 }
 
 KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
@@ -335,7 +360,7 @@ KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
 // than the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
 bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Place& place) {
     constexpr float kFew = 5, kBeside = 2;
-    if (at.depth != 1 || at.surface.alpha < kNarrowestKept || at.surface.material->texture >= 0) return false;
+    if (at.depth != 1 || at.surface.alpha < kNarrowestKept) return false;
     if (tile.frame.max_depth < 2 || !(place.directions > 0 && place.directions < kFew)) return false;
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
     const float light = at.weight_samples * largest(place.met);

@@ -50,12 +50,36 @@ class KeptScene {
     // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
     static constexpr std::size_t kMostFollowed = 4096;
     // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes which of
-    // those have something near in the mirror's direction, and which wide lobes are left to rays. Loop, any thread.
+    // those have something near in the mirror's direction, which have the bodies' light already, and which wide lobes
+    // are left to rays. Loop, any thread.
     void add_reflected(Tile& tile, std::span<Vertex> vertices) const;
     // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
     void add_mirrored_suns(Tile& tile, std::span<const Vertex> vertices) const {
         mirrored_suns_.add_light(tile, vertices);
     }
+    // The bodies' light that a lobe sends, if nothing is in the way, to rays that are drawn as it sends: an equal share
+    // to each that is towards the body. Loop, any thread.
+    class LobeRays {
+      public:
+        LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene), sent_(scene.sent_of_bodies(at)) {}
+        void count(Vec3f dir) {
+            for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
+                if (scene_.sky_.is_met(b, dir)) ++rays_[b];
+        }
+        Spectrum share(Vec3f dir) const {
+            Spectrum sum;
+            for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
+                if (scene_.sky_.is_met(b, dir)) sum += (1 / static_cast<float>(rays_[b])) * sent_[b];
+            return sum;
+        }
+
+      private:
+        const KeptScene& scene_;
+        std::array<Spectrum, SkyLight::kMaxBodies> sent_;
+        std::array<int, SkyLight::kMaxBodies> rays_{};
+    };
+    // Returns what the facets of a vertex that keeps light reflect of light from everywhere. Loop, any thread.
+    Spectrum lobe_albedo(const Vertex& at) const;
     // Adds what a lobe too narrow to be kept reflects of the bodies; mirror: its middle. Loop, any thread.
     void add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
@@ -92,6 +116,7 @@ class KeptScene {
         // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies.
         Spectrum diffuse, met, bodies;
         float directions;  // that bring what is met (KeptLight::Lobe)
+        Vertex* follower;  // the first whose lobe is left to rays, which are those of all of them; null: none
     };
     // The light that a lobe meets of other surfaces.
     struct MetByLobe {
@@ -114,9 +139,10 @@ class KeptScene {
     Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
     void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
+    void reflect_far_bodies(Place& place) const;
     MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
-    Spectrum lobe_albedo(const Vertex& at) const;
     SentOfBodies sent_of_bodies(const Vertex& at) const;
+    static void follow_together(Vertex& at, Place& place);
     static bool hangs_on_few(const Tile& tile, const Vertex& at, const Place& place);
     Spectrum sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
 };

@@ -34,6 +34,7 @@ struct NextRay {
     Spectrum weight;
     bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
     bool sees_bodies = true;  // false: their light in its lobe has been counted
+    Spectrum if_free{};       // what it adds where it meets nothing
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {
@@ -63,9 +64,12 @@ class TracedPaths final : public PathModel {
     std::array<NextRay, kMostRays> next_;
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
+    std::array<PixelShare, kMax> shares_;
+    std::size_t share_count_ = 0;
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
+        share_count_ = 0;
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.kept) {
@@ -120,7 +124,7 @@ class TracedPaths final : public PathModel {
 
     // Rays from a vertex that keeps light: a mirror's one direction, four of a narrow lobe, both of a sheet
     // of glass.
-    void continue_kept(Tile& tile, const Vertex& at, std::size_t& ray_count) {
+    void continue_kept(Tile& tile, Vertex& at, std::size_t& ray_count) {
         const Scatterer& surface = at.surface;
         if (surface.is_glass()) {
             for (const int part : {0, 1}) {
@@ -134,12 +138,13 @@ class TracedPaths final : public PathModel {
         }
         if (at.follows_lobe) follow_lobe(tile, at, ray_count);
         if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
-        const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-        const Spectrum weight =
-            at.weight * tile.frame.kept->light(at.object).albedo(at.surface_number).lobe(no);
+        if (at.has_bodies && surface.alpha > 0) return;
+        const Spectrum weight = at.weight * tile.frame.kept->lobe_albedo(at);
         const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
         if (surface.alpha < kNarrowestLobe) {
-            const NextRay ray{&at, at.start(), mirror, 0, surface.alpha, surface.alpha == 0, weight, true};
+            const bool meets_sun = surface.alpha == 0;
+            const NextRay ray{&at,    at.start(), mirror,        0, surface.alpha, meets_sun,
+                              weight, true,       !at.has_bodies};
             // Mirrors that stand nowhere near are not looked for.
             if (at.mirrors_near)
                 add_kept(tile, ray, ray_count);
@@ -172,31 +177,57 @@ class TracedPaths final : public PathModel {
         }
     }
 
-    // A ray for every two of the samples that see it, drawn as the lobe sends; each that leaves has an equal share of
-    // what that sends in all. Samples have numbers of their own of a sequence that fills the square evenly, however few
-    // follow each other (multiples of the plastic number's powers: Roberts 2018, extremelearning.com.au); four pixels
-    // side by side begin it at other places.
-    void follow_lobe(Tile& tile, const Vertex& at, std::size_t& ray_count) {
+    // The vertices whose lobes the same rays follow, and their pixels' shares of what these find.
+    struct Followers {
+        static constexpr std::size_t kMost = 16;
+        std::array<const Vertex*, kMost> vertex;
+        std::size_t count = 0;
+        float samples = 0;  // that see them
+    };
+    Followers share_rays(Vertex& first) {
+        Followers out;
+        const std::size_t begin = share_count_;
+        for (const Vertex* at = &first; at && out.count < Followers::kMost; at = at->follows_too) {
+            out.vertex[out.count++] = at;
+            out.samples += at->weight_samples;
+            shares_[share_count_++] = {at->pixel, at->weight_samples / first.weight_samples, at->halves};
+        }
+        first.shared = {shares_.data() + begin, out.count};
+        return out;
+    }
+
+    // Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all. Numbers are those of a
+    // sequence that fills the square evenly, however few follow each other (multiples of the plastic number's powers:
+    // Roberts 2018, extremelearning.com.au).
+    void follow_lobe(Tile& tile, Vertex& at, std::size_t& ray_count) {
         constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
         const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
         const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
-        const auto count = static_cast<std::size_t>(std::lround(std::max(0.5f * at.weight_samples, 1.0f)));
+        const Followers followers = share_rays(at);
+        const auto count = static_cast<std::size_t>(std::lround(rays_for(followers.samples)));
         const Frame local(at.normal);
         const std::size_t first = ray_count;
         for (std::size_t i = 0; i < count && ray_count < next_.size(); ++i) {
+            const Vertex& from = *followers.vertex[i % followers.count];
             const auto number = static_cast<float>(at.sample + i);
             const Vec3f facet = local.to_world(sample_visible_normal(
                 at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kAlong * number, 1.0f),
                 std::fmod(0.25f * quarter + kAbout * number, 1.0f)));
             const Vec3f dir = normalized(reflect(at.view_dir, facet));
-            if (dot(at.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
-                next_[ray_count++] = {&at, at.start(), dir, 0, at.surface.alpha, false, {}, false, false};
+            if (dot(from.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
+                next_[ray_count++] = {&at, from.start(), dir, 0, at.surface.alpha, false, {}, false, false};
         }
-        const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-        const Spectrum weight =
-            (1 / static_cast<float>(std::max<std::size_t>(ray_count - first, 1))) *
-            (at.weight * tile.frame.kept->light(at.object).albedo(at.surface_number).lobe(no));
-        for (NextRay& ray : std::span(next_).subspan(first, ray_count - first)) ray.weight = weight;
+        const std::span<NextRay> rays = std::span(next_).subspan(first, ray_count - first);
+        const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(rays.size(), 1))) *
+                                (at.weight * tile.frame.kept->lobe_albedo(at));
+        KeptScene::LobeRays bodies(*tile.frame.kept, at);
+        for (const NextRay& ray : rays) bodies.count(ray.dir);
+        for (NextRay& ray : rays) ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir);
+    }
+    // One for two of a pixel's samples; four pixels need less than twice as many as one.
+    static float rays_for(float samples) {
+        constexpr float kOfPixel = 0.5f, kBeyond = 0.25f;
+        return std::max(1.0f, kOfPixel * std::min(samples, 16.0f) + kBeyond * std::max(samples - 16, 0.0f));
     }
 
     void add_kept(Tile& tile, const NextRay& ray, std::size_t& ray_count) {
@@ -230,7 +261,10 @@ class TracedPaths final : public PathModel {
                                    frame.background->hides(ray.origin_m, to_double(ray.dir),
                                                            static_cast<double>(hits.distance[k])));
                 if (!hit) {
-                    if (ray.sees_bodies) add_background(tile, ray);
+                    if (ray.sees_bodies)
+                        add_background(tile, ray);
+                    else
+                        tile.add(*ray.from, ray.if_free);
                     continue;
                 }
                 if (last) continue;
@@ -238,7 +272,7 @@ class TracedPaths final : public PathModel {
                 if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex))
                     continue;
                 vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
-                vertex.halves = ray.from->halves;
+                vertex.halves = ray.from->halves, vertex.shared = ray.from->shared;
                 vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
                 vertex.weight = ray.weight;
                 vertex.weight_samples = ray.from->weight_samples;

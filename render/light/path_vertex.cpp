@@ -92,7 +92,8 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.surface_number = triangle.surface;
     vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
     vertex.mirrors_near = true;
-    vertex.follows_lobe = false;
+    vertex.has_bodies = vertex.follows_lobe = false;
+    vertex.shared = {};
     vertex.known_sun = object.known_sun.empty() || frame.objects->size() > 1
                            ? KnownSun::kAsk
                            : object.known_sun[hits.triangle[k]];

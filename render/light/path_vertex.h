@@ -1,6 +1,9 @@
 #pragma once
 // A path at one of its vertices: where a ray has met an object, and how light scatters there.
 
+#include <cstdint>
+#include <span>
+
 #include "render/light/frame_view.h"
 #include "render/scene/brdf.h"
 #include "render/scene/embree_scene.h"
@@ -17,6 +20,13 @@ struct Facet {
     float samples = 0;                       // samples of sixteen a pixel that see it
     const LevelFacets* flattened = nullptr;  // the facets of the mesh for which it stands; null: itself
     const Facet* next = nullptr;
+};
+
+// A pixel that has part of the light of one vertex's rays.
+struct PixelShare {
+    std::uint32_t pixel;  // in the tile
+    float share;          // of the light as the vertex sends it
+    HalfShares halves;    // where in the pixel it is
 };
 
 struct Vertex {
@@ -36,11 +46,15 @@ struct Vertex {
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     KnownSun known_sun;  // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
     bool mirrors_near;   // where that, something may stand in the mirror's direction
-    bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects of other surfaces
-    float weight_samples;  // samples of sixteen a pixel that see it, where it is not one ray's
-    HalfShares halves;     // where in the pixel they are
-    float facet_alpha;     // alpha of the lobes of its facets
-    const Facet* facets;   // the vertex's own among them; null: it is one
+    bool has_bodies;     // what its lobe reflects of the bodies has been added
+    bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
+    const Vertex*
+        follows_too;  // where that, the next of those that have the same light; null: there are no more
+    std::span<const PixelShare> shared;  // the pixels that its light is added to; empty: its own
+    float weight_samples;                // samples of sixteen a pixel that see it, where it is not one ray's
+    HalfShares halves;                   // where in the pixel they are
+    float facet_alpha;                   // alpha of the lobes of its facets
+    const Facet* facets;                 // the vertex's own among them; null: it is one
     Spectrum weight;
     Scatterer surface;
 

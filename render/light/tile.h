@@ -54,7 +54,10 @@ struct Tile {
     std::span<HalfKind> kinds{};  // by pixel; likewise
 
     // Adds light that a vertex sends to its pixel: radiance, times the samples for which it stands.
-    void add(const Vertex& at, const Spectrum& light) { add(at.pixel, at.halves, light); }
+    void add(const Vertex& at, const Spectrum& light) {
+        if (at.shared.empty()) return add(at.pixel, at.halves, light);
+        for (const PixelShare& part : at.shared) add(part.pixel, part.halves, part.share * light);
+    }
     void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
         pixels[pixel] += light;
         if (!halves.empty()) add_halves(pixel, shares, light);

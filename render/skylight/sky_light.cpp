@@ -109,6 +109,11 @@ SkyLight::SkyLight(float narrowest_alpha) : narrowest_alpha_(narrowest_alpha) {
     whole_lobe(0, 1);  // the table is made here, so that no frame makes it
 }
 
+bool SkyLight::is_clear_of_bodies(Vec3f dir) const {
+    return std::none_of(cones_.begin(), cones_.begin() + static_cast<std::ptrdiff_t>(cone_count_),
+                        [&](const Cone& cone) { return dot(cone.axis, dir) >= cone.cosine; });
+}
+
 Vec3f SkyLight::DirectionMap::direction(int index) {
     const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
     const float y = 2 * static_cast<float>(index / (kSteps + 1)) / kSteps - 1;
@@ -130,8 +135,13 @@ Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
     return interpolated(value, kSteps, px, py);
 }
 
-void SkyLight::place(const Background& background) {
+void SkyLight::place(const Background& background, float margin_rad) {
     background_ = &background;
+    cone_count_ = 0;
+    for (const BodyLight& lamp : background.body_lights()) {
+        const float half_rad = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
+        cones_[cone_count_++] = {to_float(lamp.world_dir), std::cos(std::min(half_rad + margin_rad, kPiF))};
+    }
     count_ = 0;
     for (std::size_t number = 0; number < background.body_lights().size(); ++number) {
         const BodyLight& lamp = background.body_lights()[number];

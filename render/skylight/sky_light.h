@@ -20,8 +20,8 @@ class SkyLight {
     // narrowest_alpha: of the facets of all that it lights (GGX); 1: there are none.
     explicit SkyLight(float narrowest_alpha);
 
-    // Prepares a frame; the background is placed. Loop.
-    void place(const Background& background);
+    // Prepares a frame; the background is placed. margin_rad: how far from bodies is_clear_of_bodies() keeps. Loop.
+    void place(const Background& background, float margin_rad);
 
     struct Body {
         Vec3f world_dir;
@@ -36,6 +36,8 @@ class SkyLight {
     bool is_met(std::size_t body, Vec3f world_dir) const {
         return dot(bodies_[body].world_dir, world_dir) >= disks_[body].cosine;
     }
+    // No body of the background, be it in bodies() or not, lies in this direction or beside it. Unit, world.
+    bool is_clear_of_bodies(Vec3f dir) const;
     // Irradiance [W m^-2 um^-1] on a surface with this normal. Loop, any thread.
     Spectrum irradiance(std::size_t body, Vec3f world_normal) const {
         return irradiance_[body].at(world_normal);
@@ -82,6 +84,13 @@ class SkyLight {
     std::array<Body, kMaxBodies> bodies_;
     std::array<DirectionMap, kMaxBodies> irradiance_;
     std::array<Disks, kMaxBodies> disks_;
+    // Cones that hold the bodies of the background, with a margin.
+    struct Cone {
+        Vec3f axis;
+        float cosine;
+    };
+    std::array<Cone, hilcam::kMaxBodies> cones_;
+    std::size_t cone_count_ = 0;
 
     Glossy narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);

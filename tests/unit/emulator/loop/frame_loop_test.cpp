@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <latch>
 #include <numeric>
 #include <thread>
 
@@ -65,6 +66,23 @@ TEST_F(FrameLoopTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
     EXPECT_EQ(rig.send(TriggerModeCommand{false, 0}), CommandStatus::kNotNow);
     rig.loop.stop();
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // nobody would answer
+}
+
+// A run waits for its loop's end while somebody else ends it.
+TEST_F(FrameLoopTest, TwoThreadsMayStopItAtOnce) {
+    for (int i = 0; i < 8; ++i) {
+        LoopRig rig(scenario(", frame_rate_hz: 10"), {}, {"mode=lockstep"});
+        rig.loop.start();
+        std::latch both(2);
+        const auto stop = [&] {
+            both.arrive_and_wait();
+            rig.loop.stop();
+            EXPECT_TRUE(rig.loop.finished());
+        };
+        std::thread other(stop);
+        stop();
+        other.join();
+    }
 }
 
 // Frames that name no time go on from the one before; a time that these have passed is over.
