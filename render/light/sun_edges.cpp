@@ -90,7 +90,7 @@ std::uint8_t SunEdges::kind_of(const Vertex& at) {
         side = at.normal.x > 0 ? 2 : 3;
     else if (size.y > size.z)
         side = at.normal.y > 0 ? 4 : 5;
-    const std::uint32_t number = (at.object * 7 + at.surface_number) * 6 + side;
+    const std::uint32_t number = (at.object * 256 + at.surface_number) * 6 + side;
     constexpr std::uint32_t kGolden = 0x9E3779B1;  // 2^32 by the golden ratio: Knuth's multiplicative hash
     return static_cast<std::uint8_t>(number * kGolden >> (32 - std::bit_width(kKinds - 1)));
 }
