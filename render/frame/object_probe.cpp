@@ -29,7 +29,6 @@ ObjectProbe::ObjectProbe(const FrameView& frame, int most_samples)
       view_(frame),
       tile_(PathModel::kMaxSamples),
       picture_(static_cast<std::size_t>(most_samples * most_samples)) {
-    mask_.fill();
     view_.rays = rays_.get();
     view_.object_mask = &mask_;
 }
@@ -59,6 +58,18 @@ void ObjectProbe::aim(const WorldSnapshot& world, std::size_t i, double distance
     view_.start_at_m = world.objects[i].position_world_m - view_.rays_world_m;
     view_.start_before_m = kMargin * radius_m;
     rays_->place(view_.geometry, {world.time, camera, {}, {}});
+    mark(camera, world.objects[i], (*view_.objects)[i]->cluster_bounds_m);
+}
+
+// Rays are sent where the boxes of its triangles are, unless there are so many that the rays cost less.
+void ObjectProbe::mark(const Pose& camera, const Pose& object,
+                       std::span<const std::array<Vec3f, 2>> boxes_m) {
+    mask_.place(view_.geometry);
+    const auto packets = static_cast<std::size_t>(samples_ * samples_ / kPacketSize);
+    if (boxes_m.size() > packets)
+        mask_.fill();
+    else
+        mask_.add(camera, object, boxes_m);
 }
 
 TileStats ObjectProbe::trace(PathModel& paths) {

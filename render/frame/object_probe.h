@@ -3,7 +3,9 @@
 // cells of a fraction of a pixel, each a point at the middle of its light. So its flux is that of the object
 // at its phase and attitude, however small it is, and its centroid does not jump from pixel to pixel.
 
+#include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "render/frame/plan.h"
@@ -46,6 +48,7 @@ class ObjectProbe {
     std::unique_ptr<FacetList> facets_ = std::make_unique<FacetList>();
 
     void aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m);
+    void mark(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m);
     TileStats trace(PathModel& paths);
 };
 

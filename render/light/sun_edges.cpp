@@ -1,6 +1,8 @@
 #include "render/light/sun_edges.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <span>
 
 #include "render/light/primary_vertices.h"
@@ -44,10 +46,7 @@ void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
 
 void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
-    Rows lit{}, dark{};
-    for (const Asked& a : std::span(asked_).first(count_))
-        (a.lit > 0 ? lit : dark)[a.at->pixel / width] |= 1u << (a.at->pixel % width);
-    const Rows near_lit = widened(lit), near_dark = widened(dark);
+    const Answers near = within_reach(width);
 
     struct Use {
         Asked* asked;
@@ -61,7 +60,7 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
     ShadowRays<Use, decltype(gets_through)> shadow(tile.frame, tile.stats.shadow_rays, gets_through);
     for (Asked& a : std::span(asked_).first(count_)) {
         const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
-        if (!((a.lit > 0 ? near_dark : near_lit)[y] >> x & 1u)) continue;
+        if (!((a.lit > 0 ? near.dark : near.lit)[a.kind][y] >> x & 1u)) continue;
         a.lit = a.of = 0;
         a.by_sample = !a.at->facets && a.at->samples != 0;
         SampleMask rest = a.at->samples;
@@ -82,6 +81,30 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
                        {&a, share, at_px});
         }
     }
+}
+
+std::uint8_t SunEdges::kind_of(const Vertex& at) {
+    const Vec3f size{std::abs(at.normal.x), std::abs(at.normal.y), std::abs(at.normal.z)};
+    std::uint32_t side = at.normal.z > 0 ? 0 : 1;
+    if (size.x > size.y && size.x > size.z)
+        side = at.normal.x > 0 ? 2 : 3;
+    else if (size.y > size.z)
+        side = at.normal.y > 0 ? 4 : 5;
+    const std::uint32_t number = (at.object * 256 + at.surface_number) * 6 + side;
+    constexpr std::uint32_t kGolden = 0x9E3779B1;  // 2^32 by the golden ratio: Knuth's multiplicative hash
+    return static_cast<std::uint8_t>(number * kGolden >> (32 - std::bit_width(kKinds - 1)));
+}
+
+// The answers that lie within reach of each pixel.
+SunEdges::Answers SunEdges::within_reach(std::uint32_t width) {
+    Answers near;
+    for (Asked& a : std::span(asked_).first(count_)) {
+        a.kind = kind_of(*a.at);
+        (a.lit > 0 ? near.lit : near.dark)[a.kind][a.at->pixel / width] |= 1u << (a.at->pixel % width);
+    }
+    for (std::size_t kind = 0; kind < kKinds; ++kind)
+        near.lit[kind] = widened(near.lit[kind]), near.dark[kind] = widened(near.dark[kind]);
+    return near;
 }
 
 // Pixels that have one of these within reach.

@@ -1,10 +1,12 @@
 #pragma once
 // Shadows' edges on what the camera sees by the visibility buffer, as wide as the Sun's disk makes them.
 //
-// One ray to the middle of the Sun tells which vertices are lit. Where pixels that differ lie within kReach_px of
-// each other, an edge passes: each vertex there asks again, from other places of what its samples see, for other
-// places of the disk. The approximation: a vertex further off has its one ray, so penumbras wider than twice the
-// reach keep a hard edge inside; four rays tell five levels of light, other ones in each of four pixels.
+// One ray to the middle of the Sun tells which vertices are lit. Where vertices of one kind that differ lie in pixels within
+// kReach_px of each other, an edge passes: each of them asks again, from other places of what its samples see, for
+// other places of the disk. A kind is a surface of an object, or more than one, where it faces the same way by and large:
+// what lies in shadow behind an edge of the body is no edge of a shadow on what stands before it. The
+// approximation: a vertex further off has its one ray, so penumbras wider than twice the reach keep a hard edge
+// inside; four rays tell five levels of light, other ones in each of four pixels.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +29,7 @@ class SunEdges {
     // light: what the vertex sends to the viewer, to its pixel, if all of it is in the Sun. At most
     // PathModel::kMaxSamples. Loop, any thread.
     void add(const Vertex& at, const Spectrum& light, const Starts& starts) {
-        asked_[count_++] = {&at, light, starts, 0, 1, {}, false};
+        asked_[count_++] = {&at, light, starts, 0, 1, {}, false, 0};
     }
     // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
     // thread.
@@ -35,6 +37,7 @@ class SunEdges {
 
   private:
     static constexpr int kReach_px = 1, kMaxRows = 32;
+    static constexpr std::size_t kKinds = 16;
     static constexpr std::uint32_t kAgain = 4;  // rays
     struct Asked {
         const Vertex* at;
@@ -43,13 +46,20 @@ class SunEdges {
         float lit, of;      // shares that have got through, and that were asked for
         HalfShares halves;  // sums of those that have got through, one by one
         bool by_sample;     // they asked from samples of the pixel
+        std::uint8_t kind;  // below kKinds
     };
     using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
+    // Pixels with a vertex of a kind that is lit, or dark.
+    struct Answers {
+        std::array<Rows, kKinds> lit{}, dark{};
+    };
     std::array<Asked, PathModel::kMaxSamples> asked_;
     std::size_t count_ = 0;
 
     void ask_once(Tile& tile, Vec3f sun_dir);
     void ask_again(Tile& tile, const SunSampler& sun);
+    static std::uint8_t kind_of(const Vertex& at);
+    Answers within_reach(std::uint32_t width);
     static Rows widened(const Rows& rows);
 };
 

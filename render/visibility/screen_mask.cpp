@@ -3,13 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/vocabulary/check.h"
+
 namespace hilcam {
+
+namespace {
+
+int blocks_in(int pixels) { return (pixels + ScreenMask::kBlock_px - 1) / ScreenMask::kBlock_px; }
+
+}  // namespace
 
 ScreenMask::ScreenMask(const ImageGeometry& geometry)
     : geometry_(geometry),
-      across_((geometry.padded_width() + kBlock_px - 1) / kBlock_px),
-      down_((geometry.padded_height() + kBlock_px - 1) / kBlock_px),
+      across_(blocks_in(geometry.padded_width())),
+      down_(blocks_in(geometry.padded_height())),
       blocks_(static_cast<std::size_t>(across_ * down_)) {}
+
+void ScreenMask::place(const ImageGeometry& geometry) {
+    geometry_ = geometry;
+    across_ = blocks_in(geometry.padded_width()), down_ = blocks_in(geometry.padded_height());
+    HILCAM_CHECK(static_cast<std::size_t>(across_ * down_) <= blocks_.size());
+    clear();
+}
 
 void ScreenMask::clear() { std::fill(blocks_.begin(), blocks_.end(), std::uint8_t{0}); }
 

@@ -18,6 +18,9 @@ class ScreenMask {
   public:
     explicit ScreenMask(const ImageGeometry& geometry);
 
+    // Takes the mask over to another picture, which has no more blocks than the first; nothing of it is marked. Loop; no
+    // allocation.
+    void place(const ImageGeometry& geometry);
     void clear();
     // Everything.
     void fill();
