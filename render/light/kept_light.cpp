@@ -68,14 +68,16 @@ KeptLight::KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedo
         std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.texture >= 0; });
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const Material& material = *materials_[nodes[n].surface];
-        Spectrum white = albedos_->own[nodes[n].surface].white();
+        Spectrum lobe = albedos_->own[nodes[n].surface].white_lobe(),
+                 base = albedos_->own[nodes[n].surface].white_base();
         if (textured) {
             colors_.push_back(Spectrum{});
             colors_.back().bin.fill(1);
             if (material.texture >= 0) colors_.back() = bands.spectrum(nodes[n].color);
-            white = white * colors_.back();
+            base = base * colors_.back();
         }
-        white_.emplace_back((1 / kPiF) * white);
+        lobe = facet_color(n, lobe);
+        white_.emplace_back((1 / kPiF) * (base + lobe));
         describe_lobe(n);
     }
     bounds_ = sphere_about(nodes);

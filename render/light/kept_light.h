@@ -180,6 +180,12 @@ class KeptLight {
     };
     static_assert(sizeof(LobeNode) == 32);
 
+    // Returns a spectrum of a node's facets in its texture's colour, which those have that no body lies below.
+    Spectrum facet_color(std::size_t n, const Spectrum& of) const {
+        const bool colored = !colors_.empty() && materials_[table_->nodes().nodes()[n].surface]->is_bare();
+        return colored ? colors_[n] * of : of;
+    }
+
     const ShownObject* shown_;
     std::shared_ptr<const TransferTable> table_;
     const KeptLinks* links_ = nullptr;

@@ -138,22 +138,22 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
         send(light, n, a.dir, a.normal, share * mean, sender);
         if (source.kind == KeptSource::Kind::kGlow)
             sender.diffuse = PackedSpectrum(light.materials_[table.nodes().nodes()[n].surface]->emission);
-        if (cone && sender.alpha > 0)
-            widen(light.albedo(table.nodes().nodes()[n].surface), source, share * mean, sender);
+        if (cone && sender.alpha > 0) widen(light, n, source, share * mean, sender);
     }
 }
 
 // A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
 // reflect.
-void KeptSolver::widen(const MaterialAlbedo& albedo, const KeptSource& source, float received,
+void KeptSolver::widen(const KeptLight& light, std::size_t n, const KeptSource& source, float received,
                        Sender& sender) {
     constexpr float kBegins = 0.2f, kWhole = 0.4f;
     const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
     sender.alpha = std::min(1.0f, std::hypot(sender.alpha, 0.5f * sine));
     const float paint = std::clamp((sender.alpha - kBegins) / (kWhole - kBegins), 0.0f, 1.0f);
     if (paint == 0) return;
-    sender.diffuse =
-        PackedSpectrum(sender.diffuse.unpacked() + (paint * received / kPiF) * albedo.lobe(sender.ni));
+    const Spectrum albedo =
+        light.facet_color(n, light.albedo(light.table().nodes().nodes()[n].surface).lobe(sender.ni));
+    sender.diffuse = PackedSpectrum(sender.diffuse.unpacked() + (paint * received / kPiF) * albedo);
     sender.lobe = PackedSpectrum((1 - paint) * sender.lobe.unpacked());
     sender.received *= 1 - paint;
     if (paint == 1) sender.alpha = 0;
@@ -176,8 +176,7 @@ void KeptSolver::send(const KeptLight& light, std::size_t n, Vec3f source_dir, V
     sender.ni = cosine;
     if (!material.has_facets()) return;
     sender.alpha = std::max(material.ggx_alpha, KeptLight::min_alpha(light.table()));
-    Spectrum normal_incidence = material.highlight;
-    if (material.is_bare() && !light.colors_.empty()) normal_incidence = normal_incidence * light.colors_[n];
+    const Spectrum normal_incidence = light.facet_color(n, material.highlight);
     // However wide the facets are taken, they send as much in all as they reflect.
     const float whole = largest(light.albedos_->wide[node.surface].lobe(cosine));
     const float gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;

@@ -84,7 +84,8 @@ class KeptSolver {
     std::uint32_t blocked(const Member& member, const RayPacket& rays) const;
     void send(const KeptLight& light, std::size_t node, Vec3f source_dir, Vec3f facing, float received,
               Sender& sender) const;
-    static void widen(const MaterialAlbedo& albedo, const KeptSource& source, float received, Sender& sender);
+    static void widen(const KeptLight& light, std::size_t node, const KeptSource& source, float received,
+                      Sender& sender);
     static float seen_of_cone(const Member& member, const KeptLight& light, std::size_t node);
     void gather_first(const Member& member, std::span<const Member> group);
     void bounce(std::span<const Member> group);

@@ -45,7 +45,7 @@ MaterialAlbedo::MaterialAlbedo(const Material& material) {
         // 2 cos d cos, by the trapezoid rule.
         const float weight =
             (i == 0 || i == kSteps ? 1.0f : 2.0f) * static_cast<float>(i) / (kSteps * kSteps);
-        white_ += weight * (base_[k] + lobe_[k]);
+        white_base_ += weight * base_[k], white_lobe_ += weight * lobe_[k];
     }
 }
 

@@ -20,14 +20,15 @@ class MaterialAlbedo {
     Spectrum lobe(float cosine) const { return at(lobe_, cosine); }
     // This is all the rest, which goes everywhere.
     Spectrum base(float cosine) const { return at(base_, cosine); }
-    // This is both together, under light from everywhere.
-    const Spectrum& white() const { return white_; }
+    // These are the same two, under light from everywhere.
+    const Spectrum& white_lobe() const { return white_lobe_; }
+    const Spectrum& white_base() const { return white_base_; }
 
   private:
     static constexpr int kSteps = 16;
     using Table = std::array<Spectrum, kSteps + 1>;
     Table base_{}, lobe_{};
-    Spectrum white_;
+    Spectrum white_base_, white_lobe_;
 
     static Spectrum at(const Table& table, float cosine) {
         const float x = std::min(std::max(cosine, 0.0f), 1.0f) * kSteps;

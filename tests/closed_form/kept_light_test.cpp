@@ -46,7 +46,15 @@ SceneObject corner(const MaterialConfig& material, const SpectralGrid& grid) {
                      {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}, material, grid);
 }
 
-Stage corner_stage(const char* model, const MaterialConfig& material, int samples) {
+// A picture of one colour all over it.
+SceneObject painted(SceneObject object, std::uint8_t grey) {
+    object.mesh.textures = {Texture{"grey", 1, 1, {{grey, grey, grey}}}};
+    object.mesh.uvs.resize(object.mesh.vertices_m.size());
+    object.mesh.surfaces[0].base_color_texture = object.materials[0].texture = 0;
+    return object;
+}
+
+Stage corner_stage(const char* model, const MaterialConfig& material, int samples, std::uint8_t grey = 255) {
     Stage s;
     s.quality.path_model = model;
     s.quality.max_depth = 12;
@@ -56,7 +64,7 @@ Stage corner_stage(const char* model, const MaterialConfig& material, int sample
     s.camera(48, 0.4);
     // Seen from above, the wall to the right; the Sun from the left, so that it lights the wall more than the
     // floor.
-    s.add(corner(material, s.grid), {0, 0, 4});
+    s.add(grey < 255 ? painted(corner(material, s.grid), grey) : corner(material, s.grid), {0, 0, 4});
     s.sun({-2, 0.3, -1});
     return s;
 }
@@ -78,6 +86,42 @@ TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
         const double error = material.model == kModel<brdf::Metal> ? 0.14 : 0.015;
         EXPECT_NEAR((kept.mean() - direct.mean()) / between, 1, error);
     }
+}
+
+constexpr std::uint8_t kGrey = 188;
+constexpr double kLinearGrey = 0.5029;  // IEC 61966-2-1
+
+// A grey picture is the colour of what lies under a clear layer, but not of that layer's own reflection: light between
+// surfaces is that of a material of such a reflectance. Under the layer it is dark, so that the layer sends most.
+TEST(KeptLight, APictureUnderALayerIsAsAMaterialOfItsReflectance) {
+    const auto between = [](MaterialConfig material, double reflectance, std::uint8_t grey) {
+        material.reflectance = Curve::constant(reflectance);
+        Stage direct = corner_stage("direct", material, 2, grey),
+              kept = corner_stage("kept", material, 2, grey);
+        direct.render(), kept.render();
+        return kept.mean() - direct.mean();
+    };
+    MaterialConfig varnish = lambert(0);
+    varnish.model = kModel<brdf::Dielectric>;
+    varnish.roughness = 0.6;
+    varnish.refractive_index = 1.5;
+    for (const auto& [material, own] : {std::pair{lambert(0), 0.8}, {varnish, 0.05}}) {
+        const double plain = between(material, own * kLinearGrey, 255);
+        EXPECT_GT(plain, 0);
+        EXPECT_NEAR(between(material, own, kGrey) / plain, 1, 0.02) << material.model;
+    }
+}
+
+// Of metal it is the facets' colour, as random paths have it (but for an eighth: the corner above).
+TEST(KeptLight, APictureColoursMetal) {
+    MaterialConfig metal = lambert(0.8);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.6;
+    Stage direct = corner_stage("direct", metal, 2, kGrey), paths = corner_stage("path", metal, 8, kGrey),
+          kept = corner_stage("kept", metal, 2, kGrey);
+    paths.quality.facets_behind_diffuse = 0;
+    for (Stage* s : {&direct, &paths, &kept}) s->render();
+    EXPECT_NEAR((kept.mean() - direct.mean()) / (paths.mean() - direct.mean()), 1, 0.14);
 }
 
 // Two endless plates, nearly: between them what the Sun brings in by a bounce is kept as paths have it, and

@@ -34,8 +34,6 @@ TEST(AlikeLobes, AreFoundAgainWithinADegree) {
 
 TEST(AlikeLobes, DifferByWhatTheyAreOf) {
     const Material material{};
-    Material pictured{};
-    pictured.texture = 0;
     const Vertex at = vertex_of(material);
     AlikeLobes<int> lobes;
     lobes.keep(at, 7, 42);
@@ -51,10 +49,19 @@ TEST(AlikeLobes, DifferByWhatTheyAreOf) {
     EXPECT_TRUE(differs([](Vertex& v) { v.back = true; }));
     EXPECT_TRUE(differs([](Vertex& v) { v.normal = leaning(0.03f); }));
     EXPECT_TRUE(differs([](Vertex& v) { v.surface.alpha = 0.4f; }));
-    // Each place of a texture is another colour.
-    const Vertex picture = vertex_of(pictured);
-    lobes.keep(picture, 7, 43);
-    EXPECT_EQ(lobes.find(picture, 7), nullptr);
+}
+
+// Each place of a texture is another colour, which facets have where there is no body below them.
+TEST(AlikeLobes, DifferByATextureOnBareFacets) {
+    Material metal{}, varnish{};
+    metal.brdf = brdf::Metal(0.3f), varnish.brdf = brdf::Dielectric(0.3f, 1.5f);
+    metal.texture = varnish.texture = 0;
+    AlikeLobes<int> lobes;
+    const Vertex of_metal = vertex_of(metal), of_varnish = vertex_of(varnish);
+    lobes.keep(of_metal, 7, 42);
+    EXPECT_EQ(lobes.find(of_metal, 7), nullptr);
+    lobes.keep(of_varnish, 7, 43);
+    EXPECT_NE(lobes.find(of_varnish, 7), nullptr);
 }
 
 }  // namespace
