@@ -34,7 +34,7 @@ struct NextRay {
     Spectrum weight;
     bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
     bool sees_bodies = true;  // false: their light in its lobe has been counted
-    Spectrum if_free{};       // what it adds where it meets nothing
+    Spectrum if_free{};       // light that it adds where it meets nothing
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {

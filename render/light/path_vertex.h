@@ -25,7 +25,7 @@ struct Facet {
 // A pixel that has part of the light of one vertex's rays.
 struct PixelShare {
     std::uint32_t pixel;  // in the tile
-    float share;          // of the light as the vertex sends it
+    float share;          // share of the light as the vertex sends it
     HalfShares halves;    // where in the pixel it is
 };
 
@@ -46,7 +46,7 @@ struct Vertex {
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     KnownSun known_sun;  // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
     bool mirrors_near;   // where that, something may stand in the mirror's direction
-    bool has_bodies;     // what its lobe reflects of the bodies has been added
+    bool has_bodies;     // the light of bodies in its lobe has been added
     bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
     const Vertex*
         follows_too;  // where that, the next of those that have the same light; null: there are no more

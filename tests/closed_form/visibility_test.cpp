@@ -1,5 +1,5 @@
-// Pictures out of the visibility buffer against pictures out of rays through the same sixteen places of each
-// pixel.
+// Pictures out of the visibility buffer against pictures out of rays through the same places of each pixel: sixteen, or
+// 64.
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,10 @@ struct Difference {
     double greatest = 0;  // of a pixel, against the brightest
     double covered = 0;   // of the shares that objects cover
 };
-Difference difference_from_rays(Stage& s) {
+Difference difference_from_rays(Stage& s, int across = 4) {
     s.quality.rays_across = 0;  // small objects would ask for more
-    s.quality.samples_per_axis = 4;
+    s.quality.samples_per_axis = across;
+    s.quality.buffer_samples = across * across;
     s.quality.visibility = "rays";
     s.render();
     const RadianceImage rays = std::move(s.radiance);
@@ -56,6 +57,38 @@ TEST(Visibility, ACubeIsWhatRaysSee) {
     EXPECT_NEAR(d.covered, 0, 1e-6);
     EXPECT_LT(std::abs(d.mean), 1e-6);
     EXPECT_LT(d.greatest, 1e-5);
+}
+
+// Bars of 0.02 to 0.15 px about a middle, in all directions.
+SceneObject bars(const SpectralGrid& grid) {
+    std::vector<Vec3f> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    constexpr int kBars = 16;
+    for (int i = 0; i < kBars; ++i) {
+        const double angle_rad = 2 * kPi * (i + 0.3) / kBars, half_px = 0.01 + 0.065 * i / (kBars - 1);
+        const Vec3d along{std::cos(angle_rad), std::sin(angle_rad), 0}, across{-along.y, along.x, 0};
+        const auto first = static_cast<std::uint32_t>(corners.size());
+        for (const Vec2d at :
+             {Vec2d{4, -half_px}, Vec2d{18, -half_px}, Vec2d{18, half_px}, Vec2d{4, half_px}})
+            corners.push_back(to_float(0.125 * (at.x * along + at.y * across)));
+        triangles.push_back({first, first + 1, first + 2});
+        triangles.push_back({first, first + 2, first + 3});
+    }
+    return object_of(std::move(corners), std::move(triangles), lambert(0.5), grid);
+}
+
+// Each pixel has what its 64 samples see of them.
+TEST(Visibility, ThinBarsAreWhatRaysSee) {
+    Stage s;
+    s.quality.path_model = "direct";
+    s.sun({0.3, 0.5, -1});
+    s.add(bars(s.grid), {0, 0, 4});
+    const Difference d = difference_from_rays(s, 8);
+    EXPECT_NEAR(d.covered, 0, 1e-6);
+    EXPECT_LT(std::abs(d.mean), 1e-5);
+    EXPECT_LT(d.greatest, 1e-4);
+    const std::span<const float> pixels = s.radiance.plane(0);
+    EXPECT_GT(std::count_if(pixels.begin(), pixels.end(), [](float value) { return value > 0; }), 200);
 }
 
 // What is far against its size keeps its digits.
@@ -102,26 +135,32 @@ TEST(Visibility, TheEarthBehindACubeIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.02);
 }
 
-// The same scene by rays, in a picture of twice as many pixels through the same places: which half has how much.
-TEST(Visibility, HalvesAreWhatRaysSeeInPicturesOfTwiceThePixels) {
-    const auto stage = [] {
+// The same scene by rays, in a picture of twice as many pixels through the same places: which half has how much, of a
+// cube before the Earth by sixteen samples and of bars by 64.
+void expect_halves_as_by_rays(int across) {
+    const auto stage = [&] {
         Stage s;
         s.quality.path_model = "direct";
         s.quality.rays_across = 0;
+        s.sun({0.3, 0.5, -1});
+        if (across == 8) {
+            s.add(bars(s.grid), {0, 0, 4});
+            return s;
+        }
         s.earth(0.3);
         s.world.bodies[BodyId::kEarth].world_m = {9e6, 0, 3e7};
-        s.sun({0.3, 0.5, -1});
         s.add(cube(lambert(0.5), s.grid), {0.2, -0.1, 3}, {0.4, 0.7, -0.2});
         return s;
     };
     Stage fine = stage();
     fine.geometry = {64, 64, 8, 64, {}};
     fine.radiance = RadianceImage(80, 80, 2);
-    fine.quality.samples_per_axis = 2;
+    fine.quality.samples_per_axis = across / 2;
     fine.quality.visibility = "rays";
     fine.render();
     Stage s = stage();
     s.quality.visibility = "buffer";
+    s.quality.buffer_samples = across * across;
     s.radiance.keep_halves({Spectrum{{1}}, Spectrum{{0, 2}}});
     s.render();
     const HalfLight& halves = *s.radiance.halves();
@@ -152,6 +191,10 @@ TEST(Visibility, HalvesAreWhatRaysSeeInPicturesOfTwiceThePixels) {
                 }
             }
     EXPECT_GT(uneven, 0.5 * brightest);
+}
+TEST(Visibility, HalvesAreWhatRaysSeeInPicturesOfTwiceThePixels) {
+    expect_halves_as_by_rays(4);
+    expect_halves_as_by_rays(8);
 }
 
 // With kept light four pixels share what changes slowly.
