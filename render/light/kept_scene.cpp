@@ -357,15 +357,15 @@ KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
 // The light that a lobe meets is known by the directions of its node, some tens of them, and by the means of the nodes
 // that those meet. Light that hangs on a few may be the light of what is beside: of a bar that one direction meets, of
 // the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
-// than the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
+// than half the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
 bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Place& place) {
-    constexpr float kFew = 5, kBeside = 2;
+    constexpr float kFew = 8, kBeside = 2, kOfThreshold = 0.5f;
     if (at.depth != 1 || at.surface.alpha < kNarrowestKept) return false;
     if (tile.frame.max_depth < 2 || !(place.directions > 0 && place.directions < kFew)) return false;
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
     const float light = at.weight_samples * largest(place.met);
     const float white = largest(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
-    return light > samples * tile.frame.contribution_threshold * white &&
+    return light > kOfThreshold * samples * tile.frame.contribution_threshold * white &&
            kBeside * light > largest(tile.pixels[at.pixel]);
 }
 
