@@ -229,10 +229,11 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
 }
 
 void KeptScene::follow_together(Vertex& at, Place& place) {
-    if (!place.follower) {
-        place.follower = &at, at.follows_too = nullptr;
+    if (!place.follower || place.followers == kMostTogether) {
+        place.follower = &at, place.followers = 1, at.follows_too = nullptr;
         return;
     }
+    ++place.followers;
     at.follows_lobe = false;
     at.follows_too = place.follower->follows_too, place.follower->follows_too = &at;
 }

@@ -57,26 +57,31 @@ class KeptScene {
     void add_mirrored_suns(Tile& tile, std::span<const Vertex> vertices) const {
         mirrored_suns_.add_light(tile, vertices);
     }
+    // The most vertices whose lobes the same rays follow.
+    static constexpr std::size_t kMostTogether = 16;
     // The bodies' light that a lobe sends, if nothing is in the way, to rays that are drawn as it sends: an equal share
-    // to each that is towards the body. Loop, any thread.
+    // to each that is towards the body, or to all where none is. Loop, any thread.
     class LobeRays {
       public:
         LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene), sent_(scene.sent_of_bodies(at)) {}
         void count(Vec3f dir) {
+            ++all_;
             for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
                 if (scene_.sky_.is_met(b, dir)) ++rays_[b];
         }
         Spectrum share(Vec3f dir) const {
             Spectrum sum;
             for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
-                if (scene_.sky_.is_met(b, dir)) sum += (1 / static_cast<float>(rays_[b])) * sent_[b];
+                if (rays_[b] == 0 || scene_.sky_.is_met(b, dir))
+                    sum += (1 / static_cast<float>(rays_[b] > 0 ? rays_[b] : all_)) * sent_[b];
             return sum;
         }
 
       private:
         const KeptScene& scene_;
         std::array<Spectrum, SkyLight::kMaxBodies> sent_;
-        std::array<int, SkyLight::kMaxBodies> rays_{};
+        std::array<int, SkyLight::kMaxBodies> rays_{};  // towards each
+        int all_ = 0;
     };
     // Returns what the facets of a vertex that keeps light reflect of light from everywhere. Loop, any thread.
     Spectrum lobe_albedo(const Vertex& at) const;
@@ -117,6 +122,7 @@ class KeptScene {
         Spectrum diffuse, met, bodies;
         float directions;  // that bring what is met (KeptLight::Lobe)
         Vertex* follower;  // the first whose lobe is left to rays, which are those of all of them; null: none
+        std::size_t followers;
     };
     // The light that a lobe meets of other surfaces.
     struct MetByLobe {

@@ -179,15 +179,14 @@ class TracedPaths final : public PathModel {
 
     // The vertices whose lobes the same rays follow, and their pixels' shares of what these find.
     struct Followers {
-        static constexpr std::size_t kMost = 16;
-        std::array<const Vertex*, kMost> vertex;
+        std::array<const Vertex*, KeptScene::kMostTogether> vertex;
         std::size_t count = 0;
         float samples = 0;  // that see them
     };
     Followers share_rays(Vertex& first) {
         Followers out;
         const std::size_t begin = share_count_;
-        for (const Vertex* at = &first; at && out.count < Followers::kMost; at = at->follows_too) {
+        for (const Vertex* at = &first; at; at = at->follows_too) {
             out.vertex[out.count++] = at;
             out.samples += at->weight_samples;
             shares_[share_count_++] = {at->pixel, at->weight_samples / first.weight_samples, at->halves};
@@ -292,7 +291,7 @@ class TracedPaths final : public PathModel {
     static void add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light) {
         const Background& background = *frame.background;
         if (ray.whole_lobe) {
-            frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.weight, light);
+            if (ray.sees_bodies) frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.weight, light);
             if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.weight, light);
             return;
         }
