@@ -22,9 +22,7 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own) {
 // Returns the ratio of the texture's spectrum to the material's own there: of its facets, and of all the rest.
 Spectrum facet_tint(const Scatterer& at) { return ratio(at.highlight, at.material->highlight); }
 bool is_tinted(const Scatterer& at) { return at.base.bin != at.material->base.bin; }
-Spectrum base_tint(const Scatterer& at) {
-    return at.material->is_bare() ? facet_tint(at) : ratio(at.base, at.material->base);
-}
+Spectrum base_tint(const Scatterer& at) { return ratio(at.base, at.material->base); }
 
 // The grid for an object that turns: light is made anew twice a second at most, up to steps of 10 degrees,
 // which are worth 0.7 of the sensor's noise (docs/performance.md).
@@ -97,8 +95,10 @@ void KeptScene::take_inputs(const FrameView& frame, const WorldSnapshot& world) 
 }
 
 void KeptScene::set_target(const FrameView& frame, const WorldSnapshot& world) {
-    // Four pixels, of which one stands for all.
-    sky_.place(*frame.background, 3 / static_cast<float>(frame.geometry.focal_length_px));
+    // One place stands for a square of four pixels, which is 2.8 across, and its mirrors lean by 2 mrad against each other.
+    constexpr float kSquare_px = 3, kLean_rad = 0.002f;
+    sky_.place(*frame.background,
+               kSquare_px / static_cast<float>(frame.geometry.focal_length_px) + 2 * kLean_rad);
     take_inputs(frame, world);
     target_.set(now_, lights_, terms_);
 }
@@ -154,10 +154,13 @@ std::uint32_t quad_of(const Tile& tile, const Vertex& at) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     return at.pixel / width / 2 * width + at.pixel % width / 2;
 }
-// near_m: what lies so close together is lit alike.
+// near_m: what lies so close together is lit alike. Mirrors that do not lie in one plane show different things.
 bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
+    constexpr float kPlane = 0.999998f;  // cosine
+    const bool mirror = a.surface.material->has_facets() && a.surface.alpha < kNarrowestLobe;
     const Vec3f apart_m = a.point_m - b.point_m;
-    return lies_alike(a, b) && dot(apart_m, apart_m) < near_m * near_m;
+    return lies_alike(a, b) && dot(apart_m, apart_m) < near_m * near_m &&
+           (!mirror || dot(a.normal, b.normal) > kPlane);
 }
 
 }  // namespace
@@ -345,7 +348,8 @@ KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place&
 Spectrum KeptScene::lobe_albedo(const Vertex& at) const {
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     const Spectrum of_material = objects_[at.object].light->albedo(at.surface_number).lobe(no);
-    return at.surface.material->texture >= 0 ? facet_tint(at.surface) * of_material : of_material;
+    const Material& material = *at.surface.material;
+    return material.texture >= 0 && material.is_bare() ? facet_tint(at.surface) * of_material : of_material;
 }
 
 KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {

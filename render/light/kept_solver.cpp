@@ -221,7 +221,7 @@ void KeptSolver::smooth(const Member& member) {
             Brought brought = brought_[base + n];
             Spectrum sum = kept(n);
             for (const std::uint32_t other : beside) brought += brought_[base + other], sum += kept(other);
-            // Of one of them.
+            // They are counted over all of these nodes, of which each has its part.
             const float directions =
                 brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kMany;
             const float share = kFew / (kFew + directions);

@@ -48,8 +48,7 @@ struct Vertex {
     bool mirrors_near;   // where that, something may stand in the mirror's direction
     bool has_bodies;     // the light of bodies in its lobe has been added
     bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
-    const Vertex*
-        follows_too;  // where that, the next of those that have the same light; null: there are no more
+    const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
     std::span<const PixelShare> shared;  // the pixels that its light is added to; empty: its own
     float weight_samples;                // samples of sixteen a pixel that see it, where it is not one ray's
     HalfShares halves;                   // where in the pixel they are

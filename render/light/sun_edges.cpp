@@ -8,6 +8,7 @@
 #include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/shadow_rays.h"
+#include "render/scene/light_cell_key.h"
 
 namespace hilcam {
 namespace {
@@ -83,6 +84,7 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
     }
 }
 
+// An object's surface on one of its six sides, as one of kKinds.
 std::uint8_t SunEdges::kind_of(const Vertex& at) {
     const Vec3f size{std::abs(at.normal.x), std::abs(at.normal.y), std::abs(at.normal.z)};
     std::uint32_t side = at.normal.z > 0 ? 0 : 1;
@@ -90,9 +92,8 @@ std::uint8_t SunEdges::kind_of(const Vertex& at) {
         side = at.normal.x > 0 ? 2 : 3;
     else if (size.y > size.z)
         side = at.normal.y > 0 ? 4 : 5;
-    const std::uint32_t number = (at.object * 256 + at.surface_number) * 6 + side;
-    constexpr std::uint32_t kGolden = 0x9E3779B1;  // 2^32 by the golden ratio: Knuth's multiplicative hash
-    return static_cast<std::uint8_t>(number * kGolden >> (32 - std::bit_width(kKinds - 1)));
+    return static_cast<std::uint8_t>(
+        mixed(std::uint64_t{at.object} << 32 | std::uint64_t{at.surface_number} << 3 | side) % kKinds);
 }
 
 // The answers that lie within reach of each pixel.

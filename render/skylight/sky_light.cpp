@@ -92,6 +92,9 @@ float whole_lobe(float alpha, float no) {
     return below + (x - static_cast<float>(i)) * (at[1](no) - below);
 }
 
+// Half the angle of a body's cone.
+float half_angle_rad(const BodyLight& lamp) { return 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine)); }
+
 float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
 
 // Bilinear in a square of steps + 1 values a side; x and y below steps.
@@ -139,8 +142,8 @@ void SkyLight::place(const Background& background, float margin_rad) {
     background_ = &background;
     cone_count_ = 0;
     for (const BodyLight& lamp : background.body_lights()) {
-        const float half_rad = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
-        cones_[cone_count_++] = {to_float(lamp.world_dir), std::cos(std::min(half_rad + margin_rad, kPiF))};
+        const float half_rad = std::min(half_angle_rad(lamp) + margin_rad, kPiF);
+        cones_[cone_count_++] = {to_float(lamp.world_dir), std::cos(half_rad)};
     }
     count_ = 0;
     for (std::size_t number = 0; number < background.body_lights().size(); ++number) {
@@ -171,7 +174,7 @@ void SkyLight::place(const Background& background, float margin_rad) {
 // Equal areas on the cone by a golden-angle spiral (Vogel 1979), four for each patch.
 void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) const {
     const BodyLight& lamp = background.body_lights()[number];
-    const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
+    const float half_angle = half_angle_rad(lamp);
     disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
     disks.half_angle_rad = half_angle;
     const Vec3f axis = to_float(lamp.world_dir);

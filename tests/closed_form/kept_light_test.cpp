@@ -46,8 +46,9 @@ SceneObject corner(const MaterialConfig& material, const SpectralGrid& grid) {
                      {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}, material, grid);
 }
 
-// A picture of one colour all over it.
+// With a picture of one colour all over it; 255: none.
 SceneObject painted(SceneObject object, std::uint8_t grey) {
+    if (grey == 255) return object;
     object.mesh.textures = {Texture{"grey", 1, 1, {{grey, grey, grey}}}};
     object.mesh.uvs.resize(object.mesh.vertices_m.size());
     object.mesh.surfaces[0].base_color_texture = object.materials[0].texture = 0;
@@ -64,7 +65,7 @@ Stage corner_stage(const char* model, const MaterialConfig& material, int sample
     s.camera(48, 0.4);
     // Seen from above, the wall to the right; the Sun from the left, so that it lights the wall more than the
     // floor.
-    s.add(grey < 255 ? painted(corner(material, s.grid), grey) : corner(material, s.grid), {0, 0, 4});
+    s.add(painted(corner(material, s.grid), grey), {0, 0, 4});
     s.sun({-2, 0.3, -1});
     return s;
 }
@@ -90,6 +91,7 @@ TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
 
 constexpr std::uint8_t kGrey = 188;
 constexpr double kLinearGrey = 0.5029;  // IEC 61966-2-1
+constexpr std::uint8_t kDarkGrey = 99;  // 0.125
 
 // A grey picture is the colour of what lies under a clear layer, but not of that layer's own reflection: light between
 // surfaces is that of a material of such a reflectance. Under the layer it is dark, so that the layer sends most.
@@ -112,7 +114,8 @@ TEST(KeptLight, APictureUnderALayerIsAsAMaterialOfItsReflectance) {
     }
 }
 
-// Of metal it is the facets' colour, as random paths have it (but for an eighth: the corner above).
+// A picture on metal is the colour of its facets. Light between them is as random paths have it, but for the eighth by which
+// kept light is off in the corner above.
 TEST(KeptLight, APictureColoursMetal) {
     MaterialConfig metal = lambert(0.8);
     metal.model = kModel<brdf::Metal>;
@@ -142,7 +145,8 @@ struct PlateAndBar {
     std::vector<double> pixels;
     std::array<double, kAcross * kAcross> blocks{};  // means
 
-    PlateAndBar(const char* model, const MaterialConfig& material, float bar_m, int samples) {
+    PlateAndBar(const char* model, const MaterialConfig& material, float bar_m, int samples,
+                std::uint8_t grey = 255) {
         Stage s;
         s.quality.path_model = model;
         s.quality.max_depth = 2;
@@ -152,16 +156,16 @@ struct PlateAndBar {
         s.quality.rays_across = 0;
         s.camera(kSize_px, 0.2);
         const float x0 = 1.2f, x1 = x0 + bar_m;
-        s.add(object_of({{-1, -1, 0},
-                         {1, -1, 0},
-                         {1, 1, 0},
-                         {-1, 1, 0},
-                         {x0, -1, 1},
-                         {x1, -1, 1},
-                         {x1, 1, 1},
-                         {x0, 1, 1}},
-                        {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, material, s.grid),
-              {0, 0, 4});
+        SceneObject object = object_of({{-1, -1, 0},
+                                        {1, -1, 0},
+                                        {1, 1, 0},
+                                        {-1, 1, 0},
+                                        {x0, -1, 1},
+                                        {x1, -1, 1},
+                                        {x1, 1, 1},
+                                        {x0, 1, 1}},
+                                       {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, material, s.grid);
+        s.add(painted(std::move(object), grey), {0, 0, 4});
         s.sun({0.5, 0, 1});
         s.render();
         pixels.assign(s.radiance.plane(0).begin(), s.radiance.plane(0).end());
@@ -176,16 +180,18 @@ struct PlateAndBar {
 // Metal mirrors the bar: of its places some have a direction that meets the bar, of sixty, and others have none. No part of
 // the plate is much brighter than the brightest is by random paths.
 TEST(KeptLight, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
-    const auto brightest = [](const char* model, int samples) {
+    const auto brightest = [](const char* model, int samples, std::uint8_t grey) {
         MaterialConfig metal = lambert(0.9);
         metal.model = kModel<brdf::Metal>;
         metal.roughness = 0.45;
-        const PlateAndBar seen(model, metal, 0.01f, samples);
+        const PlateAndBar seen(model, metal, 0.01f, samples, grey);
         return *std::max_element(seen.blocks.begin(), seen.blocks.end());
     };
-    const double paths = brightest("path", 24);
-    EXPECT_GT(paths, 0);
-    EXPECT_LT(brightest("kept", 4), 1.5 * paths);
+    for (const std::uint8_t grey : {std::uint8_t{255}, kGrey}) {
+        const double paths = brightest("path", 24, grey);
+        EXPECT_GT(paths, 0);
+        EXPECT_LT(brightest("kept", 4, grey), 1.5 * paths) << int{grey};
+    }
 }
 
 // White paint: how many of a place's sixty directions meet the bar is chance, but where few do, places have what they have
@@ -219,8 +225,8 @@ TEST(KeptLight, AFrameIsAFunctionOfItsWorld) {
 // The Earth over a floor that its wall hides half of it from: as random paths find it, on paint, and by
 // facets, which see part of it past the wall and the rest as the wall mirrors it.
 TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
-    const auto light = [](const char* model, const MaterialConfig& material, int samples) {
-        Stage s = corner_stage(model, material, samples);
+    const auto light = [](const char* model, const MaterialConfig& material, int samples, std::uint8_t grey) {
+        Stage s = corner_stage(model, material, samples, grey);
         s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
         s.quality.facets_behind_diffuse = 0;
         s.earth(0.3);
@@ -233,13 +239,16 @@ TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
     MaterialConfig metal = lambert(0.8);
     metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.6;
-    for (const MaterialConfig& material : {lambert(0.8), metal}) {
-        const double paths = light("path", material, 8);
-        EXPECT_GT(paths, 0);
-        // What the wall mirrors is kept as paint's.
-        const double error = material.model == kModel<brdf::Metal> ? 0.08 : 0.06;
-        EXPECT_NEAR(light("kept", material, 2) / paths, 1, error);
-    }
+    for (const MaterialConfig& material : {lambert(0.8), metal})
+        for (const std::uint8_t grey : {std::uint8_t{255}, kDarkGrey}) {
+            const double paths = light("path", material, 8, grey);
+            EXPECT_GT(paths, 0);
+            // What the wall mirrors is kept as paint's: little, where it is dark.
+            const bool mirrors = material.model == kModel<brdf::Metal>;
+            const double error = !mirrors ? 0.06 : grey == 255 ? 0.08 : 0.04;
+            EXPECT_NEAR(light("kept", material, 2, grey) / paths, 1, error)
+                << material.model << ' ' << int{grey};
+        }
 }
 
 // Metal of 0.8 under an Earth of 70 degrees of half angle, behind a camera with this field; what there is to

@@ -211,6 +211,23 @@ TEST(Visibility, KeptLightIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.05);
 }
 
+// Four pixels share what a mirror has of the Earth's light by the tails of its lobe, where it shows none of the Earth; the
+// mirrored Earth ends in the picture.
+TEST(Visibility, AMirrorBesideTheEarthIsWhatRaysSee) {
+    Stage s;
+    MaterialConfig metal = lambert(0.8);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.15;
+    s.quality.path_model = "kept";
+    s.earth(0.3);
+    s.world.bodies[BodyId::kEarth].world_m = {0, 0, -6.7875e6};
+    s.sun({0, 0.2, 1});
+    s.add(plate(metal, s.grid), {0, 0, 4}, {kPi + 36 * kDegree_rad, 0, 0});
+    const Difference d = difference_from_rays(s);
+    EXPECT_LT(std::abs(d.mean), 1e-3);
+    EXPECT_LT(d.greatest, 0.02);
+}
+
 // A plate of 2 m whose waves are 0.2 steep.
 SceneObject foil(const MaterialConfig& material, const SpectralGrid& grid) {
     Mesh mesh = wavy_plate(200, -1, 1, 3e-3);
