@@ -64,6 +64,11 @@ HILCAM_CLONES bool take(const float* smooth, const std::uint8_t* sharp, std::siz
 
 }  // namespace
 
+// True when there are differences in the block that holds the pixel, which may lie beside the picture.
+bool HalfLightAdder::Source::knows(int x, int y) const {
+    return x >= 0 && y >= 0 && x < light.width() && y < light.height() && !light.unknown(x, y) &&
+           !radiance.dark(x, y);
+}
 // Returns charge rates of pixels from (x, y) on, which `room` may hold [e-/s].
 const float* HalfLightAdder::Source::rates_e_s(int x, int y, std::size_t count, float* room) const {
     const auto from = [&](int plane) { return radiance.row(y, plane).data() + x; };
@@ -105,59 +110,57 @@ void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, 
 
 // Collects the differences of a block, and about it, that are known not to be smooth. False: there are none.
 bool HalfLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& scratch) const {
-    const auto inside = [&](int x, int y) {
-        return x >= 0 && y >= 0 && x < source.light.width() && y < source.light.height();
+    const auto known = [&](int y) {
+        bool any = false;
+        for (int x = x_px - kBlock_px; x <= x_px + kBlock_px; x += kBlock_px) any = any || source.knows(x, y);
+        return any;
     };
-    const auto each_about = [&](auto&& use) {
-        for (int y = y_px - kBlock_px; y <= y_px + kBlock_px; y += kBlock_px)
-            for (int x = x_px - kBlock_px; x <= x_px + kBlock_px; x += kBlock_px)
-                if (inside(x, y)) use(x, y);
-    };
-    bool any = false;
-    each_about([&](int x, int y) { any = any || !source.light.unknown(x, y); });
-    if (!any) return false;
-    for (auto& row : scratch.charge_e) row.fill(0);
-    for (auto& row : scratch.kinds) row.fill(HalfKind::kSmooth);
-    for (auto& part : scratch.parts) part.fill(0);
-    each_about([&](int x, int y) { copy_block(source, x, y, x_px, y_px, scratch); });
+    if (!known(y_px - kBlock_px) && !known(y_px) && !known(y_px + kBlock_px)) return false;
+    for (int row = 0; row < static_cast<int>(kArea_px); ++row) copy_row(source, x_px, y_px, row, scratch);
     find_sharp(scratch);
     return take_smooth(scratch);
 }
 
-// Copies the part of the block at (from_x, from_y) that lies about the one at (x_px, y_px).
-void HalfLightAdder::copy_block(const Source& source, int from_x, int from_y, int x_px, int y_px,
-                                Scratch& scratch) const {
-    if (source.radiance.dark(from_x, from_y)) return;
-    const int width = source.light.width();
-    const bool known = !source.light.unknown(from_x, from_y);
-    const int x0 = std::max(from_x, x_px - kRim_px), y0 = std::max(from_y, y_px - kRim_px);
-    const int x1 = std::min({from_x + kBlock_px, x_px + kBlock_px + kRim_px, width});
-    const int y1 = std::min({from_y + kBlock_px, y_px + kBlock_px + kRim_px, source.light.height()});
-    for (int y = y0; y < y1; ++y) {
-        const float* lens =
-            illumination_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-        const float* zone =
-            source.zone ? source.zone + static_cast<std::size_t>(y) * source.zone_width : nullptr;
-        const auto row = static_cast<std::size_t>(y - y_px + kRim_px);
-        std::array<float, kArea_px> factor, rates_e_s;
-        const auto at = static_cast<std::size_t>(x0 - x_px + kRim_px),
-                   count = static_cast<std::size_t>(x1 - x0);
-        to_charge({source.rates_e_s(x0, y, count, rates_e_s.data()), lens + x0, zone ? zone + x0 : nullptr,
-                   source.exposure_s, source.most_e},
-                  count, factor.data() + at, scratch.charge_e[row].data() + at);
-        if (!known) continue;
-        std::copy_n(source.light.kinds(y).data() + x0, x1 - x0,
-                    scratch.kinds[row].data() + x0 + kRim_px - x_px);
-        const int in_y = y - y_px + kReach_px, first = std::max(x0, x_px - kReach_px),
-                  last = std::min(x1, x_px + kBlock_px + kReach_px);
-        if (in_y < 0 || in_y >= HalfKernels::kSide_px) continue;
-        for (std::size_t part = 0; part < HalfKernels::kParts; ++part) {
-            const float* in = source.light.row(y, static_cast<int>(part), source.number).data();
-            float* to = scratch.parts[part].data() + in_y * HalfKernels::kSide_px + kReach_px - x_px;
-            if (first < last)
-                multiply(factor.data() + (first - x_px + kRim_px), in + first,
-                         static_cast<std::size_t>(last - first), to + first);
-        }
+// Copies a row of what lies in and about the block at (x_px, y_px).
+void HalfLightAdder::copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const {
+    const int width = source.light.width(), y = y_px - kRim_px + row, left = x_px - kRim_px;
+    const int part_row = row - (kRim_px - kReach_px);
+    const bool in_parts = part_row >= 0 && part_row < HalfKernels::kSide_px;
+    const auto part_at = [&](std::size_t part) {
+        return scratch.parts[part].data() + part_row * HalfKernels::kSide_px;
+    };
+    std::array<float, kArea_px>& charge_e = scratch.charge_e[static_cast<std::size_t>(row)];
+    std::array<HalfKind, kArea_px>& kinds = scratch.kinds[static_cast<std::size_t>(row)];
+    charge_e.fill(0), kinds.fill(HalfKind::kSmooth);
+    if (in_parts)
+        for (std::size_t part = 0; part < HalfKernels::kParts; ++part)
+            std::fill_n(part_at(part), HalfKernels::kSide_px, 0.0f);
+    if (y < 0 || y >= source.light.height()) return;
+    const int x0 = std::max(left, 0), x1 = std::min(left + static_cast<int>(kArea_px), width);
+    const float* lens =
+        illumination_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x0;
+    const float* zone =
+        source.zone ? source.zone + static_cast<std::size_t>(y) * source.zone_width + x0 : nullptr;
+    std::array<float, kArea_px> factor, rates_e_s;
+    const auto count = static_cast<std::size_t>(x1 - x0);
+    to_charge(
+        {source.rates_e_s(x0, y, count, rates_e_s.data()), lens, zone, source.exposure_s, source.most_e},
+        count, factor.data() + (x0 - left), charge_e.data() + (x0 - left));
+    for (int block = x_px - kBlock_px; block <= x_px + kBlock_px; block += kBlock_px) {
+        if (!source.knows(block, y)) continue;
+        const auto within = [&](int reach_px) {
+            return std::array{std::max({block, x_px - reach_px, x0}),
+                              std::min({block + kBlock_px, x_px + kBlock_px + reach_px, x1})};
+        };
+        const auto [begin, end] = within(kRim_px);
+        std::copy(source.light.kinds(y).data() + begin, source.light.kinds(y).data() + end,
+                  kinds.data() + (begin - left));
+        const auto [first, last] = within(kReach_px);
+        if (!in_parts || first >= last) continue;
+        for (std::size_t part = 0; part < HalfKernels::kParts; ++part)
+            multiply(factor.data() + (first - left),
+                     source.light.row(y, static_cast<int>(part), source.number).data() + first,
+                     static_cast<std::size_t>(last - first), part_at(part) + (first - x_px + kReach_px));
     }
 }
 

@@ -47,6 +47,7 @@ class HalfLightAdder {
         const float* zone;         // null: the whole field is one
         std::size_t zone_width;    // floats in a row of it
 
+        bool knows(int x, int y) const;
         const float* rates_e_s(int x, int y, std::size_t count, float* room) const;
     };
     // A block and what lies about it, as far as kernels reach and differences are taken from.
@@ -60,7 +61,7 @@ class HalfLightAdder {
         HalfKernels::Parts parts;
     };
     bool gather(const Source& source, int x_px, int y_px, Scratch& scratch) const;
-    void copy_block(const Source& source, int from_x, int from_y, int x_px, int y_px, Scratch& scratch) const;
+    void copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const;
     static void find_sharp(Scratch& scratch);
     static bool take_smooth(Scratch& scratch);
 };
