@@ -40,6 +40,8 @@ class EarthPicture {
     EarthPicture(double pixel_rad, double top_m);
     // Works a picture out on all threads of the arena. Loop; allocates nothing. sun_irradiance_1au: [W m^-2 um^-1].
     void make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance_1au_w_m2_um);
+    // Takes as much memory as a picture that is made, so that making one like it needs none. Loop; allocates nothing.
+    void take_memory_of(const EarthPicture& other);
     std::size_t bytes() const { return light_.size() * sizeof(Coded); }
 
     // A square of a camera's picture. Places in it are parabolas, both ways, through those of its corners, middles and centre.

@@ -13,8 +13,7 @@ KeptEarth::KeptEarth(const EarthModel& earth, const Spectrum& sun_irradiance, do
 
 std::size_t KeptEarth::bytes() const {
     std::size_t sum = 0;
-    for (const Kept& kept : pictures_)
-        if (kept.made) sum += kept.picture->bytes();
+    for (const Kept& kept : pictures_) sum += kept.picture->bytes();
     return sum;
 }
 
@@ -27,6 +26,9 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
     if (at == pictures_.size()) {
         at = room_for(key);
         make(at);
+        // The kernel gives pages at their first use, with which later frames shall not be busy.
+        if (frames_ == 0)
+            for (const Kept& kept : pictures_) kept.picture->take_memory_of(*pictures_[at].picture);
     }
     shown_ = at;
     pictures_[at].last_shown = ++frames_;

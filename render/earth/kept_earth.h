@@ -28,7 +28,7 @@ class KeptEarth {
     bool place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers = {});
     // The one that was placed last. Any thread.
     const EarthPicture& picture() const { return *pictures_[shown_].picture; }
-    // Returns the memory of all pictures that have been made.
+    // Returns the memory of all pictures. The first that is made has all of them take as much.
     std::size_t bytes() const;
 
   private:

@@ -14,9 +14,9 @@ class Bounds {
     explicit Bounds(const ImageGeometry& geometry) : geometry_(geometry) {}
 
     void add(Vec3d direction_camera) {
-        // At or behind the image's plane at infinity there is no projection; be safe and take all.
+        // At or behind the image's plane at infinity there is no projection.
         if (!(direction_camera.z > 1e-9 * length(direction_camera))) {
-            everywhere_ = true;
+            unbounded_ = true;
             return;
         }
         const Vec2d p = geometry_.project_px(direction_camera);
@@ -26,7 +26,6 @@ class Bounds {
     PixelBox box(double margin_px) const {
         const int width = geometry_.padded_width();
         const int height = geometry_.padded_height();
-        if (everywhere_) return {0, 0, width, height};
         const auto clamp = [&](double value, int size) {
             return static_cast<int>(std::clamp(value + geometry_.guard_px, 0.0, static_cast<double>(size)));
         };
@@ -34,14 +33,44 @@ class Bounds {
                 clamp(std::floor(least_.y - margin_px), height), clamp(std::ceil(most_.x + margin_px), width),
                 clamp(std::ceil(most_.y + margin_px), height)};
     }
-    double extent_px() const { return everywhere_ ? 0 : std::max(most_.x - least_.x, most_.y - least_.y); }
+    bool unbounded() const { return unbounded_; }
+    double extent_px() const { return std::max(most_.x - least_.x, most_.y - least_.y); }
 
   private:
     const ImageGeometry& geometry_;
     Vec2d least_{1e300, 1e300};
     Vec2d most_{-1e300, -1e300};
-    bool everywhere_ = false;
+    bool unbounded_ = false;
 };
+
+double angle_between(Vec3d a_dir, Vec3d b_dir) { return std::acos(std::clamp(dot(a_dir, b_dir), -1.0, 1.0)); }
+
+// Bounds what a cone covers of the picture, of which parts are not before the camera, by cells of the picture.
+PixelBox bounds_by_cells(const ImageGeometry& geometry, Vec3d axis_camera, double cosine) {
+    constexpr int kCells = 8;        // along each side
+    constexpr double kCurved = 1.1;  // more than a lens bends sides of cells beyond their corners
+    const auto direction = [&](double x_px, double y_px) {
+        return normalized(geometry.direction_camera(x_px - geometry.guard_px, y_px - geometry.guard_px));
+    };
+    const double reach_rad = std::acos(std::clamp(cosine, -1.0, 1.0)) + 2 / geometry.focal_length_px;
+    PixelBox out{geometry.padded_width(), geometry.padded_height(), 0, 0};
+    for (int i = 0; i < kCells * kCells; ++i) {
+        const auto line = [](int cell, int size_px) { return cell * size_px / kCells; };
+        const int column = i % kCells, row = i / kCells;
+        const PixelBox cell{line(column, geometry.padded_width()), line(row, geometry.padded_height()),
+                            line(column + 1, geometry.padded_width()),
+                            line(row + 1, geometry.padded_height())};
+        const Vec3d middle = direction(0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1));
+        double radius_rad = 0;
+        for (const int x : {cell.x0, cell.x1})
+            for (const int y : {cell.y0, cell.y1})
+                radius_rad = std::max(radius_rad, angle_between(middle, direction(x, y)));
+        if (angle_between(middle, axis_camera) > reach_rad + kCurved * radius_rad) continue;
+        out = {std::min(out.x0, cell.x0), std::min(out.y0, cell.y0), std::max(out.x1, cell.x1),
+               std::max(out.y1, cell.y1)};
+    }
+    return out.empty() ? PixelBox{} : out;
+}
 
 }  // namespace
 
@@ -62,6 +91,7 @@ PixelBox screen_bounds_of_cone(const ImageGeometry& geometry, const Pose& camera
         const double a = 2 * kPi * i / kPoints;
         bounds.add(cosine * axis + sine * (std::cos(a) * across + std::sin(a) * up));
     }
+    if (bounds.unbounded()) return bounds_by_cells(geometry, axis, cosine);
     // A chord of the 64-gon leaves the curve by 1 - cos(pi/64) = 0.0012 of the radius; the cone's image is a
     // conic.
     return bounds.box(1 + 0.003 * bounds.extent_px());

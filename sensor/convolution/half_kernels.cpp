@@ -85,21 +85,31 @@ using Lanes = float __attribute__((vector_size(64)));
 constexpr int kLanes = 16;
 static_assert(HalfKernels::kBlock_px == 2 * kLanes);
 
-// One row of a block: adds what rows of differences from `first` on give, of which those that are all zero are
-// left out.
-HILCAM_CLONES void add_row(const float* in, std::size_t side, const std::uint8_t* lit, const float* weights,
-                           std::size_t across, int taps, float* out) {
-    Lanes left{}, right{};
-    for (int j = 0; j < taps; ++j, in += side, weights -= across) {
+// Two rows of a block, which have most of their input in common: adds what rows of differences from `first` on give, of which
+// those that are all zero are left out. Rows of weights go upwards.
+constexpr int kRowsAtOnce = 2;
+HILCAM_CLONES void add_rows(const float* in, std::size_t side, const std::uint8_t* lit, const float* weights,
+                            std::size_t across, int taps, float* out) {
+    Lanes left[kRowsAtOnce]{}, right[kRowsAtOnce]{}, a, b;
+    for (int j = 0; j <= taps; ++j, in += side, weights -= across) {
         if (!lit[j]) continue;
+        const float* const before = weights + across;  // the second row's
         for (int i = 0; i < taps; ++i) {
-            Lanes a, b;
             std::memcpy(&a, in + i, sizeof a);
             std::memcpy(&b, in + i + kLanes, sizeof b);
-            left += weights[-i] * a, right += weights[-i] * b;
+            if (j < taps) left[0] += weights[-i] * a, right[0] += weights[-i] * b;
+            if (j > 0) left[1] += before[-i] * a, right[1] += before[-i] * b;
         }
     }
-    for (int x = 0; x < kLanes; ++x) out[x] += left[x], out[x + kLanes] += right[x];
+    for (int row = 0; row < kRowsAtOnce; ++row)
+        for (int x = 0; x < kLanes; ++x)
+            out[2 * kLanes * row + x] = left[row][x], out[2 * kLanes * row + kLanes + x] = right[row][x];
+}
+
+HILCAM_CLONES bool any_lit(const float* row, std::size_t count) {
+    std::uint32_t lit = 0;
+    for (std::size_t x = 0; x < count; ++x) lit |= row[x] != 0 ? 1u : 0u;
+    return lit != 0;
 }
 
 }  // namespace
@@ -202,21 +212,21 @@ double HalfKernels::rest_beyond(int reach_px) const {
 void HalfKernels::add(const Parts& parts, int columns, int rows, float* out, std::size_t stride) const {
     const int taps = 2 * reach_px_ + 1, skipped = kMaxReach_px - reach_px_;
     std::array<std::uint8_t, kSide_px> lit;
-    std::array<float, kBlock_px> row;
+    std::array<std::array<float, kBlock_px>, kRowsAtOnce> sums;
     for (std::size_t part = 0; part < kParts; ++part) {
         const float* const all = parts[part].data();
-        for (std::size_t j = 0; j < kSide_px; ++j)
-            lit[j] =
-                std::any_of(all + j * kSide_px, all + (j + 1) * kSide_px, [](float v) { return v != 0; });
+        for (std::size_t j = 0; j < kSide_px; ++j) lit[j] = any_lit(all + j * kSide_px, kSide_px);
         // A pixel gets light of what is at (i, j) from it by the weight at (-i, -j).
         const float* const last = &weights_[part][index_of(reach_px_, reach_px_)];
-        for (int y = 0; y < rows; ++y) {
+        for (int y = 0; y < rows; y += kRowsAtOnce) {
             const int first = y + skipped;
-            row.fill(0);
-            add_row(all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps,
-                    row.data());
-            float* const to = out + static_cast<std::size_t>(y) * stride;
-            for (int x = 0; x < columns; ++x) to[x] += row[static_cast<std::size_t>(x)];
+            add_rows(all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps,
+                     sums[0].data());
+            for (int row = y; row < std::min(y + kRowsAtOnce, rows); ++row) {
+                float* const to = out + static_cast<std::size_t>(row) * stride;
+                for (int x = 0; x < columns; ++x)
+                    to[x] += sums[static_cast<std::size_t>(row - y)][static_cast<std::size_t>(x)];
+            }
         }
     }
 }

@@ -5,20 +5,77 @@
 
 #include <algorithm>
 
+#include "render/vocabulary/clones.h"
+
 namespace hilcam {
 namespace {
 
 constexpr int kBlock_px = HalfKernels::kBlock_px, kReach_px = HalfKernels::kMaxReach_px;
 static_assert(kBlock_px == RadianceImage::kBlock_px);
 
+// --- rows of pixels
+
+HILCAM_CLONES void add_scaled(float factor, const float* in, std::size_t count, float* sum) {
+    for (std::size_t x = 0; x < count; ++x) sum[x] += factor * in[x];
+}
+HILCAM_CLONES void multiply(const float* a, const float* b, std::size_t count, float* product) {
+    for (std::size_t x = 0; x < count; ++x) product[x] = a[x] * b[x];
+}
+
+// Charge from rates, and the factor between them: of a pixel that was cut, of as much of it as was left. zone: null with one.
+struct ChargeRow {
+    const float *rate_e_s, *lens, *zone;
+    float exposure_s, most_e;
+};
+HILCAM_CLONES void to_charge(const ChargeRow& of, std::size_t count, float* factor, float* charge_e) {
+    const float exposure_s = of.exposure_s, most_e = of.most_e;
+    for (std::size_t x = 0; x < count; ++x) {
+        const float all_e = exposure_s * of.lens[x] * of.rate_e_s[x];
+        factor[x] = all_e > most_e ? most_e / all_e : 1.0f;
+    }
+    if (of.zone)
+        for (std::size_t x = 0; x < count; ++x) factor[x] *= of.zone[x];
+    for (std::size_t x = 0; x < count; ++x) {
+        factor[x] = factor[x] * exposure_s * of.lens[x];
+        charge_e[x] = factor[x] * of.rate_e_s[x];
+    }
+}
+
+// Light two pixels and one pixel before a place, one and two behind it.
+struct Neighbors {
+    const float *second_before, *before, *behind, *second_behind;
+};
+HILCAM_CLONES void find_smooth(const Neighbors& light, std::size_t count, float* difference) {
+    for (std::size_t x = 0; x < count; ++x)
+        difference[x] = smooth_difference(light.second_before[x], light.before[x], light.behind[x],
+                                          light.second_behind[x]);
+}
+// Takes the smooth difference from those of the pixels that are not known to be smooth. False: none of these has any left.
+HILCAM_CLONES bool take(const float* smooth, const std::uint8_t* sharp, std::size_t count,
+                        float* difference) {
+    std::uint32_t left = 0;
+    for (std::size_t x = 0; x < count; ++x) {
+        const float rest = difference[x] - smooth[x];
+        difference[x] = sharp[x] ? rest : difference[x];
+        left |= sharp[x] && rest != 0 ? 1u : 0u;
+    }
+    return left != 0;
+}
+
 }  // namespace
 
-float HalfLightAdder::Source::rate_e_s(int x, int y) const {
-    const auto at = static_cast<std::size_t>(x);
-    if (!response) return radiance.row(y, number)[at];
-    float sum = 0;
-    for (int b = 0; b < radiance.planes(); ++b) sum += (*response)[b] * radiance.row(y, b)[at];
-    return sum;
+// True when there are differences in the block that holds the pixel, which may lie beside the picture.
+bool HalfLightAdder::Source::knows(int x, int y) const {
+    return x >= 0 && y >= 0 && x < light.width() && y < light.height() && !light.unknown(x, y) &&
+           !radiance.dark(x, y);
+}
+// Returns charge rates of pixels from (x, y) on, which `room` may hold [e-/s].
+const float* HalfLightAdder::Source::rates_e_s(int x, int y, std::size_t count, float* room) const {
+    const auto from = [&](int plane) { return radiance.row(y, plane).data() + x; };
+    if (!response) return from(number);
+    std::fill_n(room, count, 0.0f);
+    for (int b = 0; b < radiance.planes(); ++b) add_scaled((*response)[b], from(b), count, room);
+    return room;
 }
 
 void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, const FrameBlur& blur,
@@ -53,66 +110,62 @@ void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, 
 
 // Collects the differences of a block, and about it, that are known not to be smooth. False: there are none.
 bool HalfLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& scratch) const {
-    const auto inside = [&](int x, int y) {
-        return x >= 0 && y >= 0 && x < source.light.width() && y < source.light.height();
+    const auto known = [&](int y) {
+        bool any = false;
+        for (int x = x_px - kBlock_px; x <= x_px + kBlock_px; x += kBlock_px) any = any || source.knows(x, y);
+        return any;
     };
-    const auto each_about = [&](auto&& use) {
-        for (int y = y_px - kBlock_px; y <= y_px + kBlock_px; y += kBlock_px)
-            for (int x = x_px - kBlock_px; x <= x_px + kBlock_px; x += kBlock_px)
-                if (inside(x, y)) use(x, y);
-    };
-    bool any = false;
-    each_about([&](int x, int y) { any = any || !source.light.unknown(x, y); });
-    if (!any) return false;
-    for (auto& row : scratch.charge_e) row.fill(0);
-    for (auto& row : scratch.kinds) row.fill(HalfKind::kSmooth);
-    for (auto& part : scratch.parts) part.fill(0);
-    each_about([&](int x, int y) { copy_block(source, x, y, x_px, y_px, scratch); });
-    find_near(scratch);
+    if (!known(y_px - kBlock_px) && !known(y_px) && !known(y_px + kBlock_px)) return false;
+    for (int row = 0; row < static_cast<int>(kArea_px); ++row) copy_row(source, x_px, y_px, row, scratch);
+    find_sharp(scratch);
     return take_smooth(scratch);
 }
 
-// Copies the part of the block at (from_x, from_y) that lies about the one at (x_px, y_px).
-void HalfLightAdder::copy_block(const Source& source, int from_x, int from_y, int x_px, int y_px,
-                                Scratch& scratch) const {
-    if (source.radiance.dark(from_x, from_y)) return;
-    const int width = source.light.width();
-    const bool known = !source.light.unknown(from_x, from_y);
-    const int x0 = std::max(from_x, x_px - kRim_px), y0 = std::max(from_y, y_px - kRim_px);
-    const int x1 = std::min({from_x + kBlock_px, x_px + kBlock_px + kRim_px, width});
-    const int y1 = std::min({from_y + kBlock_px, y_px + kBlock_px + kRim_px, source.light.height()});
-    for (int y = y0; y < y1; ++y) {
-        const float* lens =
-            illumination_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-        const float* zone =
-            source.zone ? source.zone + static_cast<std::size_t>(y) * source.zone_width : nullptr;
-        const auto row = static_cast<std::size_t>(y - y_px + kRim_px);
-        // What makes charge of a rate: of a pixel that was cut, of as much of it as was left.
-        std::array<float, kArea_px> factor;
-        float* const charge_e = scratch.charge_e[row].data();
-        for (int x = x0; x < x1; ++x) {
-            const auto at = static_cast<std::size_t>(x - x_px + kRim_px);
-            const float rate_e_s = source.rate_e_s(x, y), all_e = source.exposure_s * lens[x] * rate_e_s;
-            const float left = all_e > source.most_e ? source.most_e / all_e : 1.0f;
-            factor[at] = left * (zone ? zone[x] : 1.0f) * source.exposure_s * lens[x];
-            charge_e[at] = factor[at] * rate_e_s;
-        }
-        if (!known) continue;
-        std::copy_n(source.light.kinds(y).data() + x0, x1 - x0,
-                    scratch.kinds[row].data() + x0 + kRim_px - x_px);
-        const int in_y = y - y_px + kReach_px, first = std::max(x0, x_px - kReach_px),
-                  last = std::min(x1, x_px + kBlock_px + kReach_px);
-        if (in_y < 0 || in_y >= HalfKernels::kSide_px) continue;
-        for (std::size_t part = 0; part < HalfKernels::kParts; ++part) {
-            const float* in = source.light.row(y, static_cast<int>(part), source.number).data();
-            float* to = scratch.parts[part].data() + in_y * HalfKernels::kSide_px + kReach_px - x_px;
-            for (int x = first; x < last; ++x)
-                to[x] = factor[static_cast<std::size_t>(x - x_px + kRim_px)] * in[x];
-        }
+// Copies a row of what lies in and about the block at (x_px, y_px).
+void HalfLightAdder::copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const {
+    const int width = source.light.width(), y = y_px - kRim_px + row, left = x_px - kRim_px;
+    const int part_row = row - (kRim_px - kReach_px);
+    const bool in_parts = part_row >= 0 && part_row < HalfKernels::kSide_px;
+    const auto part_at = [&](std::size_t part) {
+        return scratch.parts[part].data() + part_row * HalfKernels::kSide_px;
+    };
+    std::array<float, kArea_px>& charge_e = scratch.charge_e[static_cast<std::size_t>(row)];
+    std::array<HalfKind, kArea_px>& kinds = scratch.kinds[static_cast<std::size_t>(row)];
+    charge_e.fill(0), kinds.fill(HalfKind::kSmooth);
+    if (in_parts)
+        for (std::size_t part = 0; part < HalfKernels::kParts; ++part)
+            std::fill_n(part_at(part), HalfKernels::kSide_px, 0.0f);
+    if (y < 0 || y >= source.light.height()) return;
+    const int x0 = std::max(left, 0), x1 = std::min(left + static_cast<int>(kArea_px), width);
+    const float* lens =
+        illumination_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x0;
+    const float* zone =
+        source.zone ? source.zone + static_cast<std::size_t>(y) * source.zone_width + x0 : nullptr;
+    std::array<float, kArea_px> factor, rates_e_s;
+    const auto count = static_cast<std::size_t>(x1 - x0);
+    to_charge(
+        {source.rates_e_s(x0, y, count, rates_e_s.data()), lens, zone, source.exposure_s, source.most_e},
+        count, factor.data() + (x0 - left), charge_e.data() + (x0 - left));
+    for (int block = x_px - kBlock_px; block <= x_px + kBlock_px; block += kBlock_px) {
+        if (!source.knows(block, y)) continue;
+        const auto within = [&](int reach_px) {
+            return std::array{std::max({block, x_px - reach_px, x0}),
+                              std::min({block + kBlock_px, x_px + kBlock_px + reach_px, x1})};
+        };
+        const auto [begin, end] = within(kRim_px);
+        std::copy(source.light.kinds(y).data() + begin, source.light.kinds(y).data() + end,
+                  kinds.data() + (begin - left));
+        const auto [first, last] = within(kReach_px);
+        if (!in_parts || first >= last) continue;
+        for (std::size_t part = 0; part < HalfKernels::kParts; ++part)
+            multiply(factor.data() + (first - left),
+                     source.light.row(y, static_cast<int>(part), source.number).data() + first,
+                     static_cast<std::size_t>(last - first), part_at(part) + (first - x_px + kReach_px));
     }
 }
 
-void HalfLightAdder::find_near(Scratch& scratch) {
+// Finds the pixels whose light is not smooth: what is known of them, or an object up to two pixels beside.
+void HalfLightAdder::find_sharp(Scratch& scratch) {
     std::array<std::array<std::uint8_t, kArea_px>, kArea_px> along;
     for (std::size_t y = 0; y < kArea_px; ++y) {
         std::array<std::uint8_t, kArea_px> object;
@@ -123,30 +176,35 @@ void HalfLightAdder::find_near(Scratch& scratch) {
     }
     for (std::size_t y = 2; y + 2 < kArea_px; ++y)
         for (std::size_t x = 2; x + 2 < kArea_px; ++x)
-            scratch.near[y][x] =
-                along[y - 2][x] | along[y - 1][x] | along[y][x] | along[y + 1][x] | along[y + 2][x];
+            scratch.sharp[y][x] = along[y - 2][x] | along[y - 1][x] | along[y][x] | along[y + 1][x] |
+                                  along[y + 2][x] | (scratch.kinds[y][x] != HalfKind::kSmooth ? 1 : 0);
 }
 
 // Takes what the picture as a whole has been given already from the differences. False: nothing is left.
 bool HalfLightAdder::take_smooth(Scratch& scratch) {
+    constexpr auto kSide_px = static_cast<std::size_t>(HalfKernels::kSide_px);
     const Area& e = scratch.charge_e;
-    for (std::size_t y = 2; y + 2 < kArea_px; ++y)
-        for (std::size_t x = 0; x < kArea_px; ++x)
-            scratch.down_e[y][x] = smooth_difference(e[y - 2][x], e[y - 1][x], e[y + 1][x], e[y + 2][x]);
+    std::array<float, kArea_px> down_e;
+    std::array<float, kSide_px> smooth_e;
     bool any = false;
-    for (std::size_t j = 0; j < HalfKernels::kSide_px; ++j)
-        for (std::size_t i = 0; i < HalfKernels::kSide_px; ++i) {
-            const std::size_t y = j + 2, x = i + 2, at = j * HalfKernels::kSide_px + i;
-            if (!scratch.near[y][x] && scratch.kinds[y][x] == HalfKind::kSmooth) continue;
-            const std::array<float, kArea_px>& down_e = scratch.down_e[y];
-            const float smooth[] = {
-                smooth_difference(e[y][x - 2], e[y][x - 1], e[y][x + 1], e[y][x + 2]), down_e[x],
-                smooth_difference(down_e[x - 2], down_e[x - 1], down_e[x + 1], down_e[x + 2])};
-            for (std::size_t part = 0; part < HalfKernels::kParts; ++part) {
-                scratch.parts[part][at] -= smooth[part];
-                any = any || scratch.parts[part][at] != 0;
-            }
-        }
+    for (std::size_t j = 0; j < kSide_px; ++j) {
+        const std::size_t y = j + 2;
+        find_smooth({e[y - 2].data(), e[y - 1].data(), e[y + 1].data(), e[y + 2].data()}, kArea_px,
+                    down_e.data());
+        const auto along = [](const std::array<float, kArea_px>& row) {
+            return Neighbors{row.data(), row.data() + 1, row.data() + 3, row.data() + 4};
+        };
+        const auto take_part = [&](std::size_t part, const float* smooth) {
+            const bool left = take(smooth, scratch.sharp[y].data() + 2, kSide_px,
+                                   scratch.parts[part].data() + j * kSide_px);
+            any = any || left;
+        };
+        find_smooth(along(e[y]), kSide_px, smooth_e.data());
+        take_part(0, smooth_e.data());
+        take_part(1, down_e.data() + 2);
+        find_smooth(along(down_e), kSide_px, smooth_e.data());
+        take_part(2, smooth_e.data());
+    }
     return any;
 }
 

@@ -47,7 +47,8 @@ class HalfLightAdder {
         const float* zone;         // null: the whole field is one
         std::size_t zone_width;    // floats in a row of it
 
-        float rate_e_s(int x, int y) const;
+        bool knows(int x, int y) const;
+        const float* rates_e_s(int x, int y, std::size_t count, float* room) const;
     };
     // A block and what lies about it, as far as kernels reach and differences are taken from.
     static constexpr int kRim_px = HalfKernels::kMaxReach_px + 2,
@@ -55,15 +56,13 @@ class HalfLightAdder {
     using Area = std::array<std::array<float, kArea_px>, kArea_px>;
     struct Scratch {
         Area charge_e;  // light of pixels
-        Area down_e;    // smooth differences down them
         std::array<std::array<HalfKind, kArea_px>, kArea_px> kinds;
-        std::array<std::array<std::uint8_t, kArea_px>, kArea_px>
-            near;  // an object is seen here or up to two pixels beside
+        std::array<std::array<std::uint8_t, kArea_px>, kArea_px> sharp;  // pixels whose light is not smooth
         HalfKernels::Parts parts;
     };
     bool gather(const Source& source, int x_px, int y_px, Scratch& scratch) const;
-    void copy_block(const Source& source, int from_x, int from_y, int x_px, int y_px, Scratch& scratch) const;
-    static void find_near(Scratch& scratch);
+    void copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const;
+    static void find_sharp(Scratch& scratch);
     static bool take_smooth(Scratch& scratch);
 };
 

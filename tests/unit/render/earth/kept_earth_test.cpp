@@ -3,6 +3,8 @@
 #include "render/earth/kept_earth.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -54,6 +56,28 @@ TEST_F(KeptEarthTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
     ASSERT_TRUE(moved.place(here, sun_dir));
     const std::array<Spectrum, 16> seen = looks(moved, here);
     for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(seen[i].bin, wanted[i].bin) << i;
+}
+
+// Page faults of this process [pages].
+long faults() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_minflt;
+}
+
+TEST_F(KeptEarthTest, LaterPicturesAreMadeInMemoryThatTheFirstHasTaken) {
+    constexpr double kFinePixel_rad = 1e-3;
+    KeptEarth kept(earth, sun, kFinePixel_rad, EarthModel::kHighest_m);
+    const auto show = [&](double longitude_rad) {
+        ASSERT_TRUE(kept.place(on_equator(42164e3, longitude_rad), on_equator(1, 1.1)));
+    };
+    show(0.1);
+    const long before = faults();
+    show(0.2), show(0.3);
+    const auto picture_pages =
+        static_cast<long>(kept.bytes() / 3 / static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+    EXPECT_GT(picture_pages, 200);
+    EXPECT_LT(faults() - before, picture_pages / 4);
 }
 
 TEST_F(KeptEarthTest, FarCamerasAloneHaveOne) {

@@ -127,20 +127,21 @@ TEST(HalfKernels, ConvolveABlock) {
     const HalfKernels kernels(transfer);
     HalfKernels::Parts parts{};
     const auto value = [](int d, int x, int y) {
-        return (x * 7 + y * 13 + d * 5) % 11 == 0 ? static_cast<float>((x + 2 * y) % 17 - 8) : 0.0f;
+        return y % 9 > 2 && (x * 7 + y * 13 + d * 5) % 11 == 0 ? static_cast<float>((x + 2 * y) % 17 - 8)
+                                                               : 0.0f;
     };
     constexpr int kSide = HalfKernels::kSide_px, kReach = HalfKernels::kMaxReach_px;
     for (int d = 0; d < 3; ++d)
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x)
                 parts[static_cast<std::size_t>(d)][static_cast<std::size_t>(y * kSide + x)] = value(d, x, y);
-    constexpr int kColumns = 29, kRows = 30;
-    std::vector<float> out(40 * kRows, 1.0f);
+    constexpr int kColumns = 29, kRows = 31;
+    std::vector<float> out(40 * (kRows + 1), 1.0f);
     kernels.add(parts, kColumns, kRows, out.data(), 40);
-    for (int y = 0; y < kRows; ++y)
+    for (int y = 0; y <= kRows; ++y)
         for (int x = 0; x < 40; ++x) {
             double expected = 1;
-            for (int d = 0; d < 3 && x < kColumns; ++d)
+            for (int d = 0; d < 3 && x < kColumns && y < kRows; ++d)
                 for (int j = -kernels.reach_px(); j <= kernels.reach_px(); ++j)
                     for (int i = -kernels.reach_px(); i <= kernels.reach_px(); ++i)
                         expected += static_cast<double>(kernels.weight(static_cast<std::size_t>(d), i, j)) *
