@@ -89,6 +89,10 @@ struct FrameView {
             if (box.overlaps(body_boxes[i])) return false;
         return box.overlaps(body_boxes[0]);
     }
+    // Returns how far the camera's rays have come where they begin, about [m].
+    double way_to_start_m() const {
+        return start_before_m > 0 ? std::max(0.0, length(start_at_m - camera_m) - start_before_m) : 0;
+    }
     // Returns where a ray of the camera begins in ray space; from_camera_m is not zero when rows have poses
     // of their own.
     Vec3f start_of(Vec3d unit_dir, Vec3d from_camera_m = {}) const {

@@ -365,11 +365,7 @@ class PrimaryRays {
         const Vec3f origin{rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]};
         const Vec3f dir{rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]};
         Vertex& vertex = vertices_[count_];
-        const RayWidth width{
-            frame_.start_before_m > 0
-                ? sample_rad_ * static_cast<float>(length(frame_.start_at_m - frame_.camera_m))
-                : 0.0f,
-            sample_rad_};
+        const RayWidth width{sample_rad_ * static_cast<float>(frame_.way_to_start_m()), sample_rad_};
         if (!make_vertex(frame_, hits_, lane, origin, dir, 0, width, vertex)) return;
         vertex.pixel = pixel;
         vertex.sample = sample;

@@ -181,8 +181,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
     const FrameView& frame = tile_.frame;
     const std::size_t n = look_at_fragments();
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
-    const float from_m =
-        frame.start_before_m > 0 ? static_cast<float>(length(frame.start_at_m - frame.camera_m)) : 0.0f;
+    const auto from_m = static_cast<float>(frame.way_to_start_m());
     const std::vector<PackedTriangle>& triangles = (*frame.objects)[hits_.object[0]]->triangles;
     for (std::size_t k = 0; k < n; ++k) {
         if (frame.bodies_may_hide && leave_to_body(k)) continue;

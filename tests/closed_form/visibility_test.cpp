@@ -319,10 +319,11 @@ TEST(Visibility, ALensThatBendsLinesIsForRays) {
 // A plate a quarter of a metre above a floor, the Sun at 45 degrees: along the shadow's edge the floor has the light
 // of that part of the disk which stands past the plate. Seen by sixteen samples with a ray each to the Sun's
 // middle it would be none or all.
-TEST(Visibility, AShadowsEdgeIsAsWideAsTheSun) {
+class ShadowsEdge : public testing::TestWithParam<const char*> {};
+TEST_P(ShadowsEdge, IsAsWideAsTheSun) {
     constexpr double kAbove_m = 0.25, kPixel_m = 1.25e-3, kSunRadius_rad = 6.957e8 / kAstronomicalUnit_m;
     Stage s;
-    s.quality.path_model = "direct";
+    s.quality.path_model = GetParam();
     s.quality.visibility = "buffer";
     s.quality.sun_disk = false;
     s.quality.rays_across = 0;
@@ -349,6 +350,54 @@ TEST(Visibility, AShadowsEdgeIsAsWideAsTheSun) {
         }
         EXPECT_NEAR(mean / lit, expected, 0.07) << x;
     }
+}
+INSTANTIATE_TEST_SUITE_P(ByModel, ShadowsEdge, testing::Values("direct", "kept"));
+
+// Pixels far smaller than the places that keep light.
+class NearBy : public testing::Test {
+  protected:
+    Stage s;
+    NearBy() {
+        s.quality.path_model = "kept";
+        s.geometry.focal_length_px = 2000;
+    }
+    // An edge takes half of a pixel at most that the middle has not.
+    void expect_edges_as_by_rays() {
+        const Difference d = difference_from_rays(s);
+        EXPECT_LT(std::abs(d.mean), 0.01);
+        EXPECT_LT(d.greatest, 0.6);
+        const std::span<const float> pixels = s.radiance.plane(0);
+        const float brightest = *std::max_element(pixels.begin(), pixels.end());
+        for (const float part : {0.0f, 0.8f})
+            EXPECT_GT(std::count_if(
+                          pixels.begin(), pixels.end(),
+                          [&](float p) { return p >= part * brightest && p <= (part + 0.2f) * brightest; }),
+                      400);
+    }
+};
+
+// A mirror at 30 degrees, and past it, in the Sun, a plate that ends in the middle of what it shows.
+TEST_F(NearBy, AMirrorShowsEdgesAsRaysDo) {
+    MaterialConfig mirror = lambert(0.8);
+    mirror.model = kModel<brdf::Metal>;
+    mirror.roughness = 0.05;
+    s.sun({-0.3, 1, 0.5});
+    s.add(plate(mirror, s.grid), {0, 0, 4}, {0, 150 * kDegree_rad, 0});
+    s.add(plate(lambert(0.5), s.grid), {0.866, 1.003, 3.5}, {0, -60 * kDegree_rad, 0.05});
+    expect_edges_as_by_rays();
+}
+
+// The plate above lies in a lamp's light, and its shadow ends in the middle of the picture.
+TEST_F(NearBy, ALampsShadowHasEdgesAsByRays) {
+    s.scene.sun_irradiance_1au_w_m2_um = {};
+    Spectrum intensity;
+    intensity.bin.fill(1);
+    s.scene.lamps.push_back({"lamp", 0, intensity, {}});
+    s.world.lamps.resize(1);
+    s.world.lamps[0] = {{2.0034, 0, 2}, {0, 0, 1}, 1};
+    s.add(plate(lambert(0.5), s.grid), {0, 0, 4});
+    s.add(plate(lambert(0.5), s.grid), {2, 0, 3}, {kPi * std::cos(0.05), kPi * std::sin(0.05), 0});
+    expect_edges_as_by_rays();
 }
 
 }  // namespace
