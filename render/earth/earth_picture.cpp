@@ -136,7 +136,7 @@ bool EarthPicture::is_for(Vec3d camera_m, double pixel_rad) {
 
 EarthPicture::EarthPicture(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
     bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kRings + 4);
-    // Addresses for the widest disk; its pages are taken by take_memory_of(). A step of the grid nearer, and half of one.
+    // Addresses for the widest disk; its pages are taken by take_memory(). A step of the grid nearer, and half of one.
     distance_m_ =
         (1 - 1.5 * kDistanceStep) * kEarthRadius_m * std::max(kNearest, 1 / (kLargest_px * pixel_rad));
     place_bands();
@@ -201,9 +201,9 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
     *out = *first;
 }
 
-void EarthPicture::take_memory_of(const EarthPicture& other) {
-    HILCAM_CHECK(other.used_ <= light_.capacity());
-    if (light_.size() < other.used_) light_.resize(other.used_);
+void EarthPicture::take_memory(std::size_t used) {
+    HILCAM_CHECK(used <= light_.capacity());
+    if (light_.size() < used) light_.resize(used);
 }
 
 void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance) {
@@ -217,7 +217,7 @@ void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum&
     right_ = normalized(cross(ahead_, std::abs(ahead_.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
     down_ = cross(ahead_, right_);
     place_bands();
-    take_memory_of(*this);
+    take_memory(used_);
     int rows = 0;
     for (const Band& band : bands_) rows += band.rows;
     tbb::parallel_for(0, rows, [&](int row) {

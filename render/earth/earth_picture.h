@@ -41,7 +41,7 @@ class EarthPicture {
     // Works a picture out on all threads of the arena. Loop; allocates nothing. sun_irradiance_1au: [W m^-2 um^-1].
     void make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance_1au_w_m2_um);
     // Takes as much memory as a picture that is made, so that making one like it needs none. Loop; allocates nothing.
-    void take_memory_of(const EarthPicture& other);
+    void take_memory_as(const EarthPicture& other) { take_memory(other.used_); }
     std::size_t bytes() const { return light_.size() * sizeof(Coded); }
 
     // A square of a camera's picture. Places in it are parabolas, both ways, through those of its corners, middles and centre.
@@ -93,6 +93,7 @@ class EarthPicture {
     std::vector<Coded> light_;
     std::size_t used_ = 0;
 
+    void take_memory(std::size_t used);
     void place_bands();
     void fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row);
     // The row and the column before a place, and how far it is behind them, 0..1.

@@ -28,7 +28,7 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
         make(at);
         // The kernel gives pages at their first use, with which later frames shall not be busy.
         if (frames_ == 0)
-            for (const Kept& kept : pictures_) kept.picture->take_memory_of(*pictures_[at].picture);
+            for (const Kept& kept : pictures_) kept.picture->take_memory_as(*pictures_[at].picture);
     }
     shown_ = at;
     pictures_[at].last_shown = ++frames_;

@@ -27,8 +27,9 @@ class PrimaryRays {
           sun_(tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
           plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)) {
-        sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) /
-                      static_cast<float>(tile.samples_per_axis);
+        const float sample_rad = static_cast<float>(1 / frame_.geometry.focal_length_px) /
+                                 static_cast<float>(tile.samples_per_axis);
+        width_ = {sample_rad * static_cast<float>(frame_.way_to_start_m()), sample_rad};
         std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
         rays_.nearest.fill(0), rays_.farthest.fill(kFarthest);
         if (linear_) {
@@ -85,7 +86,7 @@ class PrimaryRays {
     PicturedEarth earth_;      // looked at for the packet's samples
     Spectrum picture_weight_;  // the weight of a pixel that sees nothing else
     std::optional<EarthPatch> patch_;
-    float sample_rad_;  // angle between neighbouring rays
+    RayWidth width_;  // of a ray at the surface it meets, by the angle between neighbours
     Spectrum weight_;
     Vec3d corner_;
     RayPacket rays_;
@@ -365,8 +366,7 @@ class PrimaryRays {
         const Vec3f origin{rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]};
         const Vec3f dir{rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]};
         Vertex& vertex = vertices_[count_];
-        const RayWidth width{sample_rad_ * static_cast<float>(frame_.way_to_start_m()), sample_rad_};
-        if (!make_vertex(frame_, hits_, lane, origin, dir, 0, width, vertex)) return;
+        if (!make_vertex(frame_, hits_, lane, origin, dir, 0, width_, vertex)) return;
         vertex.pixel = pixel;
         vertex.sample = sample;
         vertex.depth = 1;

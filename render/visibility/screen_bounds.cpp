@@ -45,10 +45,13 @@ class Bounds {
 
 double angle_between(Vec3d a_dir, Vec3d b_dir) { return std::acos(std::clamp(dot(a_dir, b_dir), -1.0, 1.0)); }
 
-// Bounds what a cone covers of the picture, of which parts are not before the camera, by cells of the picture.
+// Returns bounds of what a cone may cover of the picture where parts of the cone are not before the camera: those of the cells
+// of the picture that it can reach.
 PixelBox bounds_by_cells(const ImageGeometry& geometry, Vec3d axis_camera, double cosine) {
-    constexpr int kCells = 8;        // along each side
-    constexpr double kCurved = 1.1;  // more than a lens bends sides of cells beyond their corners
+    constexpr int kCells = 8;  // along each side
+    // By a pinhole no direction in a cell is farther from its middle than its corners are, as its sides are great circles. A
+    // lens bends these; none that cells are for by as much as a tenth (the test has barrels and a fisheye).
+    constexpr double kCurved = 1.1;
     const auto direction = [&](double x_px, double y_px) {
         return normalized(geometry.direction_camera(x_px - geometry.guard_px, y_px - geometry.guard_px));
     };

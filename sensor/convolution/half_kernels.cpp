@@ -91,14 +91,16 @@ constexpr int kRowsAtOnce = 2;
 HILCAM_CLONES void add_rows(const float* in, std::size_t side, const std::uint8_t* lit, const float* weights,
                             std::size_t across, int taps, float* out) {
     Lanes left[kRowsAtOnce]{}, right[kRowsAtOnce]{}, a, b;
-    for (int j = 0; j <= taps; ++j, in += side, weights -= across) {
+    const auto weights_of = [&](int row) { return weights - static_cast<std::size_t>(row) * across; };
+    for (int j = 0; j <= taps; ++j, in += side) {
         if (!lit[j]) continue;
-        const float* const before = weights + across;  // the second row's
+        const float* const first = j < taps ? weights_of(j) : nullptr;
+        const float* const second = j > 0 ? weights_of(j - 1) : nullptr;
         for (int i = 0; i < taps; ++i) {
             std::memcpy(&a, in + i, sizeof a);
             std::memcpy(&b, in + i + kLanes, sizeof b);
-            if (j < taps) left[0] += weights[-i] * a, right[0] += weights[-i] * b;
-            if (j > 0) left[1] += before[-i] * a, right[1] += before[-i] * b;
+            if (first) left[0] += first[-i] * a, right[0] += first[-i] * b;
+            if (second) left[1] += second[-i] * a, right[1] += second[-i] * b;
         }
     }
     for (int row = 0; row < kRowsAtOnce; ++row)

@@ -46,7 +46,7 @@ SceneObject corner(const MaterialConfig& material, const SpectralGrid& grid) {
                      {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}, material, grid);
 }
 
-// With a picture of one colour all over it; 255: none.
+// Returns the object with a picture of one grey all over it; at 255, which would change nothing, as it is.
 SceneObject painted(SceneObject object, std::uint8_t grey) {
     if (grey == 255) return object;
     object.mesh.textures = {Texture{"grey", 1, 1, {{grey, grey, grey}}}};

@@ -316,10 +316,10 @@ TEST(Visibility, ALensThatBendsLinesIsForRays) {
     EXPECT_GT(s.stats.primary_rays, 0u);
 }
 
+class ShadowsEdge : public testing::TestWithParam<const char*> {};
 // A plate a quarter of a metre above a floor, the Sun at 45 degrees: along the shadow's edge the floor has the light
 // of that part of the disk which stands past the plate. Seen by sixteen samples with a ray each to the Sun's
 // middle it would be none or all.
-class ShadowsEdge : public testing::TestWithParam<const char*> {};
 TEST_P(ShadowsEdge, IsAsWideAsTheSun) {
     constexpr double kAbove_m = 0.25, kPixel_m = 1.25e-3, kSunRadius_rad = 6.957e8 / kAstronomicalUnit_m;
     Stage s;
@@ -361,7 +361,7 @@ class NearBy : public testing::Test {
         s.quality.path_model = "kept";
         s.geometry.focal_length_px = 2000;
     }
-    // An edge takes half of a pixel at most that the middle has not.
+    // A pixel at an edge, of which the place in its middle tells, is off by half of it at most.
     void expect_edges_as_by_rays() {
         const Difference d = difference_from_rays(s);
         EXPECT_LT(std::abs(d.mean), 0.01);
