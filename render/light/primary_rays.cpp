@@ -86,7 +86,7 @@ class PrimaryRays {
     PicturedEarth earth_;      // looked at for the packet's samples
     Spectrum picture_weight_;  // the weight of a pixel that sees nothing else
     std::optional<EarthPatch> patch_;
-    RayWidth width_;  // of a ray at the surface it meets, by the angle between neighbours
+    RayWidth width_;  // width of each ray, and the angle between neighbouring ones
     Spectrum weight_;
     Vec3d corner_;
     RayPacket rays_;
