@@ -37,17 +37,29 @@ struct SchlickSums {
     // The cosine at which the term is its mean.
     float facet_cosine() const { return light > 0 ? 1 - std::pow(std::max(term / light, 0.0f), 0.2f) : 1.0f; }
 };
-// In lanes, so that the sums are vectors. count: a multiple of kLanes.
+// In lanes of vectors that are written out: GCC 12 takes a plain loop over sixteen lanes apart. count: a multiple of kLanes.
 HILCAM_CLONES
 void schlick_sums(const float* weight, const float* brightest, const float* schlick, std::size_t count,
                   SchlickSums& out) {
-    std::array<float, kLanes> lights{}, terms{};
+    using Eight [[gnu::vector_size(32)]] = float;
+    constexpr std::size_t kEach = 8;
+    std::array<Eight, kLanes / kEach> lights = {}, terms = {};
+    const auto at = [](const float* floats) {
+        Eight eight;
+        std::memcpy(&eight, floats, sizeof eight);
+        return eight;
+    };
     for (std::size_t first = 0; first < count; first += kLanes)
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            const float light = weight[first + i] * brightest[first + i];
-            lights[i] += light, terms[i] += light * schlick[first + i];
+        for (std::size_t k = 0; k < lights.size(); ++k) {
+            const std::size_t i = first + kEach * k;
+            const Eight light = at(weight + i) * at(brightest + i);
+            lights[k] += light, terms[k] += light * at(schlick + i);
         }
-    out = {lane_sum(lights), lane_sum(terms)};
+    std::array<float, kLanes> each;
+    std::memcpy(each.data(), lights.data(), sizeof each);
+    out.light = lane_sum(each);
+    std::memcpy(each.data(), terms.data(), sizeof each);
+    out.term = lane_sum(each);
 }
 
 // Sum of weight times value: a vector holds the bins of one, and four sums side by side do not wait for each other.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/units.h"
 #include "sensor/convolution/cubic_weights.h"
 #include "sensor/convolution/fourier.h"
+#include "sensor/convolution/half_rows.h"
 
 namespace hilcam {
 namespace {
@@ -80,33 +80,8 @@ double value_at(const std::vector<float>& image, double x_px, double y_px) {
     return sum;
 }
 
-// A vector of the widest kind; narrower processors take it in parts.
-using Lanes = float __attribute__((vector_size(64)));
-constexpr int kLanes = 16;
-static_assert(HalfKernels::kBlock_px == 2 * kLanes);
-
-// Two rows of a block, which have most of their input in common: adds what rows of differences from `first` on give, of which
-// those that are all zero are left out. Rows of weights go upwards.
 constexpr int kRowsAtOnce = 2;
-HILCAM_CLONES void add_rows(const float* in, std::size_t side, const std::uint8_t* lit, const float* weights,
-                            std::size_t across, int taps, float* out) {
-    Lanes left[kRowsAtOnce]{}, right[kRowsAtOnce]{}, a, b;
-    const auto weights_of = [&](int row) { return weights - static_cast<std::size_t>(row) * across; };
-    for (int j = 0; j <= taps; ++j, in += side) {
-        if (!lit[j]) continue;
-        const float* const first = j < taps ? weights_of(j) : nullptr;
-        const float* const second = j > 0 ? weights_of(j - 1) : nullptr;
-        for (int i = 0; i < taps; ++i) {
-            std::memcpy(&a, in + i, sizeof a);
-            std::memcpy(&b, in + i + kLanes, sizeof b);
-            if (first) left[0] += first[-i] * a, right[0] += first[-i] * b;
-            if (second) left[1] += second[-i] * a, right[1] += second[-i] * b;
-        }
-    }
-    for (int row = 0; row < kRowsAtOnce; ++row)
-        for (int x = 0; x < kLanes; ++x)
-            out[2 * kLanes * row + x] = left[row][x], out[2 * kLanes * row + kLanes + x] = right[row][x];
-}
+static_assert(HalfKernels::kBlock_px == kHalfBlock_px);
 
 HILCAM_CLONES bool any_lit(const float* row, std::size_t count) {
     std::uint32_t lit = 0;
@@ -222,8 +197,8 @@ void HalfKernels::add(const Parts& parts, int columns, int rows, float* out, std
         const float* const last = &weights_[part][index_of(reach_px_, reach_px_)];
         for (int y = 0; y < rows; y += kRowsAtOnce) {
             const int first = y + skipped;
-            add_rows(all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps,
-                     sums[0].data());
+            sum_half_rows({all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps},
+                          sums[0].data());
             for (int row = y; row < std::min(y + kRowsAtOnce, rows); ++row) {
                 float* const to = out + static_cast<std::size_t>(row) * stride;
                 for (int x = 0; x < columns; ++x)

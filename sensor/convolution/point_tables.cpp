@@ -1,69 +1,107 @@
 #include "sensor/convolution/point_tables.h"
 
-#include <cstring>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sensor/convolution/point_tables.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
-#include "render/vocabulary/clones.h"
-
+HWY_BEFORE_NAMESPACE();
 namespace hilcam {
-namespace {
+namespace HWY_NAMESPACE {
 
-using TwoRows [[gnu::vector_size(64)]] = float;  // two rows of a least image
-using LeastImage = std::array<TwoRows, 4>;
+namespace hn = hwy::HWY_NAMESPACE;
 
-[[gnu::always_inline]] inline void sum_least(const ShiftedTable* tables, std::size_t count,
-                                             LeastImage& sums) {
-    sums = {};
-    for (std::size_t t = 0; t < count; ++t)
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            TwoRows in;
-            std::memcpy(&in, tables[t].corner + 16 * i, sizeof(in));
-            sums[i] += tables[t].weight * in;
+constexpr std::size_t kLeast = 64;  // numbers of a least image
+
+// Numbers side by side, in as many vectors as they take.
+template <std::size_t kCount>
+struct Numbers {
+    using Floats = hn::CappedTag<float, kCount < 16 ? kCount : 16>;
+    static constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+    hn::Vec<Floats> vector[kCount / kLanes];
+
+    // The tables' sum, from a number of theirs on.
+    HWY_INLINE void sum(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t from) {
+        const Floats d;
+        for (auto& v : vector) v = hn::Zero(d);
+        for (std::size_t t = 0; t < count; ++t) {
+            const float* numbers = tables[t].corner + from;
+            const auto weight = hn::Set(d, tables[t].weight);
+            for (auto& v : vector) v = hn::Add(v, hn::Mul(weight, hn::LoadU(d, numbers))), numbers += kLanes;
         }
+    }
+    HWY_INLINE void store(float* to) const {
+        for (const auto& v : vector) hn::StoreU(v, Floats(), to), to += kLanes;
+    }
+    // Adds the first of them to what is there: `count`, or all.
+    HWY_INLINE void add_to(float* to, std::ptrdiff_t count) const {
+        const Floats d;
+        auto rest = static_cast<float>(count);
+        for (const auto& v : vector) {
+            const auto ours = hn::IfThenElseZero(hn::Lt(hn::Iota(d, 0), hn::Set(d, rest)), v);
+            hn::StoreU(hn::Add(hn::LoadU(d, to), ours), d, to);
+            to += kLanes, rest -= static_cast<float>(kLanes);
+        }
+    }
+};
+
+void copy(const ShiftedTable* tables, std::size_t count, float* out) {
+    // As many as the registers hold of the narrowest vectors.
+    constexpr std::size_t kTogether = kLeast < 8 * Numbers<kLeast>::kLanes ? kLeast : 8 * Numbers<kLeast>::kLanes;
+    for (std::size_t first = 0; first < kLeast; first += kTogether) {
+        Numbers<kTogether> part;
+        part.sum(tables, count, static_cast<std::ptrdiff_t>(first));
+        part.store(out + first);
+    }
 }
 
-}  // namespace
-
-HILCAM_CLONES void copy_least(const ShiftedTable* tables, std::size_t count, float* out) {
-    LeastImage sums;
-    sum_least(tables, count, sums);
-    std::memcpy(out, sums.data(), sizeof(sums));
+void add_rows(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first, std::ptrdiff_t end, float* out,
+              std::ptrdiff_t pitch) {
+    for (std::ptrdiff_t y = first; y < end; ++y) {
+        Numbers<8> row;
+        row.sum(tables, count, 8 * y);
+        row.add_to(out + y * pitch, 8);
+    }
 }
 
-HILCAM_CLONES void add_least(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first,
-                             std::ptrdiff_t end, float* out, std::ptrdiff_t pitch) {
-    LeastImage sums;
-    sum_least(tables, count, sums);
-    std::array<float, 64> rows;
-    std::memcpy(rows.data(), sums.data(), sizeof(rows));
-    for (std::ptrdiff_t y = first; y < end; ++y)
-        for (std::ptrdiff_t x = 0; x < 8; ++x)
-            out[y * pitch + x] += rows[static_cast<std::size_t>(8 * y + x)];
-}
-
-HILCAM_CLONES void add_large(const LargeImage& image, std::ptrdiff_t first, std::ptrdiff_t end, float* out,
-                             std::ptrdiff_t pitch) {
-    using Eight [[gnu::vector_size(32)]] = float;
-    constexpr Eight kLane = {0, 1, 2, 3, 4, 5, 6, 7};
+void add_rows_of_large(const LargeImage& image, std::ptrdiff_t first, std::ptrdiff_t end, float* out,
+                       std::ptrdiff_t pitch) {
     for (std::ptrdiff_t y = first; y < end; ++y) {
         const bool near_row = y >= image.first_near && y < image.end_near;
         for (std::ptrdiff_t x = 0; x < image.size; x += kColumnsTogether) {
             const bool near = near_row && x < image.end_near && x + kColumnsTogether > image.first_near;
-            const ShiftedTable* const tables = near ? image.cubic.data() : image.linear.data();
-            const std::size_t count = near ? image.cubic.size() : image.linear.size();
-            Eight sum{};
-            for (std::size_t t = 0; t < count; ++t) {
-                Eight in;
-                std::memcpy(&in, tables[t].corner + y * image.pitch + x, sizeof(in));
-                sum += tables[t].weight * in;
-            }
-            const auto rest = static_cast<float>(image.size - x);
-            sum = kLane < rest ? sum : Eight{};
-            Eight there;
-            std::memcpy(&there, out + y * pitch + x, sizeof(there));
-            there += sum;
-            std::memcpy(out + y * pitch + x, &there, sizeof(there));
+            Numbers<kColumnsTogether> columns;
+            columns.sum(near ? image.cubic.data() : image.linear.data(),
+                        near ? image.cubic.size() : image.linear.size(), y * image.pitch + x);
+            columns.add_to(out + y * pitch + x, image.size - x);
         }
     }
 }
 
+}  // namespace HWY_NAMESPACE
 }  // namespace hilcam
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hilcam {
+
+HWY_EXPORT(copy);
+HWY_EXPORT(add_rows);
+HWY_EXPORT(add_rows_of_large);
+
+void copy_least(const ShiftedTable* tables, std::size_t count, float* out) {
+    HWY_DYNAMIC_DISPATCH(copy)(tables, count, out);
+}
+
+void add_least(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first, std::ptrdiff_t end, float* out,
+               std::ptrdiff_t pitch) {
+    HWY_DYNAMIC_DISPATCH(add_rows)(tables, count, first, end, out, pitch);
+}
+
+void add_large(const LargeImage& image, std::ptrdiff_t first, std::ptrdiff_t end, float* out,
+               std::ptrdiff_t pitch) {
+    HWY_DYNAMIC_DISPATCH(add_rows_of_large)(image, first, end, out, pitch);
+}
+
+}  // namespace hilcam
+#endif
