@@ -217,10 +217,11 @@ class Filler {
             float* depth = &tile_.depth[first + sample];
             const V before = hn::Load(d, depth);
             const auto seen = hn::And(hn::RebindMask(d, hn::Lt(all, hn::Zero(di))), hn::Gt(z, before));
-            // All of it, as a load that follows soon does not wait for such a store.
+            // All of it, as a load that follows soon does not wait for such a store; and stores by a mask are slow on
+            // processors without AVX-512.
             hn::Store(hn::IfThenElse(seen, z, before), d, depth);
-            hn::BlendedStore(id_, hn::RebindMask(di, seen), di,
-                             reinterpret_cast<std::int32_t*>(&tile_.id[first + sample]));
+            auto* const id = reinterpret_cast<std::int32_t*>(&tile_.id[first + sample]);
+            hn::Store(hn::IfThenElse(hn::RebindMask(di, seen), id_, hn::Load(di, id)), di, id);
         }
     }
 };
