@@ -4,7 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <memory>
+#include <type_traits>
 
 #include "render/light/path_vertex.h"
 
@@ -28,28 +29,41 @@ inline bool sends_alike(const Vertex& a, const Vertex& b) {
 // thread at a time.
 template <class Value>
 class AlikeLobes {
+    static_assert(std::is_trivially_copyable_v<Value>);
+
   public:
     // node: 0 where the value belongs to none.
     // Returns the value of a lobe that is alike; null: there is none.
     const Value* find(const Vertex& at, std::uint32_t node) const {
-        const Slot& slot = slots_[number(at, node)];
-        return slot.value && slot.node == node && sends_alike(*slot.at, at) ? &*slot.value : nullptr;
+        const std::uint16_t place = places_[number(at, node)];
+        if (place == 0) return nullptr;
+        const Entry& entry = entries_.of[place - 1];
+        return entry.node == node && sends_alike(*entry.at, at) ? &entry.value : nullptr;
     }
     const Value& keep(const Vertex& at, std::uint32_t node, const Value& value) {
-        Slot& slot = slots_[number(at, node)];
-        slot.at = &at, slot.node = node;
-        return slot.value.emplace(value);
+        std::uint16_t& place = places_[number(at, node)];
+        if (place == 0) place = ++count_;
+        return std::construct_at(&entries_.of[place - 1], &at, node, value)->value;
     }
 
   private:
     static constexpr unsigned kSlotBits = 8;
-    // A value that is not there is not made either: a memory begins with each part of a tile.
-    struct Slot {
+    static constexpr std::size_t kSlots = std::size_t{1} << kSlotBits;
+    struct Entry {
         const Vertex* at;
         std::uint32_t node;
-        std::optional<Value> value;
+        Value value;
+        Entry(const Vertex* of, std::uint32_t number, const Value& v) : at(of), node(number), value(v) {}
     };
-    std::array<Slot, std::size_t{1} << kSlotBits> slots_;
+    // Entries follow each other as they come, and are made then: a memory begins with each part of a tile, most of which
+    // have few.
+    union Entries {
+        Entries() {}
+        std::array<Entry, kSlots> of;
+    };
+    std::array<std::uint16_t, kSlots> places_{};  // by slot, of its entry, from 1 on; 0: there is none
+    std::uint16_t count_ = 0;
+    Entries entries_;
 
     // Normals that lean differently mostly have different slots.
     static std::size_t number(const Vertex& at, std::uint32_t node) {

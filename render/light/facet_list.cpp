@@ -21,17 +21,28 @@ struct Lanes {
     Floats area_x, area_y, area_z;  // the share along its normal
     std::size_t count = 0;
 
-    void put(Vec3f normal, Vec3f lean, float part, float alpha) {
-        x[count] = normal.x, y[count] = normal.y, z[count] = normal.z;
-        lean_x[count] = lean.x, lean_y[count] = lean.y, lean_z[count] = lean.z;
-        rougher[count] = alpha * alpha;
-        share[count++] = part;
+    // Puts the next kPart lanes, all of one normal.
+    template <std::size_t kPart>
+    void put(Vec3f normal, const std::array<float, kPart>& leans_x, const std::array<float, kPart>& leans_y,
+             const std::array<float, kPart>& leans_z, const std::array<float, kPart>& part, float alpha) {
+        const std::size_t first = count;
+        const auto write = [first](Floats& to, const std::array<float, kPart>& of) {
+            std::copy_n(of.data(), kPart, to.data() + first);
+        };
+        const auto fill = [first](Floats& to, float of) { std::fill_n(to.data() + first, kPart, of); };
+        fill(x, normal.x), fill(y, normal.y), fill(z, normal.z);
+        write(lean_x, leans_x), write(lean_y, leans_y), write(lean_z, leans_z);
+        fill(rougher, alpha * alpha), write(share, part);
+        count = first + kPart;
     }
+    // A facet that does not lean.
+    void put(Vec3f normal, float part) { put<1>(normal, {0}, {0}, {0}, {part}, 0); }
 };
 
-HILCAM_CLONES void look_at(Lanes& lanes, const Mat3f& world_from_body, Vec3f view, Vec3f dir) {
+// count: a multiple of BrdfSum::kEach.
+HILCAM_CLONES void look_at(Lanes& lanes, std::size_t count, const Mat3f& world_from_body, Vec3f view, Vec3f dir) {
     const Mat3f m = world_from_body;
-    for (std::size_t i = 0; i < lanes.x.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const float lx = lanes.lean_x[i], ly = lanes.lean_y[i], lz = lanes.lean_z[i];
         const float x = lanes.x[i] + (m.x.x * lx + m.x.y * ly + m.x.z * lz);
         const float y = lanes.y[i] + (m.y.x * lx + m.y.y * ly + m.y.z * lz);
@@ -85,15 +96,14 @@ class Reflection {
         samples_ += facet.samples;
         const std::size_t first = lanes_.count;
         if (facet.flattened) {
-            const LevelFacets::Leans lean = facet.flattened->leans();
-            const LevelFacets::Floats share = facet.flattened->shares();
+            LevelFacets::Leans lean = facet.flattened->leans();
             const float side = at_.back ? -1.0f : 1.0f;
             for (std::size_t i = 0; i < LevelFacets::kMax; ++i)
-                lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i],
-                           facet.flattened->alpha());
+                lean.x[i] *= side, lean.y[i] *= side, lean.z[i] *= side;
+            lanes_.put(facet.normal, lean.x, lean.y, lean.z, facet.flattened->shares(), facet.flattened->alpha());
         } else {
             if (dot(facet.geometric_normal, dir_) <= 0) return;
-            lanes_.put(facet.normal, {}, 1, 0);
+            lanes_.put(facet.normal, 1);
         }
         groups_[group_count_++] = {&facet, first, lanes_.count - first};
     }
@@ -121,8 +131,9 @@ class Reflection {
 
     void reflect() {
         if (lanes_.count == 0) return;
-        while (lanes_.count < lanes_.x.size()) lanes_.put(at_.normal, {}, 0, 0);
-        look_at(lanes_, world_from_body_, at_.view_dir, dir_);
+        const std::size_t count = lanes_.count;
+        while (lanes_.count % BrdfSum::kEach != 0) lanes_.put(at_.normal, 0);
+        look_at(lanes_, lanes_.count, world_from_body_, at_.view_dir, dir_);
         Lanes::Floats weight{};
         for (const Group& group : std::span(groups_).first(group_count_)) {
             const float seen = sum_of(lanes_.seen, group), in_light = share_in_light(group);
@@ -134,7 +145,7 @@ class Reflection {
                 lit += weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
             light_.add_start(group.facet->start_m, lit);
         }
-        sum_.add(weight, lanes_.no, lanes_.ni, lanes_.rougher);
+        sum_.add(weight, lanes_.no, lanes_.ni, lanes_.rougher, count);
         lanes_.count = group_count_ = 0;
     }
 };
@@ -149,9 +160,15 @@ void FacetLight::add_start(Vec3f at_m, float light) {
     lit[place] = light, start_m[place] = at_m;
 }
 
-void FacetList::push(const Facet& facet, Vertex& vertex) {
+// Member by member: a Facet that is made first and copied then waits for its own stores.
+void FacetList::push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples,
+                     const LevelFacets* flattened, Vertex& vertex) {
     Facet& added = facets_[count_++];
-    added = facet;
+    added.geometric_normal = geometric_normal;
+    added.normal = normal;
+    added.start_m = start_m;
+    added.samples = samples;
+    added.flattened = flattened;
     added.next = vertex.facets;
     vertex.facets = &added;
 }
@@ -170,8 +187,8 @@ void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t tri
     const bool alike = first || dot(vertex.normal, part.normal) > kSame;
     if (alike && !wrinkles && flattened == 0 && !vertex.facets) return;
     if (!first && !vertex.facets)
-        push({vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples}, vertex);
-    push({part.geometric_normal, part.normal, part.start_m, part.samples, wrinkles}, vertex);
+        push(vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, nullptr, vertex);
+    push(part.geometric_normal, part.normal, part.start_m, part.samples, wrinkles, vertex);
 }
 
 FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir) {

@@ -25,7 +25,8 @@ class FacetList {
     std::array<Facet, kMax> facets_;
     std::size_t count_ = 0;
 
-    void push(const Facet& facet, Vertex& vertex);
+    void push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples,
+              const LevelFacets* flattened, Vertex& vertex);
 };
 
 // The light that the facets of a vertex reflect from a source of irradiance 1, with the vertex's weight.

@@ -72,11 +72,12 @@ struct Brought {
 void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
     const LobeNode& node = lobes_[n];
     if (node.entries == 0) return;
-    __builtin_prefetch(table_->entry(node.first_entry));
-    constexpr std::size_t kLine = 64 / sizeof(PackedSpectrum);
-    if (t != kNoTerm && node.first_along != kNoLobe)
-        for (std::size_t i = 0; i < node.entries; i += kLine)
-            __builtin_prefetch(terms_[t].along.data() + node.first_along + i);
+    const auto ask_for = [&](const auto* first) {
+        constexpr std::size_t kLine = 64 / sizeof(*first);
+        for (std::size_t i = 0; i < node.entries; i += kLine) __builtin_prefetch(first + i);
+    };
+    ask_for(table_->entry(node.first_entry));
+    if (t != kNoTerm && node.first_along != kNoLobe) ask_for(terms_[t].along.data() + node.first_along);
 }
 
 KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t n, Vec3f normal,

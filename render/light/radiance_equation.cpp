@@ -63,12 +63,6 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     TileStats& stats = tile.stats;
     std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
     ShadowRays<LitBy, decltype(lit)> shadow(frame, counter, lit);
-    const auto ask = [&](const LitBy& by, const SunEdges::Starts& starts) {
-        if (finds_edges)
-            tile.edges->add(*by.at, by.weight, starts);
-        else
-            shadow.add(starts.at_m[0], by.dir, by);
-    };
     for (const Vertex& at : vertices) {
         if (!at.surface.has_lobes()) continue;
         const auto [dir, light] = sun.of(at);
@@ -84,7 +78,12 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
             surface.alpha = at.facet_alpha;
             if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
             const FacetLight sum = lit_facets(frame, at, surface, dir);
-            if (!sum.none()) ask({&at, share * (light * sum.reflected), dir}, {sum.start_m, sum.lit});
+            if (sum.none()) continue;
+            const Spectrum weight = share * (light * sum.reflected);
+            if (finds_edges)
+                tile.edges->add(at, weight, sum);
+            else
+                shadow.add(sum.start_m[0], dir, {&at, weight, dir});
             continue;
         }
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
@@ -94,8 +93,10 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
         if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;
         if (!frame.sun_is_disk && at.known_sun == KnownSun::kLit)
             tile.pixels[at.pixel] += weight;
+        else if (finds_edges)
+            tile.edges->add(at, weight);
         else
-            ask({&at, weight, dir}, {{at.start()}, {1}});
+            shadow.add(at.start(), dir, {&at, weight, dir});
     }
     if (finds_edges) tile.edges->add_light(tile, sun);
 }

@@ -21,21 +21,27 @@ class SunSampler;
 // Memory for the vertices of a tile. One thread at a time.
 class SunEdges {
   public:
-    // Where a vertex' rays begin, and how much of its light each stands for; 0: does not count.
-    struct Starts {
-        std::array<Vec3f, FacetLight::kStarts> at_m;
-        std::array<float, FacetLight::kStarts> share;
-    };
     // light: what the vertex sends to the viewer, to its pixel, if all of it is in the Sun. At most
     // PathModel::kMaxSamples. Loop, any thread.
-    void add(const Vertex& at, const Spectrum& light, const Starts& starts) {
-        asked_[count_++] = {&at, light, starts, 0, 1, {}, false, 0};
+    void add(const Vertex& at, const Spectrum& light) {
+        Starts& starts = next(at, light);
+        starts.at_m[0] = at.start(), starts.share = {1};
+    }
+    // The same of a vertex with facets: its rays begin at these.
+    void add(const Vertex& at, const Spectrum& light, const FacetLight& facets) {
+        Starts& starts = next(at, light);
+        starts.at_m = facets.start_m, starts.share = facets.lit;
     }
     // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
     // thread.
     void add_light(Tile& tile, const SunSampler& sun);
 
   private:
+    // Where a vertex' rays begin, and how much of its light each stands for; 0: does not count.
+    struct Starts {
+        std::array<Vec3f, FacetLight::kStarts> at_m;
+        std::array<float, FacetLight::kStarts> share;
+    };
     static constexpr int kReach_px = 1, kMaxRows = 32;
     static constexpr std::size_t kKinds = 16;
     static constexpr std::uint32_t kAgain = 4;  // rays
@@ -56,6 +62,14 @@ class SunEdges {
     std::array<Asked, PathModel::kMaxSamples> asked_;
     std::size_t count_ = 0;
 
+    // Begins with a vertex; where its rays begin is the caller's. Member by member: what is made first and copied then
+    // waits for its own stores.
+    Starts& next(const Vertex& at, const Spectrum& light) {
+        Asked& a = asked_[count_++];
+        a.at = &at, a.light = light;
+        a.lit = 0, a.of = 1, a.halves = {}, a.by_sample = false, a.kind = 0;
+        return a.starts;
+    }
     void ask_once(Tile& tile, Vec3f sun_dir);
     void ask_again(Tile& tile, const SunSampler& sun);
     static std::uint8_t kind_of(const Vertex& at);

@@ -16,15 +16,16 @@ Spectrum brdf_value(const Scatterer& at, Cosines c) {
 
 namespace {
 
-// weight times below_facets(), and times D V of a lobe.
+// weight times below_facets(), and times D V of a lobe. count: a multiple of BrdfSum::kEach.
 HILCAM_CLONES void reflect_below(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
-                                 const BrdfSum::Lanes& ni, const LobeAlbedo& e, BrdfSum::Lanes& out) {
-    for (std::size_t i = 0; i < weight.size(); ++i) out[i] = weight[i] * below_facets(e, no[i], ni[i]);
+                                 const BrdfSum::Lanes& ni, const LobeAlbedo& e, std::size_t count,
+                                 BrdfSum::Lanes& out) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = weight[i] * below_facets(e, no[i], ni[i]);
 }
 HILCAM_CLONES void reflect_lobe(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
                                 const BrdfSum::Lanes& ni, const BrdfSum::Lanes& rougher, float alpha,
-                                float over_half, BrdfSum::Lanes& out) {
-    for (std::size_t i = 0; i < weight.size(); ++i) {
+                                float over_half, std::size_t count, BrdfSum::Lanes& out) {
+    for (std::size_t i = 0; i < count; ++i) {
         const float nh = std::min((no[i] + ni[i]) * over_half, 1.0f);
         // Slopes s of density a^2 / (pi (a^2 + s^2)^2) (GGX's: Heitz, JCGT 3(2), 2014) that are scattered by
         // r: to the first order the density changes by r (4 s^2 - 2 a^2) / (a^2 + s^2)^2 of itself. A lobe
@@ -52,7 +53,8 @@ const LobeAlbedo* facets_of(const Material& material) {
 
 }  // namespace
 
-void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher) {
+void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher,
+                  std::size_t count) {
     const Material& m = *at_.material;
     if (std::holds_alternative<brdf::Lambert>(m.brdf)) {
         below_ += lane_sum(weight) / kPiF;
@@ -60,15 +62,16 @@ void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const L
     }
     const LobeAlbedo* const facets = facets_of(m);
     if (!facets) {
-        for (std::size_t i = 0; i < weight.size(); ++i)
+        for (std::size_t i = 0; i < count; ++i)
             if (weight[i] > 0) other_ += weight[i] * brdf_value(at_, {no[i], ni[i], io_});
         return;
     }
-    Lanes part;
-    reflect_below(weight, no, ni, *facets, part);
+    Lanes part{};
+    const std::size_t filled = (count + kEach - 1) / kEach * kEach;
+    reflect_below(weight, no, ni, *facets, filled, part);
     below_ += lane_sum(part);
     if (!(at_.alpha > 0)) return;
-    reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), part);
+    reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), filled, part);
     lobe_ += lane_sum(part);
 }
 

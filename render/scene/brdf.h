@@ -50,9 +50,10 @@ class BrdfSum {
     BrdfSum(const Scatterer& at, float io) : at_(at), io_(io) {}
     static constexpr std::size_t kLanes = 16;
     using Lanes = std::array<float, kLanes>;
-    // Sixteen facets at a time. no > 0; of a facet that adds nothing the weight is zero, else ni > 0.
-    // rougher: square of a GGX alpha that a facet's lobe is wider by.
-    void add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher);
+    static constexpr std::size_t kEach = 8;  // that are made together
+    // The first `count` facets, sixteen at most. no > 0; of a facet that adds nothing, and of those that fill the lanes to a
+    // multiple of kEach, the weight is zero, else ni > 0. rougher: square of a GGX alpha that a facet's lobe is wider by.
+    void add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher, std::size_t count);
     Spectrum value() const;
 
   private:
