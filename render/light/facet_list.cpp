@@ -182,7 +182,8 @@ void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t tri
         flattened = object.flattened_alpha[vertex.surface_number];
         if (!object.facets[triangle].is_flat()) wrinkles = &object.facets[triangle];
         const float alpha = vertex.surface.alpha;
-        if (first) vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened));
+        if (first && flattened > 0)
+            vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened));
     }
     const bool alike = first || dot(vertex.normal, part.normal) > kSame;
     if (alike && !wrinkles && flattened == 0 && !vertex.facets) return;

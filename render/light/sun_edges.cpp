@@ -99,12 +99,17 @@ std::uint8_t SunEdges::kind_of(const Vertex& at) {
 // The answers that lie within reach of each pixel.
 SunEdges::Answers SunEdges::within_reach(std::uint32_t width) {
     Answers near;
+    std::uint32_t lit = 0, dark = 0;  // kinds that are somewhere, a bit each
     for (Asked& a : std::span(asked_).first(count_)) {
         a.kind = kind_of(*a.at);
         (a.lit > 0 ? near.lit : near.dark)[a.kind][a.at->pixel / width] |= 1u << (a.at->pixel % width);
+        (a.lit > 0 ? lit : dark) |= 1u << a.kind;
     }
-    for (std::size_t kind = 0; kind < kKinds; ++kind)
+    // The others differ nowhere.
+    for (std::uint32_t rest = lit & dark; rest != 0; rest &= rest - 1) {
+        const auto kind = static_cast<std::size_t>(std::countr_zero(rest));
         near.lit[kind] = widened(near.lit[kind]), near.dark[kind] = widened(near.dark[kind]);
+    }
     return near;
 }
 

@@ -79,6 +79,7 @@ HalfShares PixelSamples::halves(SampleMask samples) const {
     constexpr SampleMask kRight = 0xCCCC, kLower = 0xFF00, kCrossed = 0xCC33;
     constexpr SampleMask kRightFine = 0xFFFF0000FFFF0000, kLowerFine = 0xFFFFFFFF00000000,
                          kCrossedFine = 0xFFFF00000000FFFF;
+    if (samples == all()) return {};
     const int count = std::popcount(samples);
     const auto share = [&](SampleMask half) {
         return static_cast<float>(2 * std::popcount(samples & half) - count) / static_cast<float>(count);
