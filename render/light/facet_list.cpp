@@ -40,7 +40,8 @@ struct Lanes {
 };
 
 // count: a multiple of BrdfSum::kEach.
-HILCAM_CLONES void look_at(Lanes& lanes, std::size_t count, const Mat3f& world_from_body, Vec3f view, Vec3f dir) {
+HILCAM_CLONES void look_at(Lanes& lanes, std::size_t count, const Mat3f& world_from_body, Vec3f view,
+                           Vec3f dir) {
     const Mat3f m = world_from_body;
     for (std::size_t i = 0; i < count; ++i) {
         const float lx = lanes.lean_x[i], ly = lanes.lean_y[i], lz = lanes.lean_z[i];
@@ -100,7 +101,8 @@ class Reflection {
             const float side = at_.back ? -1.0f : 1.0f;
             for (std::size_t i = 0; i < LevelFacets::kMax; ++i)
                 lean.x[i] *= side, lean.y[i] *= side, lean.z[i] *= side;
-            lanes_.put(facet.normal, lean.x, lean.y, lean.z, facet.flattened->shares(), facet.flattened->alpha());
+            lanes_.put(facet.normal, lean.x, lean.y, lean.z, facet.flattened->shares(),
+                       facet.flattened->alpha());
         } else {
             if (dot(facet.geometric_normal, dir_) <= 0) return;
             lanes_.put(facet.normal, 1);

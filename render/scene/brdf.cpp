@@ -71,7 +71,8 @@ void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const L
     reflect_below(weight, no, ni, *facets, filled, part);
     below_ += lane_sum(part);
     if (!(at_.alpha > 0)) return;
-    reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), filled, part);
+    reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), filled,
+                 part);
     lobe_ += lane_sum(part);
 }
 

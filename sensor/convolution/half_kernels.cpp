@@ -197,8 +197,9 @@ void HalfKernels::add(const Parts& parts, int columns, int rows, float* out, std
         const float* const last = &weights_[part][index_of(reach_px_, reach_px_)];
         for (int y = 0; y < rows; y += kRowsAtOnce) {
             const int first = y + skipped;
-            sum_half_rows({all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps},
-                          sums[0].data());
+            sum_half_rows(
+                {all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps},
+                sums[0].data());
             for (int row = y; row < std::min(y + kRowsAtOnce, rows); ++row) {
                 float* const to = out + static_cast<std::size_t>(row) * stride;
                 for (int x = 0; x < columns; ++x)

@@ -13,9 +13,10 @@ struct HalfRows {
     const float* in;          // differences: the first that the upper row's first pixel gets light of
     std::size_t side;         // floats from one row of them to the next
     const std::uint8_t* lit;  // of taps + 1 rows of them: whether any is not zero
-    const float* weights;     // those of the first row of the kernel; rows of weights go upwards, in them to the left
-    std::size_t across;       // floats from one row of them to the next
-    int taps;                 // of the kernel, across and down
+    const float*
+        weights;  // those of the first row of the kernel; rows of weights go upwards, in them to the left
+    std::size_t across;  // floats from one row of them to the next
+    int taps;            // of the kernel, across and down
 };
 // Writes what the differences give to the two rows, kHalfBlock_px sums each: upper, then lower. Every width of vectors gives the
 // same bits. Loop, any thread.

@@ -16,7 +16,7 @@ constexpr std::size_t kLeast = 64;  // numbers of a least image
 // Numbers side by side, in as many vectors as they take.
 template <std::size_t kCount>
 struct Numbers {
-    using Floats = hn::CappedTag<float, kCount < 16 ? kCount : 16>;
+    using Floats = hn::CappedTag < float, kCount<16 ? kCount : 16>;
     static constexpr std::size_t kLanes = hn::MaxLanes(Floats());
     hn::Vec<Floats> vector[kCount / kLanes];
 
@@ -47,7 +47,8 @@ struct Numbers {
 
 void copy(const ShiftedTable* tables, std::size_t count, float* out) {
     // As many as the registers hold of the narrowest vectors.
-    constexpr std::size_t kTogether = kLeast < 8 * Numbers<kLeast>::kLanes ? kLeast : 8 * Numbers<kLeast>::kLanes;
+    constexpr std::size_t kTogether =
+        kLeast < 8 * Numbers<kLeast>::kLanes ? kLeast : 8 * Numbers<kLeast>::kLanes;
     for (std::size_t first = 0; first < kLeast; first += kTogether) {
         Numbers<kTogether> part;
         part.sum(tables, count, static_cast<std::ptrdiff_t>(first));
@@ -55,8 +56,8 @@ void copy(const ShiftedTable* tables, std::size_t count, float* out) {
     }
 }
 
-void add_rows(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first, std::ptrdiff_t end, float* out,
-              std::ptrdiff_t pitch) {
+void add_rows(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first, std::ptrdiff_t end,
+              float* out, std::ptrdiff_t pitch) {
     for (std::ptrdiff_t y = first; y < end; ++y) {
         Numbers<8> row;
         row.sum(tables, count, 8 * y);
@@ -93,8 +94,8 @@ void copy_least(const ShiftedTable* tables, std::size_t count, float* out) {
     HWY_DYNAMIC_DISPATCH(copy)(tables, count, out);
 }
 
-void add_least(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first, std::ptrdiff_t end, float* out,
-               std::ptrdiff_t pitch) {
+void add_least(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first, std::ptrdiff_t end,
+               float* out, std::ptrdiff_t pitch) {
     HWY_DYNAMIC_DISPATCH(add_rows)(tables, count, first, end, out, pitch);
 }
 

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-CameraModel noisy_camera() {
+CameraModel camera_with_noise() {
     CameraModel c = camera_64();
     c.gain_dn_e = 0.25;
     c.bits = 16;
@@ -24,7 +24,7 @@ CameraModel noisy_camera() {
 // Frames of even light: their variance over the pixels is what was foretold.
 TEST(ExpectedNoise, IsThatOfTheSensorsOwnFrames) {
     for (const double electrons : {0.0, 500.0, 20'000.0}) {
-        Bench bench(noisy_camera());
+        Bench bench(camera_with_noise());
         const Exposure exposure{.exposure_s = 0.01};
         const PixelNoise noise = ExpectedNoise(bench.camera, bench.grid, bench.sampling).of(exposure);
         Spectrum radiance;
@@ -45,7 +45,7 @@ TEST(ExpectedNoise, IsThatOfTheSensorsOwnFrames) {
 }
 
 TEST(ExpectedNoise, TheMostSensitiveFilterCountsAndPartsOfAPixelAverage) {
-    CameraModel c = noisy_camera();
+    CameraModel c = camera_with_noise();
     const SpectralGrid grid({0.5, 0.6});
     const Exposure exposure{.exposure_s = 0.01};
     const PixelNoise grey = ExpectedNoise(c, grid, {8, 1, 3}).of(exposure);

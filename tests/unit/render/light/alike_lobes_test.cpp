@@ -51,6 +51,26 @@ TEST(AlikeLobes, DifferByWhatTheyAreOf) {
     EXPECT_TRUE(differs([](Vertex& v) { v.surface.alpha = 0.4f; }));
 }
 
+// More than there are slots: each takes the place of one before.
+TEST(AlikeLobes, KeepTheLastOfAnyNumber) {
+    const Material material{};
+    const Vertex at = vertex_of(material);
+    AlikeLobes<int> lobes;
+    for (std::uint32_t node = 1; node <= 3000; ++node) {
+        EXPECT_EQ(lobes.keep(at, node, static_cast<int>(node)), static_cast<int>(node));
+        ASSERT_NE(lobes.find(at, node), nullptr);
+        EXPECT_EQ(*lobes.find(at, node), static_cast<int>(node));
+    }
+    int kept = 0;
+    for (std::uint32_t node = 1; node <= 3000; ++node)
+        if (const int* value = lobes.find(at, node)) {
+            EXPECT_EQ(*value, static_cast<int>(node));
+            ++kept;
+        }
+    EXPECT_GT(kept, 200);
+    EXPECT_LE(kept, 256);
+}
+
 // Each place of a texture is another colour, which facets have where there is no body below them.
 TEST(AlikeLobes, DifferByATextureOnBareFacets) {
     Material metal{}, varnish{};

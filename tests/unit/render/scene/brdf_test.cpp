@@ -303,5 +303,25 @@ TEST(Brdf, APlacesHapkeParametersCount) {
     }
 }
 
+// However many facets there are, those that only fill lanes add nothing.
+TEST(Brdf, ASumIsTheSumOfItsFacets) {
+    for (const NamedMaterial& named : white_materials()) {
+        const Material material = make_material(named.config, kGrid);
+        const Scatterer at = scatterer(material);
+        constexpr float kBetween = 0.3f;
+        BrdfSum::Lanes weight{}, no, ni, rougher{};
+        no.fill(1e-4f), ni.fill(0);
+        Spectrum expected;
+        for (std::size_t count = 1; count <= BrdfSum::kLanes; ++count) {
+            const auto i = static_cast<float>(count);
+            weight[count - 1] = 0.1f * i, no[count - 1] = 1 - 0.04f * i, ni[count - 1] = 0.2f + 0.03f * i;
+            expected += weight[count - 1] * brdf_value(at, {no[count - 1], ni[count - 1], kBetween});
+            BrdfSum sum(at, kBetween);
+            sum.add(weight, no, ni, rougher, count);
+            EXPECT_NEAR(sum.value()[0], expected[0], 1e-5f * expected[0]) << named.name << ' ' << count;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hilcam

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "render/vocabulary/units.h"
 #include "sensor/mtf.h"
 #include "tests/support/statistics.h"
+#include "tests/support/vector_widths.h"
 
 namespace hilcam {
 namespace {
@@ -122,22 +124,27 @@ TEST(HalfKernels, BlurAsTheirFrameDoes) {
     EXPECT_FALSE(kernels.prepare({.sigma_px = {2, 0}}));
 }
 
-// Blocks are convolved as their definition says, whatever lies about them.
-TEST(HalfKernels, ConvolveABlock) {
-    const HalfKernels kernels(transfer);
+// Differences here and there in a block and about it, rows without any among them.
+float difference(int d, int x, int y) {
+    return y % 9 > 2 && (x * 7 + y * 13 + d * 5) % 11 == 0 ? static_cast<float>((x + 2 * y) % 17 - 8) : 0.0f;
+}
+HalfKernels::Parts differences() {
     HalfKernels::Parts parts{};
-    const auto value = [](int d, int x, int y) {
-        return y % 9 > 2 && (x * 7 + y * 13 + d * 5) % 11 == 0 ? static_cast<float>((x + 2 * y) % 17 - 8)
-                                                               : 0.0f;
-    };
-    constexpr int kSide = HalfKernels::kSide_px, kReach = HalfKernels::kMaxReach_px;
+    constexpr int kSide = HalfKernels::kSide_px;
     for (int d = 0; d < 3; ++d)
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x)
-                parts[static_cast<std::size_t>(d)][static_cast<std::size_t>(y * kSide + x)] = value(d, x, y);
-    constexpr int kColumns = 29, kRows = 31;
+                parts[static_cast<std::size_t>(d)][static_cast<std::size_t>(y * kSide + x)] =
+                    difference(d, x, y);
+    return parts;
+}
+
+// Blocks are convolved as their definition says, whatever lies about them.
+TEST(HalfKernels, ConvolveABlock) {
+    const HalfKernels kernels(transfer);
+    constexpr int kReach = HalfKernels::kMaxReach_px, kColumns = 29, kRows = 31;
     std::vector<float> out(40 * (kRows + 1), 1.0f);
-    kernels.add(parts, kColumns, kRows, out.data(), 40);
+    kernels.add(differences(), kColumns, kRows, out.data(), 40);
     for (int y = 0; y <= kRows; ++y)
         for (int x = 0; x < 40; ++x) {
             double expected = 1;
@@ -145,9 +152,18 @@ TEST(HalfKernels, ConvolveABlock) {
                 for (int j = -kernels.reach_px(); j <= kernels.reach_px(); ++j)
                     for (int i = -kernels.reach_px(); i <= kernels.reach_px(); ++i)
                         expected += static_cast<double>(kernels.weight(static_cast<std::size_t>(d), i, j)) *
-                                    static_cast<double>(value(d, x + kReach - i, y + kReach - j));
+                                    static_cast<double>(difference(d, x + kReach - i, y + kReach - j));
             EXPECT_NEAR(out[static_cast<std::size_t>(40 * y + x)], expected, 1e-4) << x << ' ' << y;
         }
+}
+
+TEST(HalfKernels, ConvolveAlikeByAnyWidth) {
+    const HalfKernels kernels(transfer);
+    expect_same_by_any_width([&] {
+        std::vector<float> out(40 * 32, 0.25f);
+        kernels.add(differences(), 32, 32, out.data(), 40);
+        return out;
+    });
 }
 
 }  // namespace
