@@ -32,10 +32,11 @@ struct NextRay {
     float alpha_least;  // least alpha of the next vertex's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum weight;
-    bool whole_lobe = false;   // it stands for all of a narrow facet lobe about it
-    bool sees_bodies = true;   // false: their light in its lobe has been counted
-    Spectrum if_free{};        // light that it adds where it meets nothing
-    bool may_be_many = false;  // of a mirror: where it meets a part of what that shows, many go in its place
+    bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
+    bool sees_bodies = true;  // false: their light in its lobe has been counted
+    Spectrum if_free{};       // light that it adds where it meets nothing
+    // True for a mirror's ray, in whose place many go where it meets but a part of what the mirror shows.
+    bool may_be_many = false;
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {
