@@ -35,6 +35,8 @@ struct NextRay {
     bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
     bool sees_bodies = true;  // false: their light in its lobe has been counted
     Spectrum if_free{};       // light that it adds where it meets nothing
+    // True for a mirror's ray, in whose place many go where it meets but a part of what the mirror shows.
+    bool may_be_many = false;
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {
@@ -59,7 +61,14 @@ class TracedPaths final : public PathModel {
     bool kept_;
     static constexpr auto kMax = static_cast<std::size_t>(kMaxSamples);
     static constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first surface
-    static constexpr std::size_t kMostRays = kLobeRays * kMax + KeptScene::kMostFollowed;
+    // Rays that follow a mirror there, in place of one that would meet but a part of what it shows.
+    static constexpr int kMirrorRays = 8;
+    // What a mirror of this reflectance shows is looked for in any case: a glint in it is as bright as paint.
+    static constexpr float kBright = 0.1f;
+    static constexpr std::size_t kMostRays = (kMirrorRays + 1) * kMax + KeptScene::kMostFollowed;
+    // Numbers of a sequence that fills the square evenly, however few follow each other (multiples of the plastic number's
+    // powers: Roberts 2018, extremelearning.com.au).
+    static constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
     std::array<Vertex, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
     Vertex* current_ = a_.data();
@@ -122,8 +131,8 @@ class TracedPaths final : public PathModel {
         return ray_count;
     }
 
-    // Rays from a vertex that keeps light: a mirror's one direction, four of a narrow lobe, both of a sheet
-    // of glass.
+    // Rays from a vertex that keeps light: a mirror's one direction, in whose place add_many() may put more, four of a narrow
+    // lobe, both of a sheet of glass.
     void continue_kept(Tile& tile, Vertex& at, std::size_t& ray_count) {
         const Scatterer& surface = at.surface;
         if (surface.is_glass()) {
@@ -138,15 +147,17 @@ class TracedPaths final : public PathModel {
         }
         if (at.follows_lobe) follow_lobe(tile, at, ray_count);
         if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
-        if (at.has_bodies && surface.alpha > 0) return;
         const Spectrum weight = at.weight * tile.frame.kept->lobe_albedo(at);
+        // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
+        const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
+        if (at.has_bodies && surface.alpha > 0 && !is_bright) return;
         const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
         if (surface.alpha < kNarrowestLobe) {
             const bool meets_sun = surface.alpha == 0;
-            const NextRay ray{&at,    at.start(), mirror,        0, surface.alpha, meets_sun,
-                              weight, true,       !at.has_bodies};
-            // Mirrors that stand nowhere near are not looked for.
-            if (at.mirrors_near)
+            NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !at.has_bodies};
+            ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.facets;
+            // What bad mirrors show is not looked for where nothing stands near.
+            if (at.mirrors_near || is_bright)
                 add_kept(tile, ray, ray_count);
             else if (dot(at.geometric_normal, mirror) > 0)
                 add_background(tile, ray);
@@ -177,6 +188,43 @@ class TracedPaths final : public PathModel {
         }
     }
 
+    // True when a mirror's ray has met a facet, of metal or under a layer, that is but a part of what the mirror shows about
+    // it: the triangle is small beside the ray's width, so that others lie within it, or within a pixel or two. What one of
+    // them sends is a glint, or none.
+    static bool has_met_a_part(const FrameView& frame, const HitPacket& hits, std::size_t k,
+                               const NextRay& ray) {
+        constexpr float kSmall = 4;
+        if (!ray.may_be_many) return false;
+        const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+        const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+        if (!object.materials[triangle.surface].has_facets()) return false;
+        const float size_m = std::sqrt(length(Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]}));
+        const float width_m = ray.from->footprint_m + 2 * ray.from->surface.alpha * hits.distance[k];
+        return size_m < kSmall * width_m;
+    }
+
+    // Puts rays from the samples of a mirror's pixel in the place of the one from their middle, each by a facet of its own.
+    void add_many(Tile& tile, const NextRay& middle, std::size_t& ray_count) {
+        constexpr float kShare = 1.0f / kMirrorRays;
+        const Vertex& at = *middle.from;
+        const float distance_m = at.footprint_m * static_cast<float>(tile.frame.geometry.focal_length_px);
+        const Frame local(at.normal);
+        NextRay ray = middle;
+        ray.may_be_many = ray.sees_bodies = false;
+        ray.weight = kShare * middle.weight;
+        add_background_seen(tile.frame, middle, ray.if_free);
+        ray.if_free = kShare * ray.if_free;
+        SampleMask rest = at.samples;
+        for (int i = 0; i < kMirrorRays; ++i) {
+            const Vec3f way_m = way_to_sample(tile, at, next_sample(tile.frame.samples, rest, at.samples));
+            const auto number = static_cast<float>(i) + 0.5f;
+            ray.origin_m = at.start() + way_m;
+            ray.dir = sample_facets(at.surface.alpha, local, normalized(distance_m * at.view_dir - way_m),
+                                    kShare * number, std::fmod(kAbout * number, 1.0f));
+            add_kept(tile, ray, ray_count);
+        }
+    }
+
     // The vertices whose lobes the same rays follow, and their pixels' shares of what these find.
     struct Followers {
         std::array<const Vertex*, KeptScene::kMostTogether> vertex;
@@ -195,11 +243,8 @@ class TracedPaths final : public PathModel {
         return out;
     }
 
-    // Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all. Numbers are those of a
-    // sequence that fills the square evenly, however few follow each other (multiples of the plastic number's powers:
-    // Roberts 2018, extremelearning.com.au).
+    // Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all.
     void follow_lobe(Tile& tile, Vertex& at, std::size_t& ray_count) {
-        constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
         const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
         const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
         const Followers followers = share_rays(at);
@@ -245,7 +290,7 @@ class TracedPaths final : public PathModel {
         RayPacket rays;
         HitPacket hits;
         std::size_t found = 0;
-        for (std::size_t first = 0; first < ray_count; first += kPacketSize) {
+        for (std::size_t first = 0; first < ray_count; first += static_cast<std::size_t>(rays.count)) {
             rays.count = static_cast<int>(std::min<std::size_t>(kPacketSize, ray_count - first));
             for (int i = 0; i < rays.count; ++i) {
                 const NextRay& ray = next_[first + static_cast<std::size_t>(i)];
@@ -268,6 +313,10 @@ class TracedPaths final : public PathModel {
                     continue;
                 }
                 if (last) continue;
+                if (has_met_a_part(frame, hits, k, ray)) {
+                    add_many(tile, ray, ray_count);
+                    continue;
+                }
                 Vertex& vertex = following_[found];
                 if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex))
                     continue;

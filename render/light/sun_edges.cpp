@@ -11,23 +11,6 @@
 #include "render/scene/light_cell_key.h"
 
 namespace hilcam {
-namespace {
-
-// Takes one of the samples that are left, far from those before, and leaves out those beside it; all of them once more
-// after the last.
-int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all) {
-    constexpr std::array<std::uint8_t, kVisibilitySamples> kOrder{0, 10, 2, 8, 5, 15, 7, 13,
-                                                                  1, 11, 3, 9, 4, 14, 6, 12};
-    if (rest == 0) rest = all;
-    for (const std::uint8_t place : kOrder)
-        if (const SampleMask here = rest & grid.about(place)) {
-            rest &= ~here;
-            return std::countr_zero(here);
-        }
-    return 0;
-}
-
-}  // namespace
 
 void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
     ask_once(tile, sun.middle());

@@ -1,5 +1,6 @@
 #include "render/visibility/pixel_samples.h"
 
+#include <array>
 #include <vector>
 
 namespace hilcam {
@@ -86,6 +87,18 @@ HalfShares PixelSamples::halves(SampleMask samples) const {
     };
     if (quarters_ == 1) return {share(kRight), share(kLower), share(kCrossed)};
     return {share(kRightFine), share(kLowerFine), share(kCrossedFine)};
+}
+
+int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all) {
+    constexpr std::array<std::uint8_t, kVisibilitySamples> kOrder{0, 10, 2, 8, 5, 15, 7, 13,
+                                                                  1, 11, 3, 9, 4, 14, 6, 12};
+    if (rest == 0) rest = all;
+    for (const std::uint8_t place : kOrder)
+        if (const SampleMask here = rest & grid.about(place)) {
+            rest &= ~here;
+            return std::countr_zero(here);
+        }
+    return 0;
 }
 
 }  // namespace hilcam

@@ -54,4 +54,8 @@ class PixelSamples {
     int quarters_;
 };
 
+// Takes one of the samples that are left of some, far from those before, and leaves out those beside it; all of them once
+// more after the last. At least one sample.
+int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all);
+
 }  // namespace hilcam

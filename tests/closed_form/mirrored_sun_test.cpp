@@ -31,20 +31,6 @@ SceneObject rectangle(Vec3f middle, Vec3f a, Vec3f b, const MaterialConfig& mate
                      material, grid);
 }
 
-// One object of two, with the surfaces of both.
-SceneObject joined(SceneObject a, const SceneObject& b) {
-    const auto vertices = static_cast<std::uint32_t>(a.mesh.vertices_m.size());
-    const auto surfaces = static_cast<std::uint16_t>(a.mesh.surfaces.size());
-    a.mesh.vertices_m.insert(a.mesh.vertices_m.end(), b.mesh.vertices_m.begin(), b.mesh.vertices_m.end());
-    for (const auto& t : b.mesh.triangles)
-        a.mesh.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
-    for (const std::uint16_t s : b.mesh.surface_of_triangle)
-        a.mesh.surface_of_triangle.push_back(static_cast<std::uint16_t>(s + surfaces));
-    a.mesh.surfaces.insert(a.mesh.surfaces.end(), b.mesh.surfaces.begin(), b.mesh.surfaces.end());
-    a.materials.insert(a.materials.end(), b.materials.begin(), b.materials.end());
-    return a;
-}
-
 // Before the camera, to its left, a white plate that faces it and that the Sun, far to the right and a little
 // behind it, does not light; and before the plate a mirror at 45 degrees, out of the picture, that throws the
 // Sun on it.

@@ -58,6 +58,20 @@ inline SceneObject object_of(std::vector<Vec3f> vertices, std::vector<std::array
     return object;
 }
 
+// One object of two, with the surfaces of both.
+inline SceneObject joined(SceneObject a, const SceneObject& b) {
+    const auto vertices = static_cast<std::uint32_t>(a.mesh.vertices_m.size());
+    const auto surfaces = static_cast<std::uint16_t>(a.mesh.surfaces.size());
+    a.mesh.vertices_m.insert(a.mesh.vertices_m.end(), b.mesh.vertices_m.begin(), b.mesh.vertices_m.end());
+    for (const auto& t : b.mesh.triangles)
+        a.mesh.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+    for (const std::uint16_t s : b.mesh.surface_of_triangle)
+        a.mesh.surface_of_triangle.push_back(static_cast<std::uint16_t>(s + surfaces));
+    a.mesh.surfaces.insert(a.mesh.surfaces.end(), b.mesh.surfaces.begin(), b.mesh.surfaces.end());
+    a.materials.insert(a.materials.end(), b.materials.begin(), b.materials.end());
+    return a;
+}
+
 // A cube of one metre about its origin.
 inline SceneObject cube(const MaterialConfig& material, const SpectralGrid& grid, float size = 1) {
     std::vector<Vec3f> v;

@@ -1,0 +1,89 @@
+// What a flat mirror shows of the parts about it, where light is kept, against random paths.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/scene/brdf.h"
+#include "tests/support/stage.h"
+
+namespace hilcam {
+namespace {
+
+MaterialConfig metal(double roughness) {
+    MaterialConfig m;
+    m.model = kModel<brdf::Metal>;
+    m.reflectance = Curve::constant(0.9);
+    m.roughness = roughness;
+    return m;
+}
+
+// A mirror of two metres that faces the camera, four metres away, before the Sun, which lights what stands a metre above it,
+// to the right of the picture: the picture's right side shows it.
+class MirrorImage {
+  public:
+    Stage s;
+
+    MirrorImage(const char* model, int samples, int size_px) {
+        s.quality.path_model = model;
+        s.quality.max_depth = 3;
+        s.quality.contribution_threshold = 0.01f;
+        s.quality.facets_behind_diffuse = 0;
+        s.quality.samples_per_axis = samples;
+        s.quality.visibility = s.quality.path_model == "kept" ? "buffer" : "rays";
+        s.quality.rays_across = 0;
+        s.camera(size_px, 0.2);
+        s.sun({0.5, 0, 1});
+    }
+    void render(const SceneObject& shown) {
+        s.add(joined(object_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}},
+                               metal(0.07), s.grid),
+                     shown),
+              {0, 0, 4});
+        s.render();
+    }
+};
+
+// A strip of 10 mm, white, aslant to the pixels. Hardly a place of the mirror has a direction, of sixty, that meets it.
+TEST(MirrorImage, AStripThatNoDirectionMeetsIsSeen) {
+    const auto light = [](const char* model, int samples) {
+        MirrorImage m(model, samples, 144);
+        m.render(object_of({{0.8f, -0.3f, 1}, {0.81f, -0.3f, 1}, {0.91f, 0.3f, 1}, {0.9f, 0.3f, 1}},
+                           {{0, 1, 2}, {0, 2, 3}}, lambert(0.9), m.s.grid));
+        return m.s.mean();
+    };
+    const double paths = light("path", 8);
+    ASSERT_GT(paths, 0);
+    EXPECT_NEAR(light("kept", 1) / paths, 1, 0.2);
+}
+
+// Strips of bare metal, 7 mm wide, which lean to the Sun and away from it in turns: six of them are as wide as a pixel of the
+// mirror. What a pixel shows is nearly their mean, and not what one of them sends.
+TEST(MirrorImage, APixelShowsTheMeanOfSmallFacets) {
+    const auto image = [](const char* model, int samples) {
+        MirrorImage m(model, samples, 48);
+        std::vector<Vec3f> v;
+        std::vector<std::array<std::uint32_t, 3>> t;
+        constexpr int kStrips = 86;
+        for (std::uint32_t i = 0; i <= kStrips; ++i) {
+            const float x = 0.6f + 0.007f * static_cast<float>(i), z = i % 2 ? 1.0014f : 1.0f;
+            v.push_back({x, -0.4f, z}), v.push_back({x + 0.13f, 0.4f, z});
+            if (i == 0) continue;
+            t.push_back({2 * i - 2, 2 * i, 2 * i + 1}), t.push_back({2 * i - 2, 2 * i + 1, 2 * i - 1});
+        }
+        m.render(object_of(v, t, metal(0.6), m.s.grid));
+        return std::vector<float>(m.s.radiance.plane(0).begin(), m.s.radiance.plane(0).end());
+    };
+    const std::vector<float> kept = image("kept", 1), paths = image("path", 16);
+    double squares = 0, truth = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const auto off = static_cast<double>(kept[i]) - static_cast<double>(paths[i]);
+        squares += off * off;
+        truth += static_cast<double>(paths[i] * paths[i]);
+    }
+    ASSERT_GT(truth, 0);
+    EXPECT_LT(std::sqrt(squares / truth), 0.3);
+}
+
+}  // namespace
+}  // namespace hilcam
