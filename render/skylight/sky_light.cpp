@@ -37,7 +37,7 @@ struct SchlickSums {
     // The cosine at which the term is its mean.
     float facet_cosine() const { return light > 0 ? 1 - std::pow(std::max(term / light, 0.0f), 0.2f) : 1.0f; }
 };
-// In lanes of vectors that are written out: GCC 12 takes a plain loop over sixteen lanes apart. count: a multiple of kLanes.
+// Vectors are written out, as GCC 12 takes a plain loop over sixteen lanes apart. count: a multiple of kLanes.
 HILCAM_CLONES
 void schlick_sums(const float* weight, const float* brightest, const float* schlick, std::size_t count,
                   SchlickSums& out) {
