@@ -12,11 +12,10 @@ inline constexpr std::size_t kHalfBlock_px = 32;  // columns that are made toget
 struct HalfRows {
     const float* in;          // differences: the first that the upper row's first pixel gets light of
     std::size_t side;         // floats from one row of differences to the next
-    const std::uint8_t* lit;  // whether any is not zero, by row, for taps + 1 rows of differences
-    const float*
-        weights;  // the first row of the kernel; weights go upwards from row to row, leftwards in a row
-    std::size_t across;  // floats from one row of weights to the next
-    int taps;            // size of the kernel, across and down
+    const std::uint8_t* lit;  // marks taps + 1 rows of differences that are not all zero
+    const float* weights;     // the first row of the kernel; weights go up from row to row, left in a row
+    std::size_t across;       // floats from one row of weights to the next
+    int taps;                 // size of the kernel, across and down
 };
 // Writes what the differences give to the two rows, kHalfBlock_px sums each: upper, then lower. Every width of vectors gives the
 // same bits. Loop, any thread.
