@@ -3,8 +3,9 @@
 // far off that it does not change within the few pixels of a tile.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <new>
 #include <type_traits>
 
 #include "render/light/path_vertex.h"
@@ -37,13 +38,13 @@ class AlikeLobes {
     const Value* find(const Vertex& at, std::uint32_t node) const {
         const std::uint16_t place = places_[number(at, node)];
         if (place == 0) return nullptr;
-        const Entry& entry = entries_.of[place - 1];
+        const Entry& entry = *std::launder(reinterpret_cast<const Entry*>(&memory_[place - 1]));
         return entry.node == node && sends_alike(*entry.at, at) ? &entry.value : nullptr;
     }
     const Value& keep(const Vertex& at, std::uint32_t node, const Value& value) {
         std::uint16_t& place = places_[number(at, node)];
         if (place == 0) place = ++count_;
-        return std::construct_at(&entries_.of[place - 1], &at, node, value)->value;
+        return (new (&memory_[place - 1]) Entry{&at, node, value})->value;
     }
 
   private:
@@ -53,17 +54,15 @@ class AlikeLobes {
         const Vertex* at;
         std::uint32_t node;
         Value value;
-        Entry(const Vertex* of, std::uint32_t number, const Value& v) : at(of), node(number), value(v) {}
     };
     // Entries follow each other as they come, and are made then: a memory begins with each part of a tile, most of which
     // have few.
-    union Entries {
-        Entries() {}
-        std::array<Entry, kSlots> of;
+    struct alignas(Entry) EntryMemory {
+        std::array<std::byte, sizeof(Entry)> bytes;
     };
     std::array<std::uint16_t, kSlots> places_{};  // by slot, of its entry, from 1 on; 0: there is none
     std::uint16_t count_ = 0;
-    Entries entries_;
+    std::array<EntryMemory, kSlots> memory_;
 
     // Normals that lean differently mostly have different slots.
     static std::size_t number(const Vertex& at, std::uint32_t node) {

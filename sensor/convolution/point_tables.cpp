@@ -46,7 +46,7 @@ struct Numbers {
 };
 
 void copy(const ShiftedTable* tables, std::size_t count, float* out) {
-    // As many as the registers hold of the narrowest vectors.
+    // The sums of so many numbers stay in the registers, however narrow vectors are.
     constexpr std::size_t kTogether =
         kLeast < 8 * Numbers<kLeast>::kLanes ? kLeast : 8 * Numbers<kLeast>::kLanes;
     for (std::size_t first = 0; first < kLeast; first += kTogether) {
