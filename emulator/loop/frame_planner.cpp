@@ -20,7 +20,7 @@ FramePlanner::FramePlanner(const LoopParts& parts)
       clock_(parts.clock),
       poses_(parts.poses),
       prefer_(parts.limits.prefer),
-      starter_(parts.camera, parts.settings, parts.clock, parts.limits.paced, parts.poses),
+      starter_(parts.camera, parts.settings, parts.clock, parts.limits, parts.poses),
       governor_(is_governed(parts) ? parts.limits.governor : GovernorSettings{}) {}
 
 bool FramePlanner::next(const std::atomic<bool>& stopping, FrameSlot& slot, bool& ends_order) {

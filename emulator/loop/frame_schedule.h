@@ -2,8 +2,11 @@
 // Says when frames are exposed in free-run: an absolute raster that never drifts and never catches up.
 //     next = last + period; when `now` has passed the start after next, whole periods are skipped and
 //     counted.
+// An exposure that could not begin in time may begin later than the raster says, so that it shows what is newest, as long as
+// it is over before the next one: the raster itself stays.
 // Times are int64 ns, of any one clock: here the camera's (clock.h).
 
+#include <algorithm>
 #include <cstdint>
 
 namespace hilcam {
@@ -23,8 +26,8 @@ class FrameSchedule {
     // The next exposure, if the period is that.
     std::int64_t next_ns(std::int64_t period_ns) const { return begun_ ? last_ns_ + period_ns : last_ns_; }
     // The exposure to compute now. A start up to one period in the past still counts: that frame is late, not
-    // lost.
-    Slot take(std::int64_t now_ns, std::int64_t period_ns) {
+    // lost. may_move_ns: how much later than the raster an exposure that is late may begin.
+    Slot take(std::int64_t now_ns, std::int64_t period_ns, std::int64_t may_move_ns = 0) {
         Slot slot{next_ns(period_ns), 0};
         if (now_ns > slot.start_ns + period_ns) {
             slot.skipped = static_cast<std::uint64_t>((now_ns - slot.start_ns) / period_ns);
@@ -32,6 +35,7 @@ class FrameSchedule {
         }
         last_ns_ = slot.start_ns;
         begun_ = true;
+        slot.start_ns += std::clamp(now_ns - slot.start_ns, std::int64_t{0}, may_move_ns);
         return slot;
     }
     // Begins the raster anew after a pause.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/loop/loop_parts.h"
 #include "render/vocabulary/time.h"
 
 namespace hilcam {
@@ -21,13 +22,14 @@ std::int64_t when_begins(const SimulatedClock& clock, std::int64_t camera_ns) {
 }  // namespace
 
 FrameStarter::FrameStarter(const CameraModel& camera, LiveSettings& settings, SimulatedClock& clock,
-                           bool paced, const PoseWatch* poses)
+                           const LoopLimits& limits, const PoseWatch* poses)
     : settings_(settings),
       clock_(clock),
       poses_(poses),
       timing_(camera),
       lockstep_(settings.limits().lockstep),
-      paced_(paced),
+      paced_(limits.paced),
+      prefers_newest_(limits.prefer == LoopPreference::kLatency),
       schedule_(0) {
     for (const SettingsStep& step : camera.sequence)
         longest_step_s_ = std::max(longest_step_s_, step.exposure_s);
@@ -77,7 +79,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
     if (paced_) {
         const FrameSchedule before = schedule_;
         std::int64_t period_ns = period_now_ns();
-        FrameSchedule::Slot due = schedule_.take(arrived_ns, period_ns);
+        FrameSchedule::Slot due = take_slot(arrived_ns, period_ns, start);
         while (settings_.wait_for_news_until(when_begins(clock_, due.start_ns) - kLastStretch_ns)) {
             start.settings = settings_.read_in_loop();
             if (stopping.load(std::memory_order_relaxed) || !start.settings.running ||
@@ -89,7 +91,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
             schedule_ = before;
             const std::int64_t now_ns = camera_now();
             if (due.skipped == 0 && schedule_.next_ns(period_ns) < now_ns) schedule_.restart(now_ns);
-            due = schedule_.take(arrived_ns, period_ns);
+            due = take_slot(arrived_ns, period_ns, start);
         }
         if (!sleep_until(due.start_ns, stopping)) {
             schedule_ = before;
@@ -103,6 +105,15 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
     }
     start.exposure_s = exposure_of(start.settings);
     return true;
+}
+
+// An exposure that begins late shows what is newest, where that is wanted and it is over before the next one.
+FrameSchedule::Slot FrameStarter::take_slot(std::int64_t arrived_ns, std::int64_t period_ns,
+                                            const Start& start) {
+    const std::int64_t length_ns =
+        to_ns(timing_.end_s(std::max(exposure_of(start.settings), longest_step_s_)));
+    return schedule_.take(arrived_ns, period_ns,
+                          prefers_newest_ ? std::max(period_ns - length_ns, std::int64_t{0}) : 0);
 }
 
 bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start) {

@@ -2,7 +2,8 @@
 // Says when the next frame begins, by the camera's mode, and with which settings.
 //
 //   free-run    on an absolute raster of the frame rate that never drifts and never catches up
-//               (frame_schedule.h)
+//               (frame_schedule.h); with loop.prefer `latency` an exposure that is late begins when it can, and shows the
+//               newest pose
 //   triggered   at each trigger, and for a burst at the frame rate after it; every frame of an order is
 //               taken, however late
 //   lockstep    as soon as an `expose` has come, at the simulated time it names: no clock is waited for, so
@@ -26,11 +27,13 @@
 
 namespace hilcam {
 
+struct LoopLimits;  // loop_parts.h
+
 class FrameStarter {
   public:
     // Makes `settings` go by that clock. poses: null: nobody watches them.
-    FrameStarter(const CameraModel& camera, LiveSettings& settings, SimulatedClock& clock, bool paced,
-                 const PoseWatch* poses = nullptr);
+    FrameStarter(const CameraModel& camera, LiveSettings& settings, SimulatedClock& clock,
+                 const LoopLimits& limits, const PoseWatch* poses = nullptr);
 
     struct Start {
         CameraSettings settings;
@@ -51,6 +54,7 @@ class FrameStarter {
 
   private:
     bool begin_free_run(const std::atomic<bool>& stopping, Start& start);
+    FrameSchedule::Slot take_slot(std::int64_t arrived_ns, std::int64_t period_ns, const Start& start);
     bool begin_ordered(const std::atomic<bool>& stopping, Start& start);
     bool take_order(const CameraSettings& settings, double exposure_s);
     std::int64_t begin_of_order() const;
@@ -67,6 +71,7 @@ class FrameStarter {
     const PoseWatch* poses_;
     ShutterTiming timing_;
     bool lockstep_, paced_;
+    bool prefers_newest_;        // late exposures begin when they can, not where the raster has them
     double longest_step_s_ = 0;  // longest step of the camera's sequence
     double own_exposure_s_ = 0;
     FrameSchedule schedule_;
