@@ -15,10 +15,9 @@ namespace hilcam {
 // Directions that differ by no more are one to a lobe: a degree, of lobes that are seven wide at least.
 inline constexpr float kSameLobe = 0.9998f;  // cosine
 
-// True when two vertices lie the same way, and are of one surface whose facets have no texture.
+// True when two vertices lie the same way, and are of one surface. A texture may give their facets colours of their own.
 inline bool lies_alike(const Vertex& a, const Vertex& b) {
     return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
-           (a.surface.material->texture < 0 || !a.surface.material->is_bare()) &&
            dot(a.normal, b.normal) > kSameLobe;
 }
 // True when they send lobes of one kind the same way besides.

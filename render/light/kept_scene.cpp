@@ -19,8 +19,10 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own) {
     for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : 1.0f;
     return out;
 }
-// Returns the ratio of the texture's spectrum to the material's own there: of its facets, and of all the rest.
+// Returns the ratio of the texture's spectrum to the material's own there: of its facets, where they have colours of their
+// own, and of all the rest.
 Spectrum facet_tint(const Scatterer& at) { return ratio(at.highlight, at.material->highlight); }
+bool has_own_colors(const Scatterer& at) { return at.material->texture >= 0 && at.material->is_bare(); }
 bool is_tinted(const Scatterer& at) { return at.base.bin != at.material->base.bin; }
 Spectrum base_tint(const Scatterer& at) { return ratio(at.base, at.material->base); }
 
@@ -204,7 +206,7 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
             if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
         for (Place& place : block) {
             Vertex& at = *place.at;
-            place.met = place.bodies = {}, place.directions = 0;
+            place.met = {}, place.bodies = {}, place.directions = 0;
             place.follower = nullptr;
             if (!at.surface.material->has_facets()) continue;
             if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(tile.frame, place);
@@ -219,20 +221,23 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
             Spectrum reflected = use.place->diffuse;
             if (is_tinted(surface)) reflected = base_tint(surface) * reflected;
             if (surface.material->has_facets()) {
+                const Spectrum met =
+                    has_own_colors(surface) ? lobe_albedo(*use.at) * use.place->met : use.place->met;
                 use.at->follows_lobe =
-                    use.at->weight_samples <= room && hangs_on_few(tile, *use.at, *use.place);
+                    use.at->weight_samples <= room && hangs_on_few(tile, *use.at, met, use.place->directions);
                 if (use.at->follows_lobe)
                     room -= use.at->weight_samples, follow_together(*use.at, *use.place);
                 else
-                    reflected += use.place->met + use.place->bodies;
+                    reflected += met + sum_of_bodies(*use.at, use.place->bodies);
             }
             tile.add(*use.at, use.at->weight * reflected);
         }
     }
 }
 
+// Those that have one colour.
 void KeptScene::follow_together(Vertex& at, Place& place) {
-    if (!place.follower || place.followers == kMostTogether) {
+    if (has_own_colors(at.surface) || !place.follower || place.followers == kMostTogether) {
         place.follower = &at, place.followers = 1, at.follows_too = nullptr;
         return;
     }
@@ -310,7 +315,7 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
     const SentOfBodies* sent = lobes.bodies.find(at, 0);
     if (!sent) sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-        place.bodies += (share * met->free[b]) * (*sent)[b];
+        place.bodies[b] = {(share * met->free[b]) * (*sent)[b].radiance, (*sent)[b].facet_cosine};
 }
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
@@ -319,8 +324,7 @@ void KeptScene::reflect_far_bodies(Place& place) const {
     const Vec3f mirror = reflect(at.view_dir, at.normal);
     at.has_bodies = !at.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
                     sky_.is_clear_of_bodies(mirror);
-    if (!at.has_bodies) return;
-    for (const Spectrum& sent : sent_of_bodies(at)) place.bodies += sent;
+    if (at.has_bodies) place.bodies = sent_of_bodies(at);
 }
 
 KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place& place, bool whole) const {
@@ -342,19 +346,19 @@ KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place&
     Spectrum radiance;
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.kept;
-    return {lobe_albedo(at) * radiance, lobe.free, lobe.directions, whole};
+    if (!has_own_colors(at.surface)) radiance = lobe_albedo(at) * radiance;
+    return {radiance, lobe.free, lobe.directions, whole};
 }
 
 Spectrum KeptScene::lobe_albedo(const Vertex& at) const {
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     const Spectrum of_material = objects_[at.object].light->albedo(at.surface_number).lobe(no);
-    const Material& material = *at.surface.material;
-    return material.texture >= 0 && material.is_bare() ? facet_tint(at.surface) * of_material : of_material;
+    return has_own_colors(at.surface) ? facet_tint(at.surface) * of_material : of_material;
 }
 
 KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
     SentOfBodies sent;
-    const float reflectance = largest(lobe_albedo(at));
+    const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sent[b] = sent_of_body(b, at, reflectance);
     return sent;
 }
@@ -363,22 +367,35 @@ KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
 // that those meet. Light that hangs on a few may be the light of what is beside: of a bar that one direction meets, of
 // the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
 // than half the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
-bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Place& place) {
+bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions) {
     constexpr float kFew = 8, kBeside = 2, kOfThreshold = 0.5f;
     if (at.depth != 1 || at.surface.alpha < kNarrowestKept) return false;
-    if (tile.frame.max_depth < 2 || !(place.directions > 0 && place.directions < kFew)) return false;
+    if (tile.frame.max_depth < 2 || !(directions > 0 && directions < kFew)) return false;
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
-    const float light = at.weight_samples * largest(place.met);
+    const float light = at.weight_samples * largest(met);
     const float white = largest(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
     return light > kOfThreshold * samples * tile.frame.contribution_threshold * white &&
            kBeside * light > largest(tile.pixels[at.pixel]);
 }
 
-// The radiance that a facet lobe sends of all of a body's light. reflectance: of the lobe.
-Spectrum KeptScene::sent_of_body(std::size_t body, const Vertex& at, float reflectance) const {
-    const SkyLight::Glossy found = sky_.glossy(body, at.normal, at.view_dir, at.surface.alpha, reflectance);
-    if (!(largest(found.radiance) > 0)) return {};
-    return brdf_mirrored(at.surface, found.facet_cosine) * found.radiance;
+// What a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
+SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, float reflectance) const {
+    SkyLight::Glossy sent = sky_.glossy(body, at.normal, at.view_dir, at.surface.alpha, reflectance);
+    if (!(largest(sent.radiance) > 0)) return {};
+    if (!has_own_colors(at.surface))
+        sent.radiance = brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance;
+    return sent;
+}
+
+Spectrum KeptScene::colored(const Vertex& at, const SkyLight::Glossy& sent) {
+    return has_own_colors(at.surface) ? brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance
+                                      : sent.radiance;
+}
+
+Spectrum KeptScene::sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const {
+    Spectrum sum;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sum += colored(at, sent[b]);
+    return sum;
 }
 
 void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
@@ -386,7 +403,7 @@ void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec
     bool meets = false;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
         meets = meets || sky_.is_met(b, mirror);
-        radiance += at.weight * sent_of_body(b, at, largest(weight));
+        radiance += at.weight * colored(at, sent_of_body(b, at, largest(weight)));
     }
     // Small bodies, and air.
     if (!meets && frame.background->may_meet_body(mirror))

@@ -63,7 +63,11 @@ class KeptScene {
     // to each that is towards the body, or to all where none is. Loop, any thread.
     class LobeRays {
       public:
-        LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene), sent_(scene.sent_of_bodies(at)) {}
+        LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene) {
+            const SentOfBodies sent = scene.sent_of_bodies(at);
+            for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b)
+                sent_[b] = scene.colored(at, sent[b]);
+        }
         void count(Vec3f dir) {
             ++all_;
             for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
@@ -79,7 +83,7 @@ class KeptScene {
 
       private:
         const KeptScene& scene_;
-        std::array<Spectrum, SkyLight::kMaxBodies> sent_;
+        std::array<Spectrum, SkyLight::kMaxBodies> sent_{};
         std::array<int, SkyLight::kMaxBodies> rays_{};  // towards each
         int all_ = 0;
     };
@@ -111,6 +115,8 @@ class KeptScene {
     void take_inputs(const FrameView& frame, const WorldSnapshot& world);
     void look_ahead();
 
+    // The radiance that a lobe sends of each body, if nothing is in the way; white, and Fresnel's cosine, as Place::met.
+    using SentOfBodies = std::array<SkyLight::Glossy, SkyLight::kMaxBodies>;
     // A vertex on its way through the lookup: many go together, so that none waits for memory.
     struct Place {
         Vertex* at;
@@ -118,21 +124,21 @@ class KeptScene {
         NodesAbout about;
         std::uint32_t nearest;  // node, where there is one
         bool found;
-        // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies.
-        Spectrum diffuse, met, bodies;
+        // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies. Where a
+        // texture colours facets (has_own_colours()), theirs is what white ones would reflect.
+        Spectrum diffuse, met;
+        SentOfBodies bodies;
         float directions;  // that bring what is met (KeptLight::Lobe)
         Vertex* follower;  // the first whose lobe is left to rays, which are those of all of them; null: none
         std::size_t followers;
     };
-    // The light that a lobe meets of other surfaces.
+    // What a lobe reflects of other surfaces.
     struct MetByLobe {
-        Spectrum radiance;
+        Spectrum radiance;                             // as Place::met
         std::array<float, SkyLight::kMaxBodies> free;  // share of each body's light that comes without a way
         float directions;
         bool whole;  // the bodies are not looked for, as nothing is in their way
     };
-    // The radiance that a lobe sends of each body, if nothing is in the way.
-    using SentOfBodies = std::array<Spectrum, SkyLight::kMaxBodies>;
     struct Lobes {
         AlikeLobes<MetByLobe> met;
         AlikeLobes<SentOfBodies> bodies;
@@ -149,8 +155,11 @@ class KeptScene {
     MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
     SentOfBodies sent_of_bodies(const Vertex& at) const;
     static void follow_together(Vertex& at, Place& place);
-    static bool hangs_on_few(const Tile& tile, const Vertex& at, const Place& place);
-    Spectrum sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
+    static bool hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions);
+    SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
+    // Returns it in the colours that a vertex has.
+    static Spectrum colored(const Vertex& at, const SkyLight::Glossy& sent);
+    Spectrum sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const;
 };
 
 }  // namespace hilcam
