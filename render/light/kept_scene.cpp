@@ -235,9 +235,8 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
     }
 }
 
-// Those that have one colour.
 void KeptScene::follow_together(Vertex& at, Place& place) {
-    if (has_own_colors(at.surface) || !place.follower || place.followers == kMostTogether) {
+    if (!place.follower || place.followers == kMostTogether) {
         place.follower = &at, place.followers = 1, at.follows_too = nullptr;
         return;
     }
@@ -351,9 +350,26 @@ KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place&
 }
 
 Spectrum KeptScene::lobe_albedo(const Vertex& at) const {
+    const Spectrum plain = plain_lobe_albedo(at);
+    return has_own_colors(at.surface) ? facet_tint(at.surface) * plain : plain;
+}
+
+Spectrum KeptScene::plain_lobe_albedo(const Vertex& at) const {
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-    const Spectrum of_material = objects_[at.object].light->albedo(at.surface_number).lobe(no);
-    return has_own_colors(at.surface) ? facet_tint(at.surface) * of_material : of_material;
+    return objects_[at.object].light->albedo(at.surface_number).lobe(no);
+}
+
+Spectrum KeptScene::lobe_tint(const Vertex& at) const {
+    Spectrum none;
+    none.bin.fill(1);
+    return has_own_colors(at.surface) ? facet_tint(at.surface) : none;
+}
+
+KeptScene::LobeRays::LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene) {
+    const SentOfBodies sent = scene.sent_of_bodies(at);
+    Scatterer plain = at.surface;
+    plain.highlight = plain.material->highlight;
+    for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
 }
 
 KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
@@ -387,14 +403,13 @@ SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, flo
     return sent;
 }
 
-Spectrum KeptScene::colored(const Vertex& at, const SkyLight::Glossy& sent) {
-    return has_own_colors(at.surface) ? brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance
-                                      : sent.radiance;
+Spectrum KeptScene::colored(const Scatterer& at, const SkyLight::Glossy& sent) {
+    return has_own_colors(at) ? brdf_mirrored(at, sent.facet_cosine) * sent.radiance : sent.radiance;
 }
 
 Spectrum KeptScene::sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const {
     Spectrum sum;
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sum += colored(at, sent[b]);
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sum += colored(at.surface, sent[b]);
     return sum;
 }
 
@@ -403,7 +418,7 @@ void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec
     bool meets = false;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
         meets = meets || sky_.is_met(b, mirror);
-        radiance += at.weight * colored(at, sent_of_body(b, at, largest(weight)));
+        radiance += at.weight * colored(at.surface, sent_of_body(b, at, largest(weight)));
     }
     // Small bodies, and air.
     if (!meets && frame.background->may_meet_body(mirror))

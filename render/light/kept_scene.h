@@ -63,11 +63,8 @@ class KeptScene {
     // to each that is towards the body, or to all where none is. Loop, any thread.
     class LobeRays {
       public:
-        LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene) {
-            const SentOfBodies sent = scene.sent_of_bodies(at);
-            for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b)
-                sent_[b] = scene.colored(at, sent[b]);
-        }
+        // In the material's own colour: lobe_tint() is not in it.
+        LobeRays(const KeptScene& scene, const Vertex& at);
         void count(Vec3f dir) {
             ++all_;
             for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
@@ -89,6 +86,9 @@ class KeptScene {
     };
     // Returns what the facets of a vertex that keeps light reflect of light from everywhere. Loop, any thread.
     Spectrum lobe_albedo(const Vertex& at) const;
+    // Returns the two parts of it: that of the material, and the ratio of a texture's colour to it.
+    Spectrum plain_lobe_albedo(const Vertex& at) const;
+    Spectrum lobe_tint(const Vertex& at) const;
     // Adds what a lobe too narrow to be kept reflects of the bodies; mirror: its middle. Loop, any thread.
     void add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
@@ -158,7 +158,7 @@ class KeptScene {
     static bool hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions);
     SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
     // Returns it in the colours that a vertex has.
-    static Spectrum colored(const Vertex& at, const SkyLight::Glossy& sent);
+    static Spectrum colored(const Scatterer& at, const SkyLight::Glossy& sent);
     Spectrum sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const;
 };
 

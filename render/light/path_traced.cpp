@@ -231,13 +231,14 @@ class TracedPaths final : public PathModel {
         std::size_t count = 0;
         float samples = 0;  // that see them
     };
-    Followers share_rays(Vertex& first) {
+    Followers share_rays(const Tile& tile, Vertex& first) {
         Followers out;
         const std::size_t begin = share_count_;
         for (const Vertex* at = &first; at; at = at->follows_too) {
             out.vertex[out.count++] = at;
             out.samples += at->weight_samples;
-            shares_[share_count_++] = {at->pixel, at->weight_samples / first.weight_samples, at->halves};
+            const float samples = at->weight_samples / first.weight_samples;
+            shares_[share_count_++] = {at->pixel, samples * tile.frame.kept->lobe_tint(*at), at->halves};
         }
         first.shared = {shares_.data() + begin, out.count};
         return out;
@@ -247,7 +248,7 @@ class TracedPaths final : public PathModel {
     void follow_lobe(Tile& tile, Vertex& at, std::size_t& ray_count) {
         const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
         const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
-        const Followers followers = share_rays(at);
+        const Followers followers = share_rays(tile, at);
         const auto count = static_cast<std::size_t>(std::lround(rays_for(followers.samples)));
         const Frame local(at.normal);
         const std::size_t first = ray_count;
@@ -263,7 +264,7 @@ class TracedPaths final : public PathModel {
         }
         const std::span<NextRay> rays = std::span(next_).subspan(first, ray_count - first);
         const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(rays.size(), 1))) *
-                                (at.weight * tile.frame.kept->lobe_albedo(at));
+                                (at.weight * tile.frame.kept->plain_lobe_albedo(at));
         KeptScene::LobeRays bodies(*tile.frame.kept, at);
         for (const NextRay& ray : rays) bodies.count(ray.dir);
         for (NextRay& ray : rays) ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir);

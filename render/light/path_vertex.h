@@ -25,7 +25,7 @@ struct Facet {
 // A pixel that has part of the light of one vertex's rays.
 struct PixelShare {
     std::uint32_t pixel;  // in the tile
-    float share;          // share of the light as the vertex sends it
+    Spectrum share;       // of the light as the vertex sends it, its own colour in it
     HalfShares halves;    // where in the pixel it is
 };
 
