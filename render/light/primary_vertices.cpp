@@ -161,6 +161,10 @@ std::size_t PrimaryVertices::look_at_fragments() {
         __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
         __builtin_prefetch(&surfaces.triangles[seen.triangle]);
         if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets[seen.triangle]);
+        if (!surfaces.corner_uvs.empty()) {
+            __builtin_prefetch(&surfaces.corner_uvs[seen.triangle]);
+            __builtin_prefetch(&surfaces.uv_per_m[seen.triangle]);
+        }
         packet_.dir.set(n, to_float(dirs_[n]));
         packet_.origin.set(n, origins_[n] - body_m);
     }

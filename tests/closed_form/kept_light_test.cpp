@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "render/brdf/microfacet.h"
 #include "render/earth/earth_model.h"
@@ -46,11 +47,14 @@ SceneObject corner(const MaterialConfig& material, const SpectralGrid& grid) {
                      {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}, material, grid);
 }
 
-// Returns the object with a picture of one grey all over it; at 255, which would change nothing, as it is.
-SceneObject painted(SceneObject object, std::uint8_t grey) {
-    if (grey == 255) return object;
-    object.mesh.textures = {Texture{"grey", 1, 1, {{grey, grey, grey}}}};
-    object.mesh.uvs.resize(object.mesh.vertices_m.size());
+// Returns the object with stripes of these greys across two metres of it, again and again; of 255 alone, which would change
+// nothing, as it is.
+SceneObject painted(SceneObject object, const std::vector<std::uint8_t>& greys) {
+    if (greys == std::vector<std::uint8_t>{255}) return object;
+    Texture stripes{"grey", static_cast<int>(greys.size()), 1, {}};
+    for (const std::uint8_t grey : greys) stripes.texels.push_back({grey, grey, grey});
+    object.mesh.textures = {stripes};
+    for (const Vec3f& at_m : object.mesh.vertices_m) object.mesh.uvs.push_back({at_m.x / 2, 0});
     object.mesh.surfaces[0].base_color_texture = object.materials[0].texture = 0;
     return object;
 }
@@ -65,7 +69,7 @@ Stage corner_stage(const char* model, const MaterialConfig& material, int sample
     s.camera(48, 0.4);
     // Seen from above, the wall to the right; the Sun from the left, so that it lights the wall more than the
     // floor.
-    s.add(painted(corner(material, s.grid), grey), {0, 0, 4});
+    s.add(painted(corner(material, s.grid), {grey}), {0, 0, 4});
     s.sun({-2, 0.3, -1});
     return s;
 }
@@ -146,9 +150,10 @@ struct PlateAndBar {
     std::array<double, kAcross * kAcross> blocks{};  // means
 
     PlateAndBar(const char* model, const MaterialConfig& material, float bar_m, int samples,
-                std::uint8_t grey = 255) {
+                const std::vector<std::uint8_t>& greys = {255}, const char* visibility = "rays") {
         Stage s;
         s.quality.path_model = model;
+        s.quality.visibility = visibility;
         s.quality.max_depth = 2;
         s.quality.contribution_threshold = 0;
         s.quality.facets_behind_diffuse = 0;
@@ -165,12 +170,17 @@ struct PlateAndBar {
                                         {x1, 1, 1},
                                         {x0, 1, 1}},
                                        {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, material, s.grid);
-        s.add(painted(std::move(object), grey), {0, 0, 4});
+        s.add(painted(std::move(object), greys), {0, 0, 4});
         s.sun({0.5, 0, 1});
         s.render();
         pixels.assign(s.radiance.plane(0).begin(), s.radiance.plane(0).end());
         for (std::size_t i = 0; i < pixels.size(); ++i)
             blocks[block_of(i)] += pixels[i] / (kBlock_px * kBlock_px);
+    }
+    double column(std::size_t x) const {
+        double sum = 0;
+        for (std::size_t i = x; i < pixels.size(); i += kSize_px) sum += pixels[i];
+        return sum;
     }
     static std::size_t block_of(std::size_t pixel) {
         return pixel / kSize_px / kBlock_px * kAcross + pixel % kSize_px / kBlock_px;
@@ -184,7 +194,7 @@ TEST(KeptLight, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
         MaterialConfig metal = lambert(0.9);
         metal.model = kModel<brdf::Metal>;
         metal.roughness = 0.45;
-        const PlateAndBar seen(model, metal, 0.01f, samples, grey);
+        const PlateAndBar seen(model, metal, 0.01f, samples, {grey});
         return *std::max_element(seen.blocks.begin(), seen.blocks.end());
     };
     for (const std::uint8_t grey : {std::uint8_t{255}, kGrey}) {
@@ -192,6 +202,35 @@ TEST(KeptLight, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
         EXPECT_GT(paths, 0);
         EXPECT_LT(brightest("kept", 4, grey), 1.5 * paths) << int{grey};
     }
+}
+
+// Stripes on metal, a few pixels wide, beside a bar that few directions meet, so that rays follow lobes, and beside one that
+// many meet. Four pixels share what lobes meet, and yet each has its own colour: bright stripes are as much brighter than dark
+// ones as on paint.
+TEST(KeptLight, PixelsOfMetalWithAPictureHaveTheirOwnColours) {
+    std::vector<std::uint8_t> stripes;
+    for (int i = 0; i < 12; ++i) stripes.insert(stripes.end(), {kGrey, kDarkGrey});
+    const auto columns = [&](const MaterialConfig& material, float bar_m) {
+        const PlateAndBar plain("kept", material, bar_m, 4, {254}, "buffer"),
+            striped("kept", material, bar_m, 4, stripes, "buffer");
+        std::vector<double> out;
+        for (std::size_t x = 0; x < PlateAndBar::kSize_px; ++x)
+            out.push_back(striped.column(x) / plain.column(x));
+        return out;
+    };
+    MaterialConfig metal = lambert(0.9);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.45;
+    const std::vector<double> paint = columns(lambert(0.9), 0.6f);
+    const double mean = std::accumulate(paint.begin(), paint.end(), 0.0) / static_cast<double>(paint.size());
+    const auto contrast = [&](const std::vector<double>& of) {
+        double bright = 0, dark = 0;
+        for (std::size_t x = 0; x < of.size(); ++x) (paint[x] > mean ? bright : dark) += of[x];
+        return bright / dark;
+    };
+    EXPECT_GT(contrast(paint), 1.5);
+    for (const float bar_m : {0.01f, 0.6f})
+        EXPECT_NEAR(contrast(columns(metal, bar_m)) / contrast(paint), 1, 0.03) << bar_m;
 }
 
 // White paint: how many of a place's sixty directions meet the bar is chance, but where few do, places have what they have

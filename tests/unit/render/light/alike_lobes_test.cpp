@@ -71,18 +71,5 @@ TEST(AlikeLobes, KeepTheLastOfAnyNumber) {
     EXPECT_LE(kept, 256);
 }
 
-// Each place of a texture is another colour, which facets have where there is no body below them.
-TEST(AlikeLobes, DifferByATextureOnBareFacets) {
-    Material metal{}, varnish{};
-    metal.brdf = brdf::Metal(0.3f), varnish.brdf = brdf::Dielectric(0.3f, 1.5f);
-    metal.texture = varnish.texture = 0;
-    AlikeLobes<int> lobes;
-    const Vertex of_metal = vertex_of(metal), of_varnish = vertex_of(varnish);
-    lobes.keep(of_metal, 7, 42);
-    EXPECT_EQ(lobes.find(of_metal, 7), nullptr);
-    lobes.keep(of_varnish, 7, 43);
-    EXPECT_NE(lobes.find(of_varnish, 7), nullptr);
-}
-
 }  // namespace
 }  // namespace hilcam
