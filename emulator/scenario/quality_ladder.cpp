@@ -29,7 +29,7 @@ Fields fields(LoopConfig& l) {
         beside_frames(choice(
             "prefer", l.prefer, {"throughput", "latency"},
             "throughput: a frame is rendered while the one before is sensed; latency: one after the other, "
-            "each with all threads")),
+            "each with all threads; what is late begins when it can and shows the newest pose")),
         beside_frames(
             flag("wait_for_light", l.wait_for_light,
                  "false: frames come at once while tables that are not on disk are still being made; they "

@@ -394,7 +394,7 @@ bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum&
            kBeside * light > largest(tile.pixels[at.pixel]);
 }
 
-// What a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
+// Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
 SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, float reflectance) const {
     SkyLight::Glossy sent = sky_.glossy(body, at.normal, at.view_dir, at.surface.alpha, reflectance);
     if (!(largest(sent.radiance) > 0)) return {};

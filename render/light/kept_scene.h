@@ -63,7 +63,7 @@ class KeptScene {
     // to each that is towards the body, or to all where none is. Loop, any thread.
     class LobeRays {
       public:
-        // In the material's own colour: lobe_tint() is not in it.
+        // Their light has the material's own colour: lobe_tint() is not in it.
         LobeRays(const KeptScene& scene, const Vertex& at);
         void count(Vec3f dir) {
             ++all_;
@@ -115,7 +115,8 @@ class KeptScene {
     void take_inputs(const FrameView& frame, const WorldSnapshot& world);
     void look_ahead();
 
-    // The radiance that a lobe sends of each body, if nothing is in the way; white, and Fresnel's cosine, as Place::met.
+    // The radiance that a lobe sends of each body, if nothing is in the way; where a texture colours facets
+    // (has_own_colors()) white, with the cosine that Fresnel's term has.
     using SentOfBodies = std::array<SkyLight::Glossy, SkyLight::kMaxBodies>;
     // A vertex on its way through the lookup: many go together, so that none waits for memory.
     struct Place {
@@ -125,16 +126,16 @@ class KeptScene {
         std::uint32_t nearest;  // node, where there is one
         bool found;
         // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies. Where a
-        // texture colours facets (has_own_colours()), theirs is what white ones would reflect.
+        // texture colours facets, theirs is what white ones would reflect.
         Spectrum diffuse, met;
         SentOfBodies bodies;
         float directions;  // that bring what is met (KeptLight::Lobe)
         Vertex* follower;  // the first whose lobe is left to rays, which are those of all of them; null: none
         std::size_t followers;
     };
-    // What a lobe reflects of other surfaces.
+    // A lobe's reflection of other surfaces.
     struct MetByLobe {
-        Spectrum radiance;                             // as Place::met
+        Spectrum radiance;                             // white or coloured as that of a place
         std::array<float, SkyLight::kMaxBodies> free;  // share of each body's light that comes without a way
         float directions;
         bool whole;  // the bodies are not looked for, as nothing is in their way

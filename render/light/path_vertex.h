@@ -25,7 +25,7 @@ struct Facet {
 // A pixel that has part of the light of one vertex's rays.
 struct PixelShare {
     std::uint32_t pixel;  // in the tile
-    Spectrum share;       // of the light as the vertex sends it, its own colour in it
+    Spectrum share;       // part of the light as the vertex sends it, with the pixel's own colour
     HalfShares halves;    // where in the pixel it is
 };
 

@@ -137,10 +137,9 @@ def cycles_table(options):
 def latency_table(options):
     print(latency.HEADER)
     geo = SOURCE / "configs/scenarios/geo_inspection.yaml"
-    for name, scenario, start in (("test scene, 256 x 192, 30 Hz", latency.SCENARIO, latency.TEST_SCENE_START_M),
-                                  ("`geo_inspection`", geo, latency.GEO_START_M)):
+    for name, scenario in (("test scene, 256 x 192, 30 Hz", latency.SCENARIO), ("`geo_inspection`", geo)):
         for prefer in latency.PREFERENCES:
-            result = latency.measure(options.hilcam, scenario, prefer, options.seconds, 200, start=start)
+            result = latency.measure(options.hilcam, scenario, prefer, options.seconds, 200)
             print(latency.rows(name, prefer, *result), flush=True)
 
 

@@ -7,8 +7,9 @@
 Poses are sent over UDP, true on arrival; each frame says in a chunk which pose is the newest it shows. For every pose
 that a frame is the first to show: the time from the pose's arrival to that frame's first and last packet (the emulator's
 own report) and from its sending to the frame in the hands of an Aravis program. The time includes the wait for the next
-exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. Prints a Markdown table with a row for each
-`loop.prefer`, or for the one asked for.
+exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. For every frame: from the begin of its exposure to
+those hands. Prints a Markdown table with a row for each `loop.prefer`, or for the one asked for. The run waits for its kept
+light. The camera's circle begins where the scenario has it.
 """
 import argparse
 import math
@@ -19,6 +20,7 @@ import threading
 import time
 
 import gi
+import yaml
 
 import gvcp_client as g
 from bench import Emulator, SCENARIO, percentile
@@ -29,10 +31,9 @@ from hilcam_client import Client, Pose
 gi.require_version("Aravis", "0.8")
 from gi.repository import Aravis  # noqa: E402
 
-HEADER = ("| scenario | `loop.prefer` | frames | | first packet | last packet | client's buffer |\n"
-          "|---|---|---|---|---|---|---|")
+HEADER = ("| scenario | `loop.prefer` | frames | | first packet | last packet | client's buffer | from its exposure |\n"
+          "|---|---|---|---|---|---|---|---|")
 PREFERENCES = ("latency", "throughput")
-TEST_SCENE_START_M, GEO_START_M = (22.0, 15.0, 7.0), (40.0, 27.0, 13.0)  # of those scenarios' cameras
 
 
 def look_back(position):
@@ -87,9 +88,10 @@ class Sender(threading.Thread):
                 time.sleep(max(0.0, due - time.monotonic()))
 
 
-def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=TEST_SCENE_START_M, address="127.0.23.11"):
-    """Latencies [ms, sorted], frames, of them failed, the emulator's report."""
-    sets = (f"loop.prefer={prefer}", *sets)
+def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=None, address="127.0.23.11"):
+    """Latencies and times from an exposure's begin [ms, sorted], frames, of them failed, the emulator's report."""
+    sets = (f"loop.prefer={prefer}", "loop.wait_for_light=true", *sets)
+    start = start or yaml.safe_load(scenario.read_text())["camera_pose"]["position_m"]
     with tempfile.TemporaryDirectory() as folder, Emulator(hilcam, address, folder, *sets, scenario=scenario) as emulator:
         camera = Aravis.Camera.new(address)
         camera.gv_set_stream_options(Aravis.GvStreamOption.PACKET_SOCKET_DISABLED)
@@ -102,7 +104,7 @@ def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=TEST_SCEN
         camera.start_acquisition()
         sender = Sender(emulator.port, rate_hz, start)
         sender.start()
-        latencies_ms, shown, frames, failed = [], 0, 0, 0
+        latencies_ms, ages_ms, shown, frames, failed = [], [], 0, 0, 0
         until = time.monotonic() + seconds
         while time.monotonic() < until:
             buffer = stream.timeout_pop_buffer(2_000_000)
@@ -111,6 +113,7 @@ def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=TEST_SCEN
                 continue
             frames += 1
             if buffer.get_status() == Aravis.BufferStatus.SUCCESS:
+                ages_ms.append((now_ns - buffer.get_timestamp()) * 1e-6)
                 sequence = int.from_bytes(chunks_of(buffer.get_data())[chunk], "big")
                 if sequence > shown and sequence in sender.sent_ns:
                     latencies_ms.append((now_ns - sender.sent_ns[sequence]) * 1e-6)
@@ -123,17 +126,18 @@ def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=TEST_SCEN
         sender.join()
         del stream, camera
         report = emulator.stop()
-    return sorted(latencies_ms), frames, failed, report
+    return sorted(latencies_ms), sorted(ages_ms), frames, failed, report
 
 
-def rows(name, prefer, latencies_ms, frames, failed, report):
+def rows(name, prefer, latencies_ms, ages_ms, frames, failed, report):
     told = report["latency_ms"]
     counted = f"{frames} at {report['frame_rate_hz']:.1f} Hz, {failed} failed, {report['deadline_misses']} exposures missed"
     lines = []
     for label, share in (("p50", 0.5), ("p99", 0.99), ("p99.9", 0.999)):
         packets = [f"{told[which][label]:.1f} ms" if label in told[which] else "" for which in ("first_packet", "last_packet")]
         cells = [name, prefer, counted] if not lines else ["", "", ""]
-        lines.append("| " + " | ".join([*cells, label, *packets, f"{percentile(latencies_ms, share):.1f} ms"]) + " |")
+        at_client = [f"{percentile(of, share):.1f} ms" for of in (latencies_ms, ages_ms)]
+        lines.append("| " + " | ".join([*cells, label, *packets, *at_client]) + " |")
     return "\n".join(lines)
 
 
@@ -143,7 +147,7 @@ def main():
     parser.add_argument("--scenario", type=pathlib.Path, default=SCENARIO)
     parser.add_argument("--seconds", type=float, default=30)
     parser.add_argument("--pose-rate-hz", type=float, default=200)
-    parser.add_argument("--start-m", type=float, nargs=3, default=TEST_SCENE_START_M, help="where the camera's circle begins")
+    parser.add_argument("--start-m", type=float, nargs=3, help="where the camera's circle begins, instead")
     parser.add_argument("--prefer", choices=PREFERENCES)
     parser.add_argument("--set", action="append", default=[])
     options = parser.parse_args()
