@@ -48,15 +48,15 @@ void lobe_weights(const float* x, const float* y, const float* z, const float* c
     for (std::size_t i = 0; i < kDirectionLanes; ++i) query.whole += wholes[i], query.kept += kepts[i];
 }
 
-// The weights of the directions in a cone. n is a multiple of kDirectionLanes.
+// The weights of the directions in a cone, by direction, and their sum. n is a multiple of kDirectionLanes.
 HILCAM_CLONES
-float cone_sum(const float* x, const float* y, const float* z, const float* weight, std::size_t n,
-               const ConeShare& share) {
+float cone_weights(const float* x, const float* y, const float* z, const float* weight, std::size_t n,
+                   const ConeShare& share, float* in_cone) {
     const ConeShare cone = share;
     std::array<float, kDirectionLanes> sums{};
     for (std::size_t d = 0; d < n; d += kDirectionLanes)
         for (std::size_t i = 0; i < kDirectionLanes; ++i)
-            sums[i] += weight[d + i] * cone.of(x[d + i], y[d + i], z[d + i]);
+            sums[i] += in_cone[d + i] = weight[d + i] * cone.of(x[d + i], y[d + i], z[d + i]);
     return lane_sum(sums);
 }
 
@@ -106,11 +106,11 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
     const float all = query.narrow ? static_cast<float>(node.counted) / kPiF : std::max(query.kept, 1e-20f);
     for (std::size_t c = 0; c < cones.size(); ++c) {
         const ConeShare cone(axes.dir(cones[c].dir), cones[c].cosine, table_->directions());
-        const float of_cone =
-            cone_sum(local_x_.data(), local_y_.data(), local_z_.data(), whole.data(), counts_.size(), cone);
+        alignas(64) std::array<float, kMaxDirections> in_cone;
+        const float of_cone = cone_weights(local_x_.data(), local_y_.data(), local_z_.data(), whole.data(),
+                                           counts_.size(), cone, in_cone.data());
         float met = 0;
-        for_each_met(
-            n, [&](std::size_t d) { met += whole[d] * cone.of(local_x_[d], local_y_[d], local_z_[d]); });
+        for_each_met(n, [&](std::size_t d) { met += in_cone[d]; });
         out.free[c] = of_cone > 0 ? std::clamp(1 - met / of_cone, 0.0f, 1.0f) : 0.0f;
     }
     const bool facets = sun != kNoTerm && node.first_along != kNoLobe;
