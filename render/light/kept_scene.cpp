@@ -374,6 +374,7 @@ KeptScene::LobeRays::LobeRays(const KeptScene& scene, const Vertex& at) : scene_
 
 KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
     SentOfBodies sent;
+    // Brighter texels may share it.
     const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sent[b] = sent_of_body(b, at, reflectance);
     return sent;

@@ -238,7 +238,7 @@ class TracedPaths final : public PathModel {
             out.vertex[out.count++] = at;
             out.samples += at->weight_samples;
             const float samples = at->weight_samples / first.weight_samples;
-            shares_[share_count_++] = {at->pixel, samples * tile.frame.kept->lobe_tint(*at), at->halves};
+            shares_[share_count_++] = {at->pixel, at->halves, samples * tile.frame.kept->lobe_tint(*at)};
         }
         first.shared = {shares_.data() + begin, out.count};
         return out;

@@ -25,8 +25,8 @@ struct Facet {
 // A pixel that has part of the light of one vertex's rays.
 struct PixelShare {
     std::uint32_t pixel;  // in the tile
-    Spectrum share;       // part of the light as the vertex sends it, with the pixel's own colour
     HalfShares halves;    // where in the pixel it is
+    Spectrum share;       // part of the light as the vertex sends it, with the pixel's own colour
 };
 
 struct Vertex {

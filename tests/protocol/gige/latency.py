@@ -7,7 +7,7 @@
 Poses are sent over UDP, true on arrival; each frame says in a chunk which pose is the newest it shows. For every pose
 that a frame is the first to show: the time from the pose's arrival to that frame's first and last packet (the emulator's
 own report) and from its sending to the frame in the hands of an Aravis program. The time includes the wait for the next
-exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. For every frame: from the begin of its exposure to
+exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. For every frame: from the middle of its exposure to
 those hands. Prints a Markdown table with a row for each `loop.prefer`, or for the one asked for. The run waits for its kept
 light. The camera's circle begins where the scenario has it.
 """
@@ -89,7 +89,7 @@ class Sender(threading.Thread):
 
 
 def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=None, address="127.0.23.11"):
-    """Latencies and times from an exposure's begin [ms, sorted], frames, of them failed, the emulator's report."""
+    """Latencies and times from an exposure's middle [ms, sorted], frames, of them failed, the emulator's report."""
     sets = (f"loop.prefer={prefer}", "loop.wait_for_light=true", *sets)
     start = start or yaml.safe_load(scenario.read_text())["camera_pose"]["position_m"]
     with tempfile.TemporaryDirectory() as folder, Emulator(hilcam, address, folder, *sets, scenario=scenario) as emulator:

@@ -25,7 +25,7 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     FacetList facets;
     Tile tile{frame, {0, 0, 2, 2}, 1, pixels, stats, facets};
     tile.halves = halves, tile.half_responses = responses;
-    const std::array<PixelShare, 2> parts{PixelShare{1, of(1), {1, 0, 0}}, {2, of(0.25f), {0, -1, 0}}};
+    const std::array<PixelShare, 2> parts{PixelShare{1, {1, 0, 0}, of(1)}, {2, {0, -1, 0}, of(0.25f)}};
     Vertex at{};
     at.pixel = 3;
     at.halves = {1, 1, 1};
