@@ -17,8 +17,9 @@ namespace hilcam {
 // defaults.
 std::string reference_key(const ScenarioConfig& reference, const Pose& body, const ReferenceLimits& limits);
 
-// Raised when the same key would give another reference: the path tracer, the sensor's optics, a default.
-inline constexpr std::uint32_t kReferenceVersion = 1;
+// Raised when the same key would give another reference: the path tracer, the sensor's optics, a default, a
+// generated mesh.
+inline constexpr std::uint32_t kReferenceVersion = 2;
 
 // The file of that key in `folder`.
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& key);

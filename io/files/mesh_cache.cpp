@@ -16,6 +16,9 @@
 namespace hilcam {
 namespace {
 
+// Raised when a generator makes another mesh of the same arguments.
+constexpr int kMeshVersion = 2;
+
 int run(const std::filesystem::path& program, std::vector<std::string> words) {
     std::vector<char*> argv;
     argv.reserve(words.size() + 1);
@@ -90,7 +93,7 @@ std::filesystem::path generated_mesh(const std::string& program, const std::vect
         name += "_";
         for (const char c : word) name += plain(c) || c == '.' ? c : '-';
     }
-    std::filesystem::path file = folder / (name + ".glb");
+    std::filesystem::path file = folder / (name + "_v" + std::to_string(kMeshVersion) + ".glb");
     if (std::filesystem::exists(file)) return file;
 
     const auto beside = helper_program(program);

@@ -68,7 +68,7 @@ struct Builder {
     }
 
     void bus() {
-        add_box(patches, "bus", "aluminium", {{0, 0, 0}}, kBus, 0.01);
+        add_box(patches, "bus", "aluminium", Placement({0, 0, 0}), kBus, 0.01);
         foil_wall("mli_gold", {kX, -kY, -kZ}, {0, kBus.y, 0}, {0, 0, kBus.z});
         foil_wall("mli_gold", {-kX, kY, -kZ}, {0, -kBus.y, 0}, {0, 0, kBus.z});
         foil_wall("mli_gold", {-kX, kY, -kZ}, {kBus.x, 0, 0}, {0, -kBus.y, 0});
@@ -90,7 +90,7 @@ struct Builder {
     void propulsion() {
         // Bell of the apogee engine (radius grows with the square root, as a parabolic nozzle's) inside and
         // outside.
-        const Placement down{{0, 0, -kZ - 0.02}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+        const Placement down{{0, 0, -kZ - 0.02}, {1, 0, 0}, {0, -1, 0}};
         const auto bell = [](double t) -> std::array<double, 2> {
             return {0.05 + 0.21 * std::sqrt(t), 0.08 + 0.52 * t};
         };
@@ -110,17 +110,16 @@ struct Builder {
         for (const double sx : {-1.0, 1.0})
             for (const double sy : {-1.0, 1.0})
                 for (const double lift : {0.0, 0.16}) {
-                    const Placement at{{sx * (kX - 0.15), sy * (kY - 0.15 - lift), -kZ - 0.03},
-                                       {1, 0, 0},
-                                       {0, -1, 0},
-                                       {0, 0, -1}};
+                    const Placement at{
+                        {sx * (kX - 0.15), sy * (kY - 0.15 - lift), -kZ - 0.03}, {1, 0, 0}, {0, -1, 0}};
                     patches.push_back(revolution(
                         "thrusters", "nozzle", at,
                         [](double t) -> std::array<double, 2> {
                             return {0.012 + 0.03 * std::sqrt(t), 0.02 + 0.1 * t};
                         },
                         8, 2, 0.02));
-                    add_box(patches, "thrusters", "aluminium", {at.origin}, {0.09, 0.09, 0.06}, 0.002);
+                    add_box(patches, "thrusters", "aluminium", Placement(at.origin), {0.09, 0.09, 0.06},
+                            0.002);
                 }
     }
 
@@ -128,19 +127,18 @@ struct Builder {
     void dish(double side) {
         const double radius = 1.1, focal = 1.5;
         const double tilt = side * 0.32;
-        const Placement place{{side * (kX + 1.35), 0, kZ - 0.3},
-                              {std::cos(tilt), 0, std::sin(tilt)},
-                              {0, 1, 0},
-                              {-std::sin(tilt), 0, std::cos(tilt)}};
+        const Placement place{
+            {side * (kX + 1.35), 0, kZ - 0.3}, {std::cos(tilt), 0, std::sin(tilt)}, {0, 1, 0}};
         const auto bowl = [=](double t) -> std::array<double, 2> {
             const double r = radius * t;
             return {r, r * r / (4 * focal)};
         };
-        patches.push_back(revolution("dish", "dish_white", place, bowl, 24, 6, 2.0));
+        patches.push_back(revolution(
+            "dish", "dish_white", place, [=](double t) { return bowl(1 - t); }, 24, 6, 2.0));
         patches.push_back(revolution(
             "dish", "panel_back", place,
             [=](double t) {
-                const auto p = bowl(1 - t);
+                const auto p = bowl(t);
                 return std::array<double, 2>{p[0], p[1] - 0.025};
             },
             24, 6, 1.0));
@@ -165,18 +163,19 @@ struct Builder {
         const Vec3d across = normalized(cross(Vec3d{0, 1, 0}, aim));
         for (const double y : {-0.22, 0.0, 0.22})
             patches.push_back(revolution(
-                "feeds", "aluminium", {feed + Vec3d{0, y, 0}, across, cross(aim, across), aim},
+                "feeds", "aluminium", {feed + Vec3d{0, y, 0}, across, cross(aim, across)},
                 [](double t) -> std::array<double, 2> {
                     return {0.03 + 0.06 * t, 0.3 * t - 0.15};
                 },
                 10, 2, 0.05));
-        add_box(patches, "feeds", "mli_silver", {{side * 0.72, 0, kZ + 0.3}}, {0.3, 0.75, 0.45}, 0.02);
+        add_box(patches, "feeds", "mli_silver", Placement({side * 0.72, 0, kZ + 0.3}), {0.3, 0.75, 0.45},
+                0.02);
     }
 
     void deck() {
         patches.push_back(tube("mast", "cfrp", {0, 0, kZ}, {0, 0, kZ + 1.6}, 0.05, 0.1));
         patches.push_back(revolution(
-            "mast", "white_paint", {{0, 0, kZ + 1.6}},
+            "mast", "white_paint", Placement({0, 0, kZ + 1.6}),
             [](double t) -> std::array<double, 2> {
                 return {0.05 + 0.1 * t, 0.35 * t};
             },
@@ -186,7 +185,7 @@ struct Builder {
             patches.push_back(tube("mast", "cfrp", {0.45 * std::cos(a), 0.45 * std::sin(a), kZ},
                                    {0, 0, kZ + 1.1}, 0.015, 0.03));
             patches.push_back(revolution(
-                "horns", "aluminium", {{0.9 * std::cos(a), 0.75 * std::sin(a), kZ + 0.05}},
+                "horns", "aluminium", Placement({0.9 * std::cos(a), 0.75 * std::sin(a), kZ + 0.05}),
                 [](double t) -> std::array<double, 2> {
                     return {0.04 + 0.07 * t, 0.4 * t};
                 },
@@ -196,25 +195,20 @@ struct Builder {
             const double lean = 0.6;
             patches.push_back(revolution(
                 "star_trackers", "baffle_black",
-                {{s * 0.25, s * 0.7, kZ + 0.1},
-                 {0, 0, 1},
-                 {std::cos(lean), -s * std::sin(lean), 0},
-                 {s * std::sin(lean), std::cos(lean) * s, 0}},
+                {{s * 0.25, s * 0.7, kZ + 0.1}, {0, 0, 1}, {s * std::cos(lean), -s * std::sin(lean), 0}},
                 [](double t) -> std::array<double, 2> {
                     return {0.05 + 0.05 * t, 0.3 * t};
                 },
                 12, 2, 0.05));
-            add_box(patches, "boxes", "mli_silver", {{-s * 0.6, s * 0.6, kZ + 0.12}}, {0.4, 0.35, 0.22},
-                    0.02);
+            add_box(patches, "boxes", "mli_silver", Placement({-s * 0.6, s * 0.6, kZ + 0.12}),
+                    {0.4, 0.35, 0.22}, 0.02);
         }
     }
 
     void panel(const std::string& part, const Placement& wing, double near, double along, double outward) {
         const double width = 2.4, thickness = 0.028;
         const Vec3d middle{0, outward * (near + along / 2), 0};
-        add_box(patches, part, "panel_back",
-                {wing(middle), wing.x, outward * wing.y, outward * wing.z * outward},
-                {width, along, thickness}, 0.02);
+        add_box(patches, part, "panel_back", {wing(middle), wing.x, wing.y}, {width, along, thickness}, 0.02);
         const double top = thickness / 2 + 0.0008;
         if (options.triangles < 20000) {
             patches.push_back(sheet(part, "solar_cell", wing(middle + Vec3d{-width / 2, -along / 2, top}),
@@ -249,7 +243,7 @@ struct Builder {
         const std::string part = outward > 0 ? "wing_north" : "wing_south";
         const double c = std::cos(options.wing_angle_rad), s = std::sin(options.wing_angle_rad);
         // Rotation about y that turns +z towards +x.
-        const Placement place{{0, outward * kY, 0}, {c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+        const Placement place{{0, outward * kY, 0}, {c, 0, -s}, {0, 1, 0}};
         const double root = 0.25, yoke = 1.7, along = 2.45, hinge = 0.05;
         patches.push_back(
             tube(part, "aluminium", place({0, 0, 0}), place({0, outward * root, 0}), 0.09, 0.05));
@@ -262,7 +256,7 @@ struct Builder {
             const double near = yoke + hinge + i * (along + hinge);
             panel(part, place, near, along, outward);
             for (const double x : {-0.8, 0.8})
-                add_box(patches, part, "aluminium", {place({x, outward * (near - hinge / 2), 0})},
+                add_box(patches, part, "aluminium", Placement(place({x, outward * (near - hinge / 2), 0})),
                         {0.12, 0.09, 0.05}, 0.001);
         }
     }

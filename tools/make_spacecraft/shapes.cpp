@@ -94,7 +94,7 @@ Patch tube(std::string part, std::string material, Vec3d a, Vec3d b, double radi
     const Vec3d x = normalized(std::abs(z.z) < 0.9 ? cross(Vec3d{0, 0, 1}, z) : cross(Vec3d{1, 0, 0}, z));
     const double span = length(b - a);
     Patch patch = revolution(
-        std::move(part), std::move(material), {a, x, cross(z, x), z},
+        std::move(part), std::move(material), {a, x, cross(z, x)},
         [=](double t) -> std::array<double, 2> {
             return {radius, t * span};
         },

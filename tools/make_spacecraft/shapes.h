@@ -7,10 +7,16 @@
 
 namespace spacecraft {
 
-// An axis-aligned frame somewhere: origin and three unit axes.
-struct Placement {
-    Vec3d origin;
-    Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+// A frame somewhere: an origin and three unit axes, right-handed, so that what faces outwards faces outwards
+// there, too.
+class Placement {
+  public:
+    Vec3d origin, x, y, z;
+
+    explicit Placement(Vec3d at) : Placement(at, {1, 0, 0}, {0, 1, 0}) {}
+    // along_x and along_y: unit, at right angles.
+    Placement(Vec3d at, Vec3d along_x, Vec3d along_y)
+        : origin(at), x(along_x), y(along_y), z(cross(along_x, along_y)) {}
     Vec3d operator()(Vec3d p) const { return origin + p.x * x + p.y * y + p.z * z; }
 };
 
