@@ -19,6 +19,26 @@ void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count)
     }
 }
 
+namespace {
+
+// Member by member: a Scatterer that is made first and copied then waits for its own stores.
+void set_material(const Material& material, float alpha_least, Vertex& vertex) {
+    const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
+    vertex.surface.material = &material;
+    vertex.surface.alpha = alpha;
+    vertex.surface.base = material.base;
+    vertex.surface.highlight = material.highlight;
+    vertex.surface.hapke.reset();
+    vertex.facet_alpha = alpha;
+}
+
+}  // namespace
+
+void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex) {
+    vertex.surface_number = surface_number;
+    set_material((*frame.objects)[vertex.object]->materials[surface_number], 0, vertex);
+}
+
 bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
@@ -80,6 +100,7 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.geometric_normal = lie.geometric_normal;
     vertex.normal = lie.normal;
     vertex.back = lie.back;
+    vertex.sunlit = 1;
     vertex.weight_samples = 1;
     vertex.samples = 0;
     vertex.facets = nullptr;
@@ -98,14 +119,7 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
                            ? KnownSun::kAsk
                            : object.known_sun[hits.triangle[k]];
 
-    const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
-    // Member by member: a Scatterer that is made first and copied then waits for its own stores.
-    vertex.surface.material = &material;
-    vertex.surface.alpha = alpha;
-    vertex.surface.base = material.base;
-    vertex.surface.highlight = material.highlight;
-    vertex.surface.hapke.reset();
-    vertex.facet_alpha = alpha;
+    set_material(material, alpha_least, vertex);
     if (!object.corner_colors.empty())
         vertex.surface.base =
             vertex.surface.base * frame.bands->spectrum(object.color_at(hits.triangle[k], u, v));

@@ -50,6 +50,7 @@ struct Vertex {
     bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
     const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
     std::span<const PixelShare> shared;  // the pixels that its light is added to; empty: its own
+    float sunlit;                        // share of it that what lies on it leaves in the Sun (scene/mosaic.h)
     float weight_samples;                // samples of sixteen a pixel that see it, where it is not one ray's
     HalfShares halves;                   // where in the pixel they are
     float facet_alpha;                   // alpha of the lobes of its facets
@@ -91,6 +92,8 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
 // The same where it is known how the surface lies.
 void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
                  Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex);
+// Gives a vertex one of its object's surfaces, without colours or textures of its own.
+void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex);
 // Asks for the memory that make_vertex() reads, of all lanes that met an object.
 void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count);
 

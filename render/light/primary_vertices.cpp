@@ -17,6 +17,15 @@ namespace {
 // rays are those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
+// A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel.
+constexpr float kFlattest = 0.05f, kLeastShare = 0.002f;
+
+// The halves of light whose middle is `off_px` from that of light with these halves.
+HalfShares moved(const HalfShares& from, Vec2f off_px) {
+    // An even pixel's half has its middle a quarter of a pixel away.
+    return {std::clamp(from.across + 4 * off_px.x, -1.0f, 1.0f),
+            std::clamp(from.down + 4 * off_px.y, -1.0f, 1.0f), from.crossed};
+}
 
 }  // namespace
 
@@ -37,7 +46,8 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
     }
     std::size_t count = 0;
     tile_.facets.clear();
-    while (count + kPacketSize <= vertices.size() && tile_.facets.room() >= 2 * kPacketSize) {
+    while (count + Mosaic::kMaxLayers * kPacketSize <= vertices.size() &&
+           tile_.facets.room() >= 2 * kPacketSize) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))
             take_next_pixel();
         if (fragment_count_ == 0) {
@@ -196,6 +206,13 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         // Too small for its square: by itself.
         if (lie.geometric_normal == Vec3f{} && !find_lie(frame, hits_, static_cast<int>(k), dir, lie))
             continue;
+        const ObjectSurfaces& surfaces = *(*frame.objects)[hits_.object[k]];
+        const std::uint8_t patch = surfaces.triangles[hits_.triangle[k]].patch;
+        if (patch > 1) {
+            const std::size_t before = count;
+            count = make_mosaic((*surfaces.mosaics)[patch - 2u], k, lie, vertices, count);
+            if (count > before) continue;
+        }
         Vertex* const joined = join(vertices.first(count), fragment.pixel, hits_.object[k],
                                     triangles[hits_.triangle[k]].surface, lie);
         if (joined) {
@@ -214,15 +231,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         Vertex& vertex = vertices[count++];
         make_vertex(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
                     {pixel_rad * from_m, pixel_rad}, vertex);
-        vertex.pixel = fragment.pixel;
-        vertex.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));
-        vertex.depth = 1;
-        vertex.samples = fragment.samples;
-        vertex.weight = {};
-        std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
-        vertex.weight_samples = samples;
-        vertex.halves = frame.samples.halves(fragment.samples);
-        add_air_before(tile_, dirs_[k], vertex);
+        finish(k, samples, frame.samples.halves(fragment.samples), vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
                          hits_.triangle[k], true, vertex);
     }
@@ -230,6 +239,94 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
     fragment_count_ -= n;
     return count;
+}
+
+// The pixel of fragment k, for a vertex that is part of what is seen in it.
+void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Vertex& vertex) {
+    const Fragment& fragment = fragments_[k];
+    vertex.pixel = fragment.pixel;
+    vertex.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));
+    vertex.depth = 1;
+    vertex.samples = fragment.samples;
+    vertex.weight = {};
+    std::fill_n(vertex.weight.bin.begin(), tile_.frame.bins, samples);
+    vertex.weight_samples = samples;
+    vertex.halves = halves;
+    add_air_before(tile_, dirs_[k], vertex);
+}
+
+// One vertex for each surface of a mosaic that is in a pixel, with its part of what the samples see. Returns how
+// many vertices there are then; as many as before where the mosaic is not seen from above.
+std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, const Lie& lie,
+                                         std::span<Vertex> vertices, std::size_t count) {
+    const FrameView& frame = tile_.frame;
+    const Fragment& fragment = fragments_[k];
+    const Mat3f& axes = frame.world_from_body[hits_.object[k]];
+    const Vec3f normal = axes * mosaic.normal, across = axes * mosaic.across, down = axes * mosaic.down;
+    if (dot(normal, lie.view_dir) < kFlattest) return count;
+    const PixelRays pixel = rays_of(fragment);
+    const Vec3d up = to_double(normal);
+    const Vec3d corner_m = to_double(axes * mosaic.corner_m) - to_double(packet_.origin.at(k)) +
+                           to_double(origins_[k]) - frame.camera_m;
+    const double facing = dot(pixel.middle, up), way = dot(corner_m, up) / facing;
+    const auto on_plane = [&](Vec3d step) { return way * (step - (dot(step, up) / facing) * pixel.middle); };
+    const Vec3d per_x = on_plane(pixel.right), per_y = on_plane(pixel.down);
+    const auto texels = [&](Vec3d at_m) {
+        const double per_m = 1 / static_cast<double>(mosaic.texel_m);
+        return Vec2d{per_m * dot(at_m, to_double(across)), per_m * dot(at_m, to_double(down))};
+    };
+    const auto single = [](Vec2d v) { return Vec2f{static_cast<float>(v.x), static_cast<float>(v.y)}; };
+    const Vec3d middle_m = way * pixel.middle;
+    const Mosaic::Look look =
+        mosaic.look({texels(middle_m - corner_m), single(texels(per_x)), single(texels(per_y))});
+
+    const HalfShares halves = frame.samples.halves(fragment.samples);
+    const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
+    const auto from_m = static_cast<float>(frame.way_to_start_m());
+    const Vec3f sun = to_float(frame.background->sun_world_dir());
+    const auto lit_along = [&](Vec3f axis, float narrow) {
+        // Where a ray to the Sun passes what lies on the ground, from where it is seen through.
+        const float moved = dot(sun, axis) / std::max(dot(sun, normal), 1e-3f) -
+                            dot(lie.view_dir, axis) / dot(lie.view_dir, normal);
+        return std::max(0.0f, 1 - narrow * std::abs(moved));
+    };
+    const float sunlit = lit_along(across, look.gap.x) * lit_along(down, look.gap.y);
+    float shown = 0;
+    Vec2f middle_px{};
+    for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
+        if (look.share[layer] >= kLeastShare) shown += look.share[layer];
+        middle_px.x += look.share[layer] * look.place[layer].x;
+        middle_px.y += look.share[layer] * look.place[layer].y;
+    }
+    for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
+        if (look.share[layer] < kLeastShare) continue;
+        Lie own = lie;
+        if (layer > 0)
+            own.normal = normalized(lie.geometric_normal + look.lean.x * across + look.lean.y * down);
+        Vertex& vertex = vertices[count++];
+        make_vertex(frame, hits_, static_cast<int>(k), own, origins_[k], packet_.dir.at(k), 0,
+                    {pixel_rad * from_m, pixel_rad}, vertex);
+        set_surface(frame, mosaic.surface[layer], vertex);
+        if (layer == 0) vertex.sunlit = sunlit;
+        const Vec2f off{look.place[layer].x - 0.5f, look.place[layer].y - 0.5f};
+        vertex.point_m = to_float(frame.camera_m + middle_m + static_cast<double>(off.x) * per_x +
+                                  static_cast<double>(off.y) * per_y);
+        const float samples = look.share[layer] / shown * frame.samples.weight(fragment.samples);
+        finish(k, samples,
+               moved(halves, {look.place[layer].x - middle_px.x, look.place[layer].y - middle_px.y}), vertex);
+    }
+    return count;
+}
+
+// The directions through a fragment's pixel: its middle, and a step to the right and down.
+PrimaryVertices::PixelRays PrimaryVertices::rays_of(const Fragment& fragment) const {
+    const FrameView& frame = tile_.frame;
+    const int x = tile_.box.x0 + fragment.x, y = tile_.box.y0 + fragment.y;
+    if (const LinearRays* rays = frame.rays->linear())
+        return {rays->corner + (x + 0.5) * rays->right + (y + 0.5) * rays->down, rays->right, rays->down};
+    const auto at = [&](float px, float py) { return direction_seen(frame, x, y, {px, py}); };
+    return {at(0.5f, 0.5f), 2.0 * (at(0.75f, 0.5f) - at(0.25f, 0.5f)),
+            2.0 * (at(0.5f, 0.75f) - at(0.5f, 0.25f))};
 }
 
 Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px) {

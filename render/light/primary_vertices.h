@@ -8,6 +8,7 @@
 #include <span>
 
 #include "render/light/path_model.h"
+#include "render/scene/mosaic.h"
 #include "render/visibility/fragment_packet.h"
 
 namespace hilcam {
@@ -50,6 +51,13 @@ class PrimaryVertices {
     bool leave_to_body(std::size_t k);
     std::size_t look_at_fragments();
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
+    struct PixelRays {
+        Vec3d middle, right, down;
+    };
+    PixelRays rays_of(const Fragment& fragment) const;
+    std::size_t make_mosaic(const Mosaic& mosaic, std::size_t k, const Lie& lie, std::span<Vertex> vertices,
+                            std::size_t count);
+    void finish(std::size_t k, float samples, HalfShares halves, Vertex& vertex);
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
 };

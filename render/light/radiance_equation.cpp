@@ -66,13 +66,13 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     for (const Vertex& at : vertices) {
         if (!at.surface.has_lobes()) continue;
         const auto [dir, light] = sun.of(at);
-        float share = 1;
+        float share = at.sunlit;
         const float ni = dot(at.normal, dir);
         const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
         // Narrow lobes are better found by their own samples (Veach & Guibas, SIGGRAPH 95, balance
         // heuristic).
         if (frame.sun_is_disk && is_weighed(frame, at))
-            share = sun.disk_density() / (sun.disk_density() + brdf_density(at.surface, c));
+            share *= sun.disk_density() / (sun.disk_density() + brdf_density(at.surface, c));
         if (at.facets) {
             Scatterer surface = at.surface;
             surface.alpha = at.facet_alpha;

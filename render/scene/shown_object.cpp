@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/scene/flat_patches.h"
+#include "render/scene/mosaic_finder.h"
 #include "render/scene/triangle_order.h"
 
 namespace hilcam {
@@ -16,6 +17,9 @@ std::vector<Material> widened(std::vector<Material> materials, const std::vector
             materials[i].ggx_alpha = std::min(1.0f, std::hypot(materials[i].ggx_alpha, flattened_alpha[i]));
     return materials;
 }
+
+// Levels of smaller errors, over the object's size, have no mosaics: texels would be many.
+constexpr double kFinestMosaic = 1.0 / 16384;
 
 }  // namespace
 
@@ -54,12 +58,17 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         find_patches(object.mesh, *finest);
         out.levels.push_back(std::move(finest));
         out.error_m.push_back(0);
+        std::shared_ptr<const std::vector<Mosaic>> mosaics;
         for (MeshLevel& level : object.levels) {
             auto surfaces = std::make_shared<ObjectSurfaces>(
                 level.mesh, widened(object.materials, level.flattened_alpha), textures);
             surfaces->flattened_alpha = level.flattened_alpha;
             surfaces->facets = std::move(level.facets);
             find_patches(level.mesh, *surfaces);
+            if (!mosaics && level.error_m >= kFinestMosaic * 2 * surfaces->radius_m)
+                mosaics = std::make_shared<const std::vector<Mosaic>>(
+                    find_mosaics(level.mesh, *surfaces, level.error_m));
+            attach_mosaics(mosaics, level.mesh, level.error_m, *surfaces);
             out.levels.push_back(std::move(surfaces));
             out.error_m.push_back(level.error_m);
         }

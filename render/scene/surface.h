@@ -17,11 +17,14 @@
 
 namespace hilcam {
 
+class Mosaic;
+
 struct PackedTriangle {
     std::array<std::uint32_t, 3> corner_normals;  // meaningless when flat
     std::uint16_t surface;
-    std::uint8_t flat;   // 1: the mesh has no normals; use the geometric one
-    std::uint8_t patch;  // 1: it stands for others that go on in its plane (flat_patches.h)
+    std::uint8_t flat;  // 1: the mesh has no normals; use the geometric one
+    // 1: it stands for others that go on in its plane (flat_patches.h); 2 and more: for mosaic number 0 and on (mosaic.h).
+    std::uint8_t patch;
 };
 static_assert(sizeof(PackedTriangle) == 16);
 
@@ -54,7 +57,8 @@ struct ObjectSurfaces {
     // Least and greatest corner of each kClusterTriangles triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     std::vector<std::uint32_t> patches;  // by triangle the one that stands for it; empty: each for itself
-    double radius_m = 0;                 // radius of a sphere about the body's origin that holds the object
+    std::shared_ptr<const std::vector<Mosaic>> mosaics;  // those that triangles stand for; null: none does
+    double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 
     // Returns the factor on the base at barycentric (u, v) of a triangle; only where there are corner_colors.
     Vec3f color_at(std::size_t triangle, float u, float v) const {

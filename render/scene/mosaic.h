@@ -1,0 +1,84 @@
+#pragma once
+// Flat parts of a mesh on which parts of other surfaces lie, as distant cameras see them: the cells of a solar panel with their
+// bars, over the gaps between them; the tiles of a radiator over its paint.
+//
+// Gaps and bars are far thinner than a pixel long before a panel is. A sample meets one or passes it by, and the panel has a
+// moire. A mosaic is a picture of the panel instead, in which each texel knows what share of it each surface fills, by the areas
+// of the mesh's own triangles. A pixel asks for the shares in what it covers (a box filter, as the detector has it), and has a
+// vertex for each surface there with that weight: nothing is found by chance, and no gap is ever lost.
+//
+// The approximation: all of it lies in the plane of the highest part. Surfaces hide what is below them as from straight above, and
+// shade it as walls along the rectangle's sides would that are as far apart as gaps are wide; parts of one surface do not overlap.
+// The filter's sides fall off over a texel, a quarter of a pixel at most where there are such.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/scene/mosaic_sums.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+class Mosaic {
+  public:
+    static constexpr std::size_t kMaxLayers = MosaicTexels::kLayers;
+    // The most that triangles lean against the ground [rad]: 0.3 degrees.
+    static constexpr float kMostLean = 0.00524f;
+
+    // Its surfaces, from the ground upwards.
+    std::array<std::uint16_t, kMaxLayers> surface{};
+    std::size_t layers = 0;
+    // Body axes: the plane of its highest part, seen from the side to which normal = across x down points; a corner of the
+    // rectangle, the sides, unit, and their lengths.
+    Vec3f normal, corner_m, across, down;
+    float width_m = 0, height_m = 0;
+    float above_m = 0;  // how high that plane is above the ground
+    float upper_m = 0;  // how high what lies on the ground is, as a mean
+    float texel_m = 0;
+
+    // A pixel on it: where its middle is, and how far a step of a pixel goes [texels from the corner].
+    struct Footprint {
+        Vec2d middle;
+        Vec2f per_x, per_y;
+    };
+    // What is seen in the pixel.
+    struct Look {
+        std::array<float, kMaxLayers>
+            share{};  // of what there is of the mosaic; they add up to one, or are all zero
+        std::array<Vec2f, kMaxLayers> place{};  // the middle of each [px from the pixel's corner]
+        // How narrow the gaps are in which the ground is seen, along across and down: upper_m over their widths, as a mean.
+        Vec2f gap{};
+        // How the normal of what lies on the ground leans against the ground's, along across and down.
+        Vec2f lean{};
+    };
+    // Loop, any thread.
+    Look look(const Footprint& pixel) const;
+
+    // True when a triangle may be part of it: its surface is, and it lies in the rectangle, on the ground or upon it. Owner thread.
+    bool holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corners_m) const;
+    // True when there is anything of it at a place of its rectangle. Owner thread.
+    bool covers(Vec3d at_m) const;
+
+  private:
+    friend class MosaicPainter;
+    // Texels of one size, row by row in eights.
+    struct Level {
+        int columns = 0, rows = 0;
+        std::vector<MosaicTexels> texels;
+
+        std::size_t eights() const {
+            return (static_cast<std::size_t>(columns) + MosaicTexels::kLanes - 1) / MosaicTexels::kLanes;
+        }
+        std::size_t eight(int column, int row) const {
+            return static_cast<std::size_t>(row) * eights() +
+                   static_cast<std::size_t>(column) / MosaicTexels::kLanes;
+        }
+    };
+    std::vector<Level> levels_;  // each half as fine as the one before
+
+    bool find_window(const Footprint& pixel, std::size_t level, MosaicWindow& out) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,305 @@
+#include "render/scene/mosaic_finder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "render/scene/flat_patches.h"
+#include "render/scene/mosaic_painter.h"
+#include "render/scene/surface.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kMaxSeeds = 64;         // of the largest triangles, each with what lies in its plane
+constexpr std::size_t kMaxMosaics = 253;      // as many as a triangle can tell apart (PackedTriangle::patch)
+constexpr int kFinest = 768, kCoarsest = 16;  // texels along the longer side: at most, and at least
+constexpr double kMinFilled = 0.2;            // of the rectangle by the ground
+constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // of the ground, beside what lies on it
+constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
+
+struct FlatTriangle {
+    std::uint32_t number;
+    std::uint16_t surface;
+    Vec3d area;  // vector
+    double area_m2;
+};
+
+std::array<Vec3d, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    return {to_double(mesh.vertices_m[a]), to_double(mesh.vertices_m[b]), to_double(mesh.vertices_m[c])};
+}
+
+// Triangles that a mosaic may have, the largest first.
+std::vector<FlatTriangle> flat_triangles(const Mesh& mesh, const ObjectSurfaces& surfaces) {
+    std::vector<FlatTriangle> out;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const PackedTriangle& packed = surfaces.triangles[t];
+        const Material& material = surfaces.materials[packed.surface];
+        if (material.texture >= 0 || material.transmits()) continue;
+        if (!surfaces.facets.empty() && !surfaces.facets[t].is_flat()) continue;
+        const Vec3d area = area_vector(mesh, mesh.triangles[t]);
+        const double area_m2 = length(area);
+        if (!(area_m2 > 0)) continue;
+        const Vec3f normal = to_float(area / area_m2);
+        const bool curved =
+            !packed.flat && std::any_of(packed.corner_normals.begin(), packed.corner_normals.end(),
+                                        [&](std::uint32_t corner) {
+                                            return std::abs(dot(unpack_normal(corner), normal)) < kFlatCorner;
+                                        });
+        if (!curved) out.push_back({t, packed.surface, area, area_m2});
+    }
+    std::sort(out.begin(), out.end(), [](const FlatTriangle& a, const FlatTriangle& b) {
+        return a.area_m2 != b.area_m2 ? a.area_m2 > b.area_m2 : a.number < b.number;
+    });
+    return out;
+}
+
+class MosaicFinder {
+  public:
+    MosaicFinder(const Mesh& mesh, const ObjectSurfaces& surfaces, double error_m)
+        : mesh_(mesh),
+          error_m_(error_m),
+          rounding_m_(0x1p-20 * surfaces.radius_m),
+          flat_(flat_triangles(mesh, surfaces)),
+          used_(flat_.size()) {}
+
+    std::vector<Mosaic> find() {
+        std::vector<Mosaic> out;
+        std::size_t seeds = 0;
+        for (std::size_t s = 0; s < flat_.size() && seeds < kMaxSeeds && out.size() < kMaxMosaics; ++s) {
+            if (used_[s]) continue;
+            ++seeds;
+            Mosaic mosaic;
+            if (make(s, mosaic)) out.push_back(std::move(mosaic));
+        }
+        return out;
+    }
+
+  private:
+    const Mesh& mesh_;
+    double error_m_, rounding_m_;
+    std::vector<FlatTriangle> flat_;
+    std::vector<std::uint8_t> used_;  // in a mosaic, or looked at as ground
+
+    std::array<Vec3d, 3> corners(std::size_t i) const { return corners_of(mesh_, flat_[i].number); }
+
+    bool make(std::size_t seed, Mosaic& out) {
+        const std::vector<std::size_t> ground = ground_about(seed);
+        for (const std::size_t i : ground) used_[i] = 1;
+        if (!lay_out(seed, ground, out)) return false;
+        for (const double side : {1.0, -1.0}) {
+            if (side < 0) out.down = -out.down, out.normal = -out.normal, place_corner(ground, out);
+            const std::vector<std::size_t> upon = upon_ground(out);
+            if (upon.empty()) continue;
+            return paint(ground, upon, out);
+        }
+        return false;
+    }
+
+    // What goes on from the seed in its plane, by common corners.
+    std::vector<std::size_t> ground_about(std::size_t seed) const {
+        const Vec3d normal = flat_[seed].area / flat_[seed].area_m2, at = corners(seed)[0];
+        std::vector<std::size_t> all;
+        for (std::size_t i = 0; i < flat_.size(); ++i) {
+            if (used_[i] || flat_[i].surface != flat_[seed].surface) continue;
+            const auto three = corners(i);
+            if (std::all_of(three.begin(), three.end(),
+                            [&](Vec3d c) { return std::abs(dot(c - at, normal)) <= rounding_m_; }))
+                all.push_back(i);
+        }
+        std::map<std::tuple<double, double, double>, std::vector<std::size_t>> at_place;
+        for (const std::size_t i : all)
+            for (const Vec3d c : corners(i)) at_place[{c.x, c.y, c.z}].push_back(i);
+        std::vector<std::size_t> out{seed};
+        std::vector<std::uint8_t> taken(flat_.size());
+        taken[seed] = 1;
+        for (std::size_t next = 0; next < out.size(); ++next)
+            for (const Vec3d c : corners(out[next]))
+                for (const std::size_t i : at_place[{c.x, c.y, c.z}])
+                    if (!std::exchange(taken[i], 1)) out.push_back(i);
+        return out;
+    }
+
+    // The rectangle lies along that one of the longest edges of the ground's border with which it is smallest.
+    bool lay_out(std::size_t seed, const std::vector<std::size_t>& ground, Mosaic& out) const {
+        constexpr std::size_t kMostEdges = 64;
+        const Vec3d normal = flat_[seed].area / flat_[seed].area_m2;
+        out.normal = to_float(normal);
+        out.surface[0] = flat_[seed].surface, out.layers = 1;
+        double area_m2 = 0;
+        for (const std::size_t i : ground) area_m2 += flat_[i].area_m2;
+        std::vector<Vec3d> edges = border(ground);
+        std::stable_sort(edges.begin(), edges.end(), [](Vec3d a, Vec3d b) { return dot(a, a) > dot(b, b); });
+        edges.resize(std::min(edges.size(), kMostEdges));
+        if (edges.empty()) return false;  // what goes round has no border
+        double least_m2 = std::numeric_limits<double>::infinity();
+        Vec3f across;
+        for (const Vec3d edge : edges) {
+            lie_along(edge, normal, ground, out);
+            const double whole_m2 = static_cast<double>(out.width_m) * static_cast<double>(out.height_m);
+            if (whole_m2 < least_m2) least_m2 = whole_m2, across = out.across;
+        }
+        lie_along(to_double(across), normal, ground, out);
+        const double longer_m = static_cast<double>(std::max(out.width_m, out.height_m));
+        out.texel_m = static_cast<float>(std::max(error_m_, longer_m / kFinest));
+        return area_m2 > kMinFilled * least_m2 && longer_m > kCoarsest * static_cast<double>(out.texel_m);
+    }
+    // Edges that one triangle has.
+    std::vector<Vec3d> border(const std::vector<std::size_t>& ground) const {
+        using Place = std::tuple<double, double, double>;
+        std::map<std::pair<Place, Place>, int> found;
+        const auto place = [](Vec3d at) { return Place{at.x, at.y, at.z}; };
+        for (const std::size_t i : ground) {
+            const auto three = corners(i);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Place a = place(three[k]), b = place(three[(k + 1) % 3]);
+                ++found[{std::min(a, b), std::max(a, b)}];
+            }
+        }
+        std::vector<Vec3d> out;
+        for (const auto& [ends, triangles] : found) {
+            const auto& [ax, ay, az] = ends.first;
+            const auto& [bx, by, bz] = ends.second;
+            if (triangles == 1) out.push_back({bx - ax, by - ay, bz - az});
+        }
+        return out;
+    }
+    void lie_along(Vec3d edge, Vec3d normal, const std::vector<std::size_t>& ground, Mosaic& out) const {
+        out.across = to_float(normalized(edge - dot(edge, normal) * normal));
+        out.down = to_float(cross(normal, to_double(out.across)));
+        place_corner(ground, out);
+    }
+    void place_corner(const std::vector<std::size_t>& ground, Mosaic& out) const {
+        constexpr double kFar = std::numeric_limits<double>::infinity();
+        double x0 = kFar, y0 = kFar, x1 = -kFar, y1 = -kFar;
+        const Vec3d first = corners(ground.front())[0], across = to_double(out.across),
+                    down = to_double(out.down);
+        for (const std::size_t i : ground)
+            for (const Vec3d c : corners(i)) {
+                const double x = dot(c - first, across), y = dot(c - first, down);
+                x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+            }
+        out.corner_m = to_float(first + x0 * across + y0 * down);
+        out.width_m = static_cast<float>(x1 - x0), out.height_m = static_cast<float>(y1 - y0);
+    }
+
+    // Triangles of other surfaces that lie in the ground's rectangle, less than a texel high.
+    std::vector<std::size_t> upon_ground(const Mosaic& ground) const {
+        Mosaic space = ground;
+        const Vec3d up = to_double(ground.normal);
+        space.above_m = ground.texel_m;
+        space.corner_m = to_float(to_double(ground.corner_m) + static_cast<double>(space.above_m) * up);
+        std::vector<std::size_t> out;
+        for (std::size_t i = 0; i < flat_.size(); ++i) {
+            if (used_[i] || flat_[i].surface == ground.surface[0]) continue;
+            space.surface[0] = flat_[i].surface;
+            const auto three = corners(i);
+            if (!space.holds(flat_[i].surface, three)) continue;
+            const double height_m = dot(three[0] - to_double(ground.corner_m), up);
+            if (height_m > 2 * rounding_m_) out.push_back(i);
+        }
+        return out;
+    }
+
+    bool paint(const std::vector<std::size_t>& ground, const std::vector<std::size_t>& upon, Mosaic& out) {
+        struct Layer {
+            std::uint16_t surface;
+            double area_m2 = 0, height_m3 = 0;
+        };
+        std::map<std::uint16_t, Layer> found;
+        const Vec3d base = to_double(out.corner_m), up = to_double(out.normal);
+        for (const std::size_t i : upon) {
+            Layer& layer = found[flat_[i].surface];
+            layer.surface = flat_[i].surface;
+            layer.area_m2 += flat_[i].area_m2;
+            for (const Vec3d c : corners(i)) layer.height_m3 += flat_[i].area_m2 / 3 * dot(c - base, up);
+        }
+        std::vector<Layer> layers;
+        for (const auto& [surface, layer] : found) layers.push_back(layer);
+        std::sort(layers.begin(), layers.end(),
+                  [](const Layer& a, const Layer& b) { return a.area_m2 > b.area_m2; });
+        layers.resize(std::min(layers.size(), Mosaic::kMaxLayers - 1));
+        std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) {
+            return a.height_m3 / a.area_m2 < b.height_m3 / b.area_m2;
+        });
+        for (const Layer& layer : layers) out.surface[out.layers++] = layer.surface;
+        const auto layer_of = [&](std::size_t i) {
+            return static_cast<std::size_t>(
+                std::find(out.surface.begin(), out.surface.begin() + out.layers, flat_[i].surface) -
+                out.surface.begin());
+        };
+        double top_m = 0;
+        MosaicPainter painter(out);
+        for (const std::size_t i : ground) painter.add(0, corners(i));
+        for (const std::size_t i : upon) {
+            const std::size_t layer = layer_of(i);
+            if (layer == out.layers) continue;
+            painter.add(layer, corners(i));
+            for (const Vec3d c : corners(i)) top_m = std::max(top_m, dot(c - base, up));
+        }
+        double area_m2 = 0, height_m3 = 0;
+        for (const Layer& layer : layers) area_m2 += layer.area_m2, height_m3 += layer.height_m3;
+        out.upper_m = static_cast<float>(height_m3 / area_m2);
+        const double seen = painter.finish();
+        if (seen < kMinSeen || seen > kMaxSeen) return false;
+        for (const std::size_t i : upon)
+            if (const auto c = corners(i);
+                layer_of(i) < out.layers && out.covers((1.0 / 3) * (c[0] + c[1] + c[2])))
+                used_[i] = 1;
+        out.above_m = static_cast<float>(top_m);
+        out.corner_m = to_float(base + top_m * up);
+        return true;
+    }
+};
+
+}  // namespace
+
+std::vector<Mosaic> find_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces, double error_m) {
+    if (!mesh.colors.empty() || !mesh.hapke.empty()) return {};
+    return MosaicFinder(mesh, surfaces, error_m).find();
+}
+
+void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, const Mesh& mesh,
+                    double error_m, ObjectSurfaces& surfaces) {
+    if (!mosaics || mosaics->empty()) return;
+    const std::vector<FlatTriangle> flat = flat_triangles(mesh, surfaces);
+    for (std::size_t m = 0; m < mosaics->size(); ++m) {
+        const Mosaic& mosaic = (*mosaics)[m];
+        if (1.001 * error_m < static_cast<double>(mosaic.texel_m)) continue;
+        std::vector<std::uint32_t> parts;
+        const FlatTriangle* ground = nullptr;
+        for (const FlatTriangle& t : flat) {
+            const auto three = corners_of(mesh, t.number);
+            if (!mosaic.holds(t.surface, three)) continue;
+            if (!mosaic.covers((1.0 / 3) * (three[0] + three[1] + three[2]))) continue;
+            parts.push_back(t.number);
+            if (!ground && t.surface == mosaic.surface[0]) ground = &t;
+        }
+        // Places are found from the ground's triangle by its edges.
+        if (!ground) continue;
+        const auto c = corners_of(mesh, ground->number);
+        const double edge_m =
+            ground->area_m2 / std::max({length(c[1] - c[0]), length(c[2] - c[1]), length(c[0] - c[2])});
+        if (edge_m * static_cast<double>(kPatchReach) <
+            2 * std::hypot(static_cast<double>(mosaic.width_m), static_cast<double>(mosaic.height_m)))
+            continue;
+        if (surfaces.patches.empty()) {
+            surfaces.patches.resize(mesh.triangles.size());
+            std::iota(surfaces.patches.begin(), surfaces.patches.end(), 0u);
+        }
+        // Who goes on in the ground's plane beside the mosaic is by himself.
+        for (std::uint32_t t = 0; t < surfaces.patches.size(); ++t)
+            if (surfaces.patches[t] == ground->number) surfaces.patches[t] = t;
+        for (const std::uint32_t t : parts) surfaces.patches[t] = ground->number;
+        surfaces.triangles[ground->number].patch = static_cast<std::uint8_t>(m + 2);
+        surfaces.mosaics = mosaics;
+    }
+}
+
+}  // namespace hilcam

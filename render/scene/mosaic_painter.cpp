@@ -1,0 +1,226 @@
+#include "render/scene/mosaic_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hilcam {
+namespace {
+
+int texel(double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1); }
+
+// A convex shape with a few corners [texels].
+struct Shape {
+    std::array<Vec2d, 8> corner;
+    std::size_t count = 0;
+
+    // The part for which depth(corner), linear, is not below zero (Sutherland & Hodgman, CACM 17(1), 1974).
+    template <class Depth>
+    Shape cut(const Depth& depth) const {
+        Shape out;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec2d a = corner[i], b = corner[(i + 1) % count];
+            const double in_a = depth(a), in_b = depth(b);
+            if (in_a >= 0) out.corner[out.count++] = a;
+            if ((in_a < 0) == (in_b < 0)) continue;
+            const double t = in_a / (in_a - in_b);
+            out.corner[out.count++] = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+        }
+        return out;
+    }
+    double area() const {
+        double twice = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            twice += corner[i].x * corner[(i + 1) % count].y - corner[(i + 1) % count].x * corner[i].y;
+        return std::abs(twice) / 2;
+    }
+    // Least and greatest of a coordinate.
+    template <class Of>
+    std::pair<double, double> extent(const Of& of) const {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (std::size_t i = 0; i < count; ++i)
+            least = std::min(least, of(corner[i])), most = std::max(most, of(corner[i]));
+        return {least, most};
+    }
+};
+
+}  // namespace
+
+MosaicPainter::MosaicPainter(Mosaic& mosaic)
+    : mosaic_(mosaic),
+      columns_(std::max(1, static_cast<int>(std::ceil(mosaic.width_m / mosaic.texel_m)))),
+      rows_(std::max(1, static_cast<int>(std::ceil(mosaic.height_m / mosaic.texel_m)))) {
+    const std::size_t count = at(0, rows_);
+    for (std::size_t k = 0; k < mosaic.layers; ++k) covered_[k].resize(count);
+    for (std::size_t axis = 0; axis < 2; ++axis) lean_[axis].resize(count), gap_[axis].resize(count);
+}
+
+void MosaicPainter::add(std::size_t layer, const std::array<Vec3d, 3>& corners) {
+    const Vec3d across = to_double(mosaic_.across), down = to_double(mosaic_.down);
+    std::array<Vec2d, 3> triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d from =
+            (1 / static_cast<double>(mosaic_.texel_m)) * (corners[i] - to_double(mosaic_.corner_m));
+        triangle[i] = {dot(from, across), dot(from, down)};
+    }
+    Vec3d normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    if (dot(normal, to_double(mosaic_.normal)) < 0) normal = -normal;
+    if (layer > 0) upper_.push_back(triangle);
+    fill(layer, triangle, {static_cast<float>(dot(normal, across)), static_cast<float>(dot(normal, down))});
+}
+
+void MosaicPainter::fill(std::size_t layer, const std::array<Vec2d, 3>& triangle, Vec2f lean) {
+    Shape whole;
+    std::copy(triangle.begin(), triangle.end(), whole.corner.begin()), whole.count = 3;
+    const auto [top, bottom] = whole.extent([](Vec2d p) { return p.y; });
+    for (int y = texel(top, rows_); y <= texel(bottom, rows_); ++y) {
+        const Shape row =
+            whole.cut([&](Vec2d p) { return p.y - y; }).cut([&](Vec2d p) { return y + 1 - p.y; });
+        if (row.count < 3) continue;
+        const auto [left, right] = row.extent([](Vec2d p) { return p.x; });
+        for (int x = texel(left, columns_); x <= texel(right, columns_); ++x) {
+            const Shape part =
+                row.cut([&](Vec2d p) { return p.x - x; }).cut([&](Vec2d p) { return x + 1 - p.x; });
+            const auto area = static_cast<float>(part.area());
+            covered_[layer][at(x, y)] += area;
+            if (layer > 0) lean_[0][at(x, y)] += area * lean.x, lean_[1][at(x, y)] += area * lean.y;
+        }
+    }
+}
+
+double MosaicPainter::finish() {
+    const double seen = hide_lower();
+    find_gaps();
+    for (;;) {
+        pack();
+        if (columns_ == 1 && rows_ == 1) return seen;
+        halve();
+    }
+}
+
+// Takes from each layer what those above it cover. Returns the share of the ground that is left.
+double MosaicPainter::hide_lower() {
+    double ground = 0, left = 0;
+    for (std::size_t t = 0; t < covered_[0].size(); ++t) {
+        const float whole = std::min(covered_[0][t], 1.0f);
+        float open = whole, upper = 0;
+        for (std::size_t k = mosaic_.layers; k-- > 0;) {
+            if (k > 0) upper += covered_[k][t];
+            // What lies on it lies on what it covers, as far as there is enough of that.
+            covered_[k][t] = std::clamp(std::min(covered_[k][t], 1.0f) - (whole - open), 0.0f, open);
+            open -= covered_[k][t];
+        }
+        const float seen_upper = whole - covered_[0][t];
+        for (std::vector<float>& lean : lean_) lean[t] *= upper > 0 ? seen_upper / upper : 0.0f;
+        ground += static_cast<double>(whole), left += static_cast<double>(covered_[0][t]);
+    }
+    return ground > 0 ? left / ground : 0;
+}
+
+// By lines, as lengths of what upper triangles leave free.
+void MosaicPainter::find_gaps() {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        std::vector<float> open(gap_[axis].size());
+        const int texels = axis == 0 ? columns_ : rows_;
+        const int lines = kLinesEach * (axis == 0 ? rows_ : columns_);
+        const std::vector<Parts> covered = covered_parts(axis, lines);
+        const auto take = [&](int line, double from, double until, bool at_end) {
+            // At the end nothing shades it from one side.
+            const double width_m = (at_end ? 2 : 1) * (until - from) * static_cast<double>(mosaic_.texel_m);
+            const auto narrow =
+                static_cast<float>(std::min(1.0, static_cast<double>(mosaic_.upper_m) / width_m));
+            for (int i = texel(from, texels); i <= texel(until, texels); ++i) {
+                const auto part =
+                    static_cast<float>(std::min(until, i + 1.0) - std::max(from, static_cast<double>(i)));
+                const std::size_t there = axis == 0 ? at(i, line / kLinesEach) : at(line / kLinesEach, i);
+                if (part > 0) open[there] += part, gap_[axis][there] += part * narrow;
+            }
+        };
+        for (int line = 0; line < lines; ++line) {
+            double from = 0;
+            for (const auto& [begin, end] : covered[static_cast<std::size_t>(line)]) {
+                if (begin > from) take(line, from, begin, from <= 0);
+                from = std::max(from, end);
+            }
+            if (texels > from) take(line, from, texels, true);
+        }
+        for (std::size_t t = 0; t < open.size(); ++t)
+            gap_[axis][t] = open[t] > 0 ? covered_[0][t] * gap_[axis][t] / open[t] : 0.0f;
+    }
+}
+
+// The parts of lines along an axis that upper triangles cover, in order.
+std::vector<MosaicPainter::Parts> MosaicPainter::covered_parts(std::size_t axis, int lines) const {
+    std::vector<Parts> out(static_cast<std::size_t>(lines));
+    const auto along = [&](Vec2d p) { return axis == 0 ? p.x : p.y; };
+    const auto beside = [&](Vec2d p) { return axis == 0 ? p.y : p.x; };
+    for (const std::array<Vec2d, 3>& p : upper_) {
+        const auto [low, high] = std::minmax({beside(p[0]), beside(p[1]), beside(p[2])});
+        const int first = std::max(0, static_cast<int>(std::ceil(low * kLinesEach - 0.5))),
+                  last = std::min(lines - 1, static_cast<int>(std::floor(high * kLinesEach - 0.5)));
+        for (int line = first; line <= last; ++line) {
+            const double at = (line + 0.5) / kLinesEach;
+            double from = std::numeric_limits<double>::infinity(), until = -from;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec2d a = p[k], b = p[(k + 1) % 3];
+                const double below = beside(a) - at, above = beside(b) - at;
+                if (below * above > 0 || below == above) continue;
+                const double place = along(a) + below / (below - above) * (along(b) - along(a));
+                from = std::min(from, place), until = std::max(until, place);
+            }
+            if (until > from) out[static_cast<std::size_t>(line)].emplace_back(from, until);
+        }
+    }
+    for (Parts& line : out) std::sort(line.begin(), line.end());
+    return out;
+}
+
+void MosaicPainter::pack() {
+    Mosaic::Level& level = mosaic_.levels_.emplace_back();
+    level.columns = columns_, level.rows = rows_;
+    level.texels.resize(level.eights() * static_cast<std::size_t>(rows_));
+    const auto byte = [](float share) {
+        return static_cast<std::uint8_t>(std::clamp(255 * share + 0.5f, 0.0f, 255.0f));
+    };
+    for (int y = 0; y < rows_; ++y)
+        for (int x = 0; x < columns_; ++x) {
+            MosaicTexels& to = level.texels[level.eight(x, y)];
+            const std::size_t lane = static_cast<std::size_t>(x) % MosaicTexels::kLanes, t = at(x, y);
+            // Rounded so that their sum is.
+            float sum = 0;
+            int given = 0;
+            for (std::size_t k = 0; k < mosaic_.layers; ++k) {
+                sum += covered_[k][t];
+                const int part = byte(sum) - given;
+                to.share[k][lane] = static_cast<std::uint8_t>(std::max(part, 0));
+                given += part;
+            }
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                const float lean = std::clamp(lean_[axis][t] / Mosaic::kMostLean, -1.0f, 1.0f);
+                to.lean[axis][lane] =
+                    static_cast<std::uint8_t>(static_cast<std::int8_t>(std::lround(127 * lean)));
+                to.gap[axis][lane] = byte(gap_[axis][t]);
+            }
+        }
+}
+
+// The means of four texels, in place: what is written has been read.
+void MosaicPainter::halve() {
+    const int columns = (columns_ + 1) / 2, rows = (rows_ + 1) / 2;
+    const auto halve_one = [&](std::vector<float>& of) {
+        if (of.empty()) return;
+        std::size_t to = 0;
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x, ++to) {
+                float sum = 0;
+                for (int j = 2 * y; j < std::min(2 * y + 2, rows_); ++j)
+                    for (int i = 2 * x; i < std::min(2 * x + 2, columns_); ++i) sum += of[at(i, j)];
+                of[to] = 0.25f * sum;
+            }
+    };
+    for (std::vector<float>& layer : covered_) halve_one(layer);
+    for (std::size_t axis = 0; axis < 2; ++axis) halve_one(lean_[axis]), halve_one(gap_[axis]);
+    columns_ = columns, rows_ = rows;
+}
+
+}  // namespace hilcam

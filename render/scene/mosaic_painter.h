@@ -1,0 +1,45 @@
+#pragma once
+// Makes the texels of a mosaic (mosaic.h) of triangles.
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "render/scene/mosaic.h"
+
+namespace hilcam {
+
+// Owner thread.
+class MosaicPainter {
+  public:
+    // The mosaic's rectangle, texel_m and layers are known; its corner is the ground's.
+    explicit MosaicPainter(Mosaic& mosaic);
+
+    // Adds a triangle of a layer, by the area of each texel that it fills.
+    void add(std::size_t layer, const std::array<Vec3d, 3>& corners_m);
+    // Ends that. Returns the share of the ground that is seen.
+    double finish();
+
+  private:
+    static constexpr int kLinesEach = 2;  // lines through each row of texels, along which gaps are measured
+    Mosaic& mosaic_;
+    int columns_, rows_;
+    std::array<std::vector<float>, Mosaic::kMaxLayers> covered_;  // by texel: the share that a layer fills
+    // By texel: how what lies on the ground leans, and how narrow gaps are, along both sides, times the shares of those.
+    std::array<std::vector<float>, 2> lean_, gap_;
+    std::vector<std::array<Vec2d, 3>> upper_;  // triangles above the ground [texels]
+
+    using Parts = std::vector<std::pair<double, double>>;  // of a line [texels]
+    std::size_t at(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column);
+    }
+    void fill(std::size_t layer, const std::array<Vec2d, 3>& triangle, Vec2f lean);
+    double hide_lower();
+    void find_gaps();
+    std::vector<Parts> covered_parts(std::size_t axis, int lines) const;
+    void pack();
+    void halve();
+};
+
+}  // namespace hilcam

@@ -1,0 +1,41 @@
+#pragma once
+// Sums over the texels of a mosaic (mosaic.h) about a pixel, eight texels of a row at a time. Compiled for several widths of
+// vectors that give the same results.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace hilcam {
+
+// Texels side by side: a cache line.
+struct alignas(64) MosaicTexels {
+    static constexpr std::size_t kLanes = 8, kLayers = 4;
+    using Bytes = std::array<std::uint8_t, kLanes>;
+    std::array<Bytes, kLayers> share;  // what each layer fills; 255: all of the texel
+    // By the share of what lies on the ground, how it leans along both sides: signed, 127 is Mosaic::kMostLean.
+    std::array<Bytes, 2> lean;
+    // By the share of the ground, how narrow the gaps are in which it is seen: 255 where they are as wide as Mosaic::upper_m.
+    std::array<Bytes, 2> gap;
+};
+static_assert(sizeof(MosaicTexels) == 64);
+
+// Eights of texels with their places in the pixel [px from its corner].
+struct MosaicWindow {
+    static constexpr std::size_t kMost = 256;
+    std::array<const MosaicTexels*, kMost> texels;
+    std::array<float, kMost> x, y;  // of the first of each
+    std::size_t count = 0;
+    float x_step = 0, y_step = 0;  // from each to the next
+    // Sides fall off over the width that a texel has there, so that pixels side by side add up to one: that, inverse.
+    float x_fall = 0, y_fall = 0;
+};
+struct MosaicSums {
+    std::array<float, MosaicTexels::kLayers> share{};
+    std::array<float, MosaicTexels::kLayers> x{}, y{};  // of shares times their places
+    std::array<float, 2> lean{}, gap{};
+};
+// layers: the first ones, which are asked for. Loop, any thread.
+MosaicSums sums_of(const MosaicWindow& window, std::size_t layers);
+
+}  // namespace hilcam
