@@ -18,7 +18,7 @@ namespace {
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
 // A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel.
-constexpr float kFlattest = 0.05f, kLeastShare = 0.002f;
+constexpr float kFlattest = 1e-4f, kLeastShare = 0.002f;
 
 // The halves of light whose middle is `off_px` from that of light with these halves.
 HalfShares moved(const HalfShares& from, Vec2f off_px) {
@@ -208,13 +208,17 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
             continue;
         const ObjectSurfaces& surfaces = *(*frame.objects)[hits_.object[k]];
         const std::uint8_t patch = surfaces.triangles[hits_.triangle[k]].patch;
-        if (patch > 1) {
+        const Mosaic* mosaic = patch > 1 ? &(*surfaces.mosaics)[patch - 2u] : nullptr;
+        const float facing =
+            mosaic ? dot(frame.world_from_body[hits_.object[k]] * mosaic->normal, lie.view_dir) : 0.0f;
+        if (facing > kFlattest) {
             const std::size_t before = count;
-            count = make_mosaic((*surfaces.mosaics)[patch - 2u], k, lie, vertices, count);
+            count = make_mosaic(*mosaic, k, lie, vertices, count);
             if (count > before) continue;
         }
-        Vertex* const joined = join(vertices.first(count), fragment.pixel, hits_.object[k],
-                                    triangles[hits_.triangle[k]].surface, lie);
+        Vertex* const joined = mosaic ? nullptr
+                                      : join(vertices.first(count), fragment.pixel, hits_.object[k],
+                                             triangles[hits_.triangle[k]].surface, lie);
         if (joined) {
             const Vec3f start_m =
                 origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
@@ -231,6 +235,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         Vertex& vertex = vertices[count++];
         make_vertex(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
                     {pixel_rad * from_m, pixel_rad}, vertex);
+        // Seen from its edge, what lies on the ground hides it.
+        if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
         finish(k, samples, frame.samples.halves(fragment.samples), vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
                          hits_.triangle[k], true, vertex);
@@ -256,14 +262,13 @@ void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Ve
 }
 
 // One vertex for each surface of a mosaic that is in a pixel, with its part of what the samples see. Returns how
-// many vertices there are then; as many as before where the mosaic is not seen from above.
+// many vertices there are then.
 std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, const Lie& lie,
                                          std::span<Vertex> vertices, std::size_t count) {
     const FrameView& frame = tile_.frame;
     const Fragment& fragment = fragments_[k];
     const Mat3f& axes = frame.world_from_body[hits_.object[k]];
     const Vec3f normal = axes * mosaic.normal, across = axes * mosaic.across, down = axes * mosaic.down;
-    if (dot(normal, lie.view_dir) < kFlattest) return count;
     const PixelRays pixel = rays_of(fragment);
     const Vec3d up = to_double(normal);
     const Vec3d corner_m = to_double(axes * mosaic.corner_m) - to_double(packet_.origin.at(k)) +
@@ -284,13 +289,13 @@ std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, co
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
     const auto from_m = static_cast<float>(frame.way_to_start_m());
     const Vec3f sun = to_float(frame.background->sun_world_dir());
-    const auto lit_along = [&](Vec3f axis, float narrow) {
-        // Where a ray to the Sun passes what lies on the ground, from where it is seen through.
-        const float moved = dot(sun, axis) / std::max(dot(sun, normal), 1e-3f) -
-                            dot(lie.view_dir, axis) / dot(lie.view_dir, normal);
-        return std::max(0.0f, 1 - narrow * std::abs(moved));
+    // How far rays go along the sides while they rise by one.
+    const auto slopes = [&](Vec3f dir) {
+        const float per_rise = 1 / std::max(dot(dir, normal), 1e-3f);
+        return Vec2f{per_rise * dot(dir, across), per_rise * dot(dir, down)};
     };
-    const float sunlit = lit_along(across, look.gap.x) * lit_along(down, look.gap.y);
+    const Vec2f to_sun = slopes(sun), to_viewer = slopes(lie.view_dir);
+    const float sunlit = Mosaic::sunlit(look, {to_sun.x - to_viewer.x, to_sun.y - to_viewer.y});
     float shown = 0;
     Vec2f middle_px{};
     for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {

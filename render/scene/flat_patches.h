@@ -8,6 +8,7 @@
 // the plane goes on.
 
 #include <cstddef>
+#include <cstdint>
 
 #include "render/vocabulary/mesh.h"
 
@@ -17,6 +18,9 @@ struct ObjectSurfaces;
 
 // Corners of a patch lie no farther from the first corner of what stands for it than so many of its edges.
 inline constexpr float kPatchReach = 64;
+
+// In ObjectSurfaces::patches: the camera sees this triangle as part of what lies below it (mosaic.h).
+inline constexpr std::uint32_t kNotShown = ~std::uint32_t{0};
 
 // Writes ObjectSurfaces::patches and the marks of those that stand for others, after the facets of a level. The same for any
 // number of threads. mesh: that of which the surfaces were made. Owner thread; some tenths of a second for a million triangles.

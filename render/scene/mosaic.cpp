@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-constexpr float kSharp_px = 0.25f;  // texels are no longer than this, where there are such
+constexpr float kSharp_px = 0.35f;  // texels are no longer than this, where there are such
 
 // Steps of a pixel as seen from texels of a size [px per texel]; none where it is seen from its edge.
 struct PixelSteps {
@@ -101,7 +101,8 @@ Mosaic::Look Mosaic::look(const Footprint& pixel) const {
         out.share[k] = sums.share[k] / all;
         out.place[k] = {sums.x[k] / sums.share[k], sums.y[k] / sums.share[k]};
     }
-    if (sums.share[0] > 0) out.gap = {sums.gap[0] / sums.share[0], sums.gap[1] / sums.share[0]};
+    if (const float ground = sums.share[0]; ground > 0)
+        out.gap = {sums.gap[0] / ground, sums.gap[1] / ground}, out.down = std::min(1.0f, sums.down / ground);
     const float upon = all - sums.share[0], lean = kMostLean * 255 / 127;
     if (upon > 0) out.lean = {lean * sums.lean[0] / upon, lean * sums.lean[1] / upon};
     return out;

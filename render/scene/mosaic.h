@@ -8,10 +8,12 @@
 // vertex for each surface there with that weight: nothing is found by chance, and no gap is ever lost.
 //
 // The approximation: all of it lies in the plane of the highest part. Surfaces hide what is below them as from straight above, and
-// shade it as walls along the rectangle's sides would that are as far apart as gaps are wide; parts of one surface do not overlap.
-// The filter's sides fall off over a texel, a quarter of a pixel at most where there are such.
+// shade it as long walls along the rectangle's sides would that are as far apart as gaps are wide; parts of one surface do not overlap.
+// The filter's sides fall off over a texel, a third of a pixel at most where there are such.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -48,13 +50,22 @@ class Mosaic {
         std::array<float, kMaxLayers>
             share{};  // of what there is of the mosaic; they add up to one, or are all zero
         std::array<Vec2f, kMaxLayers> place{};  // the middle of each [px from the pixel's corner]
-        // How narrow the gaps are in which the ground is seen, along across and down: upper_m over their widths, as a mean.
+        // How narrow the gaps are in which the ground is seen, those that run down and those that run across: upper_m over their
+        // widths, and the share of the former.
         Vec2f gap{};
+        float down = 0;
         // How the normal of what lies on the ground leans against the ground's, along across and down.
         Vec2f lean{};
     };
     // Loop, any thread.
     Look look(const Footprint& pixel) const;
+
+    // Returns the share of the ground that is seen there which is not shaded by what lies on it. way: how far a ray to the Sun goes
+    // along across and down while it rises by one, less what one to the viewer goes. Loop, any thread.
+    static float sunlit(const Look& look, Vec2f way) {
+        return std::max(0.0f, look.down - look.gap.x * std::abs(way.x)) +
+               std::max(0.0f, 1 - look.down - look.gap.y * std::abs(way.y));
+    }
 
     // True when a triangle may be part of it: its surface is, and it lies in the rectangle, on the ground or upon it. Owner thread.
     bool holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corners_m) const;

@@ -272,13 +272,13 @@ void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, c
     for (std::size_t m = 0; m < mosaics->size(); ++m) {
         const Mosaic& mosaic = (*mosaics)[m];
         if (1.001 * error_m < static_cast<double>(mosaic.texel_m)) continue;
-        std::vector<std::uint32_t> parts;
+        std::vector<const FlatTriangle*> parts;
         const FlatTriangle* ground = nullptr;
         for (const FlatTriangle& t : flat) {
             const auto three = corners_of(mesh, t.number);
             if (!mosaic.holds(t.surface, three)) continue;
             if (!mosaic.covers((1.0 / 3) * (three[0] + three[1] + three[2]))) continue;
-            parts.push_back(t.number);
+            parts.push_back(&t);
             if (!ground && t.surface == mosaic.surface[0]) ground = &t;
         }
         // Places are found from the ground's triangle by its edges.
@@ -296,7 +296,8 @@ void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, c
         // Who goes on in the ground's plane beside the mosaic is by himself.
         for (std::uint32_t t = 0; t < surfaces.patches.size(); ++t)
             if (surfaces.patches[t] == ground->number) surfaces.patches[t] = t;
-        for (const std::uint32_t t : parts) surfaces.patches[t] = ground->number;
+        for (const FlatTriangle* part : parts)
+            surfaces.patches[part->number] = part->surface == mosaic.surface[0] ? ground->number : kNotShown;
         surfaces.triangles[ground->number].patch = static_cast<std::uint8_t>(m + 2);
         surfaces.mosaics = mosaics;
     }

@@ -19,7 +19,7 @@ struct ObjectSurfaces;
 std::vector<Mosaic> find_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces, double error_m);
 
 // In a level of detail, the ground's largest triangle stands for all of a mosaic (ObjectSurfaces::patches), where its texels are
-// no coarser than the level's error. After find_patches(). Owner thread.
+// no coarser than the level's error, and what lies on the ground is not shown by itself. After find_patches(). Owner thread.
 void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, const Mesh& mesh,
                     double error_m, ObjectSurfaces& surfaces);
 

@@ -7,6 +7,9 @@
 namespace hilcam {
 namespace {
 
+// A gap runs along the side on which it is free for so many times longer.
+constexpr float kClear = 2;
+
 int texel(double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1); }
 
 // A convex shape with a few corners [texels].
@@ -53,6 +56,7 @@ MosaicPainter::MosaicPainter(Mosaic& mosaic)
     const std::size_t count = at(0, rows_);
     for (std::size_t k = 0; k < mosaic.layers; ++k) covered_[k].resize(count);
     for (std::size_t axis = 0; axis < 2; ++axis) lean_[axis].resize(count), gap_[axis].resize(count);
+    down_.resize(count);
 }
 
 void MosaicPainter::add(std::size_t layer, const std::array<Vec3d, 3>& corners) {
@@ -117,36 +121,69 @@ double MosaicPainter::hide_lower() {
     return ground > 0 ? left / ground : 0;
 }
 
-// By lines, as lengths of what upper triangles leave free.
+// Where gaps cross, lines along both sides are free for long: there the gaps are as narrow as beside.
 void MosaicPainter::find_gaps() {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        std::vector<float> open(gap_[axis].size());
-        const int texels = axis == 0 ? columns_ : rows_;
-        const int lines = kLinesEach * (axis == 0 ? rows_ : columns_);
-        const std::vector<Parts> covered = covered_parts(axis, lines);
-        const auto take = [&](int line, double from, double until, bool at_end) {
-            // At the end nothing shades it from one side.
-            const double width_m = (at_end ? 2 : 1) * (until - from) * static_cast<double>(mosaic_.texel_m);
-            const auto narrow =
-                static_cast<float>(std::min(1.0, static_cast<double>(mosaic_.upper_m) / width_m));
-            for (int i = texel(from, texels); i <= texel(until, texels); ++i) {
-                const auto part =
-                    static_cast<float>(std::min(until, i + 1.0) - std::max(from, static_cast<double>(i)));
-                const std::size_t there = axis == 0 ? at(i, line / kLinesEach) : at(line / kLinesEach, i);
-                if (part > 0) open[there] += part, gap_[axis][there] += part * narrow;
+    const std::array<std::vector<float>, 2> narrow{narrowness(0), narrowness(1)};
+    for (int y = 0; y < rows_; ++y)
+        for (int x = 0; x < columns_; ++x) {
+            const std::size_t t = at(x, y);
+            const float ground = covered_[0][t];
+            if (!(ground > 0)) continue;
+            float across = narrow[0][t], along = narrow[1][t];
+            float down = across > kClear * along ? 1.0f : (along > kClear * across ? 0.0f : 0.5f);
+            if (down == 0.5f) {
+                const float of_column = narrow_beside(narrow[0], narrow[1], x, y, false),
+                            of_row = narrow_beside(narrow[1], narrow[0], x, y, true);
+                if (of_column > 0 || of_row > 0) {
+                    down = of_column > 0 ? (of_row > 0 ? 0.5f : 1.0f) : 0.0f;
+                    across = of_column, along = of_row;
+                }
             }
-        };
-        for (int line = 0; line < lines; ++line) {
-            double from = 0;
-            for (const auto& [begin, end] : covered[static_cast<std::size_t>(line)]) {
-                if (begin > from) take(line, from, begin, from <= 0);
-                from = std::max(from, end);
-            }
-            if (texels > from) take(line, from, texels, true);
+            down_[t] = ground * down;
+            gap_[0][t] = ground * down * across, gap_[1][t] = ground * (1 - down) * along;
         }
-        for (std::size_t t = 0; t < open.size(); ++t)
-            gap_[axis][t] = open[t] > 0 ? covered_[0][t] * gap_[axis][t] / open[t] : 0.0f;
+}
+
+// How narrow a gap is that comes from beside, along a column or a row; 0: there is none.
+float MosaicPainter::narrow_beside(const std::vector<float>& of, const std::vector<float>& against,
+                                   int column, int row, bool along_rows) const {
+    constexpr int kReach = 6;  // texels
+    for (int step = 1; step <= kReach; ++step)
+        for (const int way : {-step, step}) {
+            const int x = along_rows ? column + way : column, y = along_rows ? row : row + way;
+            if (x < 0 || y < 0 || x >= columns_ || y >= rows_ || !(covered_[0][at(x, y)] > 0)) continue;
+            if (of[at(x, y)] > kClear * against[at(x, y)]) return of[at(x, y)];
+        }
+    return 0;
+}
+
+// How narrow what upper triangles leave free is along an axis, by texel: by the lengths of lines. 0: it is nowhere free.
+std::vector<float> MosaicPainter::narrowness(std::size_t axis) const {
+    std::vector<float> out(down_.size()), open(down_.size());
+    const int texels = axis == 0 ? columns_ : rows_;
+    const int lines = kLinesEach * (axis == 0 ? rows_ : columns_);
+    const std::vector<Parts> covered = covered_parts(axis, lines);
+    const auto take = [&](int line, double from, double until, bool at_end) {
+        // At the end nothing shades it from one side.
+        const double width_m = (at_end ? 2 : 1) * (until - from) * static_cast<double>(mosaic_.texel_m);
+        const auto narrow = static_cast<float>(std::min(1.0, static_cast<double>(mosaic_.upper_m) / width_m));
+        for (int i = texel(from, texels); i <= texel(until, texels); ++i) {
+            const auto part =
+                static_cast<float>(std::min(until, i + 1.0) - std::max(from, static_cast<double>(i)));
+            const std::size_t there = axis == 0 ? at(i, line / kLinesEach) : at(line / kLinesEach, i);
+            if (part > 0) open[there] += part, out[there] += part * narrow;
+        }
+    };
+    for (int line = 0; line < lines; ++line) {
+        double from = 0;
+        for (const auto& [begin, end] : covered[static_cast<std::size_t>(line)]) {
+            if (begin > from) take(line, from, begin, from <= 0);
+            from = std::max(from, end);
+        }
+        if (texels > from) take(line, from, texels, true);
     }
+    for (std::size_t t = 0; t < open.size(); ++t) out[t] = open[t] > 0 ? out[t] / open[t] : 0.0f;
+    return out;
 }
 
 // The parts of lines along an axis that upper triangles cover, in order.
@@ -195,6 +232,7 @@ void MosaicPainter::pack() {
                 to.share[k][lane] = static_cast<std::uint8_t>(std::max(part, 0));
                 given += part;
             }
+            to.down[lane] = byte(down_[t]);
             for (std::size_t axis = 0; axis < 2; ++axis) {
                 const float lean = std::clamp(lean_[axis][t] / Mosaic::kMostLean, -1.0f, 1.0f);
                 to.lean[axis][lane] =
@@ -220,6 +258,7 @@ void MosaicPainter::halve() {
     };
     for (std::vector<float>& layer : covered_) halve_one(layer);
     for (std::size_t axis = 0; axis < 2; ++axis) halve_one(lean_[axis]), halve_one(gap_[axis]);
+    halve_one(down_);
     columns_ = columns, rows_ = rows;
 }
 

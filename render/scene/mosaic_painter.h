@@ -25,8 +25,12 @@ class MosaicPainter {
     Mosaic& mosaic_;
     int columns_, rows_;
     std::array<std::vector<float>, Mosaic::kMaxLayers> covered_;  // by texel: the share that a layer fills
-    // By texel: how what lies on the ground leans, and how narrow gaps are, along both sides, times the shares of those.
-    std::array<std::vector<float>, 2> lean_, gap_;
+    // By texel: how what lies on the ground leans along both sides, times its share.
+    std::array<std::vector<float>, 2> lean_;
+    // The share of the ground that is in gaps which run down; and how narrow these are, and those that run across, times their
+    // shares.
+    std::vector<float> down_;
+    std::array<std::vector<float>, 2> gap_;
     std::vector<std::array<Vec2d, 3>> upper_;  // triangles above the ground [texels]
 
     using Parts = std::vector<std::pair<double, double>>;  // of a line [texels]
@@ -37,6 +41,9 @@ class MosaicPainter {
     void fill(std::size_t layer, const std::array<Vec2d, 3>& triangle, Vec2f lean);
     double hide_lower();
     void find_gaps();
+    std::vector<float> narrowness(std::size_t axis) const;
+    float narrow_beside(const std::vector<float>& of, const std::vector<float>& against, int column, int row,
+                        bool along_rows) const;
     std::vector<Parts> covered_parts(std::size_t axis, int lines) const;
     void pack();
     void halve();

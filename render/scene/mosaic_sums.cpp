@@ -84,6 +84,7 @@ void sums(const MosaicWindow& w, std::size_t layers, MosaicSums& out) {
             }
         out.share[k] = share.value(), out.x[k] = x.value(), out.y[k] = y.value();
     }
+    Sum down;
     for (std::size_t k = 0; k < 2; ++k) {
         Sum lean, gap;
         for (std::size_t b = 0; b < w.count; ++b)
@@ -91,9 +92,12 @@ void sums(const MosaicWindow& w, std::size_t layers, MosaicSums& out) {
                 const V weight = hn::Load(d, weights.weight + b * MosaicTexels::kLanes + i * kStep);
                 lean.add(i, hn::Mul(weight, numbers<std::int8_t>(w.texels[b]->lean[k].data() + i * kStep)));
                 gap.add(i, hn::Mul(weight, numbers<std::uint8_t>(w.texels[b]->gap[k].data() + i * kStep)));
+                if (k == 0)
+                    down.add(i, hn::Mul(weight, numbers<std::uint8_t>(w.texels[b]->down.data() + i * kStep)));
             }
         out.lean[k] = lean.value(), out.gap[k] = gap.value();
     }
+    out.down = down.value();
 }
 
 }  // namespace HWY_NAMESPACE

@@ -10,12 +10,15 @@ namespace hilcam {
 
 // Texels side by side: a cache line.
 struct alignas(64) MosaicTexels {
-    static constexpr std::size_t kLanes = 8, kLayers = 4;
+    static constexpr std::size_t kLanes = 8, kLayers = 3;
     using Bytes = std::array<std::uint8_t, kLanes>;
     std::array<Bytes, kLayers> share;  // what each layer fills; 255: all of the texel
     // By the share of what lies on the ground, how it leans along both sides: signed, 127 is Mosaic::kMostLean.
     std::array<Bytes, 2> lean;
-    // By the share of the ground, how narrow the gaps are in which it is seen: 255 where they are as wide as Mosaic::upper_m.
+    // The share of the ground that is seen in gaps which run down the rectangle; the others run across it.
+    Bytes down;
+    // By the share of the ground that is in gaps which run down, and across: how narrow they are, 255 where they are as wide as
+    // Mosaic::upper_m.
     std::array<Bytes, 2> gap;
 };
 static_assert(sizeof(MosaicTexels) == 64);
@@ -34,6 +37,7 @@ struct MosaicSums {
     std::array<float, MosaicTexels::kLayers> share{};
     std::array<float, MosaicTexels::kLayers> x{}, y{};  // of shares times their places
     std::array<float, 2> lean{}, gap{};
+    float down = 0;
 };
 // layers: the first ones, which are asked for. Loop, any thread.
 MosaicSums sums_of(const MosaicWindow& window, std::size_t layers);

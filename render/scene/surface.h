@@ -56,7 +56,8 @@ struct ObjectSurfaces {
     std::vector<KnownSun> known_sun;                          // per triangle; empty: rays ask the Sun
     // Least and greatest corner of each kClusterTriangles triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
-    std::vector<std::uint32_t> patches;  // by triangle the one that stands for it; empty: each for itself
+    // By triangle the one that stands for it, or kNotShown; empty: each for itself.
+    std::vector<std::uint32_t> patches;
     std::shared_ptr<const std::vector<Mosaic>> mosaics;  // those that triangles stand for; null: none does
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/scene/flat_patches.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {
@@ -149,6 +150,7 @@ class VisibilityBuffer::Sorter {
         const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
         for (std::size_t i = 0; i < found; ++i) {
             TileRange& range = ranges_[i];
+            if (!object.shown.patches.empty() && object.shown.patches[range.triangle] == kNotShown) continue;
             const bool cut = range.x1 < 0;
             if (cut && !my_.bounds_of_cut(my_.corners_camera_m(object, range.triangle), range)) continue;
             for (int y = range.y0; y <= range.y1; ++y)

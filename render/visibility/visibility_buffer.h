@@ -46,7 +46,8 @@ class VisibilityBuffer {
         MeshView mesh;  // outlives the frame
         // Boxes of its clusters (ObjectSurfaces), likewise: those beside the picture are left out. Empty: all triangles are looked at.
         std::span<const std::array<Vec3f, 2>> cluster_bounds_m{};
-        // They say for each triangle which one's id stands for it (flat_patches.h), likewise. Empty: each has its own.
+        // They say for each triangle which one's id stands for it, or that it is left out (flat_patches.h), likewise. Empty: each has
+        // its own.
         std::span<const std::uint32_t> patches{};
     };
     // Sorts the triangles of a frame. False: there is no room for them. Loop.
