@@ -8,7 +8,7 @@
 #include <span>
 
 #include "render/light/path_model.h"
-#include "render/scene/mosaic.h"
+#include "render/mosaic/mosaic.h"
 #include "render/visibility/fragment_packet.h"
 
 namespace hilcam {

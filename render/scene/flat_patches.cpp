@@ -8,6 +8,7 @@
 #include <span>
 #include <tuple>
 
+#include "render/mosaic/mosaic_finder.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {
@@ -136,6 +137,52 @@ void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces) {
     if (std::none_of(surfaces.triangles.begin(), surfaces.triangles.end(),
                      [](const PackedTriangle& t) { return t.patch != 0; }))
         surfaces.patches = {};
+}
+
+std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces) {
+    std::vector<std::uint8_t> out(mesh.triangles.size());
+    if (!mesh.colors.empty() || !mesh.hapke.empty()) return out;
+    for (std::size_t t = 0; t < out.size(); ++t) {
+        const Material& material = surfaces.materials[surfaces.triangles[t].surface];
+        out[t] = material.texture < 0 && !material.transmits() &&
+                 (surfaces.facets.empty() || surfaces.facets[t].is_flat());
+    }
+    return out;
+}
+
+namespace {
+
+// Places of a mosaic are found from its ground's triangle, by its edges.
+bool reaches_all(const Mesh& mesh, std::uint32_t triangle, const Mosaic& mosaic) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const Vec3f u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
+    const float height_m = length(cross(u, v)) / std::max({length(u), length(v), length(u - v)});
+    return kPatchReach * height_m > std::hypot(mosaic.width_m, mosaic.height_m);
+}
+
+}  // namespace
+
+void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, const Mesh& mesh,
+                    double error_m, ObjectSurfaces& surfaces) {
+    if (!mosaics || mosaics->empty()) return;
+    const std::vector<MosaicParts> parts = mosaic_parts(*mosaics, mesh, may_be_in_mosaics(mesh, surfaces));
+    for (std::size_t m = 0; m < parts.size(); ++m) {
+        const Mosaic& mosaic = (*mosaics)[m];
+        if (1.001 * error_m < static_cast<double>(mosaic.texel_m) || parts[m].ground.empty()) continue;
+        const std::uint32_t ground = parts[m].ground.front();
+        if (!reaches_all(mesh, ground, mosaic)) continue;
+        if (surfaces.patches.empty()) {
+            surfaces.patches.resize(mesh.triangles.size());
+            std::iota(surfaces.patches.begin(), surfaces.patches.end(), 0u);
+        }
+        // Who goes on in the ground's plane beside the mosaic is by himself.
+        for (std::uint32_t t = 0; t < surfaces.patches.size(); ++t)
+            if (surfaces.patches[t] == ground) surfaces.patches[t] = t;
+        for (const std::uint32_t t : parts[m].ground) surfaces.patches[t] = ground;
+        for (const std::uint32_t t : parts[m].upon) surfaces.patches[t] = kNotShown;
+        surfaces.triangles[ground].patch = static_cast<std::uint8_t>(m + 2);
+        surfaces.mosaics = mosaics;
+    }
 }
 
 }  // namespace hilcam

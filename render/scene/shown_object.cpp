@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/mosaic/mosaic_finder.h"
 #include "render/scene/flat_patches.h"
-#include "render/scene/mosaic_finder.h"
 #include "render/scene/triangle_order.h"
 
 namespace hilcam {
@@ -67,7 +67,7 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
             find_patches(level.mesh, *surfaces);
             if (!mosaics && level.error_m >= kFinestMosaic * 2 * surfaces->radius_m)
                 mosaics = std::make_shared<const std::vector<Mosaic>>(
-                    find_mosaics(level.mesh, *surfaces, level.error_m));
+                    find_mosaics(level.mesh, may_be_in_mosaics(level.mesh, *surfaces), level.error_m));
             attach_mosaics(mosaics, level.mesh, level.error_m, *surfaces);
             out.levels.push_back(std::move(surfaces));
             out.error_m.push_back(level.error_m);

@@ -23,7 +23,7 @@ ROOMS = (
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/shm", "io/truth", "io/commands",
     "io/spice", "io/maps", "io/files", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
-    "render/frame", "render/sunlit_ground", "render/light", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
+    "render/frame", "render/sunlit_ground", "render/light", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
 )
 MOST_FILES = 50
 # The sections of the data sheet name each other, so the sensor's stages stay side by side.
@@ -46,7 +46,7 @@ ONLY_IN = {
     "google": {"io/vizard/vizard_message.cpp"},
     "vizard.pb": {"io/vizard/vizard_message.cpp"},
     "zmq": {"io/vizard/commands_vizard.cpp"},
-    "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp",
+    "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp", "render/mosaic/mosaic_sums.cpp",
             "render/sunlit_ground/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
             "render/visibility/lane_vectors-inl.h", "render/visibility/sixteen_lanes-inl.h",
             "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp",

@@ -1,4 +1,4 @@
-#include "render/scene/mosaic.h"
+#include "render/mosaic/mosaic.h"
 
 #include <algorithm>
 #include <cmath>

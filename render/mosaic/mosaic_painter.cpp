@@ -1,4 +1,4 @@
-#include "render/scene/mosaic_painter.h"
+#include "render/mosaic/mosaic_painter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +144,7 @@ void MosaicPainter::find_gaps() {
         }
 }
 
-// How narrow a gap is that comes from beside, along a column or a row; 0: there is none.
+// Returns how narrow a gap is that comes from beside, along a column or a row; 0: there is none.
 float MosaicPainter::narrow_beside(const std::vector<float>& of, const std::vector<float>& against,
                                    int column, int row, bool along_rows) const {
     constexpr int kReach = 6;  // texels
@@ -157,7 +157,7 @@ float MosaicPainter::narrow_beside(const std::vector<float>& of, const std::vect
     return 0;
 }
 
-// How narrow what upper triangles leave free is along an axis, by texel: by the lengths of lines. 0: it is nowhere free.
+// Returns by texel how narrow what upper triangles leave free is along an axis, by lengths of lines; 0: it is nowhere free.
 std::vector<float> MosaicPainter::narrowness(std::size_t axis) const {
     std::vector<float> out(down_.size()), open(down_.size());
     const int texels = axis == 0 ? columns_ : rows_;

@@ -1,26 +1,24 @@
-#include "render/scene/mosaic_finder.h"
+#include "render/mosaic/mosaic_finder.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
-#include "render/scene/flat_patches.h"
-#include "render/scene/mosaic_painter.h"
-#include "render/scene/surface.h"
+#include "render/mosaic/mosaic_painter.h"
 
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMaxSeeds = 64;         // of the largest triangles, each with what lies in its plane
-constexpr std::size_t kMaxMosaics = 253;      // as many as a triangle can tell apart (PackedTriangle::patch)
-constexpr int kFinest = 768, kCoarsest = 16;  // texels along the longer side: at most, and at least
-constexpr double kMinFilled = 0.2;            // of the rectangle by the ground
-constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // of the ground, beside what lies on it
+constexpr std::size_t kMaxSeeds = 64;  // the largest triangles that are looked at as ground
+constexpr std::size_t kMaxMosaics =
+    253;  // a byte tells them apart, with three other values (PackedTriangle::patch)
+constexpr int kFinest = 768, kCoarsest = 16;         // texels along the longer side: at most, and at least
+constexpr double kMinFilled = 0.2;                   // the share of its rectangle that the ground fills
+constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // the share of the ground beside what lies on it
 constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
 
 struct FlatTriangle {
@@ -36,23 +34,21 @@ std::array<Vec3d, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {
 }
 
 // Triangles that a mosaic may have, the largest first.
-std::vector<FlatTriangle> flat_triangles(const Mesh& mesh, const ObjectSurfaces& surfaces) {
+std::vector<FlatTriangle> flat_triangles(const Mesh& mesh, std::span<const std::uint8_t> may_be) {
     std::vector<FlatTriangle> out;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const PackedTriangle& packed = surfaces.triangles[t];
-        const Material& material = surfaces.materials[packed.surface];
-        if (material.texture >= 0 || material.transmits()) continue;
-        if (!surfaces.facets.empty() && !surfaces.facets[t].is_flat()) continue;
+        if (!may_be[t]) continue;
         const Vec3d area = area_vector(mesh, mesh.triangles[t]);
         const double area_m2 = length(area);
         if (!(area_m2 > 0)) continue;
         const Vec3f normal = to_float(area / area_m2);
         const bool curved =
-            !packed.flat && std::any_of(packed.corner_normals.begin(), packed.corner_normals.end(),
-                                        [&](std::uint32_t corner) {
-                                            return std::abs(dot(unpack_normal(corner), normal)) < kFlatCorner;
-                                        });
-        if (!curved) out.push_back({t, packed.surface, area, area_m2});
+            !mesh.normals.empty() &&
+            std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), [&](std::uint32_t v) {
+                const Vec3f corner = mesh.normals[v];  // zero: the triangle's own
+                return corner != Vec3f{} && std::abs(dot(corner, normal)) < kFlatCorner;
+            });
+        if (!curved) out.push_back({t, mesh.surface_of_triangle[t], area, area_m2});
     }
     std::sort(out.begin(), out.end(), [](const FlatTriangle& a, const FlatTriangle& b) {
         return a.area_m2 != b.area_m2 ? a.area_m2 > b.area_m2 : a.number < b.number;
@@ -60,13 +56,19 @@ std::vector<FlatTriangle> flat_triangles(const Mesh& mesh, const ObjectSurfaces&
     return out;
 }
 
+double radius_m(const Mesh& mesh) {
+    float squared = 0;
+    for (const Vec3f at : mesh.vertices_m) squared = std::max(squared, dot(at, at));
+    return static_cast<double>(std::sqrt(squared));
+}
+
 class MosaicFinder {
   public:
-    MosaicFinder(const Mesh& mesh, const ObjectSurfaces& surfaces, double error_m)
+    MosaicFinder(const Mesh& mesh, std::span<const std::uint8_t> may_be, double error_m)
         : mesh_(mesh),
           error_m_(error_m),
-          rounding_m_(0x1p-20 * surfaces.radius_m),
-          flat_(flat_triangles(mesh, surfaces)),
+          rounding_m_(0x1p-20 * radius_m(mesh)),
+          flat_(flat_triangles(mesh, may_be)),
           used_(flat_.size()) {}
 
     std::vector<Mosaic> find() {
@@ -137,7 +139,7 @@ class MosaicFinder {
         std::vector<Vec3d> edges = border(ground);
         std::stable_sort(edges.begin(), edges.end(), [](Vec3d a, Vec3d b) { return dot(a, a) > dot(b, b); });
         edges.resize(std::min(edges.size(), kMostEdges));
-        if (edges.empty()) return false;  // what goes round has no border
+        if (edges.empty()) return false;  // it goes round
         double least_m2 = std::numeric_limits<double>::infinity();
         Vec3f across;
         for (const Vec3d edge : edges) {
@@ -260,47 +262,23 @@ class MosaicFinder {
 
 }  // namespace
 
-std::vector<Mosaic> find_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces, double error_m) {
-    if (!mesh.colors.empty() || !mesh.hapke.empty()) return {};
-    return MosaicFinder(mesh, surfaces, error_m).find();
+std::vector<Mosaic> find_mosaics(const Mesh& mesh, std::span<const std::uint8_t> may_be, double error_m) {
+    return MosaicFinder(mesh, may_be, error_m).find();
 }
 
-void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, const Mesh& mesh,
-                    double error_m, ObjectSurfaces& surfaces) {
-    if (!mosaics || mosaics->empty()) return;
-    const std::vector<FlatTriangle> flat = flat_triangles(mesh, surfaces);
-    for (std::size_t m = 0; m < mosaics->size(); ++m) {
-        const Mosaic& mosaic = (*mosaics)[m];
-        if (1.001 * error_m < static_cast<double>(mosaic.texel_m)) continue;
-        std::vector<const FlatTriangle*> parts;
-        const FlatTriangle* ground = nullptr;
+std::vector<MosaicParts> mosaic_parts(std::span<const Mosaic> mosaics, const Mesh& mesh,
+                                      std::span<const std::uint8_t> may_be) {
+    const std::vector<FlatTriangle> flat = flat_triangles(mesh, may_be);
+    std::vector<MosaicParts> out;
+    for (const Mosaic& mosaic : mosaics) {
+        MosaicParts& parts = out.emplace_back();
         for (const FlatTriangle& t : flat) {
             const auto three = corners_of(mesh, t.number);
-            if (!mosaic.holds(t.surface, three)) continue;
-            if (!mosaic.covers((1.0 / 3) * (three[0] + three[1] + three[2]))) continue;
-            parts.push_back(&t);
-            if (!ground && t.surface == mosaic.surface[0]) ground = &t;
+            if (mosaic.holds(t.surface, three) && mosaic.covers((1.0 / 3) * (three[0] + three[1] + three[2])))
+                (t.surface == mosaic.surface[0] ? parts.ground : parts.upon).push_back(t.number);
         }
-        // Places are found from the ground's triangle by its edges.
-        if (!ground) continue;
-        const auto c = corners_of(mesh, ground->number);
-        const double edge_m =
-            ground->area_m2 / std::max({length(c[1] - c[0]), length(c[2] - c[1]), length(c[0] - c[2])});
-        if (edge_m * static_cast<double>(kPatchReach) <
-            2 * std::hypot(static_cast<double>(mosaic.width_m), static_cast<double>(mosaic.height_m)))
-            continue;
-        if (surfaces.patches.empty()) {
-            surfaces.patches.resize(mesh.triangles.size());
-            std::iota(surfaces.patches.begin(), surfaces.patches.end(), 0u);
-        }
-        // Who goes on in the ground's plane beside the mosaic is by himself.
-        for (std::uint32_t t = 0; t < surfaces.patches.size(); ++t)
-            if (surfaces.patches[t] == ground->number) surfaces.patches[t] = t;
-        for (const FlatTriangle* part : parts)
-            surfaces.patches[part->number] = part->surface == mosaic.surface[0] ? ground->number : kNotShown;
-        surfaces.triangles[ground->number].patch = static_cast<std::uint8_t>(m + 2);
-        surfaces.mosaics = mosaics;
     }
+    return out;
 }
 
 }  // namespace hilcam

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/scene/mosaic.h"
+#include "render/mosaic/mosaic.h"
 
 namespace hilcam {
 
@@ -33,7 +33,7 @@ class MosaicPainter {
     std::array<std::vector<float>, 2> gap_;
     std::vector<std::array<Vec2d, 3>> upper_;  // triangles above the ground [texels]
 
-    using Parts = std::vector<std::pair<double, double>>;  // of a line [texels]
+    using Parts = std::vector<std::pair<double, double>>;  // parts of a line, begin and end [texels]
     std::size_t at(int column, int row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                static_cast<std::size_t>(column);

@@ -1,7 +1,7 @@
-#include "render/scene/mosaic_sums.h"
+#include "render/mosaic/mosaic_sums.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/scene/mosaic_sums.cpp"
+#define HWY_TARGET_INCLUDE "render/mosaic/mosaic_sums.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -12,7 +12,7 @@ namespace hilcam {
 struct alignas(64) MosaicTexels {
     static constexpr std::size_t kLanes = 8, kLayers = 3;
     using Bytes = std::array<std::uint8_t, kLanes>;
-    std::array<Bytes, kLayers> share;  // what each layer fills; 255: all of the texel
+    std::array<Bytes, kLayers> share;  // share that each layer fills; 255: all of the texel
     // By the share of what lies on the ground, how it leans along both sides: signed, 127 is Mosaic::kMostLean.
     std::array<Bytes, 2> lean;
     // The share of the ground that is seen in gaps which run down the rectangle; the others run across it.
@@ -27,7 +27,7 @@ static_assert(sizeof(MosaicTexels) == 64);
 struct MosaicWindow {
     static constexpr std::size_t kMost = 256;
     std::array<const MosaicTexels*, kMost> texels;
-    std::array<float, kMost> x, y;  // of the first of each
+    std::array<float, kMost> x, y;  // places of the first of each
     std::size_t count = 0;
     float x_step = 0, y_step = 0;  // from each to the next
     // Sides fall off over the width that a texel has there, so that pixels side by side add up to one: that, inverse.
@@ -35,7 +35,7 @@ struct MosaicWindow {
 };
 struct MosaicSums {
     std::array<float, MosaicTexels::kLayers> share{};
-    std::array<float, MosaicTexels::kLayers> x{}, y{};  // of shares times their places
+    std::array<float, MosaicTexels::kLayers> x{}, y{};  // sums of shares times their places
     std::array<float, 2> lean{}, gap{};
     float down = 0;
 };

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "render/scene/mosaic_sums.h"
+#include "render/mosaic/mosaic_sums.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
@@ -36,8 +36,8 @@ class Mosaic {
     // rectangle, the sides, unit, and their lengths.
     Vec3f normal, corner_m, across, down;
     float width_m = 0, height_m = 0;
-    float above_m = 0;  // how high that plane is above the ground
-    float upper_m = 0;  // how high what lies on the ground is, as a mean
+    float above_m = 0;  // height of that plane above the ground
+    float upper_m = 0;  // mean height of what lies on the ground
     float texel_m = 0;
 
     // A pixel on it: where its middle is, and how far a step of a pixel goes [texels from the corner].
@@ -45,16 +45,16 @@ class Mosaic {
         Vec2d middle;
         Vec2f per_x, per_y;
     };
-    // What is seen in the pixel.
+    // The surfaces that are seen in the pixel.
     struct Look {
-        std::array<float, kMaxLayers>
-            share{};  // of what there is of the mosaic; they add up to one, or are all zero
+        // Their shares of what there is of the mosaic, which add up to one, or are all zero.
+        std::array<float, kMaxLayers> share{};
         std::array<Vec2f, kMaxLayers> place{};  // the middle of each [px from the pixel's corner]
-        // How narrow the gaps are in which the ground is seen, those that run down and those that run across: upper_m over their
+        // The narrowness of the gaps in which the ground is seen, those that run down and those that run across: upper_m over their
         // widths, and the share of the former.
         Vec2f gap{};
         float down = 0;
-        // How the normal of what lies on the ground leans against the ground's, along across and down.
+        // The lean of what lies on the ground against it, along across and down: a difference of unit normals.
         Vec2f lean{};
     };
     // Loop, any thread.
