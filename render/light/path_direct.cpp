@@ -16,7 +16,7 @@ class DirectPaths final : public PathModel {
     }
 
   private:
-    std::array<Vertex, kMaxSamples> vertices_;
+    std::array<Vertex, kMostVertices> vertices_;
 };
 
 }  // namespace

@@ -94,7 +94,7 @@ class HemispherePaths final : public PathModel {
     struct Level {
         std::array<Vertex, kMaxRays> vertices;
     };
-    std::array<Vertex, kMaxSamples> first_;
+    std::array<Vertex, kMostVertices> first_;
     std::array<Ray, kMaxRays> rays_;
     std::vector<Level> levels_;
 

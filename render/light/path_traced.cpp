@@ -59,7 +59,7 @@ class TracedPaths final : public PathModel {
 
   private:
     bool kept_;
-    static constexpr auto kMax = static_cast<std::size_t>(kMaxSamples);
+    static constexpr auto kMax = static_cast<std::size_t>(kMostVertices);
     static constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first surface
     // Rays that follow a mirror there, in place of one that would meet but a part of what it shows.
     static constexpr int kMirrorRays = 8;

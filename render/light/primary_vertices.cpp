@@ -46,6 +46,9 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
     }
     std::size_t count = 0;
     tile_.facets.clear();
+    // Rooms for a vertex of each surface of mosaics: kMostVertices leave those of kMaxSamples together.
+    static_assert(Mosaic::kMaxLayers * kPacketSize <=
+                  PathModel::kMostVertices - PathModel::kMaxSamples + kPacketSize);
     while (count + Mosaic::kMaxLayers * kPacketSize <= vertices.size() &&
            tile_.facets.room() >= 2 * kPacketSize) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))

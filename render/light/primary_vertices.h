@@ -17,8 +17,8 @@ class PrimaryVertices {
   public:
     explicit PrimaryVertices(Tile& tile) : tile_(tile) {}
 
-    // Writes the next vertices, PathModel::kMaxSamples at a time at most, and adds the background to the
-    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMaxSamples. Loop, any thread.
+    // Writes the next vertices, PathModel::kMostVertices at a time at most, and adds the background to the
+    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMostVertices. Loop, any thread.
     std::size_t next(std::span<Vertex> vertices);
 
   private:

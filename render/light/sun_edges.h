@@ -22,7 +22,7 @@ class SunSampler;
 class SunEdges {
   public:
     // light: what the vertex sends to the viewer, to its pixel, if all of it is in the Sun. At most
-    // PathModel::kMaxSamples. Loop, any thread.
+    // PathModel::kMostVertices. Loop, any thread.
     void add(const Vertex& at, const Spectrum& light) {
         Starts& starts = next(at, light);
         starts.at_m[0] = at.start(), starts.share = {1};
@@ -59,7 +59,7 @@ class SunEdges {
     struct Answers {
         std::array<Rows, kKinds> lit{}, dark{};
     };
-    std::array<Asked, PathModel::kMaxSamples> asked_;
+    std::array<Asked, PathModel::kMostVertices> asked_;
     std::size_t count_ = 0;
 
     // Begins with a vertex; where its rays begin is the caller's. Member by member: what is made first and copied then

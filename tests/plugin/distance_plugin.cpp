@@ -24,7 +24,7 @@ class DistancePaths final : public hilcam::PathModel {
     }
 
   private:
-    std::array<hilcam::Vertex, kMaxSamples> vertices_;
+    std::array<hilcam::Vertex, kMostVertices> vertices_;
 };
 
 void add(hilcam::Modules& modules) {
