@@ -1,6 +1,5 @@
 // The generated satellite's surfaces face outwards, as whoever reads its mesh takes for granted.
 
-
 #include <gtest/gtest.h>
 
 #include <map>
