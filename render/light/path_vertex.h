@@ -50,7 +50,7 @@ struct Vertex {
     bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
     const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
     std::span<const PixelShare> shared;  // the pixels that its light is added to; empty: its own
-    float sunlit;          // share of it that what lies on it leaves in the Sun (scene/mosaic.h)
+    float sunlit;          // share of it that what lies on it leaves in the Sun (mosaic/mosaic.h)
     float weight_samples;  // samples of sixteen a pixel that see it, where it is not one ray's
     HalfShares halves;     // where in the pixel they are
     float facet_alpha;     // alpha of the lobes of its facets

@@ -316,6 +316,8 @@ std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, co
                     {pixel_rad * from_m, pixel_rad}, vertex);
         set_surface(frame, mosaic.surface[layer], vertex);
         if (layer == 0) vertex.sunlit = sunlit;
+        // Parts of the mosaic may stand out of its plane by as much as it takes for rounding.
+        vertex.offset_m += Mosaic::kLoose * mosaic.texel_m;
         const Vec2f off{look.place[layer].x - 0.5f, look.place[layer].y - 0.5f};
         vertex.point_m = to_float(frame.camera_m + middle_m + static_cast<double>(off.x) * per_x +
                                   static_cast<double>(off.y) * per_y);

@@ -129,7 +129,7 @@ bool Mosaic::holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corn
     const Vec3d facing = cross(corners[1] - corners[0], corners[2] - corners[0]), up = to_double(normal);
     if (std::abs(dot(facing, up)) < std::cos(static_cast<double>(kMostLean)) * length(facing)) return false;
     // What rounding and levels of detail move.
-    const auto loose_m = static_cast<double>(0.1f * texel_m);
+    const auto loose_m = static_cast<double>(kLoose * texel_m);
     return std::all_of(corners.begin(), corners.end(), [&](Vec3d corner) {
         const Vec3d at = corner - to_double(corner_m);
         const double x = dot(at, to_double(across)), y = dot(at, to_double(down)), z = dot(at, up);

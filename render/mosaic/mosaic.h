@@ -1,6 +1,6 @@
 #pragma once
 // Flat parts of a mesh on which parts of other surfaces lie, as distant cameras see them: the cells of a solar panel with their
-// bars, over the gaps between them; the tiles of a radiator over its paint.
+// bars, over the gaps between them.
 //
 // Gaps and bars are far thinner than a pixel long before a panel is. A sample meets one or passes it by, and the panel has a
 // moire. A mosaic is a picture of the panel instead, in which each texel knows what share of it each surface fills, by the areas
@@ -28,6 +28,9 @@ class Mosaic {
     static constexpr std::size_t kMaxLayers = MosaicTexels::kLayers;
     // The most that triangles lean against the ground [rad]: 0.3 degrees.
     static constexpr float kMostLean = 0.00524f;
+
+    // The most that its parts stand out of it, for what rounding and levels of detail move [texels].
+    static constexpr float kLoose = 0.1f;
 
     // Its surfaces, from the ground upwards.
     std::array<std::uint16_t, kMaxLayers> surface{};

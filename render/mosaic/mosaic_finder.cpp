@@ -76,6 +76,8 @@ class MosaicFinder {
         std::size_t seeds = 0;
         for (std::size_t s = 0; s < flat_.size() && seeds < kMaxSeeds && out.size() < kMaxMosaics; ++s) {
             if (used_[s]) continue;
+            // What is left is crumbs.
+            if (flat_[s].area_m2 < 8 * error_m_ * error_m_) break;
             ++seeds;
             Mosaic mosaic;
             if (make(s, mosaic)) out.push_back(std::move(mosaic));
@@ -200,11 +202,11 @@ class MosaicFinder {
         std::vector<std::size_t> out;
         for (std::size_t i = 0; i < flat_.size(); ++i) {
             if (used_[i] || flat_[i].surface == ground.surface[0]) continue;
-            space.surface[0] = flat_[i].surface;
             const auto three = corners(i);
-            if (!space.holds(flat_[i].surface, three)) continue;
             const double height_m = dot(three[0] - to_double(ground.corner_m), up);
-            if (height_m > 2 * rounding_m_) out.push_back(i);
+            if (!(height_m > 2 * rounding_m_ && height_m < 2 * static_cast<double>(space.above_m))) continue;
+            space.surface[0] = flat_[i].surface;
+            if (space.holds(flat_[i].surface, three)) out.push_back(i);
         }
         return out;
     }

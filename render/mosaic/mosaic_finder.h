@@ -2,8 +2,8 @@
 // Finds the mosaics (mosaic.h) of an object's mesh, and what of it they stand for.
 //
 // The ground is a flat part of one surface, as large as goes on from one of the largest triangles by common corners; upon it lie
-// flat triangles of up to three other surfaces that lean as it does and are less than a texel above it. What has a picture, colours
-// of its own, wrinkles that a level has flattened, or lets light through is none of these: may_be is 0 for it, by triangle.
+// flat triangles of up to two other surfaces that lean as it does and are less than a texel above it. What has a picture, colours
+// of its own, wrinkles that a level has flattened, mirrors, or lets light through is none of these: may_be is 0 for it, by triangle.
 
 #include <cstdint>
 #include <span>

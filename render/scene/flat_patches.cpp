@@ -142,9 +142,12 @@ void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces) {
 std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces) {
     std::vector<std::uint8_t> out(mesh.triangles.size());
     if (!mesh.colors.empty() || !mesh.hapke.empty()) return out;
+    // What mirrors show hangs on where they are: tiles of radiators as mosaics had more false lights than as tiles.
+    constexpr float kMirror = 0.02f;  // alpha
     for (std::size_t t = 0; t < out.size(); ++t) {
         const Material& material = surfaces.materials[surfaces.triangles[t].surface];
-        out[t] = material.texture < 0 && !material.transmits() &&
+        const bool is_mirror = material.is_bare() && material.ggx_alpha < kMirror;
+        out[t] = material.texture < 0 && !material.transmits() && !is_mirror &&
                  (surfaces.facets.empty() || surfaces.facets[t].is_flat());
     }
     return out;
