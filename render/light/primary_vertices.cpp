@@ -285,9 +285,6 @@ std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, co
     };
     const auto single = [](Vec2d v) { return Vec2f{static_cast<float>(v.x), static_cast<float>(v.y)}; };
     const Vec3d middle_m = way * pixel.middle;
-    const Mosaic::Look look =
-        mosaic.look({texels(middle_m - corner_m), single(texels(per_x)), single(texels(per_y))});
-
     const HalfShares halves = frame.samples.halves(fragment.samples);
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
     const auto from_m = static_cast<float>(frame.way_to_start_m());
@@ -298,7 +295,9 @@ std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, co
         return Vec2f{per_rise * dot(dir, across), per_rise * dot(dir, down)};
     };
     const Vec2f to_sun = slopes(sun), to_viewer = slopes(lie.view_dir);
-    const float sunlit = Mosaic::sunlit(look, {to_sun.x - to_viewer.x, to_sun.y - to_viewer.y});
+    const Mosaic::Look look =
+        mosaic.look({texels(middle_m - corner_m), single(texels(per_x)), single(texels(per_y))},
+                    {to_sun.x - to_viewer.x, to_sun.y - to_viewer.y});
     float shown = 0;
     Vec2f middle_px{};
     for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
@@ -314,8 +313,11 @@ std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, co
         Vertex& vertex = vertices[count++];
         make_vertex(frame, hits_, static_cast<int>(k), own, origins_[k], packet_.dir.at(k), 0,
                     {pixel_rad * from_m, pixel_rad}, vertex);
-        set_surface(frame, mosaic.surface[layer], vertex);
-        if (layer == 0) vertex.sunlit = sunlit;
+        // The ground is what make_vertex() has met.
+        if (layer > 0)
+            set_surface(frame, mosaic.surface[layer], vertex);
+        else
+            vertex.sunlit = look.lit;
         // Parts of the mosaic may stand out of its plane by as much as it takes for rounding.
         vertex.offset_m += Mosaic::kLoose * mosaic.texel_m;
         const Vec2f off{look.place[layer].x - 0.5f, look.place[layer].y - 0.5f};

@@ -9,21 +9,6 @@ namespace {
 
 constexpr float kSharp_px = 0.35f;  // texels are no longer than this, where there are such
 
-// Steps of a pixel as seen from texels of a size [px per texel]; none where it is seen from its edge.
-struct PixelSteps {
-    float x_column, x_row, y_column, y_row;
-
-    static bool find(const Mosaic::Footprint& pixel, float size, PixelSteps& out) {
-        const float turned = pixel.per_x.x * pixel.per_y.y - pixel.per_x.y * pixel.per_y.x;
-        const float per = size / turned;
-        if (!(std::abs(turned) > 1e-12f) || !std::isfinite(per)) return false;
-        out = {per * pixel.per_y.y, -per * pixel.per_y.x, -per * pixel.per_x.y, per * pixel.per_x.x};
-        return true;
-    }
-    float x_width() const { return std::abs(x_column) + std::abs(x_row); }
-    float y_width() const { return std::abs(y_column) + std::abs(y_row); }
-};
-
 // Whole numbers.
 struct WholeNumbers {
     int first, last;
@@ -43,13 +28,29 @@ struct WholeNumbers {
 
 }  // namespace
 
+// The way in the pixel from a texel to the next in its row and in its column [px].
+struct Mosaic::Steps {
+    float x_column, x_row, y_column, y_row;
+
+    // Those of the finest texels. False: the pixel sees the plane from its edge.
+    static bool find(const Footprint& pixel, Steps& out) {
+        const float turned = pixel.per_x.x * pixel.per_y.y - pixel.per_x.y * pixel.per_y.x, per = 1 / turned;
+        if (!(std::abs(turned) > 1e-12f) || !std::isfinite(per)) return false;
+        out = {per * pixel.per_y.y, -per * pixel.per_y.x, -per * pixel.per_x.y, per * pixel.per_x.x};
+        return true;
+    }
+    Steps times(float size) const { return {size * x_column, size * x_row, size * y_column, size * y_row}; }
+    float x_width() const { return std::abs(x_column) + std::abs(x_row); }
+    float y_width() const { return std::abs(y_column) + std::abs(y_row); }
+};
+
 // False: there is no room in the window.
-bool Mosaic::find_window(const Footprint& pixel, std::size_t level, MosaicWindow& out) const {
+bool Mosaic::find_window(const Footprint& pixel, const Steps& finest, std::size_t level,
+                         MosaicWindow& out) const {
     const Level& there = levels_[level];
     const auto size = static_cast<float>(std::size_t{1} << level);
-    PixelSteps steps{};
+    const Steps steps = finest.times(size);
     out.count = 0;
-    if (!PixelSteps::find(pixel, size, steps)) return true;
     out.x_step = steps.x_column, out.y_step = steps.y_column;
     out.x_fall = 1 / steps.x_width(), out.y_fall = 1 / steps.y_width();
     const float half_x = 0.5f + 0.5f * steps.x_width(), half_y = 0.5f + 0.5f * steps.y_width();
@@ -83,16 +84,17 @@ bool Mosaic::find_window(const Footprint& pixel, std::size_t level, MosaicWindow
     return true;
 }
 
-Mosaic::Look Mosaic::look(const Footprint& pixel) const {
+Mosaic::Look Mosaic::look(const Footprint& pixel, Vec2f way) const {
     Look out;
-    PixelSteps steps{};
-    if (!PixelSteps::find(pixel, 1, steps)) return out;
+    Steps steps{};
+    if (!Steps::find(pixel, steps)) return out;
     std::size_t level = 0;
     for (float widest = 2 * std::max(steps.x_width(), steps.y_width());
          widest <= kSharp_px && level + 1 < levels_.size(); widest *= 2)
         ++level;
     MosaicWindow window;
-    while (!find_window(pixel, level, window) && level + 1 < levels_.size()) ++level;
+    window.across = std::abs(way.x), window.down = std::abs(way.y);
+    while (!find_window(pixel, steps, level, window) && level + 1 < levels_.size()) ++level;
     const MosaicSums sums = sums_of(window, layers);
     const float all = std::accumulate(sums.share.begin(), sums.share.end(), 0.0f);
     if (!(all > 0)) return out;
@@ -101,26 +103,36 @@ Mosaic::Look Mosaic::look(const Footprint& pixel) const {
         out.share[k] = sums.share[k] / all;
         out.place[k] = {sums.x[k] / sums.share[k], sums.y[k] / sums.share[k]};
     }
-    if (const float ground = sums.share[0]; ground > 0)
-        out.gap = {sums.gap[0] / ground, sums.gap[1] / ground}, out.down = std::min(1.0f, sums.down / ground);
+    if (sums.share[0] > 0) out.lit = std::min(1.0f, sums.lit / sums.share[0]);
     const float upon = all - sums.share[0], lean = kMostLean * 255 / 127;
     if (upon > 0) out.lean = {lean * sums.lean[0] / upon, lean * sums.lean[1] / upon};
     return out;
 }
 
-bool Mosaic::covers(Vec3d at_m) const {
-    const Vec3d at = at_m - to_double(corner_m);
-    const Level& finest = levels_.front();
-    const auto texel = [&](double way_m, int count) {
-        return std::clamp(static_cast<int>(way_m / static_cast<double>(texel_m)), 0, count - 1);
+bool Mosaic::covers(const std::array<Vec3d, 3>& corners) const {
+    const auto is_there = [&](Vec3d at_m) {
+        const Vec3d at = at_m - to_double(corner_m);
+        const Level& finest = levels_.front();
+        const auto texel = [&](double way_m, int count) {
+            return std::clamp(static_cast<int>(way_m / static_cast<double>(texel_m)), 0, count - 1);
+        };
+        const int column = texel(dot(at, to_double(across)), finest.columns);
+        const MosaicTexels& there =
+            finest.texels[finest.eight(column, texel(dot(at, to_double(down)), finest.rows))];
+        return std::any_of(there.share.begin(), there.share.begin() + layers,
+                           [&](const MosaicTexels::Bytes& share) {
+                               return share[static_cast<std::size_t>(column) % MosaicTexels::kLanes] > 0;
+                           });
     };
-    const int column = texel(dot(at, to_double(across)), finest.columns);
-    const MosaicTexels& there =
-        finest.texels[finest.eight(column, texel(dot(at, to_double(down)), finest.rows))];
-    return std::any_of(there.share.begin(), there.share.begin() + layers,
-                       [&](const MosaicTexels::Bytes& share) {
-                           return share[static_cast<std::size_t>(column) % MosaicTexels::kLanes] > 0;
-                       });
+    const Vec3d middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
+    // A texel inwards, as those at the border are filled in part.
+    const auto inner = [&](Vec3d corner) {
+        const double way_m = length(middle - corner), texel = static_cast<double>(texel_m);
+        return way_m > texel ? corner + (texel / way_m) * (middle - corner) : middle;
+    };
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](Vec3d corner) { return is_there(inner(corner)); }) &&
+           is_there(middle);
 }
 
 bool Mosaic::holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corners) const {

@@ -11,11 +11,8 @@
 // shade it as long walls along the rectangle's sides would that are as far apart as gaps are wide; parts of one surface do not overlap.
 // The filter's sides fall off over a texel, a third of a pixel at most where there are such.
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "render/mosaic/mosaic_sums.h"
@@ -53,27 +50,18 @@ class Mosaic {
         // Their shares of what there is of the mosaic, which add up to one, or are all zero.
         std::array<float, kMaxLayers> share{};
         std::array<Vec2f, kMaxLayers> place{};  // the middle of each [px from the pixel's corner]
-        // The narrowness of the gaps in which the ground is seen, those that run down and those that run across: upper_m over their
-        // widths, and the share of the former.
-        Vec2f gap{};
-        float down = 0;
+        float lit = 0;  // of the ground, the share that light reaches past what lies on it
         // The lean of what lies on the ground against it, along across and down: a difference of unit normals.
         Vec2f lean{};
     };
-    // Loop, any thread.
-    Look look(const Footprint& pixel) const;
-
-    // Returns the share of the ground that is seen there which is not shaded by what lies on it. way: how far a ray to the Sun goes
-    // along across and down while it rises by one, less what one to the viewer goes. Loop, any thread.
-    static float sunlit(const Look& look, Vec2f way) {
-        return std::max(0.0f, look.down - look.gap.x * std::abs(way.x)) +
-               std::max(0.0f, 1 - look.down - look.gap.y * std::abs(way.y));
-    }
+    // way: how far a ray to the light goes along across and down while it rises by one, less what one to the viewer goes. Loop, any
+    // thread.
+    Look look(const Footprint& pixel, Vec2f way) const;
 
     // True when a triangle may be part of it: its surface is, and it lies in the rectangle, on the ground or upon it. Owner thread.
     bool holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corners_m) const;
-    // True when there is anything of it at a place of its rectangle. Owner thread.
-    bool covers(Vec3d at_m) const;
+    // True when the ground is below a triangle of its rectangle: below its corners and its middle. Owner thread.
+    bool covers(const std::array<Vec3d, 3>& corners_m) const;
 
   private:
     friend class MosaicPainter;
@@ -92,7 +80,8 @@ class Mosaic {
     };
     std::vector<Level> levels_;  // each half as fine as the one before
 
-    bool find_window(const Footprint& pixel, std::size_t level, MosaicWindow& out) const;
+    struct Steps;
+    bool find_window(const Footprint& pixel, const Steps& finest, std::size_t level, MosaicWindow& out) const;
 };
 
 }  // namespace hilcam

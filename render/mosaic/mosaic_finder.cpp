@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "render/mosaic/mosaic_painter.h"
+#include "render/mosaic/plane_rectangle.h"
 
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMaxSeeds = 64;  // the largest triangles that are looked at as ground
-constexpr std::size_t kMaxMosaics =
-    253;  // a byte tells them apart, with three other values (PackedTriangle::patch)
+// The largest triangles that are looked at as ground; not more mosaics than a byte tells apart (PackedTriangle::patch).
+constexpr std::size_t kMaxSeeds = 64;
 constexpr int kFinest = 768, kCoarsest = 16;         // texels along the longer side: at most, and at least
 constexpr double kMinFilled = 0.2;                   // the share of its rectangle that the ground fills
 constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // the share of the ground beside what lies on it
@@ -74,7 +73,7 @@ class MosaicFinder {
     std::vector<Mosaic> find() {
         std::vector<Mosaic> out;
         std::size_t seeds = 0;
-        for (std::size_t s = 0; s < flat_.size() && seeds < kMaxSeeds && out.size() < kMaxMosaics; ++s) {
+        for (std::size_t s = 0; s < flat_.size() && seeds < kMaxSeeds; ++s) {
             if (used_[s]) continue;
             // What is left is crumbs.
             if (flat_[s].area_m2 < 8 * error_m_ * error_m_) break;
@@ -96,12 +95,12 @@ class MosaicFinder {
     bool make(std::size_t seed, Mosaic& out) {
         const std::vector<std::size_t> ground = ground_about(seed);
         for (const std::size_t i : ground) used_[i] = 1;
-        if (!lay_out(seed, ground, out)) return false;
-        for (const double side : {1.0, -1.0}) {
-            if (side < 0) out.down = -out.down, out.normal = -out.normal, place_corner(ground, out);
+        const std::vector<Vec3d> edges = border(ground);
+        const Vec3d normal = flat_[seed].area / flat_[seed].area_m2;
+        for (const Vec3d up : {normal, -normal}) {
+            if (!lay_out(ground, edges, up, out)) return false;
             const std::vector<std::size_t> upon = upon_ground(out);
-            if (upon.empty()) continue;
-            return paint(ground, upon, out);
+            if (!upon.empty()) return paint(ground, upon, out);
         }
         return false;
     }
@@ -130,32 +129,25 @@ class MosaicFinder {
         return out;
     }
 
-    // The rectangle lies along that one of the longest edges of the ground's border with which it is smallest.
-    bool lay_out(std::size_t seed, const std::vector<std::size_t>& ground, Mosaic& out) const {
-        constexpr std::size_t kMostEdges = 64;
-        const Vec3d normal = flat_[seed].area / flat_[seed].area_m2;
-        out.normal = to_float(normal);
-        out.surface[0] = flat_[seed].surface, out.layers = 1;
-        double area_m2 = 0;
-        for (const std::size_t i : ground) area_m2 += flat_[i].area_m2;
-        std::vector<Vec3d> edges = border(ground);
-        std::stable_sort(edges.begin(), edges.end(), [](Vec3d a, Vec3d b) { return dot(a, a) > dot(b, b); });
-        edges.resize(std::min(edges.size(), kMostEdges));
+    // The rectangle lies along that edge with which it is smallest. False: it is too small, or not filled.
+    bool lay_out(const std::vector<std::size_t>& ground, std::span<const Vec3d> edges, Vec3d up,
+                 Mosaic& out) const {
         if (edges.empty()) return false;  // it goes round
-        double least_m2 = std::numeric_limits<double>::infinity();
-        Vec3f across;
-        for (const Vec3d edge : edges) {
-            lie_along(edge, normal, ground, out);
-            const double whole_m2 = static_cast<double>(out.width_m) * static_cast<double>(out.height_m);
-            if (whole_m2 < least_m2) least_m2 = whole_m2, across = out.across;
-        }
-        lie_along(to_double(across), normal, ground, out);
-        const double longer_m = static_cast<double>(std::max(out.width_m, out.height_m));
+        std::vector<std::array<Vec3d, 3>> triangles;
+        double area_m2 = 0;
+        for (const std::size_t i : ground) triangles.push_back(corners(i)), area_m2 += flat_[i].area_m2;
+        const PlaneRectangle r = smallest_rectangle(triangles, edges, up);
+        out.surface[0] = flat_[ground.front()].surface, out.layers = 1;
+        out.normal = to_float(up), out.across = to_float(r.across), out.down = to_float(r.down);
+        out.width_m = static_cast<float>(r.width()), out.height_m = static_cast<float>(r.height());
+        out.corner_m = to_float(dot(triangles[0][0], up) * up + r.x0 * r.across + r.y0 * r.down);
+        const double longer_m = std::max(r.width(), r.height());
         out.texel_m = static_cast<float>(std::max(error_m_, longer_m / kFinest));
-        return area_m2 > kMinFilled * least_m2 && longer_m > kCoarsest * static_cast<double>(out.texel_m);
+        return area_m2 > kMinFilled * r.area() && longer_m > kCoarsest * static_cast<double>(out.texel_m);
     }
-    // Edges that one triangle has.
+    // The longest of the edges that one triangle has.
     std::vector<Vec3d> border(const std::vector<std::size_t>& ground) const {
+        constexpr std::size_t kMostEdges = 64;
         using Place = std::tuple<double, double, double>;
         std::map<std::pair<Place, Place>, int> found;
         const auto place = [](Vec3d at) { return Place{at.x, at.y, at.z}; };
@@ -172,25 +164,9 @@ class MosaicFinder {
             const auto& [bx, by, bz] = ends.second;
             if (triangles == 1) out.push_back({bx - ax, by - ay, bz - az});
         }
+        std::stable_sort(out.begin(), out.end(), [](Vec3d a, Vec3d b) { return dot(a, a) > dot(b, b); });
+        out.resize(std::min(out.size(), kMostEdges));
         return out;
-    }
-    void lie_along(Vec3d edge, Vec3d normal, const std::vector<std::size_t>& ground, Mosaic& out) const {
-        out.across = to_float(normalized(edge - dot(edge, normal) * normal));
-        out.down = to_float(cross(normal, to_double(out.across)));
-        place_corner(ground, out);
-    }
-    void place_corner(const std::vector<std::size_t>& ground, Mosaic& out) const {
-        constexpr double kFar = std::numeric_limits<double>::infinity();
-        double x0 = kFar, y0 = kFar, x1 = -kFar, y1 = -kFar;
-        const Vec3d first = corners(ground.front())[0], across = to_double(out.across),
-                    down = to_double(out.down);
-        for (const std::size_t i : ground)
-            for (const Vec3d c : corners(i)) {
-                const double x = dot(c - first, across), y = dot(c - first, down);
-                x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
-            }
-        out.corner_m = to_float(first + x0 * across + y0 * down);
-        out.width_m = static_cast<float>(x1 - x0), out.height_m = static_cast<float>(y1 - y0);
     }
 
     // Triangles of other surfaces that lie in the ground's rectangle, less than a texel high.
@@ -253,9 +229,7 @@ class MosaicFinder {
         const double seen = painter.finish();
         if (seen < kMinSeen || seen > kMaxSeen) return false;
         for (const std::size_t i : upon)
-            if (const auto c = corners(i);
-                layer_of(i) < out.layers && out.covers((1.0 / 3) * (c[0] + c[1] + c[2])))
-                used_[i] = 1;
+            if (layer_of(i) < out.layers && out.covers(corners(i))) used_[i] = 1;
         out.above_m = static_cast<float>(top_m);
         out.corner_m = to_float(base + top_m * up);
         return true;
@@ -276,7 +250,7 @@ std::vector<MosaicParts> mosaic_parts(std::span<const Mosaic> mosaics, const Mes
         MosaicParts& parts = out.emplace_back();
         for (const FlatTriangle& t : flat) {
             const auto three = corners_of(mesh, t.number);
-            if (mosaic.holds(t.surface, three) && mosaic.covers((1.0 / 3) * (three[0] + three[1] + three[2])))
+            if (mosaic.holds(t.surface, three) && mosaic.covers(three))
                 (t.surface == mosaic.surface[0] ? parts.ground : parts.upon).push_back(t.number);
         }
     }

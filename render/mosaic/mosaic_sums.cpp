@@ -84,20 +84,30 @@ void sums(const MosaicWindow& w, std::size_t layers, MosaicSums& out) {
             }
         out.share[k] = share.value(), out.x[k] = x.value(), out.y[k] = y.value();
     }
-    Sum down;
     for (std::size_t k = 0; k < 2; ++k) {
-        Sum lean, gap;
+        Sum lean;
         for (std::size_t b = 0; b < w.count; ++b)
             for (std::size_t i = 0; i < kParts; ++i) {
                 const V weight = hn::Load(d, weights.weight + b * MosaicTexels::kLanes + i * kStep);
                 lean.add(i, hn::Mul(weight, numbers<std::int8_t>(w.texels[b]->lean[k].data() + i * kStep)));
-                gap.add(i, hn::Mul(weight, numbers<std::uint8_t>(w.texels[b]->gap[k].data() + i * kStep)));
-                if (k == 0)
-                    down.add(i, hn::Mul(weight, numbers<std::uint8_t>(w.texels[b]->down.data() + i * kStep)));
             }
-        out.lean[k] = lean.value(), out.gap[k] = gap.value();
+        out.lean[k] = lean.value();
     }
-    out.down = down.value();
+    // Texel by texel, as a narrow gap that is dark must not darken a wide one.
+    Sum lit;
+    const V across = hn::Set(d, w.across), down = hn::Set(d, w.down), dark = hn::Zero(d);
+    for (std::size_t b = 0; b < w.count; ++b)
+        for (std::size_t i = 0; i < kParts; ++i) {
+            const auto of = [&](const MosaicTexels::Bytes& bytes) {
+                return numbers<std::uint8_t>(bytes.data() + i * kStep);
+            };
+            const MosaicTexels& t = *w.texels[b];
+            const V running_down = of(t.down), running_across = hn::Sub(of(t.share[0]), running_down);
+            const V open = hn::Add(hn::Max(hn::Sub(running_down, hn::Mul(across, of(t.gap[0]))), dark),
+                                   hn::Max(hn::Sub(running_across, hn::Mul(down, of(t.gap[1]))), dark));
+            lit.add(i, hn::Mul(hn::Load(d, weights.weight + b * MosaicTexels::kLanes + i * kStep), open));
+        }
+    out.lit = lit.value();
 }
 
 }  // namespace HWY_NAMESPACE

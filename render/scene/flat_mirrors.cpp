@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 #include <utility>
+
+#include "render/mosaic/plane_rectangle.h"
 
 namespace hilcam {
 namespace {
@@ -47,42 +48,23 @@ bool is_curved(const PackedTriangle& triangle, Vec3d normal) {
                        });
 }
 
-struct PlaneExtent {
-    double x0 = std::numeric_limits<double>::infinity(), y0 = x0, x1 = -x0, y1 = -x0;
-    double area() const { return (x1 - x0) * (y1 - y0); }
-};
-PlaneExtent extent(std::span<const FlatTriangle> triangles, Vec3d across, Vec3d down) {
-    PlaneExtent e;
-    for (const FlatTriangle& t : triangles)
-        for (const Vec3f corner : {t.a, t.b, t.c}) {
-            const double x = dot(to_double(corner), across), y = dot(to_double(corner), down);
-            e.x0 = std::min(e.x0, x), e.x1 = std::max(e.x1, x);
-            e.y0 = std::min(e.y0, y), e.y1 = std::max(e.y1, y);
-        }
-    return e;
-}
-
 // The rectangle lies along that edge of the largest triangle with which it is smallest.
 void lay_out(std::span<const FlatTriangle> triangles, Vec3d normal, Vec3d middle, FlatMirror& out) {
     const FlatTriangle& largest = *std::max_element(triangles.begin(), triangles.end(),
                                                     [](const FlatTriangle& a, const FlatTriangle& b) {
                                                         return dot(a.area, a.area) < dot(b.area, b.area);
                                                     });
-    PlaneExtent best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& [from, to] : {std::pair(largest.a, largest.b), std::pair(largest.b, largest.c),
-                                   std::pair(largest.a, largest.c)}) {
-        const Vec3d edge = to_double(to) - to_double(from);
-        const Vec3d across = normalized(edge - dot(edge, normal) * normal), down = cross(normal, across);
-        const PlaneExtent e = extent(triangles, across, down);
-        if (!(e.area() < least)) continue;
-        least = e.area(), best = e;
-        out.across = to_float(across), out.down = to_float(down);
-    }
-    out.normal = to_float(normal);
-    out.width_m = static_cast<float>(best.x1 - best.x0), out.height_m = static_cast<float>(best.y1 - best.y0);
-    out.corner_m = to_float(dot(middle, normal) * normal + best.x0 * to_double(out.across) +
-                            best.y0 * to_double(out.down));
+    const auto edge = [](Vec3f from, Vec3f to) { return to_double(to) - to_double(from); };
+    const std::array<Vec3d, 3> edges{edge(largest.a, largest.b), edge(largest.b, largest.c),
+                                     edge(largest.a, largest.c)};
+    std::vector<std::array<Vec3d, 3>> corners;
+    for (const FlatTriangle& t : triangles)
+        corners.push_back({to_double(t.a), to_double(t.b), to_double(t.c)});
+    const PlaneRectangle r = smallest_rectangle(corners, edges, normal);
+    out.across = to_float(r.across), out.down = to_float(r.down), out.normal = to_float(normal);
+    out.width_m = static_cast<float>(r.width()), out.height_m = static_cast<float>(r.height());
+    out.corner_m =
+        to_float(dot(middle, normal) * normal + r.x0 * to_double(out.across) + r.y0 * to_double(out.down));
 }
 
 class MirrorFinder {

@@ -72,7 +72,7 @@ TEST(Mosaic, HasTheAreasOfItsTriangles) {
     const Mosaic mosaic = mosaics_of(leaning(panel.mesh())).at(0);
     const double tiles = std::pow(1 - panel.gap_m / panel.pitch_m, 2);
     // Ten tiles each way, however the pixel lies.
-    const Mosaic::Look whole = mosaic.look(pixel_at(mosaic, {1, 1}, 10 * panel.pitch_m, 0));
+    const Mosaic::Look whole = mosaic.look(pixel_at(mosaic, {1, 1}, 10 * panel.pitch_m, 0), {});
     // Texels are a third of the pixel, over which its sides fall off.
     EXPECT_NEAR(whole.share[1], tiles, 5e-3);
     EXPECT_NEAR(whole.share[0] + whole.share[1], 1, 1e-6);
@@ -80,11 +80,11 @@ TEST(Mosaic, HasTheAreasOfItsTriangles) {
     // A pixel of a third of a tile has a gap or none.
     for (const double x_m : {1.0, 1.03, 1.05}) {
         const double half_m = 0.0165;
-        const Mosaic::Look small = mosaic.look(pixel_at(mosaic, {x_m, 1.05}, 2 * half_m, 0));
+        const Mosaic::Look small = mosaic.look(pixel_at(mosaic, {x_m, 1.05}, 2 * half_m, 0), {});
         EXPECT_NEAR(small.share[1], panel.covered(x_m - half_m, x_m + half_m), 0.02) << x_m;
     }
     // Nothing beside it.
-    EXPECT_EQ(mosaic.look(pixel_at(mosaic, {-1, 1}, 0.1, 0)).share,
+    EXPECT_EQ(mosaic.look(pixel_at(mosaic, {-1, 1}, 0.1, 0), {}).share,
               (std::array<float, Mosaic::kMaxLayers>{}));
 }
 
@@ -102,7 +102,7 @@ TEST(Mosaic, PixelsSideBySideAddUpToIt) {
                     const double x = size_m * (i * std::cos(turned) - j * std::sin(turned)),
                                  y = size_m * (i * std::sin(turned) + j * std::cos(turned));
                     sum += static_cast<double>(
-                        mosaic.look(pixel_at(mosaic, {1 + x, 1 + y}, size_m, turned)).share[0]);
+                        mosaic.look(pixel_at(mosaic, {1 + x, 1 + y}, size_m, turned), {}).share[0]);
                     ++count;
                 }
             const double side_m = size_m * (2 * half + 1);
@@ -118,11 +118,11 @@ TEST(Mosaic, IsSeenFromNearItsEdge) {
     for (const float longer : {3.0f, 30.0f, 3e3f, 1e6f}) {
         Mosaic::Footprint pixel = pixel_at(mosaic, {1.05, 1.05}, 0.02, 0.3);
         pixel.per_y = {longer * pixel.per_y.x, longer * pixel.per_y.y};
-        const Mosaic::Look look = mosaic.look(pixel);
+        const Mosaic::Look look = mosaic.look(pixel, {});
         EXPECT_NEAR(look.share[0] + look.share[1], 1, 1e-5) << longer;
         EXPECT_GT(look.share[1], 0.7f) << longer;
     }
-    EXPECT_EQ(mosaic.look({{1, 1}, {1, 1}, {1, 1}}).share[1], 0);
+    EXPECT_EQ(mosaic.look({{1, 1}, {1, 1}, {1, 1}}, {}).share[1], 0);
 }
 
 // In a gap of five millimetres a millimetre below, the Sun 45 degrees to its side lights four fifths; along it, all.
@@ -134,7 +134,7 @@ TEST(Mosaic, GapsAreShadedAsNarrowAsTheyAre) {
         const Vec2d place{dot(from, to_double(mosaic.across)), dot(from, to_double(mosaic.down))};
         const Vec2f own{way.x * mosaic.across.x + way.y * mosaic.across.y,
                         way.x * mosaic.down.x + way.y * mosaic.down.y};
-        return Mosaic::sunlit(mosaic.look(pixel_at(mosaic, place, 0.03, 0)), own);
+        return mosaic.look(pixel_at(mosaic, place, 0.03, 0), own).lit;
     };
     const Vec2d along_x{1.05, 1}, along_y{1, 1.05};
     EXPECT_NEAR(lit(along_y, {0, 0}), 1, 0.01);
@@ -164,16 +164,46 @@ TEST(Mosaic, TheGroundStandsForAllInALevelOfDetail) {
                             [](std::uint32_t patch) { return patch == kNotShown; }));
 }
 
+// Of a ground that is cut off along a diagonal, tiles that stand out of it are shown by themselves.
+TEST(Mosaic, TilesThatStandOutOfTheGroundAreNoPartOfIt) {
+    const TiledPanel panel;
+    Mesh mesh = panel.mesh();
+    mesh.vertices_m[2] = {static_cast<float>(panel.side_m()), 0.4f, 0};
+    ObjectSurfaces surfaces = surfaces_of(mesh);
+    find_patches(mesh, surfaces);
+    const auto mosaics = std::make_shared<const std::vector<Mosaic>>(mosaics_of(mesh));
+    ASSERT_EQ(mosaics->size(), 1u);
+    attach_mosaics(mosaics, mesh, kError_m, surfaces);
+    std::size_t hidden = 0;
+    for (std::size_t t = 2; t < mesh.triangles.size(); ++t) {
+        const auto inside = [&](std::uint32_t v) {
+            const Vec3f at = mesh.vertices_m[v];
+            return at.y <= 2 - 0.8f * at.x;  // from (0, 2) to (2, 0.4)
+        };
+        const bool above_ground = std::all_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), inside);
+        if (above_ground) {
+            EXPECT_EQ(surfaces.patches[t], kNotShown) << t;
+        }
+        const Vec3f at = mesh.vertices_m[mesh.triangles[t][2]];
+        if (at.y > 2.02f - 0.8f * at.x) {
+            EXPECT_NE(surfaces.patches[t], kNotShown) << t;
+        }
+        hidden += surfaces.patches[t] == kNotShown;
+    }
+    EXPECT_GT(hidden, 400u);
+    EXPECT_LT(hidden, 600u);
+}
+
 TEST(Mosaic, IsTheSameByAnyWidthOfVectors) {
     const Mosaic mosaic = mosaics_of(leaning(TiledPanel{}.mesh())).at(0);
     expect_same_by_any_width([&] {
         std::vector<float> out;
         for (int i = 0; i < 50; ++i) {
-            const Mosaic::Look look =
-                mosaic.look(pixel_at(mosaic, {0.3 + 0.03 * i, 0.2 + 0.02 * i}, 0.01 + 0.003 * i, 0.1 * i));
+            const Mosaic::Look look = mosaic.look(
+                pixel_at(mosaic, {0.3 + 0.03 * i, 0.2 + 0.02 * i}, 0.01 + 0.003 * i, 0.1 * i), {1, -2});
             for (std::size_t k = 0; k < mosaic.layers; ++k)
                 out.insert(out.end(), {look.share[k], look.place[k].x, look.place[k].y});
-            out.insert(out.end(), {look.gap.x, look.gap.y, look.down, look.lean.x, look.lean.y});
+            out.insert(out.end(), {look.lit, look.lean.x, look.lean.y});
         }
         return out;
     });
