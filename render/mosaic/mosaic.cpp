@@ -7,7 +7,8 @@
 namespace hilcam {
 namespace {
 
-constexpr float kSharp_px = 0.35f;  // texels are no longer than this, where there are such
+// Texels are no longer than this, where there are such: a choice by its error (docs/decisions.md).
+constexpr float kSharp_px = 0.35f;
 
 // Whole numbers.
 struct WholeNumbers {

@@ -50,7 +50,7 @@ class Mosaic {
         // Their shares of what there is of the mosaic, which add up to one, or are all zero.
         std::array<float, kMaxLayers> share{};
         std::array<Vec2f, kMaxLayers> place{};  // the middle of each [px from the pixel's corner]
-        float lit = 0;  // of the ground, the share that light reaches past what lies on it
+        float lit = 0;                          // share of the ground that light reaches past what lies on it
         // The lean of what lies on the ground against it, along across and down: a difference of unit normals.
         Vec2f lean{};
     };

@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-// A gap runs along the side on which it is free for so many times longer.
+// A gap runs along the side on which it is free for so many times longer: any figure well above one tells gaps from squares.
 constexpr float kClear = 2;
 
 int texel(double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1); }

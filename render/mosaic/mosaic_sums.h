@@ -32,15 +32,15 @@ struct MosaicWindow {
     float x_step = 0, y_step = 0;  // from each to the next
     // Sides fall off over the width that a texel has there, so that pixels side by side add up to one: that, inverse.
     float x_fall = 0, y_fall = 0;
-    // How far light gets along across and down, either way, while it rises as high as what lies on the ground, from where one looks
-    // at the ground [Mosaic::upper_m].
+    // The way of light along across and down, either way, while it rises as high as what lies on the ground, less that of the line of
+    // sight [Mosaic::upper_m].
     float across = 0, down = 0;
 };
 struct MosaicSums {
     std::array<float, MosaicTexels::kLayers> share{};
     std::array<float, MosaicTexels::kLayers> x{}, y{};  // sums of shares times their places
     std::array<float, 2> lean{};
-    float lit = 0;  // of the ground, the share that light reaches
+    float lit = 0;  // sum of the share of the ground that light reaches
 };
 // layers: the first ones, which are asked for. Loop, any thread.
 MosaicSums sums_of(const MosaicWindow& window, std::size_t layers);
