@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "render/scene/mesh_lod.h"
+#include "render/levels/mesh_lod.h"
 
 namespace hilcam {
 

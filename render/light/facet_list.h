@@ -1,7 +1,7 @@
 #pragma once
 // The parts of what the camera sees in a pixel that lean otherwise, for the Sun to be reflected by each of
 // them: what a vertex of many samples has joined, and what a level of detail has flattened
-// (scene/level_facets.h).
+// (levels/level_facets.h).
 
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"

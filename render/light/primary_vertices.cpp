@@ -94,39 +94,17 @@ void PrimaryVertices::take_pixel(int x, int y) {
     const auto left = static_cast<std::uint8_t>(x - tile_.box.x0),
                top = static_cast<std::uint8_t>(y - tile_.box.y0);
     const int pixel = top * (tile_.box.x1 - tile_.box.x0) + left;
-    const std::size_t first = fragment_count_;
-    SampleMask nothing = 0;
-    PixelFragments part;
-    for (int q = 0; q < grid.quarters(); ++q) {
-        list_fragments(tile_.seen->ids(grid.buffer_px() * (x - part_.x0) + q % 2,
-                                       grid.buffer_px() * (y - part_.y0) + q / 2),
-                       part);
-        nothing |= SampleMask{part.nothing} << (kVisibilitySamples * q);
-        for (const PixelFragments::Fragment& found : std::span(part.fragments).first(part.count)) {
-            const SampleMask mask = SampleMask{found.samples} << (kVisibilitySamples * q);
-            const auto end = fragments_.begin() + fragment_count_;
-            const auto same = q == 0 ? end
-                                     : std::find_if(fragments_.begin() + first, end,
-                                                    [&](const Fragment& f) { return f.id == found.id; });
-            if (same != end)
-                same->samples |= mask;
-            else
-                fragments_[fragment_count_++] = {found.id, static_cast<std::uint16_t>(pixel), left, top,
-                                                 mask};
-        }
-    }
-    uncovered_[static_cast<std::size_t>(pixel)] = nothing;
-    if (fragment_count_ == first) return;
+    const int across = grid.buffer_px();
+    PixelFragments seen;
+    list_fragments(tile_.seen->ids(across * (x - part_.x0), across * (y - part_.y0)), across, seen);
+    uncovered_[static_cast<std::size_t>(pixel)] = seen.nothing;
+    if (seen.count == 0) return;
+    for (const PixelFragments::Fragment& found : std::span(seen.fragments).first(seen.count))
+        fragments_[fragment_count_++] = {found.id, static_cast<std::uint16_t>(pixel), left, top,
+                                         found.samples};
     tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
     tile_.stats.covered_px +=
-        static_cast<double>(grid.weight(grid.all() & ~nothing)) * (1.0 / kVisibilitySamples);
-    if (grid.quarters() == 1) return;
-    // The greatest first: others join it.
-    std::sort(fragments_.begin() + first, fragments_.begin() + fragment_count_,
-              [](const Fragment& a, const Fragment& b) {
-                  const int more = std::popcount(a.samples), less = std::popcount(b.samples);
-                  return more != less ? more > less : a.samples < b.samples;
-              });
+        static_cast<double>(grid.weight(grid.all() & ~seen.nothing)) * (1.0 / kVisibilitySamples);
 }
 
 // True when a body stands before what the samples see: they see the body then.

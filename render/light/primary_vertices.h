@@ -35,7 +35,6 @@ class PrimaryVertices {
     int part_px_ = 0;                                           // its edge
     int next_pixel_ = 0, pixels_ = 0;                           // there
     std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
-    static constexpr std::size_t kMostSamples = 64;
     std::array<Fragment, kPacketSize + kMostSamples> fragments_;
     std::size_t fragment_count_ = 0;
     // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.

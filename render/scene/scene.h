@@ -11,7 +11,7 @@
 #include "render/scene/color_bands.h"
 #include "render/scene/lamp.h"
 #include "render/scene/material.h"
-#include "render/scene/mesh_lod.h"
+#include "render/levels/mesh_lod.h"
 #include "render/scene/terrain.h"
 #include "render/sky/atmosphere.h"
 #include "render/sky/bodies.h"

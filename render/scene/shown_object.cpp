@@ -5,7 +5,7 @@
 
 #include "render/mosaic/mosaic_finder.h"
 #include "render/scene/flat_patches.h"
-#include "render/scene/triangle_order.h"
+#include "render/levels/triangle_order.h"
 
 namespace hilcam {
 namespace {

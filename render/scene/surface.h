@@ -11,7 +11,7 @@
 
 #include "render/scene/color_bands.h"
 #include "render/scene/ground_normals.h"
-#include "render/scene/level_facets.h"
+#include "render/levels/level_facets.h"
 #include "render/scene/packed_normal.h"
 #include "render/scene/scene.h"
 

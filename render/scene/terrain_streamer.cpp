@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "render/scene/ground_sun.h"
-#include "render/scene/triangle_order.h"
+#include "render/levels/triangle_order.h"
 
 namespace hilcam {
 

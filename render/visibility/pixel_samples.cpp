@@ -6,73 +6,62 @@
 namespace hilcam {
 namespace {
 
-// Returns the sample of some of sixteen that is nearest to a place.
-int nearest_to(std::uint32_t samples, Vec2f place) {
+// Where samples lie on a grid, by how many of them have each digit of the column and the row.
+struct Lines {
+    int columns, rows;  // sums
+};
+Lines lines_of(SampleMask samples) {
+    const auto count = [&](SampleMask with) { return std::popcount(samples & with); };
+    return {count(0xAAAAAAAAAAAAAAAA) + 2 * count(0xCCCCCCCCCCCCCCCC) + 4 * count(0xFFFF0000FFFF0000),
+            count(0xF0F0F0F0F0F0F0F0) + 2 * count(0xFF00FF00FF00FF00) + 4 * count(0xFFFFFFFF00000000)};
+}
+
+Vec2f mean_of(SampleMask samples, int across) {
+    const int count = std::popcount(samples);
+    const Lines lines = lines_of(samples);
+    const float share = 1 / static_cast<float>(count);
+    const auto mean = [&](int sum) {
+        return share *
+               ((static_cast<float>(sum) + 0.5f * static_cast<float>(count)) / static_cast<float>(across));
+    };
+    return {mean(lines.columns), mean(lines.rows)};
+}
+
+// Returns the place of the sample of some that is nearest to a place.
+Vec2f nearest_to(const PixelSamples& grid, SampleMask samples, Vec2f place) {
     float least = 4;
-    int nearest = 0;
-    for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
-        const int i = std::countr_zero(rest);
-        const float dx = sample_x(i) - place.x, dy = sample_y(i) - place.y;
-        if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = i;
+    Vec2f nearest{};
+    for (SampleMask rest = samples; rest; rest &= rest - 1) {
+        const Vec2f at = grid.place(std::countr_zero(rest));
+        const float dx = at.x - place.x, dy = at.y - place.y;
+        if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = at;
     }
     return nearest;
 }
 
-// For each set of sixteen samples the sum of their places, and the one next to their middle: by themselves, as they are
-// asked for each fragment and fit a cache.
-struct Sixteen {
-    std::vector<Vec2f> sum;
-    std::vector<std::uint8_t> nearest;
-};
-const Sixteen kSixteen = [] {
-    Sixteen out{std::vector<Vec2f>(0x10000u), std::vector<std::uint8_t>(0x10000u)};
-    for (std::uint32_t samples = 1; samples < out.sum.size(); ++samples) {
-        Vec2f sum{};
-        for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
-            const int i = std::countr_zero(rest);
-            sum.x += sample_x(i), sum.y += sample_y(i);
-        }
-        const float share = 1 / static_cast<float>(std::popcount(samples));
-        out.sum[samples] = sum;
-        out.nearest[samples] = static_cast<std::uint8_t>(nearest_to(samples, {share * sum.x, share * sum.y}));
+// For each set of sixteen samples the one next to their middle: by itself, as it is asked for each fragment.
+const std::vector<std::uint8_t> kNearestOfSixteen = [] {
+    const PixelSamples grid(kVisibilitySamplesAcross);
+    std::vector<std::uint8_t> out(0x10000u);
+    for (std::uint32_t samples = 1; samples < out.size(); ++samples) {
+        const Vec2f at = nearest_to(grid, samples, mean_of(samples, kVisibilitySamplesAcross));
+        out[samples] = static_cast<std::uint8_t>(kVisibilitySamplesAcross *
+                                                     static_cast<int>(kVisibilitySamplesAcross * at.y) +
+                                                 static_cast<int>(kVisibilitySamplesAcross * at.x));
     }
     return out;
 }();
-
-std::uint32_t of_quarter(SampleMask samples, int quarter) {
-    return static_cast<std::uint32_t>(samples >> (kVisibilitySamples * quarter)) & kAllSamples;
-}
 
 }  // namespace
 
 Vec2f PixelSamples::middle(SampleMask samples) const {
     if (samples == all()) return {0.5f, 0.5f};
-    if (quarters_ == 1) return place(kSixteen.nearest[samples]);
-    Vec2f sum{};
-    for (int q = 0; q < 4; ++q) {
-        const std::uint32_t part = of_quarter(samples, q);
-        const auto count = static_cast<float>(std::popcount(part));
-        sum.x += (count * static_cast<float>(q % 2) + kSixteen.sum[part].x) / 2;
-        sum.y += (count * static_cast<float>(q / 2) + kSixteen.sum[part].y) / 2;
-    }
-    const float share = 1 / static_cast<float>(std::popcount(samples));
-    const Vec2f middle{share * sum.x, share * sum.y};
+    if (quarters_ == 1) return place(kNearestOfSixteen[samples]);
+    const Vec2f middle = mean_of(samples, across());
     // Mostly the sample about the middle is one of them.
     const int column = static_cast<int>(8 * middle.x), row = static_cast<int>(8 * middle.y);
     const int about = kVisibilitySamples * (2 * (row / 4) + column / 4) + 4 * (row % 4) + column % 4;
-    if (samples >> about & 1u) return place(about);
-    float least = 4;
-    Vec2f out{};
-    for (int q = 0; q < 4; ++q) {
-        const std::uint32_t part = of_quarter(samples, q);
-        if (part == 0) continue;
-        const Vec2f within{2 * middle.x - static_cast<float>(q % 2),
-                           2 * middle.y - static_cast<float>(q / 2)};
-        const Vec2f at = place(kVisibilitySamples * q + nearest_to(part, within));
-        const float dx = at.x - middle.x, dy = at.y - middle.y;
-        if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, out = at;
-    }
-    return out;
+    return samples >> about & 1u ? place(about) : nearest_to(*this, samples, middle);
 }
 
 HalfShares PixelSamples::halves(SampleMask samples) const {

@@ -12,8 +12,6 @@
 
 namespace hilcam {
 
-using SampleMask = std::uint64_t;  // a bit for each of a pixel's samples
-
 class PixelSamples {
   public:
     // across: 4 or 8.

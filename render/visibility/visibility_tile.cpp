@@ -233,33 +233,57 @@ void fill(const TriangleSetup& s, VisibilityTile& tile) {
         if (s.x1[k] >= s.x0[k] && !is_hidden(s, k, tile)) Filler(s, bounds, k, tile);
 }
 
-void list(const std::uint32_t* ids, PixelFragments& out) {
+// A bit for each of sixteen ids that is the wanted one.
+HWY_INLINE std::uint32_t equal_of_sixteen(const std::uint32_t* ids, std::uint32_t wanted) {
     const hn::CappedTag<std::uint32_t, kVisibilitySamples> d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
-    const auto equal = [&](std::uint32_t id) {
-        const auto wanted = hn::Set(d, id);
-        std::uint32_t same = 0;
-        for (std::size_t i = 0; i < kVisibilitySamples; i += lanes) {
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(d, hn::Eq(hn::Load(d, ids + i), wanted), bits);
-            same |= (bits[0] | std::uint32_t{bits[1]} << 8) << i;
-        }
+    std::uint32_t same = 0;
+    for (std::size_t i = 0; i < kVisibilitySamples; i += lanes) {
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, hn::Eq(hn::Load(d, ids + i), hn::Set(d, wanted)), bits);
+        same |= (bits[0] | std::uint32_t{bits[1]} << 8) << i;
+    }
+    return same;
+}
+
+// A pixel of so many of the tile's pixels each way; sample 16 q + i is sample i of quarter q.
+template <int kAcross>
+void list_pixel(const std::uint32_t* ids, PixelFragments& out) {
+    constexpr int kQuarters = kAcross * kAcross;
+    constexpr SampleMask kAll = ~SampleMask{0} >> (64 - kVisibilitySamples * kQuarters);
+    const auto of_quarter = [&](int q) {
+        return ids + (q / kAcross * kSide_px + q % kAcross) * kVisibilitySamples;
+    };
+    // Quarters before the first are known to have no such id.
+    const auto equal = [&](std::uint32_t id, int first) {
+        SampleMask same = 0;
+        for (int q = first; q < kQuarters; ++q)
+            same |= SampleMask{equal_of_sixteen(of_quarter(q), id)} << (kVisibilitySamples * q);
         return same;
     };
-    out.nothing = equal(VisibilityTile::kNothing);
+    out.nothing = equal(VisibilityTile::kNothing, 0);
     out.count = 0;
-    for (std::uint32_t rest = kAllSamples & ~out.nothing, same; rest != 0; rest &= ~same) {
-        const std::uint32_t id = ids[__builtin_ctz(rest)];
-        same = equal(id);
-        const int others = kVisibilitySamples - __builtin_popcount(same);
+    for (SampleMask rest = kAll & ~out.nothing, same; rest != 0; rest &= ~same) {
+        const int first = __builtin_ctzll(rest), quarter = first / kVisibilitySamples;
+        const std::uint32_t id = of_quarter(quarter)[first % kVisibilitySamples];
+        same = equal(id, quarter);
+        const auto others =
+            static_cast<std::uint32_t>(kVisibilitySamples * kQuarters - __builtin_popcountll(same));
         const auto comes_after = [&](const PixelFragments::Fragment& other) {
             return other.others != others ? other.others > others : other.samples > same;
         };
         std::size_t place = out.count++;
         for (; place > 0 && comes_after(out.fragments[place - 1]); --place)
             out.fragments[place] = out.fragments[place - 1];
-        out.fragments[place] = {id, static_cast<std::uint16_t>(same), static_cast<std::uint16_t>(others)};
+        out.fragments[place] = {id, others, same};
     }
+}
+
+void list(const std::uint32_t* ids, int across, PixelFragments& out) {
+    if (across == 1)
+        list_pixel<1>(ids, out);
+    else
+        list_pixel<2>(ids, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -275,7 +299,9 @@ HWY_EXPORT(list);
 
 void fill_tile(const TriangleSetup& setup, VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(fill)(setup, tile); }
 void find_farthest(VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(farthest)(tile); }
-void list_fragments(const std::uint32_t* ids, PixelFragments& out) { HWY_DYNAMIC_DISPATCH(list)(ids, out); }
+void list_fragments(const std::uint32_t* ids, int across, PixelFragments& out) {
+    HWY_DYNAMIC_DISPATCH(list)(ids, across, out);
+}
 
 }  // namespace hilcam
 #endif

@@ -39,19 +39,20 @@ struct alignas(64) VisibilityTile {
 void fill_tile(const TriangleSetup& setup, VisibilityTile& tile);
 void find_farthest(VisibilityTile& tile);
 
-// This is what a pixel's samples see: each id once, first the one that most of them see; of two with as many the one whose
-// mask is less.
+// This is what the samples of a pixel of the picture see: each id once, first the one that most of them see; of two with
+// as many the one whose mask is less.
 struct PixelFragments {
     struct Fragment {
         std::uint32_t id;
-        std::uint16_t samples;  // a bit each
-        std::uint16_t others;   // number of samples that see something else
+        std::uint32_t others;  // number of samples that see something else
+        SampleMask samples;    // a bit each, as PixelSamples has them
     };
-    std::array<Fragment, kVisibilitySamples> fragments;
+    std::array<Fragment, kMostSamples> fragments;
     std::size_t count = 0;
-    std::uint32_t nothing = 0;  // samples that see nothing, a bit each
+    SampleMask nothing = 0;  // samples that see nothing, a bit each
 };
-// ids: of a pixel (VisibilityTile::ids()).
-void list_fragments(const std::uint32_t* ids, PixelFragments& out);
+// ids: of its upper left pixel in the tile (VisibilityTile::ids()). across: how many of the tile's pixels it is wide and
+// high, 1 or 2.
+void list_fragments(const std::uint32_t* ids, int across, PixelFragments& out);
 
 }  // namespace hilcam

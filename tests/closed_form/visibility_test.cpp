@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/scene/mesh_lod.h"
+#include "render/levels/mesh_lod.h"
 #include "tests/support/stage.h"
 #include "tests/support/wavy_plate.h"
 

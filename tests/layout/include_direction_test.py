@@ -29,8 +29,8 @@ MOST_FILES = 50
 # The sections of the data sheet name each other, so the sensor's stages stay side by side.
 FULLER = {"sensor": 57}
 ONLY_IN = {
-    "embree": {"render/scene/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
-    "meshoptimizer": {"render/scene/mesh_lod.cpp"},
+    "embree": {"render/levels/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
+    "meshoptimizer": {"render/levels/mesh_lod.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},

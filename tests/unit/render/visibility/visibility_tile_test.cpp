@@ -103,28 +103,33 @@ TEST(VisibilityTile, KnowsTheFarthestOfEachPixelAndQuarter) {
 }
 
 // An id, the samples that see it; most samples first, of as many the lesser mask.
-using Listed = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+using Listed = std::vector<std::pair<std::uint32_t, SampleMask>>;
 
-TEST(VisibilityTile, ListsWhatAPixelSees) {
+// Pixels of the picture that are so many of the tile's wide and high.
+void expect_lists(int across) {
     std::mt19937 engine(2);
+    const auto tile = std::make_unique<VisibilityTile>();
+    const auto any = [&](std::uint32_t below) { return static_cast<std::uint32_t>(engine() % below); };
     for (int round = 0; round < 1000; ++round) {
-        alignas(64) std::array<std::uint32_t, kVisibilitySamples> ids;
-        const auto any = [&](std::uint32_t below) { return static_cast<std::uint32_t>(engine() % below); };
         const std::uint32_t kinds = 1 + any(16);
-        for (std::uint32_t& id : ids) id = any(kinds) == 0 ? VisibilityTile::kNothing : 7 + any(kinds);
+        for (std::uint32_t& id : tile->id) id = any(kinds) == 0 ? VisibilityTile::kNothing : 7 + any(kinds);
+        const int x = static_cast<int>(any(16 / static_cast<unsigned>(across))) * across, y = across;
         Listed wanted;
-        std::uint32_t nothing = 0;
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-            if (ids[i] == VisibilityTile::kNothing) {
-                nothing |= 1u << i;
+        SampleMask nothing = 0;
+        for (int i = 0; i < kVisibilitySamples * across * across; ++i) {
+            const int quarter = i / kVisibilitySamples;
+            const std::uint32_t id =
+                tile->ids(x + quarter % across, y + quarter / across)[i % kVisibilitySamples];
+            if (id == VisibilityTile::kNothing) {
+                nothing |= SampleMask{1} << i;
                 continue;
             }
             const auto same = std::find_if(wanted.begin(), wanted.end(),
-                                           [&](const auto& listed) { return listed.first == ids[i]; });
+                                           [&](const auto& listed) { return listed.first == id; });
             if (same == wanted.end())
-                wanted.push_back({ids[i], 1u << i});
+                wanted.push_back({id, SampleMask{1} << i});
             else
-                same->second |= 1u << i;
+                same->second |= SampleMask{1} << i;
         }
         std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
             const int more = std::popcount(a.second), less = std::popcount(b.second);
@@ -132,7 +137,7 @@ TEST(VisibilityTile, ListsWhatAPixelSees) {
         });
         expect_same_by_any_width([&] {
             PixelFragments out;
-            list_fragments(ids.data(), out);
+            list_fragments(tile->ids(x, y), across, out);
             EXPECT_EQ(out.nothing, nothing);
             Listed listed;
             for (std::size_t i = 0; i < out.count; ++i)
@@ -142,6 +147,9 @@ TEST(VisibilityTile, ListsWhatAPixelSees) {
         });
     }
 }
+
+TEST(VisibilityTile, ListsWhatAPixelSees) { expect_lists(1); }
+TEST(VisibilityTile, ListsWhatAPixelOfFourQuartersSees) { expect_lists(2); }
 
 }  // namespace
 }  // namespace hilcam

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "render/scene/level_facets.h"
+#include "render/levels/level_facets.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {

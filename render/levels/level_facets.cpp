@@ -1,4 +1,4 @@
-#include "render/scene/level_facets.h"
+#include "render/levels/level_facets.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include "render/scene/closest_triangle.h"
+#include "render/levels/closest_triangle.h"
 
 namespace hilcam {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/scene/mesh_lod.h"
+#include "render/levels/mesh_lod.h"
 
 #include <gtest/gtest.h>
 

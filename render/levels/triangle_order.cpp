@@ -1,4 +1,4 @@
-#include "render/scene/triangle_order.h"
+#include "render/levels/triangle_order.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -18,7 +18,7 @@ std::uint32_t spread(std::uint32_t x) {
 
 }  // namespace
 
-void order_triangles(Mesh& mesh) {
+std::vector<std::uint32_t> order_triangles(Mesh& mesh) {
     const auto center = [&](const std::array<std::uint32_t, 3>& t) {
         return (mesh.vertices_m[t[0]] + mesh.vertices_m[t[1]] + mesh.vertices_m[t[2]]) / 3.0f;
     };
@@ -44,12 +44,15 @@ void order_triangles(Mesh& mesh) {
     tbb::parallel_sort(order.begin(), order.end());
     std::vector<std::array<std::uint32_t, 3>> triangles(order.size());
     std::vector<std::uint16_t> surfaces(order.size());
+    std::vector<std::uint32_t> before(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-        triangles[i] = mesh.triangles[order[i] & 0xFFFFFFFFu];
-        surfaces[i] = mesh.surface_of_triangle[order[i] & 0xFFFFFFFFu];
+        before[i] = static_cast<std::uint32_t>(order[i]);
+        triangles[i] = mesh.triangles[before[i]];
+        surfaces[i] = mesh.surface_of_triangle[before[i]];
     }
     mesh.triangles = std::move(triangles);
     mesh.surface_of_triangle = std::move(surfaces);
+    return before;
 }
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-#include "render/scene/level_facets.h"
+#include "render/levels/level_facets.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "render/scene/closest_triangle.h"
-#include "render/scene/mesh_lod.h"
+#include "render/levels/closest_triangle.h"
+#include "render/levels/mesh_lod.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/wavy_plate.h"
 

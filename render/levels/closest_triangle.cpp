@@ -1,4 +1,4 @@
-#include "render/scene/closest_triangle.h"
+#include "render/levels/closest_triangle.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
