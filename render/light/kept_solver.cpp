@@ -20,7 +20,10 @@ constexpr std::size_t kBlock = 256;  // nodes that a thread takes at a time; no 
 // A facet lobe of a sender, of what it receives, towards one that gathers.
 template <class Sender>
 void add_lobe(const Sender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
-    const float no = std::max(-dot(unpack_normal(from.normal), dir), 1e-2f);
+    const float facing = -dot(unpack_normal(from.normal), dir);
+    // What is lit of the sender faces away.
+    if (facing <= 0) return;
+    const float no = std::max(facing, 1e-2f);
     const float io = -dot(dir, source_dir);
     const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f));
     const float nh = std::min((no + from.ni) * inverse, 1.0f), ih = 0.5f / inverse;

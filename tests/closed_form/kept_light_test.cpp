@@ -233,6 +233,59 @@ TEST(KeptLight, PixelsOfMetalWithAPictureHaveTheirOwnColours) {
         EXPECT_NEAR(contrast(columns(metal, bar_m)) / contrast(paint), 1, 0.03) << bar_m;
 }
 
+// A round bar of metal along y that lies on paint, lit from the left. To the right it is dark but for a band at the top that
+// the Sun grazes, of which the paint in its shadow sees nothing.
+SceneObject paint_and_bar(const SpectralGrid& grid) {
+    constexpr int kSides = 64;
+    constexpr double kRadius_m = 0.15;
+    std::vector<Vec3f> v;
+    std::vector<std::array<std::uint32_t, 3>> t;
+    for (int i = 0; i < kSides; ++i)
+        for (const double y : {-1.0, 1.0}) {
+            const double angle = 2 * kPi * i / kSides;
+            v.push_back(to_float({kRadius_m * std::cos(angle), y, 0.02 + kRadius_m * (1 + std::sin(angle))}));
+        }
+    for (std::uint32_t i = 0; i < 2 * kSides; i += 2) {
+        const std::uint32_t j = (i + 2) % (2 * kSides);
+        t.push_back({i, j, i + 1}), t.push_back({j, j + 1, i + 1});
+    }
+    MaterialConfig metal = lambert(0.9);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.45;
+    return joined(plate(lambert(0.1), grid), object_of(v, t, metal, grid));
+}
+
+// The mean radiance of the shadow's middle.
+double light_in_shadow(const char* model, int samples) {
+    constexpr std::size_t kSize_px = 48;
+    Stage s;
+    s.quality.path_model = model;
+    s.quality.max_depth = 4;
+    s.quality.contribution_threshold = 0;
+    s.quality.facets_behind_diffuse = 0;
+    s.quality.samples_per_axis = samples;
+    s.quality.rays_across = 0;
+    s.camera(kSize_px, 0.1);
+    s.add(paint_and_bar(s.grid), {0, 0, 4});
+    s.sun({-1, 0, -1});
+    s.render();
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kSize_px * kSize_px; ++i) {
+        const double x_m =
+            (static_cast<double>(i % kSize_px) + 0.5 - kSize_px / 2.0) / (kSize_px / 2.0) * 0.4;
+        if (x_m > 0.2 && x_m < 0.34) sum += static_cast<double>(s.radiance.plane(0)[i]), ++count;
+    }
+    return sum / static_cast<double>(count);
+}
+
+// What is lit of a place may face away from what sees the place: its facets send nothing there.
+TEST(KeptLight, WhatIsLitOfABarDoesNotShineBehindIt) {
+    const double paths = light_in_shadow("path", 24), kept = light_in_shadow("kept", 2);
+    EXPECT_GT(paths, 0);
+    EXPECT_LT(kept, 2 * paths);
+}
+
 // White paint: how many of a place's sixty directions meet the bar is chance, but where few do, places have what they have
 // together with those beside them. The light of a pixel scatters about that of its block by 0.47 of the mean; by each place's own
 // directions it is 1.14.

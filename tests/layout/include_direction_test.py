@@ -23,14 +23,14 @@ ROOMS = (
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/shm", "io/truth", "io/commands",
     "io/spice", "io/maps", "io/files", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
-    "render/frame", "render/sunlit_ground", "render/light", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
+    "render/frame", "render/sunlit_ground", "render/light", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/levels", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
 )
 MOST_FILES = 50
 # The sections of the data sheet name each other, so the sensor's stages stay side by side.
 FULLER = {"sensor": 57}
 ONLY_IN = {
     "embree": {"render/levels/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
-    "meshoptimizer": {"render/levels/mesh_lod.cpp"},
+    "meshoptimizer": {"render/levels/mesh_lod.cpp", "render/levels/wrinkled_parts.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},
