@@ -233,17 +233,17 @@ TEST(KeptLight, PixelsOfMetalWithAPictureHaveTheirOwnColours) {
         EXPECT_NEAR(contrast(columns(metal, bar_m)) / contrast(paint), 1, 0.03) << bar_m;
 }
 
-// A round bar of metal along y that lies on paint, lit from the left. To the right it is dark but for a band at the top that
-// the Sun grazes, of which the paint in its shadow sees nothing.
+// A round bar of metal along y that lies on paint, lit from above and a little from the left.
 SceneObject paint_and_bar(const SpectralGrid& grid) {
     constexpr int kSides = 64;
-    constexpr double kRadius_m = 0.15;
+    constexpr double kBarRadius_m = 0.15;
     std::vector<Vec3f> v;
     std::vector<std::array<std::uint32_t, 3>> t;
     for (int i = 0; i < kSides; ++i)
         for (const double y : {-1.0, 1.0}) {
             const double angle = 2 * kPi * i / kSides;
-            v.push_back(to_float({kRadius_m * std::cos(angle), y, 0.02 + kRadius_m * (1 + std::sin(angle))}));
+            v.push_back(
+                to_float({kBarRadius_m * std::cos(angle), y, 0.02 + kBarRadius_m * (1 + std::sin(angle))}));
         }
     for (std::uint32_t i = 0; i < 2 * kSides; i += 2) {
         const std::uint32_t j = (i + 2) % (2 * kSides);
@@ -255,9 +255,10 @@ SceneObject paint_and_bar(const SpectralGrid& grid) {
     return joined(plate(lambert(0.1), grid), object_of(v, t, metal, grid));
 }
 
-// The mean radiance of the shadow's middle.
-double light_in_shadow(const char* model, int samples) {
+// The mean radiance of a strip of the paint to the right of the bar, beyond its shadow.
+double light_beside_bar(const char* model, int samples) {
     constexpr std::size_t kSize_px = 48;
+    constexpr double kSeen_m = 0.8;  // to either side of the middle
     Stage s;
     s.quality.path_model = model;
     s.quality.max_depth = 4;
@@ -265,25 +266,25 @@ double light_in_shadow(const char* model, int samples) {
     s.quality.facets_behind_diffuse = 0;
     s.quality.samples_per_axis = samples;
     s.quality.rays_across = 0;
-    s.camera(kSize_px, 0.1);
+    s.camera(kSize_px, kSeen_m / 4);
     s.add(paint_and_bar(s.grid), {0, 0, 4});
-    s.sun({-1, 0, -1});
+    s.sun({-1, 0, -3});
     s.render();
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < kSize_px * kSize_px; ++i) {
-        const double x_m =
-            (static_cast<double>(i % kSize_px) + 0.5 - kSize_px / 2.0) / (kSize_px / 2.0) * 0.4;
-        if (x_m > 0.2 && x_m < 0.34) sum += static_cast<double>(s.radiance.plane(0)[i]), ++count;
+        const double x_m = (2 * (static_cast<double>(i % kSize_px) + 0.5) / kSize_px - 1) * kSeen_m;
+        if (x_m > 0.24 && x_m < 0.31) sum += static_cast<double>(s.radiance.plane(0)[i]), ++count;
     }
     return sum / static_cast<double>(count);
 }
 
-// What is lit of a place may face away from what sees the place: its facets send nothing there.
+// What is lit of a place may face away from what sees the place: its facets send nothing there. Of the light between bar and
+// paint there is 1.3 times as much as by random paths, and 4.3 times where they do.
 TEST(KeptLight, WhatIsLitOfABarDoesNotShineBehindIt) {
-    const double paths = light_in_shadow("path", 24), kept = light_in_shadow("kept", 2);
+    const double direct = light_beside_bar("direct", 4), paths = light_beside_bar("path", 16) - direct;
     EXPECT_GT(paths, 0);
-    EXPECT_LT(kept, 2 * paths);
+    EXPECT_LT(light_beside_bar("kept", 4) - direct, 2 * paths);
 }
 
 // White paint: how many of a place's sixty directions meet the bar is chance, but where few do, places have what they have
