@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "render/levels/mesh_lod.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/lamp.h"
 #include "render/scene/material.h"
-#include "render/levels/mesh_lod.h"
 #include "render/scene/terrain.h"
 #include "render/sky/atmosphere.h"
 #include "render/sky/bodies.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/levels/triangle_order.h"
 #include "render/mosaic/mosaic_finder.h"
 #include "render/scene/flat_patches.h"
-#include "render/levels/triangle_order.h"
 
 namespace hilcam {
 namespace {

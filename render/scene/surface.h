@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
+#include "render/levels/level_facets.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/ground_normals.h"
-#include "render/levels/level_facets.h"
 #include "render/scene/packed_normal.h"
 #include "render/scene/scene.h"
 

@@ -4,8 +4,8 @@
 
 #include <chrono>
 
-#include "render/scene/ground_sun.h"
 #include "render/levels/triangle_order.h"
+#include "render/scene/ground_sun.h"
 
 namespace hilcam {
 

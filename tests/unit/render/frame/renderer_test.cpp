@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "render/scene/surface.h"
 #include "render/levels/triangle_order.h"
+#include "render/scene/surface.h"
 #include "render/visibility/screen_mask.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/stage.h"
