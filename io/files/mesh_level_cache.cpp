@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 // Raised when coarser_levels() makes other levels of the same mesh.
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 struct Header {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'L', 'D'};

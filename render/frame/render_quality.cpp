@@ -52,7 +52,7 @@ Fields fields(RenderQuality& q) {
              "costs a sixth"),
         per_frame(number("lod_error_px", q.lod_error_px, 1, {0, 16},
                          "greatest error, in pixels, of a mesh drawn from a coarser level, an eighth of it "
-                         "for what is not wrinkled; 0: never a coarser level")),
+                         "for masts, rings and other shapes; 0: never a coarser level")),
         integer("rays_across", q.rays_across, {0, 4096},
                 "number of rays across a small object: it gets more rays per pixel, up to 16 x 16, until so "
                 "many go across it"),

@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
+#include "render/levels/shaped_parts.h"
 #include "render/levels/triangle_order.h"
-#include "render/levels/wrinkled_parts.h"
 
 namespace hilcam {
 namespace {
@@ -86,10 +86,10 @@ bool is_crowded(std::span<const unsigned> indices, std::span<const Vec3f> positi
                        [&](unsigned place) { return ++triangles[place] > kMaxAtAPlace; });
 }
 
-// A mesh, and which of its triangles are wrinkled.
+// A mesh, and which of its triangles are of shaped parts.
 struct Divided {
     Mesh mesh;
-    std::vector<bool> wrinkled;
+    std::vector<bool> shaped;
 };
 
 // Puts what is left of a part of a mesh into a level. kept: corners, three a triangle.
@@ -130,22 +130,22 @@ void append_simplified(const Mesh& mesh, Submesh part, float error_m, std::uint1
     append(mesh, part, kept, faceted, surface, out);
 }
 
-// error_m: of what is wrinkled.
-Divided simplified(const Mesh& mesh, const std::vector<bool>& wrinkled, double error_m) {
+// error_m: of what is not shaped.
+Divided simplified(const Mesh& mesh, const std::vector<bool>& shaped, double error_m) {
     std::vector<std::array<std::vector<std::uint32_t>, 2>> by_surface(mesh.surfaces.size());
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
-        by_surface[mesh.surface_of_triangle[i]][wrinkled[i]].push_back(i);
+        by_surface[mesh.surface_of_triangle[i]][shaped[i]].push_back(i);
     Divided out;
     out.mesh.surfaces = mesh.surfaces;
     std::vector<std::uint32_t> scratch;
     for (std::size_t s = 0; s < by_surface.size(); ++s)
-        for (const bool wrinkles : {false, true}) {
-            const std::vector<std::uint32_t>& triangles = by_surface[s][wrinkles];
+        for (const bool is_shaped : {false, true}) {
+            const std::vector<std::uint32_t>& triangles = by_surface[s][is_shaped];
             if (triangles.empty()) continue;
             append_simplified(mesh, submesh_of(mesh, triangles, scratch),
-                              static_cast<float>(wrinkles ? error_m : error_m / kShapeFiner),
+                              static_cast<float>(is_shaped ? error_m / kShapeFiner : error_m),
                               static_cast<std::uint16_t>(s), out.mesh);
-            out.wrinkled.resize(out.mesh.triangles.size(), wrinkles);
+            out.shaped.resize(out.mesh.triangles.size(), is_shaped);
         }
     return out;
 }
@@ -174,15 +174,15 @@ std::vector<MeshLevel> coarser_levels(const Mesh& mesh) {
     std::vector<double> areas;
     for (std::size_t s = 0; s < mesh.surfaces.size(); ++s)
         areas.push_back(area_of(mesh, static_cast<std::uint16_t>(s)));
-    std::vector<bool> wrinkled = find_wrinkled(mesh);
+    std::vector<bool> shaped = find_shaped(mesh);
     const double size = size_m(mesh);
     for (double error_m = size / 65536; error_m < size / 32; error_m *= 2) {
         const Mesh& finer = levels.empty() ? mesh : levels.back().mesh;
         if (finer.triangles.size() < kSmallMesh) break;
-        Divided made = simplified(finer, wrinkled, error_m);
+        Divided made = simplified(finer, shaped, error_m);
         if (made.mesh.triangles.empty()) break;
         if (10 * made.mesh.triangles.size() > 6 * finer.triangles.size()) continue;
-        wrinkled = in_order(made.wrinkled, order_triangles(made.mesh));
+        shaped = in_order(made.shaped, order_triangles(made.mesh));
         // Errors of levels made from levels add up.
         MeshLevel level{std::move(made.mesh), error_m + (levels.empty() ? 0 : levels.back().error_m), {}, {}};
         level.facets = facets_of(mesh, level.mesh, level.error_m);

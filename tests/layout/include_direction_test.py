@@ -30,7 +30,7 @@ MOST_FILES = 50
 FULLER = {"sensor": 57}
 ONLY_IN = {
     "embree": {"render/levels/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
-    "meshoptimizer": {"render/levels/mesh_lod.cpp", "render/levels/wrinkled_parts.cpp"},
+    "meshoptimizer": {"render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},

@@ -1,4 +1,4 @@
-#include "render/levels/wrinkled_parts.h"
+#include "render/levels/shaped_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -26,17 +26,20 @@ void add(const Mesh& part, Mesh& mesh) {
 // files without normals have them.
 Mesh grid(int around, int up, const std::function<Vec3d(double, double)>& place_m) {
     Mesh mesh;
-    const auto corner = [&](int i, int j) {
-        mesh.vertices_m.push_back(
-            to_float(place_m(static_cast<double>(i % around) / around, static_cast<double>(j) / up)));
-        return static_cast<std::uint32_t>(mesh.vertices_m.size() - 1);
+    const auto place = [&](int i, int j) {
+        return to_float(place_m(static_cast<double>(i % around) / around, static_cast<double>(j) / up));
+    };
+    // But for those without width, where a point of the grid is one of space.
+    const auto add_triangle = [&](Vec3f a, Vec3f b, Vec3f c) {
+        if (!(length(cross(b - a, c - a)) > 1e-9f)) return;
+        const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+        mesh.vertices_m.insert(mesh.vertices_m.end(), {a, b, c});
+        mesh.triangles.push_back({first, first + 1, first + 2});
     };
     for (int j = 0; j < up; ++j)
         for (int i = 0; i < around; ++i) {
-            const std::uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1);
-            mesh.triangles.push_back({a, b, c});
-            const std::uint32_t d = corner(i, j), e = corner(i + 1, j + 1), f = corner(i, j + 1);
-            mesh.triangles.push_back({d, e, f});
+            add_triangle(place(i, j), place(i + 1, j), place(i + 1, j + 1));
+            add_triangle(place(i, j), place(i + 1, j + 1), place(i, j + 1));
         }
     mesh.surfaces.resize(1);
     mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
@@ -71,30 +74,30 @@ Mesh crumpled_cone() {
     });
 }
 
-bool is_wrinkled(const Mesh& mesh) {
-    const std::vector<bool> wrinkled = find_wrinkled(mesh);
-    EXPECT_EQ(std::count(wrinkled.begin(), wrinkled.end(), wrinkled[0]), wrinkled.size());
-    return wrinkled[0];
+bool is_shaped(const Mesh& mesh) {
+    const std::vector<bool> shaped = find_shaped(mesh);
+    EXPECT_EQ(std::count(shaped.begin(), shaped.end(), shaped[0]), shaped.size());
+    return shaped[0];
 }
 
-TEST(WrinkledParts, FoilIsMastsRingsAndDishesAreNot) {
-    EXPECT_TRUE(is_wrinkled(wavy_plate(64, 0, 1, 0.01)));
-    EXPECT_TRUE(is_wrinkled(crumpled_cone()));
-    EXPECT_FALSE(is_wrinkled(mast()));
-    EXPECT_FALSE(is_wrinkled(ring()));
-    EXPECT_FALSE(is_wrinkled(dish()));
-    EXPECT_FALSE(is_wrinkled(wavy_plate(64, 0, 1, 0)));
-    EXPECT_TRUE(find_wrinkled(Mesh{}).empty());
+TEST(ShapedParts, MastsRingsAndDishesAreFoilAndPlatesAreNot) {
+    EXPECT_FALSE(is_shaped(wavy_plate(64, 0, 1, 0.01)));
+    EXPECT_FALSE(is_shaped(crumpled_cone()));
+    EXPECT_TRUE(is_shaped(mast()));
+    EXPECT_TRUE(is_shaped(ring()));
+    EXPECT_TRUE(is_shaped(dish()));
+    EXPECT_FALSE(is_shaped(wavy_plate(64, 0, 1, 0)));
+    EXPECT_TRUE(find_shaped(Mesh{}).empty());
 }
 
-TEST(WrinkledParts, PartsOfOneSurfaceAreToldApart) {
+TEST(ShapedParts, PartsOfOneSurfaceAreToldApart) {
     Mesh mesh;
     add(mast(), mesh);
     const std::size_t first = mesh.triangles.size();
     add(wavy_plate(64, 0, 1, 0.01), mesh);
-    const std::vector<bool> wrinkled = find_wrinkled(mesh);
-    EXPECT_EQ(std::count(wrinkled.begin(), wrinkled.begin() + static_cast<std::ptrdiff_t>(first), true), 0);
-    EXPECT_EQ(std::count(wrinkled.begin() + static_cast<std::ptrdiff_t>(first), wrinkled.end(), false), 0);
+    const std::vector<bool> shaped = find_shaped(mesh);
+    EXPECT_EQ(std::count(shaped.begin(), shaped.begin() + static_cast<std::ptrdiff_t>(first), false), 0);
+    EXPECT_EQ(std::count(shaped.begin() + static_cast<std::ptrdiff_t>(first), shaped.end(), true), 0);
 }
 
 // Where the foil of the next test stands.
@@ -120,7 +123,7 @@ MastOfLevel mast_of(const Mesh& mesh) {
 
 // Foil may lie anywhere within a level's error, a mast within an eighth of it: on the mean, as quadrics have it, so that
 // single edges are up to half of it deep.
-TEST(WrinkledParts, LevelsKeepMastsRound) {
+TEST(ShapedParts, LevelsKeepMastsRound) {
     Mesh mesh;
     Mesh foil = wavy_plate(128, 0, 2, 0.01);
     for (Vec3f& vertex : foil.vertices_m) vertex.z += static_cast<float>(kFoil_m);

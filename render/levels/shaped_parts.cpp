@@ -1,4 +1,4 @@
-#include "render/levels/wrinkled_parts.h"
+#include "render/levels/shaped_parts.h"
 
 #include <meshoptimizer.h>
 #include <tbb/parallel_sort.h>
@@ -39,9 +39,11 @@ std::vector<Side> sides_of(const Mesh& mesh) {
     sides.reserve(count);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t* corner = &places[3 * std::size_t{t}];
+        // A triangle without width is not between those beside it.
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [from, to] = std::minmax(corner[k], corner[(k + 1) % 3]);
-            if (from != to) sides.push_back({from, to, t, corner[(k + 2) % 3]});
+            sides.push_back({from, to, t, corner[(k + 2) % 3]});
         }
     }
     tbb::parallel_sort(sides.begin(), sides.end());
@@ -94,19 +96,19 @@ void for_each_edge(const Mesh& mesh, std::span<const Side> sides, const Each& ea
 
 struct Curvature {
     double sum_m = 0, size_m = 0, edges_m = 0;
-    bool is_wrinkled() const { return size_m > kFlat_rad * edges_m && std::abs(sum_m) < kOneSided * size_m; }
+    bool is_shaped() const { return size_m > kFlat_rad * edges_m && std::abs(sum_m) >= kOneSided * size_m; }
 };
 
 }  // namespace
 
-std::vector<bool> find_wrinkled(const Mesh& mesh) {
-    std::vector<bool> wrinkled(mesh.triangles.size());
-    if (wrinkled.empty()) return wrinkled;
+std::vector<bool> find_shaped(const Mesh& mesh) {
+    std::vector<bool> shaped(mesh.triangles.size());
+    if (shaped.empty()) return shaped;
     const std::vector<Side> sides = sides_of(mesh);
-    Parts parts(wrinkled.size());
+    Parts parts(shaped.size());
     for_each_edge(mesh, sides,
                   [&](const Side& side, const Side& other) { parts.join(side.triangle, other.triangle); });
-    std::vector<Curvature> curvature(wrinkled.size());
+    std::vector<Curvature> curvature(shaped.size());
     for_each_edge(mesh, sides, [&](const Side& side, const Side& other) {
         const Bend bend = bend_of(mesh, side, other);
         Curvature& of_part = curvature[parts.part_of(side.triangle)];
@@ -114,9 +116,8 @@ std::vector<bool> find_wrinkled(const Mesh& mesh) {
         of_part.size_m += bend.length_m * std::abs(bend.angle_rad);
         of_part.edges_m += bend.length_m;
     });
-    for (std::uint32_t t = 0; t < wrinkled.size(); ++t)
-        wrinkled[t] = curvature[parts.part_of(t)].is_wrinkled();
-    return wrinkled;
+    for (std::uint32_t t = 0; t < shaped.size(); ++t) shaped[t] = curvature[parts.part_of(t)].is_shaped();
+    return shaped;
 }
 
 }  // namespace hilcam
