@@ -50,9 +50,9 @@ std::vector<Side> sides_of(const Mesh& mesh) {
     return sides;
 }
 
-// Twice the mean curvature over an edge [m]: above zero where it is convex.
+// How two triangles are bent at their edge.
 struct Bend {
-    double length_m, angle_rad;
+    double length_m, angle_rad;  // above zero where they are convex
 };
 Bend bend_of(const Mesh& mesh, const Side& side, const Side& other) {
     const auto place_m = [&](std::uint32_t vertex) { return to_double(mesh.vertices_m[vertex]); };
