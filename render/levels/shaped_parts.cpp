@@ -50,9 +50,9 @@ std::vector<Side> sides_of(const Mesh& mesh) {
     return sides;
 }
 
-// How two triangles are bent at their edge.
+// The bend of two triangles at their edge; angles are above zero where it is convex.
 struct Bend {
-    double length_m, angle_rad;  // above zero where they are convex
+    double length_m, angle_rad;
 };
 Bend bend_of(const Mesh& mesh, const Side& side, const Side& other) {
     const auto place_m = [&](std::uint32_t vertex) { return to_double(mesh.vertices_m[vertex]); };
