@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "render/levels/joined_sets.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -36,21 +37,6 @@ std::uint64_t number_places(const std::vector<Vec3f>& vertices_m, std::vector<st
     return order.empty() ? 0 : places + 1u;
 }
 
-// Finds which places hang together: union by halving paths (Tarjan & van Leeuwen, J. ACM 31, 1984). ACM 31,
-// 1984).
-class Shells {
-  public:
-    explicit Shells(std::uint64_t places) : parent_(places) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t of(std::uint32_t place) {
-        while (parent_[place] != place) place = parent_[place] = parent_[parent_[place]];
-        return place;
-    }
-    void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
-
 using Corners = std::array<std::uint32_t, 3>;
 
 // The two places of an edge, the smaller first, and in the last bit which way a triangle has it.
@@ -64,7 +50,8 @@ struct Topology {
     std::vector<std::uint8_t> whole;  // by shell: neither open nor inconsistent edges
 };
 
-void survey_edges(const Topology& mesh, Shells& shells, std::vector<std::uint8_t>& whole, MeshSurvey& out) {
+void survey_edges(const Topology& mesh, JoinedSets& shells, std::vector<std::uint8_t>& whole,
+                  MeshSurvey& out) {
     std::vector<std::uint64_t> edges;
     edges.reserve(3 * mesh.corners.size());
     for (const Corners& t : mesh.corners)
@@ -91,7 +78,7 @@ void survey_repeats(std::vector<Corners> corners, MeshSurvey& out) {
 void survey_topology(const Mesh& mesh, MeshSurvey& out) {
     std::vector<std::uint32_t> place_of;
     out.places = number_places(mesh.vertices_m, place_of);
-    Shells shells(out.places);
+    JoinedSets shells(out.places);
     Topology topology;
     for (const auto& t : mesh.triangles) {
         topology.corners.push_back({place_of[t[0]], place_of[t[1]], place_of[t[2]]});

@@ -3,12 +3,14 @@
 #include <meshoptimizer.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
+
+#include "render/levels/joined_sets.h"
 
 namespace hilcam {
 namespace {
@@ -16,7 +18,7 @@ namespace {
 // Parts bent by less than this on the mean over their edges are flat [rad]: roundings of places bend a fine mesh by
 // a tenth of it.
 constexpr double kFlat_rad = 1e-3;
-// The least share of a shaped part's curvature that is to one side.
+// The least size of a shaped part's sum of curvature, against the sum of sizes: a choice half-way between foil and masts.
 constexpr double kOneSided = 0.5;
 
 // A side of a triangle, between two places.
@@ -63,23 +65,6 @@ Bend bend_of(const Mesh& mesh, const Side& side, const Side& other) {
     return {length(place_m(side.to) - place_m(side.from)), convex ? angle_rad : -angle_rad};
 }
 
-// Triangles that hang together (Tarjan, J. ACM 22(2), 1975).
-class Parts {
-  public:
-    explicit Parts(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0u); }
-    std::uint32_t part_of(std::uint32_t triangle) {
-        while (above_[triangle] != triangle) triangle = above_[triangle] = above_[above_[triangle]];
-        return triangle;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = part_of(a), b = part_of(b);
-        above_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> above_;
-};
-
 // Calls for each edge that two triangles of one surface share, and no third.
 template <class Each>
 void for_each_edge(const Mesh& mesh, std::span<const Side> sides, const Each& each) {
@@ -105,18 +90,18 @@ std::vector<bool> find_shaped(const Mesh& mesh) {
     std::vector<bool> shaped(mesh.triangles.size());
     if (shaped.empty()) return shaped;
     const std::vector<Side> sides = sides_of(mesh);
-    Parts parts(shaped.size());
+    JoinedSets parts(shaped.size());
     for_each_edge(mesh, sides,
                   [&](const Side& side, const Side& other) { parts.join(side.triangle, other.triangle); });
     std::vector<Curvature> curvature(shaped.size());
     for_each_edge(mesh, sides, [&](const Side& side, const Side& other) {
         const Bend bend = bend_of(mesh, side, other);
-        Curvature& of_part = curvature[parts.part_of(side.triangle)];
+        Curvature& of_part = curvature[parts.of(side.triangle)];
         of_part.sum_m += bend.length_m * bend.angle_rad;
         of_part.size_m += bend.length_m * std::abs(bend.angle_rad);
         of_part.edges_m += bend.length_m;
     });
-    for (std::uint32_t t = 0; t < shaped.size(); ++t) shaped[t] = curvature[parts.part_of(t)].is_shaped();
+    for (std::uint32_t t = 0; t < shaped.size(); ++t) shaped[t] = curvature[parts.of(t)].is_shaped();
     return shaped;
 }
 

@@ -142,6 +142,21 @@ TEST(KeptLight, NothingIsLeftToChance) {
     EXPECT_EQ(s.stats.secondary_rays, 0u);
 }
 
+constexpr double kSeen_m = 0.8;  // to either side of the middle, by the next stage's camera
+
+// A camera four metres above things, and all of their light.
+Stage stage_above(const char* model, int depth, int samples, int size_px) {
+    Stage s;
+    s.quality.path_model = model;
+    s.quality.max_depth = depth;
+    s.quality.contribution_threshold = 0;
+    s.quality.facets_behind_diffuse = 0;
+    s.quality.samples_per_axis = samples;
+    s.quality.rays_across = 0;
+    s.camera(size_px, kSeen_m / 4);
+    return s;
+}
+
 // A plate of two metres in the shade, above one side of which a thin bar is in the Sun, as a camera of kSize_px above the plate's
 // middle has it, in blocks of 6 x 6 px.
 struct PlateAndBar {
@@ -151,15 +166,8 @@ struct PlateAndBar {
 
     PlateAndBar(const char* model, const MaterialConfig& material, float bar_m, int samples,
                 const std::vector<std::uint8_t>& greys = {255}, const char* visibility = "rays") {
-        Stage s;
-        s.quality.path_model = model;
+        Stage s = stage_above(model, 2, samples, kSize_px);
         s.quality.visibility = visibility;
-        s.quality.max_depth = 2;
-        s.quality.contribution_threshold = 0;
-        s.quality.facets_behind_diffuse = 0;
-        s.quality.samples_per_axis = samples;
-        s.quality.rays_across = 0;
-        s.camera(kSize_px, 0.2);
         const float x0 = 1.2f, x1 = x0 + bar_m;
         SceneObject object = object_of({{-1, -1, 0},
                                         {1, -1, 0},
@@ -258,15 +266,7 @@ SceneObject paint_and_bar(const SpectralGrid& grid) {
 // The mean radiance of a strip of the paint to the right of the bar, beyond its shadow.
 double light_beside_bar(const char* model, int samples) {
     constexpr std::size_t kSize_px = 48;
-    constexpr double kSeen_m = 0.8;  // to either side of the middle
-    Stage s;
-    s.quality.path_model = model;
-    s.quality.max_depth = 4;
-    s.quality.contribution_threshold = 0;
-    s.quality.facets_behind_diffuse = 0;
-    s.quality.samples_per_axis = samples;
-    s.quality.rays_across = 0;
-    s.camera(kSize_px, kSeen_m / 4);
+    Stage s = stage_above(model, 4, samples, kSize_px);
     s.add(paint_and_bar(s.grid), {0, 0, 4});
     s.sun({-1, 0, -3});
     s.render();

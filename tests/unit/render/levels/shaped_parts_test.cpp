@@ -29,7 +29,7 @@ Mesh grid(int around, int up, const std::function<Vec3d(double, double)>& place_
     const auto place = [&](int i, int j) {
         return to_float(place_m(static_cast<double>(i % around) / around, static_cast<double>(j) / up));
     };
-    // But for those without width, where a point of the grid is one of space.
+    // Triangles without width, as a dish's middle would have, are left out.
     const auto add_triangle = [&](Vec3f a, Vec3f b, Vec3f c) {
         if (!(length(cross(b - a, c - a)) > 1e-9f)) return;
         const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());

@@ -164,7 +164,7 @@ TEST(Mosaic, TheGroundStandsForAllInALevelOfDetail) {
                             [](std::uint32_t patch) { return patch == kNotShown; }));
 }
 
-// Of a ground that is cut off along a diagonal, tiles that stand out of it are shown by themselves.
+// A ground is cut off along a diagonal, and some tiles stand out over the cut: these are shown by themselves.
 TEST(Mosaic, TilesThatStandOutOfTheGroundAreNoPartOfIt) {
     const TiledPanel panel;
     Mesh mesh = panel.mesh();
