@@ -133,10 +133,12 @@ class Reader {
         }
     }
 
+    // Of several for one key the last counts: who calls hilcam from a script adds to what that sets.
     Override* override_at(const std::string& path) {
+        Override* last = nullptr;
         for (Override& o : overrides_)
-            if (o.path == path) return o.used = true, &o;
-        return nullptr;
+            if (o.path == path) o.used = true, last = &o;
+        return last;
     }
     bool override_below(const std::string& path) const {
         return std::any_of(overrides_.begin(), overrides_.end(),

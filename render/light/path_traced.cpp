@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -61,11 +62,12 @@ class TracedPaths final : public PathModel {
     bool kept_;
     static constexpr auto kMax = static_cast<std::size_t>(kMostVertices);
     static constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first surface
-    // Rays that follow a mirror there, in place of one that would meet but a part of what it shows.
-    static constexpr int kMirrorRays = 8;
+    // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
+    // where others need none.
+    static constexpr std::size_t kLeastOfMirror = 8;
     // What a mirror of this reflectance shows is looked for in any case: a glint in it is as bright as paint.
     static constexpr float kBright = 0.1f;
-    static constexpr std::size_t kMostRays = (kMirrorRays + 1) * kMax + KeptScene::kMostFollowed;
+    static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
     // Numbers of a sequence that fills the square evenly, however few follow each other (multiples of the plastic number's
     // powers: Roberts 2018, extremelearning.com.au).
     static constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
@@ -203,24 +205,28 @@ class TracedPaths final : public PathModel {
         return size_m < kSmall * width_m;
     }
 
-    // Puts rays from the samples of a mirror's pixel in the place of the one from their middle, each by a facet of its own.
-    void add_many(Tile& tile, const NextRay& middle, std::size_t& ray_count) {
-        constexpr float kShare = 1.0f / kMirrorRays;
+    // Puts a ray from each sample of a mirror's pixel in the place of the one from their middle, each by a facet of its own;
+    // no more than `most`.
+    void add_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& ray_count) {
         const Vertex& at = *middle.from;
+        const std::size_t count = std::min(static_cast<std::size_t>(std::popcount(at.samples)), most);
+        const float share = 1 / static_cast<float>(count);
         const float distance_m = at.footprint_m * static_cast<float>(tile.frame.geometry.focal_length_px);
         const Frame local(at.normal);
         NextRay ray = middle;
         ray.may_be_many = ray.sees_bodies = false;
-        ray.weight = kShare * middle.weight;
+        ray.weight = share * middle.weight;
         add_background_seen(tile.frame, middle, ray.if_free);
-        ray.if_free = kShare * ray.if_free;
+        ray.if_free = share * ray.if_free;
         SampleMask rest = at.samples;
-        for (int i = 0; i < kMirrorRays; ++i) {
-            const Vec3f way_m = way_to_sample(tile, at, next_sample(tile.frame.samples, rest, at.samples));
+        for (std::size_t i = 0; i < count; ++i) {
+            const int sample = std::countr_zero(rest);
+            rest &= rest - 1;
+            const Vec3f way_m = way_to_sample(tile, at, sample);
             const auto number = static_cast<float>(i) + 0.5f;
             ray.origin_m = at.start() + way_m;
             ray.dir = sample_facets(at.surface.alpha, local, normalized(distance_m * at.view_dir - way_m),
-                                    kShare * number, std::fmod(kAbout * number, 1.0f));
+                                    std::fmod(kAlong * number, 1.0f), std::fmod(kAbout * number, 1.0f));
             add_kept(tile, ray, ray_count);
         }
     }
@@ -291,6 +297,9 @@ class TracedPaths final : public PathModel {
         RayPacket rays;
         HitPacket hits;
         std::size_t found = 0;
+        auto mirrors_left = static_cast<std::size_t>(
+            std::count_if(next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(ray_count),
+                          [](const NextRay& ray) { return ray.may_be_many; }));
         for (std::size_t first = 0; first < ray_count; first += static_cast<std::size_t>(rays.count)) {
             rays.count = static_cast<int>(std::min<std::size_t>(kPacketSize, ray_count - first));
             for (int i = 0; i < rays.count; ++i) {
@@ -306,6 +315,7 @@ class TracedPaths final : public PathModel {
                                  !(frame.bodies_may_hide &&
                                    frame.background->hides(ray.origin_m, to_double(ray.dir),
                                                            static_cast<double>(hits.distance[k])));
+                if (ray.may_be_many) --mirrors_left;
                 if (!hit) {
                     if (ray.sees_bodies)
                         add_background(tile, ray);
@@ -315,7 +325,8 @@ class TracedPaths final : public PathModel {
                 }
                 if (last) continue;
                 if (has_met_a_part(frame, hits, k, ray)) {
-                    add_many(tile, ray, ray_count);
+                    const std::size_t room = next_.size() - ray_count;
+                    add_many(tile, ray, room - kLeastOfMirror * mirrors_left, ray_count);
                     continue;
                 }
                 Vertex& vertex = following_[found];

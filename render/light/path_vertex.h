@@ -33,7 +33,8 @@ struct Vertex {
     std::uint32_t pixel;     // in the tile
     std::uint16_t sample;    // in the pixel
     std::uint16_t depth;     // 1: seen by the camera
-    SampleMask samples;      // those of the pixel that see its triangle; 0: one of a ray
+    SampleMask samples;      // those of the pixel that see its plane; 0: one of a ray
+    Vec2f place_px;          // where in the pixel it is seen, where samples see it
     Vec3f point_m;           // ray space
     float offset_m;          // distance above the surface at which a ray must start
     Vec3f geometric_normal;  // towards the viewer's side, unit

@@ -17,6 +17,7 @@ namespace {
 // rays are those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
+constexpr float kFlatTogether = 0.02f;        // sine of the lean of planes that are taken for one
 // A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel: of sunlit paint a
 // quarter of the noise of a full well of 15,000 electrons.
 constexpr float kFlattest = 1e-4f, kLeastShare = 0.002f;
@@ -142,7 +143,7 @@ std::size_t PrimaryVertices::look_at_fragments() {
         const Fragment& fragment = fragments_[n];
         const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
         if (seen.shown != &shown) break;
-        const Vec2f at = frame.samples.middle(fragment.samples);
+        const Vec2f at = places_px_[n] = frame.samples.middle(fragment.samples);
         const int x = fragment.x, y = fragment.y;
         dirs_[n] = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
                               static_cast<double>(static_cast<float>(y) + at.y) * rays->down
@@ -202,16 +203,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
                                       : join(vertices.first(count), fragment.pixel, hits_.object[k],
                                              triangles[hits_.triangle[k]].surface, lie);
         if (joined) {
-            const Vec3f start_m =
-                origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
-            tile_.facets.add(frame, {lie.geometric_normal, lie.normal, start_m, samples}, hits_.triangle[k],
-                             false, *joined);
-            // Alike in all bins, but for the air before it.
-            const float all = joined->weight_samples + samples;
-            joined->weight = (all / joined->weight_samples) * joined->weight;
-            joined->halves = (joined->weight_samples / all) * joined->halves;
-            joined->halves += (samples / all) * frame.samples.halves(fragment.samples);
-            joined->weight_samples = all;
+            take_in(k, lie, *joined);
             continue;
         }
         Vertex& vertex = vertices[count++];
@@ -219,7 +211,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
                     {pixel_rad * from_m, pixel_rad}, vertex);
         // Seen from its edge, what lies on the ground hides it.
         if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
-        finish(k, samples, frame.samples.halves(fragment.samples), vertex);
+        finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
                          hits_.triangle[k], true, vertex);
     }
@@ -229,13 +221,39 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
     return count;
 }
 
+// Makes fragment k, which is alike, a part of a vertex.
+void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
+    const FrameView& frame = tile_.frame;
+    const SampleMask seen_by = fragments_[k].samples;
+    const float samples = frame.samples.weight(seen_by);
+    const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);
+    tile_.facets.add(
+        frame, {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal, samples},
+        hits_.triangle[k], false, vertex);
+    // Rays begin at its samples, too, where it lies in the vertex' plane but for a little; above what little that is.
+    const Vec3f way_m = point_m - vertex.point_m;
+    const float above_m = std::abs(dot(way_m, vertex.geometric_normal));
+    if (above_m < kFlatTogether * length(way_m)) {
+        vertex.samples |= seen_by;
+        vertex.offset_m = std::max(vertex.offset_m, 2 * above_m);
+    }
+    // Alike in all bins, but for the air before it.
+    const float all = vertex.weight_samples + samples;
+    vertex.weight = (all / vertex.weight_samples) * vertex.weight;
+    vertex.halves = (vertex.weight_samples / all) * vertex.halves;
+    vertex.halves += (samples / all) * frame.samples.halves(seen_by);
+    vertex.weight_samples = all;
+}
+
 // The pixel of fragment k, for a vertex that is part of what is seen in it.
-void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Vertex& vertex) {
+void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px,
+                             Vertex& vertex) {
     const Fragment& fragment = fragments_[k];
     vertex.pixel = fragment.pixel;
     vertex.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));
     vertex.depth = 1;
     vertex.samples = fragment.samples;
+    vertex.place_px = place_px;
     vertex.weight = {};
     std::fill_n(vertex.weight.bin.begin(), tile_.frame.bins, samples);
     vertex.weight_samples = samples;
@@ -304,7 +322,8 @@ std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, co
                                   static_cast<double>(off.y) * per_y);
         const float samples = look.share[layer] / shown * frame.samples.weight(fragment.samples);
         finish(k, samples,
-               moved(halves, {look.place[layer].x - middle_px.x, look.place[layer].y - middle_px.y}), vertex);
+               moved(halves, {look.place[layer].x - middle_px.x, look.place[layer].y - middle_px.y}),
+               look.place[layer], vertex);
     }
     return count;
 }
@@ -336,7 +355,7 @@ Vec3f way_to_sample(const Tile& tile, const Vertex& at, int sample) {
     if (facing < 0.02f) return {};
     const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
     const int x = tile.box.x0 + pixel % width, y = tile.box.y0 + pixel / width;
-    const Vec2f from = frame.samples.middle(at.samples), to = frame.samples.place(sample);
+    const Vec2f from = at.place_px, to = frame.samples.place(sample);
     const LinearRays* rays = frame.rays->linear();
     const auto dir = [&](Vec2f p) {
         return rays ? rays->corner + (x + static_cast<double>(p.x)) * rays->right +

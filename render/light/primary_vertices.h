@@ -40,6 +40,7 @@ class PrimaryVertices {
     // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.
     FragmentPacket packet_;
     HitPacket hits_;
+    std::array<Vec2f, kPacketSize> places_px_;  // in their pixels
     std::array<Vec3d, kPacketSize> dirs_;
     std::array<Vec3f, kPacketSize> origins_;
 
@@ -56,7 +57,8 @@ class PrimaryVertices {
     PixelRays rays_of(const Fragment& fragment) const;
     std::size_t make_mosaic(const Mosaic& mosaic, std::size_t k, const Lie& lie, std::span<Vertex> vertices,
                             std::size_t count);
-    void finish(std::size_t k, float samples, HalfShares halves, Vertex& vertex);
+    void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, Vertex& vertex);
+    void take_in(std::size_t k, const Lie& lie, Vertex& vertex);
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
 };

@@ -327,7 +327,7 @@ SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir
     const Disks& disks = disks_[body];
     // So many parts that facets' alpha is what they lie apart; else all.
     std::size_t k = 0;
-    while (k + 1 < kParts.size() && alpha < 2 * disks.of[k].min_alpha) ++k;
+    while (k + 1 < kParts.size() && alpha < 4 * disks.of[k].min_alpha) ++k;
     const Disk& disk = disks.of[k];
     // Those beyond its own shine with nothing.
     const std::size_t count = std::max(kParts[k], kLanes);

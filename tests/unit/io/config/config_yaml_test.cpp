@@ -175,6 +175,8 @@ TEST(ConfigYaml, OverridesReplaceAndAreChecked) {
     EXPECT_EQ(read("name: x\n", {"count=7", "inner.exposure_ms=4"}).count, 7);
     EXPECT_DOUBLE_EQ(read("name: x\n", {"inner.exposure_ms=4"}).inner.exposure_s, 0.004);
     EXPECT_DOUBLE_EQ(read("name: x\nlist: [{}]\n", {"list.0.exposure_ms=4"}).list[0].exposure_s, 0.004);
+    EXPECT_EQ(read("name: x\n", {"count=7", "count=9"}).count, 9);
+    EXPECT_EQ(read("name: x\n", {"count=7", "count=9", "count=8"}).count, 8);
     EXPECT_THAT(error_of("name: x\n", {"count=70"}), HasSubstr("--set count: found '70'"));
     EXPECT_THAT(error_of("name: x\n", {"cuont=7"}),
                 HasSubstr("--set cuont: unknown key; nearest known key: count"));
