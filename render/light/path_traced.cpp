@@ -205,11 +205,13 @@ class TracedPaths final : public PathModel {
         return size_m < kSmall * width_m;
     }
 
-    // Puts a ray from each sample of a mirror's pixel in the place of the one from their middle, each by a facet of its own;
-    // no more than `most`.
+    // Puts rays from every second sample of a mirror's pixel in the place of the one from their middle, each by a facet of its
+    // own; no more than `most`.
     void add_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& ray_count) {
         const Vertex& at = *middle.from;
-        const std::size_t count = std::min(static_cast<std::size_t>(std::popcount(at.samples)), most);
+        constexpr SampleMask kSecond = 0xA5A5A5A5A5A5A5A5;  // like one colour of a chessboard
+        SampleMask rest = at.samples & kSecond ? at.samples & kSecond : at.samples;
+        const std::size_t count = std::min(static_cast<std::size_t>(std::popcount(rest)), most);
         const float share = 1 / static_cast<float>(count);
         const float distance_m = at.footprint_m * static_cast<float>(tile.frame.geometry.focal_length_px);
         const Frame local(at.normal);
@@ -218,7 +220,6 @@ class TracedPaths final : public PathModel {
         ray.weight = share * middle.weight;
         add_background_seen(tile.frame, middle, ray.if_free);
         ray.if_free = share * ray.if_free;
-        SampleMask rest = at.samples;
         for (std::size_t i = 0; i < count; ++i) {
             const int sample = std::countr_zero(rest);
             rest &= rest - 1;
