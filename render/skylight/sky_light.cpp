@@ -325,7 +325,8 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
 SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
                                   float reflectance) const {
     const Disks& disks = disks_[body];
-    // So many parts that facets' alpha is what they lie apart; else all.
+    // So many parts that from one to the next facets turn by a quarter of alpha; else all. A lobe's peak is round: in the middle
+    // of a part there is more than its mean.
     std::size_t k = 0;
     while (k + 1 < kParts.size() && alpha < 4 * disks.of[k].min_alpha) ++k;
     const Disk& disk = disks.of[k];
