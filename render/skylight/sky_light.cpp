@@ -325,13 +325,10 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
 SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
                                   float reflectance) const {
     const Disks& disks = disks_[body];
-    // So many parts that from one to the next facets turn by a quarter of alpha; else all. A lobe's peak is round: in the middle
-    // of a part there is more than its mean.
-    std::size_t k = 0;
-    while (k + 1 < kParts.size() && alpha < 4 * disks.of[k].min_alpha) ++k;
+    // The fewer parts where facets turn by half of alpha, at most, from one to the next.
+    const std::size_t k = alpha < 2 * disks.of.front().min_alpha ? 1 : 0;
     const Disk& disk = disks.of[k];
-    // Those beyond its own shine with nothing.
-    const std::size_t count = std::max(kParts[k], kLanes);
+    const std::size_t count = kParts[k];
     // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
     // the disk has.
     const float off = std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f);
@@ -351,7 +348,7 @@ SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir
     lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data(),
                  schlick.data());
     Glossy out;
-    weighted_sum(weight.data(), disk.irradiance.data(), kParts[k], out.radiance);
+    weighted_sum(weight.data(), disk.irradiance.data(), count, out.radiance);
     SchlickSums sums;
     schlick_sums(weight.data(), disk.brightest.data(), schlick.data(), count, sums);
     out.facet_cosine = sums.facet_cosine();

@@ -58,9 +58,10 @@ class SkyLight {
         static Vec3f direction(int index);
         Spectrum at(Vec3f dir) const;
     };
-    // A body's disk in parts of equal solid angle; and in fewer, for lobes that are wide against them.
+    // A body's disk in parts of equal solid angle; and in fewer, for lobes that are wide against them. Fewer than these would
+    // save nothing, as loops take sixteen at once.
     static constexpr std::size_t kPatches = 64;
-    static constexpr std::array<std::size_t, 3> kParts = {4, 16, kPatches};
+    static constexpr std::array<std::size_t, 2> kParts = {16, kPatches};
     static constexpr std::size_t kLooks = 4 * kPatches;
     struct Look {
         Vec3f dir;
