@@ -228,7 +228,8 @@ class TracedPaths final : public PathModel {
             ray.origin_m = at.start() + way_m;
             ray.dir = sample_facets(at.surface.alpha, local, normalized(distance_m * at.view_dir - way_m),
                                     std::fmod(kAlong * number, 1.0f), std::fmod(kAbout * number, 1.0f));
-            add_kept(tile, ray, ray_count);
+            // Together they count, however little each does.
+            add(ray, ray_count);
         }
     }
 
@@ -284,11 +285,12 @@ class TracedPaths final : public PathModel {
     }
 
     void add_kept(Tile& tile, const NextRay& ray, std::size_t& ray_count) {
+        if (ray.from->importance(ray.weight) >= tile.frame.contribution_threshold) add(ray, ray_count);
+    }
+    void add(const NextRay& ray, std::size_t& ray_count) {
         const bool leaves = dot(ray.from->geometric_normal, ray.dir) > 0;
         const bool through = ray.from->surface.is_glass();
-        if ((leaves || through) && ray_count < next_.size() &&
-            ray.from->importance(ray.weight) >= tile.frame.contribution_threshold)
-            next_[ray_count++] = ray;
+        if ((leaves || through) && ray_count < next_.size()) next_[ray_count++] = ray;
     }
 
     // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
