@@ -133,7 +133,7 @@ class Reader {
         }
     }
 
-    // Of several for one key the last counts: who calls hilcam from a script adds to what that sets.
+    // The last override of a key counts, so that a script's user can change what the script sets.
     Override* override_at(const std::string& path) {
         Override* last = nullptr;
         for (Override& o : overrides_)

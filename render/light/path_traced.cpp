@@ -63,7 +63,7 @@ class TracedPaths final : public PathModel {
     static constexpr auto kMax = static_cast<std::size_t>(kMostVertices);
     static constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first surface
     // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
-    // where others need none.
+    // where others need fewer.
     static constexpr std::size_t kLeastOfMirror = 8;
     // What a mirror of this reflectance shows is looked for in any case: a glint in it is as bright as paint.
     static constexpr float kBright = 0.1f;
@@ -209,7 +209,8 @@ class TracedPaths final : public PathModel {
     // own; no more than `most`.
     void add_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& ray_count) {
         const Vertex& at = *middle.from;
-        constexpr SampleMask kSecond = 0xA5A5A5A5A5A5A5A5;  // like one colour of a chessboard
+        constexpr SampleMask kSecond =
+            0xA5A5A5A5A5A5A5A5;  // one colour of a chessboard, by PixelSamples' numbers
         SampleMask rest = at.samples & kSecond ? at.samples & kSecond : at.samples;
         const std::size_t count = std::min(static_cast<std::size_t>(std::popcount(rest)), most);
         const float share = 1 / static_cast<float>(count);

@@ -17,7 +17,7 @@ namespace {
 // rays are those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
-constexpr float kFlatTogether = 0.02f;        // sine of the lean of planes that are taken for one
+constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that are taken for one
 // A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel: of sunlit paint a
 // quarter of the noise of a full well of 15,000 electrons.
 constexpr float kFlattest = 1e-4f, kLeastShare = 0.002f;
@@ -230,12 +230,13 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
     tile_.facets.add(
         frame, {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal, samples},
         hits_.triangle[k], false, vertex);
-    // Rays begin at its samples, too, where it lies in the vertex' plane but for a little; above what little that is.
+    // Rays begin at its samples, too, where it lies in the vertex' plane but for a little: at those twice as much above it.
+    // All others begin where they did, as what is higher misses the shadow of what is near.
     const Vec3f way_m = point_m - vertex.point_m;
     const float above_m = std::abs(dot(way_m, vertex.geometric_normal));
     if (above_m < kFlatTogether * length(way_m)) {
         vertex.samples |= seen_by;
-        vertex.offset_m = std::max(vertex.offset_m, 2 * above_m);
+        vertex.lift_m = std::max(vertex.lift_m, 2 * above_m);
     }
     // Alike in all bins, but for the air before it.
     const float all = vertex.weight_samples + samples;
@@ -254,6 +255,7 @@ void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Ve
     vertex.depth = 1;
     vertex.samples = fragment.samples;
     vertex.place_px = place_px;
+    vertex.lift_m = 0;
     vertex.weight = {};
     std::fill_n(vertex.weight.bin.begin(), tile_.frame.bins, samples);
     vertex.weight_samples = samples;
@@ -365,7 +367,8 @@ Vec3f way_to_sample(const Tile& tile, const Vertex& at, int sample) {
     const Vec3d dir_from = dir(from);
     const double distance_m = static_cast<double>(at.footprint_m) * frame.geometry.focal_length_px;
     const Vec3f across = to_float(distance_m / length(dir_from) * (dir(to) - dir_from));
-    return across - (dot(across, at.geometric_normal) / facing) * at.view_dir;
+    return across - (dot(across, at.geometric_normal) / facing) * at.view_dir +
+           at.lift_m * at.geometric_normal;
 }
 
 }  // namespace hilcam

@@ -75,8 +75,8 @@ void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex);
 // Returns the direction through a place in a pixel, as the frame's visibility buffer has it; world axes, of any length.
 Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px);
 
-// Returns the way from a vertex that samples see to where one of them meets its plane [m, ray space]; nothing
-// where the plane is seen from its edge. sample: one of Vertex::samples. Loop, any thread.
+// Returns the way from a vertex that samples see to where one of them meets its plane, and up by Vertex::lift_m [m, ray
+// space]; nothing where the plane is seen from its edge. sample: one of Vertex::samples. Loop, any thread.
 Vec3f way_to_sample(const Tile& tile, const Vertex& at, int sample);
 
 }  // namespace hilcam

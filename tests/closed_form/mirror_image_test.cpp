@@ -24,14 +24,14 @@ class MirrorImage {
   public:
     Stage s;
 
-    MirrorImage(const char* model, int samples, int size_px) {
+    MirrorImage(const char* model, int samples, int size_px, int buffer_samples = 16) {
         s.quality.path_model = model;
         s.quality.max_depth = 3;
         s.quality.contribution_threshold = 0.01f;
         s.quality.facets_behind_diffuse = 0;
         s.quality.samples_per_axis = samples;
         s.quality.visibility = s.quality.path_model == "kept" ? "buffer" : "rays";
-        s.quality.buffer_samples = 64;
+        s.quality.buffer_samples = buffer_samples;
         s.quality.rays_across = 0;
         s.camera(size_px, 0.2);
         s.sun({0.5, 0, 1});
@@ -79,9 +79,9 @@ TEST(MirrorImage, AStripThatNoDirectionMeetsIsSeen) {
 // Strips of bare metal, 7 mm wide, which lean to the Sun and away from it in turns: six of them are as wide as a pixel of the
 // mirror. What a pixel shows is nearly their mean, and not what one of them sends. Returns the root mean square of what is
 // wrong, of what is right.
-double error_of_strips(bool tiled, double reflectance = 0.9) {
+double error_of_strips(int buffer_samples, bool tiled = false, double reflectance = 0.9) {
     const auto image = [&](const char* model, int samples) {
-        MirrorImage m(model, samples, 48);
+        MirrorImage m(model, samples, 48, buffer_samples);
         std::vector<Vec3f> v;
         std::vector<std::array<std::uint32_t, 3>> t;
         constexpr int kStrips = 86;
@@ -108,13 +108,16 @@ double error_of_strips(bool tiled, double reflectance = 0.9) {
     EXPECT_GT(truth, 0);
     return std::sqrt(squares / truth);
 }
-TEST(MirrorImage, APixelShowsTheMeanOfSmallFacets) { EXPECT_LT(error_of_strips(false), 0.2); }
+TEST(MirrorImage, APixelShowsTheMeanOfSmallFacets) {
+    EXPECT_LT(error_of_strips(16), 0.3);
+    EXPECT_LT(error_of_strips(64), 0.2);
+}
 
 // Each ray of such a mirror has less than the threshold, all of a pixel's together have more.
-TEST(MirrorImage, ADimMirrorShowsThemAsWell) { EXPECT_LT(error_of_strips(false, 0.15), 0.2); }
+TEST(MirrorImage, ADimMirrorShowsThemAsWell) { EXPECT_LT(error_of_strips(64, false, 0.15), 0.2); }
 
-// A pixel has sixteen tiles of the mirror, which together are what it shows.
-TEST(MirrorImage, APixelShowsWhatAllTilesInItMirror) { EXPECT_LT(error_of_strips(true), 0.25); }
+// A pixel of 33 mm has some eleven tiles of the mirror, which together are what it shows.
+TEST(MirrorImage, APixelShowsWhatAllTilesInItMirror) { EXPECT_LT(error_of_strips(64, true), 0.25); }
 
 }  // namespace
 }  // namespace hilcam

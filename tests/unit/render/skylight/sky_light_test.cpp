@@ -10,14 +10,31 @@
 namespace hilcam {
 namespace {
 
+// The Earth along +z, a ball of one albedo.
+struct EarthAhead {
+    Stage s;
+    Background background;
+
+    EarthAhead(double distance_m, Vec3d to_sun)
+        : s(stage(distance_m, to_sun)),
+          background(s.scene.bodies, nullptr, nullptr, s.scene.sun_irradiance_1au_w_m2_um, true, s.grid) {
+        background.place(s.world, {}, 1e-4);
+    }
+
+  private:
+    static Stage stage(double distance_m, Vec3d to_sun) {
+        Stage s;
+        s.earth(0.3);
+        s.world.bodies[BodyId::kEarth].world_m = {0, 0, distance_m};
+        s.sun(to_sun);
+        return s;
+    }
+};
+
 // The Earth from low orbit: its cone, air and all, and the margin beside it are not clear.
 TEST(SkyLight, KeepsClearOfBodiesByItsMargin) {
-    Stage s;
-    s.earth(0.3);
-    s.world.bodies[BodyId::kEarth].world_m = {0, 0, 6.8e6};
-    s.sun({0, 1, -1});
-    Background background(s.scene.bodies, nullptr, nullptr, s.scene.sun_irradiance_1au_w_m2_um, true, s.grid);
-    background.place(s.world, {}, 1e-4);
+    const EarthAhead earth_ahead(6.8e6, {0, 1, -1});
+    const Background& background = earth_ahead.background;
     constexpr double kMargin_rad = 0.01;
     SkyLight sky(1);
     sky.place(background, static_cast<float>(kMargin_rad));
@@ -36,14 +53,10 @@ TEST(SkyLight, KeepsClearOfBodiesByItsMargin) {
 }
 
 // The whole Earth from a geostationary orbit, in lobes about its middle and beside it: what a sum over twenty thousand
-// directions has.
+// directions of a spiral has.
 TEST(SkyLight, WideLobesHaveTheLightOfADisk) {
-    Stage s;
-    s.earth(0.3);
-    s.world.bodies[BodyId::kEarth].world_m = {0, 0, 4.2164e7};
-    s.sun({0, 0.3, -1});
-    Background background(s.scene.bodies, nullptr, nullptr, s.scene.sun_irradiance_1au_w_m2_um, true, s.grid);
-    background.place(s.world, {}, 1e-4);
+    const EarthAhead earth(4.2164e7, {0, 0.3, -1});
+    const Background& background = earth.background;
     SkyLight sky(0.1f);
     sky.place(background, 0.01f);
     ASSERT_EQ(sky.bodies().size(), 1u);
@@ -54,10 +67,12 @@ TEST(SkyLight, WideLobesHaveTheLightOfADisk) {
             const Vec3f view_dir = reflect(Vec3f{std::sin(off_rad), 0, std::cos(off_rad)}, normal);
             const float no = dot(normal, view_dir);
             constexpr int kDirections = 20000;
+            constexpr float kGoldenAngle_rad = 2.3999632f;  // Vogel, Mathematical Biosciences 44, 1979
             double sum = 0;
             for (int i = 0; i < kDirections; ++i) {
                 const float lower = below * (static_cast<float>(i) + 0.5f) / kDirections;
-                const float around = 2.3999632f * static_cast<float>(i), r = std::sqrt(lower * (2 - lower));
+                const float around = kGoldenAngle_rad * static_cast<float>(i),
+                            r = std::sqrt(lower * (2 - lower));
                 const Vec3f dir{r * std::cos(around), r * std::sin(around), 1 - lower};
                 Spectrum weight, light;
                 weight.bin.fill(2 * kPiF * below / kDirections);
