@@ -43,6 +43,15 @@ Vec3f in_cone_at(const Frame& axis, float one_minus_cosine, float u1, float u2) 
     return axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
+// Density of the directions that are drawn to all bodies but one [sr^-1].
+float density_of_others(const FrameView& frame, const Vertex& at, Vec3f dir, const BodyLight* one) {
+    float density = 0;
+    for (const BodyLight& lamp : frame.background->body_lights())
+        if (&lamp != one && in_cone(lamp, dir) && body_light_counts(frame, at, lamp))
+            density += cone_density(lamp);
+    return density;
+}
+
 struct LitBy {
     const Vertex* at;
     Spectrum weight;  // on the light that comes along dir
@@ -135,8 +144,9 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling h
                 Scatterer surface = at.surface;
                 if (how == BodySampling::kQuadrature && surface.alpha < kNarrowAlpha) surface.alpha = 0;
                 float density = cone_density(lamp) * kQuadrature;
+                // Rounding may put what is drawn at a cone's edge outside of it.
                 if (how == BodySampling::kSampled)
-                    density = body_light_density(frame, at, dir) +
+                    density = cone_density(lamp) + density_of_others(frame, at, dir, &lamp) +
                               (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
                 const Spectrum weight = (ni / density) * (at.weight * brdf_value(surface, c));
                 if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
@@ -170,10 +180,7 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission) {
 }
 
 float body_light_density(const FrameView& frame, const Vertex& at, Vec3f dir) {
-    float density = 0;
-    for (const BodyLight& lamp : frame.background->body_lights())
-        if (in_cone(lamp, dir) && body_light_counts(frame, at, lamp)) density += cone_density(lamp);
-    return density;
+    return density_of_others(frame, at, dir, nullptr);
 }
 
 float sun_density(const FrameView& frame, Vec3f dir) {
