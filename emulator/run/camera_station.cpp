@@ -153,10 +153,10 @@ std::vector<std::string> CameraStation::new_faults() {
     std::vector<std::string> out;
     for (const auto& sink : sinks_)
         if (sink->has_fault() && told_faults_.insert(sink.get()).second) out.push_back(sink->report().fault);
-    if (!told_map_fault_)
-        if (const std::string fault = renderer().map_fault(); !fault.empty()) {
+    if (!told_render_fault_)
+        if (const std::string fault = renderer().fault(); !fault.empty()) {
             out.push_back(fault);
-            told_map_fault_ = true;
+            told_render_fault_ = true;
         }
     return out;
 }

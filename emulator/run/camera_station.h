@@ -117,7 +117,7 @@ class CameraStation {
     DeliveryMeter delivery_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
-    bool told_map_fault_ = false;
+    bool told_render_fault_ = false;
     std::vector<LoadedObject> objects_;
     LightLoading light_;
     std::unique_ptr<Renderer> renderer_;

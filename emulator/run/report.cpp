@@ -62,7 +62,7 @@ std::vector<std::string> faults_of(const CameraStation& station) {
     std::vector<std::string> out;
     for (const FrameSink* sink : station.sinks())
         if (const std::string fault = sink->report().fault; !fault.empty()) out.push_back(fault);
-    if (const std::string fault = station.renderer().map_fault(); !fault.empty()) out.push_back(fault);
+    if (const std::string fault = station.renderer().fault(); !fault.empty()) out.push_back(fault);
     return out;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "render/frame/finite_light.h"
+
 namespace hilcam {
 
 AdaptiveSampler::AdaptiveSampler() : pass_(kMax), mean_(kMax) {}
@@ -19,6 +21,7 @@ std::span<const Spectrum> AdaptiveSampler::trace(const FrameView& frame, const P
         tile.first_sample = static_cast<std::uint16_t>(pass * n2);
         tile.wanted = pass > 0 ? wanted_.data() : nullptr;
         paths.trace(tile);
+        stats.not_finite += leave_out_not_finite(tile.pixels);
         take_pass(1 / static_cast<float>(n2), budget.noise, frame.bins);
         // The choice after the last pass is what is reported.
         if (!choose(budget) || pass + 1 == budget.most_passes) break;

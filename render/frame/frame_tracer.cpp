@@ -1,7 +1,9 @@
 #include "render/frame/frame_tracer.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "render/frame/finite_light.h"
 #include "render/sunlit_ground/ground_light.h"
 
 namespace hilcam {
@@ -215,6 +217,7 @@ void FrameTracer::trace_places_of(const FrameView& frame, const PixelBox& box, s
     Tile tile{frame, box, 1, pixels, stats, facets_[slot]};
     tile.ground = ground_at(frame, box, slot);
     const bool known = tile.ground && add_ground_light(tile);
+    stats.not_finite += leave_out_not_finite(pixels);
     if (known) write(pixels, 1, box, places_->light());
     places_->set_known(box, known);
     stats.covered_px = 0;  // pixels are counted where they are made of it
@@ -239,6 +242,11 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     }
     if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
     const float share = 1 / static_cast<float>(n * n);
+    if (const std::uint64_t left_out = leave_out_not_finite(pixels); left_out > 0) {
+        stats.not_finite += left_out;
+        std::replace_if(
+            tile.halves.begin(), tile.halves.end(), [](float light) { return !std::isfinite(light); }, 0.0f);
+    }
     write(pixels, share, box, radiance);
     // A block of several tiles has one mark.
     const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;

@@ -1,12 +1,14 @@
 #include "render/frame/renderer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "render/frame/find_side_light.h"
+#include "render/frame/finite_light.h"
 #include "render/frame/frame_placer.h"
 #include "render/frame/frame_tracer.h"
 #include "render/frame/object_probes.h"
@@ -30,7 +32,8 @@ std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<co
 struct Renderer::Implementation {
     FramePlacer placer;
     FrameTracer tracer;
-    ObjectProbes probes;  // for objects of a few pixels
+    ObjectProbes probes;                       // for objects of a few pixels
+    std::atomic<std::uint64_t> not_finite{0};  // pixels and points of all frames whose light was no number
 
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const std::vector<RenderQuality>& levels, const RenderModels& models,
@@ -53,7 +56,10 @@ struct Renderer::Implementation {
         for (const PlacedBody& body : placer.background().points())
             field.add(body.world_dir, body.distance_m, placer.background().point_irradiance(body), points);
         add_lamps_seen(placer.frame(), field, points);
-        return probes.add_points(placer, tracer, field, points);
+        TileStats stats = probes.add_points(placer, tracer, field, points);
+        stats.not_finite += std::erase_if(
+            points, [](const PointSource& point) { return !is_finite(point.irradiance_w_m2_um); });
+        return stats;
     }
 
     // Says how many stars the placed frame has and what finding them takes, the shortest of three times; empty without a catalogue.
@@ -128,6 +134,8 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     stats.coverage = sum.covered_px / (static_cast<double>(g.padded_width()) * g.padded_height());
     stats.lit_px = sum.lit_px;
     stats.within_budget_px = sum.within_budget_px;
+    stats.not_finite = sum.not_finite;
+    my.not_finite.fetch_add(sum.not_finite, std::memory_order_relaxed);
 }
 
 ImageMotion Renderer::motion(const WorldSnapshot& middle, const WorldSnapshot& before,
@@ -200,9 +208,13 @@ std::uint64_t Renderer::rays_outside_air() const {
     return air ? air->rays_outside() : 0;
 }
 
-std::string Renderer::map_fault() const {
+std::string Renderer::fault() const {
     const DetailStream* const detail = implementation_->placer.earth_detail();
-    return detail ? detail->fault() : std::string();
+    std::string fault = detail ? detail->fault() : std::string();
+    if (const std::uint64_t count = implementation_->not_finite.load(std::memory_order_relaxed); count > 0)
+        fault += (fault.empty() ? "" : "; ") + std::to_string(count) +
+                 " pixels or points had light that was no number and were left dark";
+    return fault;
 }
 
 double Renderer::floor_ms(const WorldSnapshot& world) {

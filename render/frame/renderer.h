@@ -38,6 +38,7 @@ struct RenderStats : RayCounts {
     // Counts of a frame with a noise budget: pixels that light falls on, points apart, and those of them
     // within the budget.
     std::uint64_t lit_px = 0, within_budget_px = 0;
+    std::uint64_t not_finite = 0;  // pixels and points whose light was no number, and was left out
 };
 
 class Renderer {
@@ -113,8 +114,9 @@ class Renderer {
     // missing. For the first instant of a run; what leaves the table later is counted. Not for the loop.
     void require_air(const WorldSnapshot& world);
     std::uint64_t rays_outside_air() const;
-    // Says which maps could not be read where frames looked, and how often; empty: none. Any thread.
-    std::string map_fault() const;
+    // Says what is wrong with the frames so far: maps that could not be read where they looked, light that was no
+    // number, and how often; empty: nothing. Any thread.
+    std::string fault() const;
     // Returns how much of the frame that is being rendered is traced, 0 to 1. Any thread.
     double share_traced() const;
 

@@ -22,11 +22,13 @@ struct TileStats : RayCounts {
     double covered_px = 0;  // by objects
     // Counts with a noise budget: pixels with light, and those of them whose error is within it.
     std::uint64_t lit_px = 0, within_budget_px = 0;
+    std::uint64_t not_finite = 0;  // pixels and points whose light was no number, and was left out
 
     TileStats& operator+=(const TileStats& other) {
         RayCounts::operator+=(other);
         covered_px += other.covered_px;
         lit_px += other.lit_px, within_budget_px += other.within_budget_px;
+        not_finite += other.not_finite;
         return *this;
     }
 };
