@@ -36,8 +36,9 @@ struct NextRay {
     bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
     bool sees_bodies = true;  // false: their light in its lobe has been counted
     Spectrum if_free{};       // light that it adds where it meets nothing
-    // True for a mirror's ray, in whose place many go where it meets but a part of what the mirror shows.
+    // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
     bool may_be_many = false;
+    bool is_of_many = false;  // it is one of those
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {
@@ -77,6 +78,9 @@ class TracedPaths final : public PathModel {
     Vertex* following_ = b_.data();
     std::array<PixelShare, kMax> shares_;
     std::size_t share_count_ = 0;
+    // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
+    std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
+    std::array<bool, kMaxSamples> near_part_;
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
@@ -196,7 +200,6 @@ class TracedPaths final : public PathModel {
     static bool has_met_a_part(const FrameView& frame, const HitPacket& hits, std::size_t k,
                                const NextRay& ray) {
         constexpr float kSmall = 4;
-        if (!ray.may_be_many) return false;
         const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
         const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
         if (!object.materials[triangle.surface].has_facets()) return false;
@@ -205,19 +208,18 @@ class TracedPaths final : public PathModel {
         return size_m < kSmall * width_m;
     }
 
-    // Puts rays from every second sample of a mirror's pixel in the place of the one from their middle, each by a facet of its
-    // own; no more than `most`.
+    // Puts a ray from each sample of a mirror's pixel in the place of the one from their middle, by a facet of its own; no more
+    // than `most`.
     void add_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& ray_count) {
         const Vertex& at = *middle.from;
-        constexpr SampleMask kSecond =
-            0xA5A5A5A5A5A5A5A5;  // one colour of a chessboard, by PixelSamples' numbers
-        SampleMask rest = at.samples & kSecond ? at.samples & kSecond : at.samples;
+        SampleMask rest = at.samples;
         const std::size_t count = std::min(static_cast<std::size_t>(std::popcount(rest)), most);
         const float share = 1 / static_cast<float>(count);
         const float distance_m = at.footprint_m * static_cast<float>(tile.frame.geometry.focal_length_px);
         const Frame local(at.normal);
         NextRay ray = middle;
         ray.may_be_many = ray.sees_bodies = false;
+        ray.is_of_many = true;
         ray.weight = share * middle.weight;
         add_background_seen(tile.frame, middle, ray.if_free);
         ray.if_free = share * ray.if_free;
@@ -294,33 +296,101 @@ class TracedPaths final : public PathModel {
         if ((leaves || through) && ray_count < next_.size()) next_[ray_count++] = ray;
     }
 
-    // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
+    // Traces some of the chosen rays.
+    const HitPacket& trace_packet(Tile& tile, std::size_t first, std::size_t count, HitPacket& hits) const {
+        RayPacket rays;
+        rays.count = static_cast<int>(count);
+        for (int i = 0; i < rays.count; ++i) {
+            const NextRay& ray = next_[first + static_cast<std::size_t>(i)];
+            rays.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
+        }
+        tile.frame.scene->intersect(rays, Coherence::kIncoherent, hits);
+        tile.stats.secondary_rays += count;
+        return hits;
+    }
+
+    static bool meets(const FrameView& frame, const HitPacket& hits, std::size_t k, const NextRay& ray) {
+        return hits.object[k] != HitPacket::kMiss &&
+               !(frame.bodies_may_hide && frame.background->hides(ray.origin_m, to_double(ray.dir),
+                                                                  static_cast<double>(hits.distance[k])));
+    }
+
+    // Puts the rays that may be many first and traces them. Where one meets a part of what its mirror shows, those of the pixels
+    // about it, whose lobes have some of it, may have passed it by. Returns how many they are.
+    std::size_t trace_mirrors(Tile& tile, std::size_t ray_count) {
+        const auto begin = next_.begin();
+        const auto mirrors =
+            static_cast<std::size_t>(std::partition(begin, begin + static_cast<std::ptrdiff_t>(ray_count),
+                                                    [](const NextRay& ray) { return ray.may_be_many; }) -
+                                     begin);
+        if (mirrors > 0) near_part_.fill(false);
+        for (std::size_t first = 0; first < mirrors; first += kPacketSize) {
+            const std::size_t count = std::min<std::size_t>(kPacketSize, mirrors - first);
+            const HitPacket& hits = trace_packet(tile, first, count, mirror_hits_[first / kPacketSize]);
+            for (std::size_t k = 0; k < count; ++k) {
+                const NextRay& ray = next_[first + k];
+                if (meets(tile.frame, hits, k, ray) && has_met_a_part(tile.frame, hits, k, ray))
+                    mark_about(tile, *ray.from, hits.distance[k]);
+            }
+        }
+        return mirrors;
+    }
+
+    // Marks the pixels in whose lobes something is that a mirror shows at this distance.
+    void mark_about(const Tile& tile, const Vertex& mirror, float distance_m) {
+        // Four fifths of a lobe are within twice alpha of its facets' middle, which turns rays by twice that (Walter et al. 2007,
+        // eq. 35).
+        constexpr float kLobe = 4, kMost_px = 4;
+        const auto focal_px = static_cast<float>(tile.frame.geometry.focal_length_px);
+        const float in_all_m = mirror.footprint_m * focal_px + distance_m;
+        const float blur_px = kLobe * mirror.surface.alpha * distance_m / in_all_m * focal_px;
+        const int reach = static_cast<int>(std::min(1 + blur_px, kMost_px));
+        const int width = tile.box.x1 - tile.box.x0, height = tile.box.y1 - tile.box.y0;
+        const int x = static_cast<int>(mirror.pixel) % width, y = static_cast<int>(mirror.pixel) / width;
+        for (int row = std::max(0, y - reach); row <= std::min(height - 1, y + reach); ++row)
+            for (int column = std::max(0, x - reach); column <= std::min(width - 1, x + reach); ++column)
+                near_part_[static_cast<std::size_t>(row * width + column)] = true;
+    }
+
+    // Makes what one of many rays has met, the last of these vertices, a part of what one of the same pixel has, where that is
+    // alike: what they find is shaded once. False: nothing is.
+    static bool join(const NextRay& ray, Vertex* found, std::size_t last) {
+        constexpr float kLeansAlike = 0.985f;  // cosine of 10 degrees
+        const Vertex& at = found[last];
+        for (std::size_t i = last; i-- > 0 && found[i].pixel == at.pixel && found[i].sample == at.sample;) {
+            Vertex& other = found[i];
+            if (other.object != at.object || other.surface_number != at.surface_number ||
+                other.back != at.back || other.surface.base.bin != at.surface.base.bin ||
+                dot(other.normal, at.normal) < kLeansAlike)
+                continue;
+            other.weight += ray.weight;
+            return true;
+        }
+        return false;
+    }
+
+    // Follows the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
     // sees the background.
     std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
         const FrameView& frame = tile.frame;
-        RayPacket rays;
-        HitPacket hits;
-        std::size_t found = 0;
-        auto mirrors_left = static_cast<std::size_t>(
-            std::count_if(next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(ray_count),
-                          [](const NextRay& ray) { return ray.may_be_many; }));
-        for (std::size_t first = 0; first < ray_count; first += static_cast<std::size_t>(rays.count)) {
-            rays.count = static_cast<int>(std::min<std::size_t>(kPacketSize, ray_count - first));
-            for (int i = 0; i < rays.count; ++i) {
-                const NextRay& ray = next_[first + static_cast<std::size_t>(i)];
-                rays.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
-            }
-            frame.scene->intersect(rays, Coherence::kIncoherent, hits);
-            tile.stats.secondary_rays += static_cast<std::uint64_t>(rays.count);
-            for (int i = 0; i < rays.count; ++i) {
-                const auto k = static_cast<std::size_t>(i);
+        HitPacket own_hits;
+        std::size_t found = 0, count = 0;
+        const std::size_t mirrors = last ? 0 : trace_mirrors(tile, ray_count);
+        auto marked = static_cast<std::size_t>(
+            std::count_if(next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(mirrors),
+                          [&](const NextRay& ray) { return near_part_[ray.from->pixel]; }));
+        for (std::size_t first = 0; first < ray_count; first += count) {
+            count = std::min<std::size_t>(kPacketSize, (first < mirrors ? mirrors : ray_count) - first);
+            const HitPacket& hits = first < mirrors ? mirror_hits_[first / kPacketSize]
+                                                    : trace_packet(tile, first, count, own_hits);
+            for (std::size_t k = 0; k < count; ++k) {
                 const NextRay& ray = next_[first + k];
-                const bool hit = hits.object[k] != HitPacket::kMiss &&
-                                 !(frame.bodies_may_hide &&
-                                   frame.background->hides(ray.origin_m, to_double(ray.dir),
-                                                           static_cast<double>(hits.distance[k])));
-                if (ray.may_be_many) --mirrors_left;
-                if (!hit) {
+                if (first < mirrors && near_part_[ray.from->pixel]) {
+                    // All have the same room.
+                    add_many(tile, ray, (next_.size() - ray_count) / marked--, ray_count);
+                    continue;
+                }
+                if (!meets(frame, hits, k, ray)) {
                     if (ray.sees_bodies)
                         add_background(tile, ray);
                     else
@@ -328,20 +398,16 @@ class TracedPaths final : public PathModel {
                     continue;
                 }
                 if (last) continue;
-                if (has_met_a_part(frame, hits, k, ray)) {
-                    const std::size_t room = next_.size() - ray_count;
-                    add_many(tile, ray, room - kLeastOfMirror * mirrors_left, ray_count);
-                    continue;
-                }
                 Vertex& vertex = following_[found];
-                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex))
+                if (!make_vertex(frame, hits, static_cast<int>(k), ray.origin_m, ray.dir, ray.alpha_least,
+                                 ray.width(), vertex))
                     continue;
                 vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
                 vertex.halves = ray.from->halves, vertex.shared = ray.from->shared;
                 vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
                 vertex.weight = ray.weight;
                 vertex.weight_samples = ray.from->weight_samples;
-                ++found;
+                if (!ray.is_of_many || !join(ray, following_, found)) ++found;
             }
         }
         std::swap(current_, following_);
