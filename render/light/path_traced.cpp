@@ -194,15 +194,10 @@ class TracedPaths final : public PathModel {
         }
     }
 
-    // True when a mirror's ray has met a facet, of metal or under a layer, that is but a part of what the mirror shows about
-    // it: the triangle is small beside the ray's width, so that others lie within it, or within a pixel or two. What one of
-    // them sends is a glint, or none.
-    static bool has_met_a_part(const FrameView& frame, const HitPacket& hits, std::size_t k,
-                               const NextRay& ray) {
+    // True when a mirror's ray has met but a part of what the mirror shows about it: the triangle is small beside the ray's width,
+    // so that others, or none, lie within it, or within a pixel or two. What one of them sends may be a glint, or nothing.
+    static bool has_met_a_part(const HitPacket& hits, std::size_t k, const NextRay& ray) {
         constexpr float kSmall = 4;
-        const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
-        const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
-        if (!object.materials[triangle.surface].has_facets()) return false;
         const float size_m = std::sqrt(length(Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]}));
         const float width_m = ray.from->footprint_m + 2 * ray.from->surface.alpha * hits.distance[k];
         return size_m < kSmall * width_m;
@@ -329,7 +324,7 @@ class TracedPaths final : public PathModel {
             const HitPacket& hits = trace_packet(tile, first, count, mirror_hits_[first / kPacketSize]);
             for (std::size_t k = 0; k < count; ++k) {
                 const NextRay& ray = next_[first + k];
-                if (meets(tile.frame, hits, k, ray) && has_met_a_part(tile.frame, hits, k, ray))
+                if (meets(tile.frame, hits, k, ray) && has_met_a_part(hits, k, ray))
                     mark_about(tile, *ray.from, hits.distance[k]);
             }
         }

@@ -76,9 +76,9 @@ double light_of_strip(const MaterialConfig& material) {
     EXPECT_GT(paths, 0);
     return light("kept", 1) / paths;
 }
-TEST(MirrorImage, AStripThatNoDirectionMeetsIsSeen) { EXPECT_NEAR(light_of_strip(lambert(0.9)), 1, 0.2); }
+TEST(MirrorImage, AStripThatNoDirectionMeetsIsSeen) { EXPECT_NEAR(light_of_strip(lambert(0.9)), 1, 0.1); }
 
-// Bare metal is but a part of what a pixel shows, and the mirror blurs it over pixels whose middles pass it by.
+// The mirror blurs it over pixels whose middles pass it by.
 TEST(MirrorImage, ABlurredStripHasAllItsLight) { EXPECT_NEAR(light_of_strip(metal(0.6)), 1, 0.1); }
 
 // Strips of bare metal, 7 mm wide, which lean to the Sun and away from it in turns: six of them are as wide as a pixel of the
