@@ -35,7 +35,7 @@ struct Vertex {
     std::uint16_t depth;     // 1: seen by the camera
     SampleMask samples;      // those of the pixel that see its plane; 0: one of a ray
     Vec2f place_px;          // where in the pixel it is seen, where samples see it
-    float lift_m;            // where samples see it, rays start so much further above: their planes differ a little
+    float lift_m;            // where samples see it, rays start further above: planes differ
     Vec3f point_m;           // ray space
     float offset_m;          // distance above the surface at which a ray must start
     Vec3f geometric_normal;  // towards the viewer's side, unit
