@@ -2,7 +2,6 @@
 // Light that is a number. A radiance without one - a division by nothing in a path model, be it a plug-in's - would darken or
 // flood a whole picture once the optics' halo has spread it.
 
-#include <cmath>
 #include <cstdint>
 #include <span>
 
