@@ -347,16 +347,22 @@ class TracedPaths final : public PathModel {
                 near_part_[static_cast<std::size_t>(row * width + column)] = true;
     }
 
-    // Makes what one of many rays has met, the last of these vertices, a part of what one of the same pixel has, where that is
-    // alike: what they find is shaded once. False: nothing is.
+    // Makes what one of many rays has met, the last of these vertices, a part of what others of the same pixel have, where that is
+    // alike: it is shaded once. Few, as a shadow's edge may pass between them. False: nothing is.
     static bool join(const NextRay& ray, Vertex* found, std::size_t last) {
-        constexpr float kLeansAlike = 0.985f;  // cosine of 10 degrees
+        constexpr float kMost = 8;
         const Vertex& at = found[last];
+        // A facet lobe turns by twice as much: half of alpha, as far as 10 degrees.
+        constexpr float kLeansAlike = 0.985f, kOfAlpha = 0.5f;
+        const float alpha = kOfAlpha * at.surface.alpha;
+        const float least =
+            at.surface.material->has_facets() ? std::max(kLeansAlike, 1 - 0.5f * alpha * alpha) : kLeansAlike;
         for (std::size_t i = last; i-- > 0 && found[i].pixel == at.pixel && found[i].sample == at.sample;) {
             Vertex& other = found[i];
             if (other.object != at.object || other.surface_number != at.surface_number ||
-                other.back != at.back || other.surface.base.bin != at.surface.base.bin ||
-                dot(other.normal, at.normal) < kLeansAlike)
+                largest(other.weight) > (kMost - 0.5f) * largest(ray.weight) || other.back != at.back ||
+                other.known_sun != at.known_sun || other.surface.base.bin != at.surface.base.bin ||
+                dot(other.normal, at.normal) < least)
                 continue;
             other.weight += ray.weight;
             return true;
