@@ -335,7 +335,8 @@ class TracedPaths final : public PathModel {
     void mark_about(const Tile& tile, const Vertex& mirror, float distance_m) {
         // Four fifths of a lobe are within twice alpha of its facets' middle, which turns rays by twice that (Walter et al. 2007,
         // eq. 35).
-        constexpr float kLobe = 4, kMost_px = 4;
+        constexpr float kLobe = 4;
+        constexpr float kMost_px = 4;  // further off a pixel has little of it, and rays cost time
         const auto focal_px = static_cast<float>(tile.frame.geometry.focal_length_px);
         const float in_all_m = mirror.footprint_m * focal_px + distance_m;
         const float blur_px = kLobe * mirror.surface.alpha * distance_m / in_all_m * focal_px;
