@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "render/earth/earth_model.h"
 #include "render/light/path_models.h"
 #include "render/sky/sun.h"
 #include "tests/support/furnace.h"
@@ -18,6 +19,53 @@ MaterialConfig mirror() {
     m.model = kModel<brdf::Mirror>;
     m.reflectance = Curve::constant(1);
     return m;
+}
+
+// Air that shines evenly up to its top.
+class EvenAir final : public Atmosphere {
+  public:
+    double top_m() const override { return 1e5; }
+    Sight look(Vec3d, Vec3d, double, Vec3d) const override { return {all(1), all(1)}; }
+    Spectrum sun_transmittance(Vec3d, Vec3d) const override { return all(1); }
+    Spectrum sky_irradiance(Vec3d, Vec3d) const override { return {}; }
+    std::string describe() const override { return "even"; }
+
+  private:
+    static Spectrum all(float value) {
+        Spectrum out;
+        out.bin.fill(value);
+        return out;
+    }
+};
+
+// What is drawn at the very edge of a body's cone may lie outside of it by rounding. That is drawn once in eight million times:
+// a frame in which it is is looked for.
+TEST(ClosedForm, LightDrawnAtABodysEdgeIsFinite) {
+    Stage s;
+    s.quality.path_model = "path";
+    s.quality.max_depth = 1;
+    s.earth(0.3);
+    s.add(plate(lambert(0.8), s.grid), {0, 0, 2});
+    Scene scene = copy_of(s.scene);
+    scene.air = std::make_unique<EvenAir>();
+    scene.earth = std::make_shared<const EarthModel>(EarthConfig{}, seeded_clouds(3, 64), CloudMaps{},
+                                                     scene.air.get(), s.grid);
+    Renderer renderer(std::move(scene), s.grid, s.geometry, s.quality, s.models);
+    s.points.reserve(renderer.max_points());
+    const auto middle =
+        static_cast<std::uint32_t>(s.radiance.width() * s.radiance.height() / 2 + s.radiance.width() / 2);
+    RandomKey key{1, 0};
+    // Of the picture's middle, the first sample, at the first surface, to the first body (Tile::random_of()).
+    while (random_words(key, RandomPurpose::kPathSample, middle, 16 + 3)[0] >> 9 != 0x7FFFFF) ++key.frame;
+    std::uint64_t wrong = 0;
+    // How a cone is rounded hangs on its size and direction.
+    for (int i = 0; i < 100; ++i) {
+        s.world.bodies[BodyId::kEarth].world_m =
+            (1e7 + 5e5 * i) * normalized(Vec3d{0.2, 0.4, -0.9 + 0.004 * i});
+        renderer.render(s.world, key, s.radiance, s.points, s.stats);
+        wrong += s.stats.not_finite;
+    }
+    EXPECT_EQ(wrong, 0u);
 }
 
 // Lambert 1760: a sphere of geometric albedo 2/3 A and phase function (sin g + (pi - g) cos g) / pi, at every
