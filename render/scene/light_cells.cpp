@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <functional>
+
 namespace hilcam {
 namespace {
 
@@ -160,8 +162,11 @@ std::vector<FoundCell> draw_cells(const Mesh& mesh, std::span<const std::uint8_t
     return all;
 }
 
-// Keeps a cell's points, each with the chance that it is seen.
-void keep_open(const Mesh& mesh, const CubeGrid& grid, float above_m, const Openness& openness,
+// True when a point is one that its cell may have. Any thread.
+using MayStand = std::function<bool(Vec3f point_m, Vec3f normal, float chance)>;
+
+// Keeps of the cells' points those that may stand.
+void keep_open(const Mesh& mesh, const CubeGrid& grid, float above_m, const MayStand& may_stand,
                std::vector<FoundCell>& cells) {
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
         FoundCell& cell = cells[c];
@@ -172,14 +177,43 @@ void keep_open(const Mesh& mesh, const CubeGrid& grid, float above_m, const Open
             const Vec3f normal = point.back ? -spread.normal : spread.normal;
             const Vec3f at = spread.at(spread.weights(static_cast<int>(point.point))) + above_m * normal;
             const std::uint64_t word = mixed(cell.key ^ (std::uint64_t{point.triangle} << 24 | point.point));
-            const float u = static_cast<float>(word >> 40) * 0x1p-24f;
-            // A point in a corner is seen as well as one that stands free; one that looks out of a slit is
-            // not.
-            if (u < 3 * openness(at, normal, 0.5f * grid.cube_m))
+            if (may_stand(at, normal, static_cast<float>(word >> 40) * 0x1p-24f))
                 cell.best[static_cast<std::size_t>(open++)] = point;
         }
         cell.count = open;
     });
+}
+
+// Draws the points of cells anew where they may not stand. A cell where none may keeps what it had, and is one of those that are
+// returned.
+std::vector<FoundCell> draw_open(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
+                                 const LayerMap& layers, float above_m, const MayStand& may_stand,
+                                 std::vector<FoundCell>& cells) {
+    constexpr std::uint64_t kRounds = 8;
+    std::vector<FoundCell> open = cells;
+    keep_open(mesh, grid, above_m, may_stand, open);
+    for (std::uint64_t round = 1; round < kRounds; ++round) {
+        std::vector<FoundCell> wanted;
+        for (std::size_t c = 0; c < cells.size(); ++c)
+            if (open[c].count < cells[c].count) wanted.push_back(cells[c]);
+        if (wanted.empty()) break;
+        std::vector<FoundCell> drawn = draw_cells(mesh, keeps, grid, layers, round, &wanted);
+        keep_open(mesh, grid, above_m, may_stand, drawn);
+        std::size_t c = 0;
+        for (const FoundCell& more : drawn) {
+            while (open[c].order() != more.order()) ++c;
+            for (int i = 0; i < more.count && open[c].count < cells[c].count; ++i)
+                open[c].best[static_cast<std::size_t>(open[c].count++)] =
+                    more.best[static_cast<std::size_t>(i)];
+        }
+    }
+    std::vector<FoundCell> closed;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        if (open[c].count > 0)
+            cells[c].count = open[c].count, cells[c].best = open[c].best;
+        else
+            closed.push_back(cells[c]);
+    return closed;
 }
 
 }  // namespace
@@ -191,27 +225,22 @@ std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t
 
 void prefer_open_points(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
                         float above_m, const Openness& openness, std::vector<FoundCell>& cells) {
-    constexpr std::uint64_t kRounds = 8;
+    constexpr float kNook = 0.05f, kOpenThere = 0.75f;
     const LayerMap layers(mesh, keeps, grid);
-    std::vector<FoundCell> open = cells;
-    keep_open(mesh, grid, above_m, openness, open);
-    for (std::uint64_t round = 1; round < kRounds; ++round) {
-        std::vector<FoundCell> wanted;
-        for (std::size_t c = 0; c < cells.size(); ++c)
-            if (open[c].count < cells[c].count) wanted.push_back(cells[c]);
-        if (wanted.empty()) break;
-        std::vector<FoundCell> drawn = draw_cells(mesh, keeps, grid, layers, round, &wanted);
-        keep_open(mesh, grid, above_m, openness, drawn);
-        std::size_t c = 0;
-        for (const FoundCell& more : drawn) {
-            while (open[c].order() != more.order()) ++c;
-            for (int i = 0; i < more.count && open[c].count < cells[c].count; ++i)
-                open[c].best[static_cast<std::size_t>(open[c].count++)] =
-                    more.best[static_cast<std::size_t>(i)];
-        }
+    // A point in a corner is seen as well as one that stands free; one that looks out of a slit is not.
+    const auto is_seen = [&](Vec3f at, Vec3f normal, float chance) {
+        return chance < 3 * openness(at, normal, 0.5f * grid.cube_m);
+    };
+    const auto stands_free = [&](Vec3f at, Vec3f normal, float chance) {
+        return openness(at, normal, kNook * grid.cube_m) >= kOpenThere && is_seen(at, normal, chance);
+    };
+    std::vector<FoundCell> closed = draw_open(mesh, keeps, grid, layers, above_m, stands_free, cells);
+    draw_open(mesh, keeps, grid, layers, above_m, is_seen, closed);
+    std::size_t c = 0;
+    for (const FoundCell& cell : closed) {
+        while (cells[c].order() != cell.order()) ++c;
+        cells[c].count = cell.count, cells[c].best = cell.best;
     }
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        if (open[c].count > 0) cells[c].count = open[c].count, cells[c].best = open[c].best;
 }
 
 MeshExtent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps) {
