@@ -18,9 +18,14 @@ namespace {
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
 constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that are taken for one
+constexpr float kLeastFacing = 1e-4f;  // a vertex's normal against the viewer [cosine], as find_lie() has it
 // A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel: of sunlit paint a
 // quarter of the noise of a full well of 15,000 electrons.
 constexpr float kFlattest = 1e-4f, kLeastShare = 0.002f;
+
+bool has_narrow_lobe(const Scatterer& surface) {
+    return surface.material->has_facets() && surface.alpha < kNarrowestKept;
+}
 
 // The halves of light whose middle is `off_px` from that of light with these halves.
 HalfShares moved(const HalfShares& from, Vec2f off_px) {
@@ -123,8 +128,8 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
     for (auto vertex = so_far.rbegin(); vertex != so_far.rend() && vertex->pixel == pixel; ++vertex) {
         if (vertex->object != object || vertex->surface_number != surface || vertex->back != lie.back)
             continue;
-        const bool narrow = vertex->surface.material->has_facets() && vertex->surface.alpha < kNarrowestKept;
-        if (dot(vertex->normal, lie.normal) > (narrow ? kLeansAlikeNarrow : kLeansAlike)) return &*vertex;
+        const float alike = has_narrow_lobe(vertex->surface) ? kLeansAlikeNarrow : kLeansAlike;
+        if (dot(vertex->normal, lie.normal) > alike) return &*vertex;
     }
     return nullptr;
 }
@@ -238,6 +243,9 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
         vertex.samples |= seen_by;
         vertex.lift_m = std::max(vertex.lift_m, 2 * above_m);
     }
+    // Kept light and what lobes show is asked for once, as the parts lean in the mean; facets and mirrors lean by themselves.
+    const Vec3f mean = normalized(vertex.weight_samples * vertex.normal + samples * lie.normal);
+    if (!has_narrow_lobe(vertex.surface) && dot(mean, vertex.view_dir) > kLeastFacing) vertex.normal = mean;
     // Alike in all bins, but for the air before it.
     const float all = vertex.weight_samples + samples;
     vertex.weight = (all / vertex.weight_samples) * vertex.weight;

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "render/scene/color_bands.h"
@@ -63,9 +64,6 @@ std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
     return uses;
 }
 
-// Cells that a node stands for, in order; unused places hold kClosed.
-using CellSet = std::array<std::uint32_t, 8>;
-
 struct TextureReader {
     const Mesh& mesh;
     std::vector<MipTexture> pictures;
@@ -91,12 +89,85 @@ float above_of(const Mesh& mesh) {
     return 32 * std::numeric_limits<float>::epsilon() * greatest;
 }
 
-class NodeMaker {
+}  // namespace
+
+class LightNodes::NodeMaker {
   public:
     NodeMaker(const Mesh& mesh, const CubeGrid& grid, std::span<const FoundCell> cells)
         : mesh_(mesh), grid_(grid), cells_(cells), textures_(mesh), above_m_(above_of(mesh)) {}
 
-    LightNode make(const CellSet& set, std::uint64_t seed) const {
+    // Two nodes where a wall stands between the cells' points, or one.
+    struct Made {
+        LightNode node, above;
+        std::optional<NodeDivision> division;
+    };
+    Made make(const CellSet& set, std::uint64_t seed, const Sight& sight) const {
+        const Candidates all = candidates(set);
+        const std::optional<DividedPoints> divided = find_division(all.raised_m, all.facing, sight);
+        Made out;
+        if (divided) {
+            out.division = divided->by;
+            out.node = of_points(all, divided->below, seed), out.above = of_points(all, divided->above, seed);
+        } else {
+            out.node = of_cells(set, seed);
+        }
+        return out;
+    }
+
+  private:
+    const Mesh& mesh_;
+    CubeGrid grid_;
+    std::span<const FoundCell> cells_;
+    TextureReader textures_;
+    float above_m_;
+
+    // The points of a node's cells, and places above them, higher than what is no wall.
+    struct Candidates {
+        std::vector<CellPoint> point;
+        std::vector<double> area_m2;  // that each stands for
+        std::vector<Vec3f> raised_m;
+        Vec3f facing;
+    };
+    Candidates candidates(const CellSet& set) const {
+        constexpr float kWall = 0.15f;  // in cubes
+        Candidates out;
+        const auto cells =
+            static_cast<std::size_t>(std::find(set.begin(), set.end(), LightNodes::kClosed) - set.begin());
+        for (const std::uint32_t c : std::span(set).first(cells)) {
+            const FoundCell& cell = cells_[c];
+            const std::size_t count = std::min(static_cast<std::size_t>(cell.count), kMostDivided / cells);
+            for (const CellPoint& point : std::span(cell.best).first(count)) {
+                const TriangleSpread spread(mesh_, point.triangle, 0.5f * grid_.cube_m);
+                out.point.push_back(point);
+                out.area_m2.push_back(cell.area_m2 / static_cast<double>(count));
+                out.raised_m.push_back(spread.at(spread.weights(static_cast<int>(point.point))));
+                out.facing = out.facing + (point.back ? -1.0f : 1.0f) * spread.normal;
+            }
+        }
+        if (length(out.facing) > 0) out.facing = normalized(out.facing);
+        for (Vec3f& point_m : out.raised_m) point_m = point_m + kWall * grid_.cube_m * out.facing;
+        return out;
+    }
+
+    // The node of some of the points, evenly by area.
+    LightNode of_points(const Candidates& all, std::span<const std::size_t> here, std::uint64_t seed) const {
+        double area_m2 = 0;
+        for (const std::size_t i : here) area_m2 += all.area_m2[i];
+        LightNode node;
+        const double shift = static_cast<double>(mixed(seed) >> 11) * 0x1p-53;
+        std::size_t k = 0;
+        double passed = all.area_m2[here[0]];
+        Vec3f color{};
+        for (int i = 0; i < LightNode::kPoints; ++i) {
+            const double at = (i + shift) / LightNode::kPoints * area_m2;
+            while (k + 1 < here.size() && passed <= at) passed += all.area_m2[here[++k]];
+            add(node, static_cast<std::size_t>(i), all.point[here[k]], color);
+        }
+        finish(node, color);
+        return node;
+    }
+
+    LightNode of_cells(const CellSet& set, std::uint64_t seed) const {
         LightNode node;
         double area = 0;
         for (const std::uint32_t c : set)
@@ -116,19 +187,17 @@ class NodeMaker {
             add(node, static_cast<std::size_t>(i),
                 cell.best[static_cast<std::size_t>(used[k]++ % cell.count)], color);
         }
+        finish(node, color);
+        return node;
+    }
+
+    // color: sum of the points'.
+    static void finish(LightNode& node, Vec3f color) {
         node.color = color / static_cast<float>(LightNode::kPoints);
         Vec3f mean{};
         for (const std::uint32_t normal : node.normal) mean = mean + unpack_normal(normal);
         node.mean_normal = dot(mean, mean) > 1e-6f ? pack_normal(normalized(mean)) : node.normal[0];
-        return node;
     }
-
-  private:
-    const Mesh& mesh_;
-    CubeGrid grid_;
-    std::span<const FoundCell> cells_;
-    TextureReader textures_;
-    float above_m_;
 
     void add(LightNode& node, std::size_t i, const CellPoint& candidate, Vec3f& color) const {
         const TriangleSpread spread(mesh_, candidate.triangle, 0.5f * grid_.cube_m);
@@ -149,10 +218,8 @@ class NodeMaker {
     }
 };
 
-}  // namespace
-
 LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
-                       const Openness& openness) {
+                       const Openness& openness, const Sight& sight) {
     const MeshExtent extent = extent_of(mesh, keeps);
     if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
     const Vec3f size = extent.most - extent.least;
@@ -198,19 +265,44 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
             corners[uses[i].cell][uses[i].corner] = static_cast<std::uint32_t>(sets.size() - 1);
     }
     cells_.resize(cells.size());
+    make_nodes(sets, NodeMaker(mesh, {corner_m_, cube_m_}, cells), sight);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        cells_[i].take(corners[i]);
+        take(corners[i], cells_[i]);
         cells_[i].lowest = cells[i].lowest, cells_[i].highest = cells[i].highest;
     }
-    nodes_.resize(sets.size());
-    const NodeMaker maker(mesh, {corner_m_, cube_m_}, cells);
-    tbb::parallel_for(std::size_t{0}, sets.size(),
-                      [&](std::size_t i) { nodes_[i] = maker.make(sets[i], i); });
 
     std::vector<std::uint64_t> keys;
     keys.reserve(cells.size());
     for (const FoundCell& cell : cells) keys.push_back(cell.key);
     index(keys);
+}
+
+void LightNodes::make_nodes(std::span<const CellSet> sets, const NodeMaker& maker, const Sight& sight) {
+    std::vector<NodeMaker::Made> made(sets.size());
+    tbb::parallel_for(std::size_t{0}, sets.size(),
+                      [&](std::size_t i) { made[i] = maker.make(sets[i], i, sight); });
+    for (const NodeMaker::Made& one : made) nodes_.push_back(one.node);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        if (!made[i].division) continue;
+        pairs_.push_back(
+            {*made[i].division, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(nodes_.size())});
+        nodes_.push_back(made[i].above);
+    }
+}
+
+// Gives a cell the nodes of its corners.
+void LightNodes::take(const std::array<std::uint32_t, 8>& of_corner, Cell& cell) const {
+    cell.take(of_corner);
+    cell.divided = 0;
+    for (std::size_t i = 0; i < cell.count; ++i)
+        if (pair(cell.node[i])) cell.divided = static_cast<std::uint16_t>(cell.divided | 1u << i);
+}
+
+// Null: the node is no pair's.
+const LightNodes::Pair* LightNodes::pair(std::uint32_t node) const {
+    const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), node,
+                                     [](const Pair& p, std::uint32_t name) { return p.name() < name; });
+    return at != pairs_.end() && at->name() == node ? &*at : nullptr;
 }
 
 void LightNodes::index(std::span<const std::uint64_t> keys) {
@@ -286,16 +378,27 @@ bool LightNodes::finish(const Search& search, NodesAbout& about) const {
     std::array<float, Cell::kNone + 1> weight{};
     for (std::size_t i = 0; i < 8; ++i) weight[cell.corner(i)] += x[i & 1] * y[i >> 1 & 1] * z[i >> 2];
     float sum = 0;
-    for (std::size_t i = 0; i < cell.count; ++i) sum += weight[i];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < cell.count; ++i) {
+        const bool divided = (static_cast<unsigned>(cell.divided) >> i & 1u) != 0;
+        const std::uint32_t node = divided ? on_side(*pair(cell.node[i]), search.at) : cell.node[i];
+        if (node == kClosed) continue;
+        about.node[count] = node, about.weight[count++] = weight[i];
+        sum += weight[i];
+    }
     if (!(sum > 0)) return true;
-    about.count = cell.count;
-    for (std::size_t i = 0; i < cell.count; ++i)
-        about.node[i] = cell.node[i], about.weight[i] = weight[i] / sum;
+    about.count = count;
+    for (std::size_t i = 0; i < count; ++i) about.weight[i] /= sum;
     return true;
 }
 
+// at: in cubes.
+std::uint32_t LightNodes::on_side(const Pair& pair, Vec3f at) const {
+    return pair.division.is_above(corner_m_ + cube_m_ * at) ? pair.above : pair.below;
+}
+
 void LightNodes::Cell::take(const std::array<std::uint32_t, 8>& of_corner) {
-    count = corners = 0;
+    count = 0, corners = 0;
     for (std::size_t i = 0; i < of_corner.size(); ++i) {
         unsigned place = kNone;
         if (of_corner[i] != kClosed) {
@@ -314,24 +417,60 @@ void LightNodes::keep(std::span<const std::uint32_t> new_number) {
     for (std::size_t i = 0; i < nodes_.size(); ++i)
         if (new_number[i] != kClosed) kept[new_number[i]] = nodes_[i];
     nodes_ = std::move(kept);
-    for (Cell& cell : cells_) {
-        std::array<std::uint32_t, 8> of_corner;
-        for (std::size_t i = 0; i < of_corner.size(); ++i)
-            of_corner[i] = cell.corner(i) == Cell::kNone ? kClosed : new_number[cell.node[cell.corner(i)]];
-        cell.take(of_corner);
-    }
+    const auto number = [&](std::uint32_t old) { return old == kClosed ? kClosed : new_number[old]; };
+    std::vector<Pair> pairs;
+    for (const Pair& p : pairs_) pairs.push_back({p.division, number(p.below), number(p.above)});
+    std::vector<std::array<std::uint32_t, 8>> corners(cells_.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        for (std::size_t i = 0; i < corners[c].size(); ++i) {
+            const unsigned place = cells_[c].corner(i);
+            const std::uint32_t old = place == Cell::kNone ? kClosed : cells_[c].node[place];
+            const Pair* const one = old == kClosed ? nullptr : pair(old);
+            corners[c][i] = one ? pairs[static_cast<std::size_t>(one - pairs_.data())].name() : number(old);
+        }
+    std::erase_if(pairs, [](const Pair& p) { return p.name() == kClosed; });
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.name() < b.name(); });
+    pairs_ = std::move(pairs);
+    for (std::size_t c = 0; c < cells_.size(); ++c) take(corners[c], cells_[c]);
 }
 
 std::size_t LightNodes::bytes() const {
-    return slots_.size() * sizeof(Slot) + cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(LightNode);
+    return slots_.size() * sizeof(Slot) + cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(LightNode) +
+           pairs_.size() * sizeof(Pair);
+}
+
+// True when most of a node's points lie on one side.
+bool LightNodes::lies(std::uint32_t node, const Pair& pair, bool above) const {
+    int here = 0;
+    for (const Vec3f point_m : nodes_[node].point_m) here += pair.division.is_above(point_m) == above;
+    return 2 * here > LightNode::kPoints;
 }
 
 NodeNeighbours LightNodes::neighbours() const {
+    struct Part {
+        std::uint32_t node;
+        const Pair* of;  // null: it is whole
+    };
+    const auto parts_of = [&](std::uint32_t name, std::vector<Part>& out) {
+        const Pair* const one = pair(name);
+        if (!one) return out.push_back({name, nullptr});
+        for (const std::uint32_t node : {one->below, one->above})
+            if (node != kClosed) out.push_back({node, one});
+    };
+    // Of what a wall divides, those on one side of it.
+    const auto on_side_of = [&](const Part& a, const Part& b) {
+        return !a.of || lies(b.node, *a.of, a.node == a.of->above);
+    };
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (const Cell& cell : cells_)
-        for (std::size_t i = 0; i < cell.count; ++i)
-            for (std::size_t j = 0; j < cell.count; ++j)
-                if (cell.node[i] != cell.node[j]) pairs.emplace_back(cell.node[i], cell.node[j]);
+    std::vector<Part> parts;
+    for (const Cell& cell : cells_) {
+        parts.clear();
+        for (std::size_t i = 0; i < cell.count; ++i) parts_of(cell.node[i], parts);
+        for (const Part& a : parts)
+            for (const Part& b : parts)
+                if (a.node != b.node && on_side_of(a, b) && on_side_of(b, a))
+                    pairs.emplace_back(a.node, b.node);
+    }
     tbb::parallel_sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     NodeNeighbours out;
@@ -351,12 +490,19 @@ bool LightNodes::is_whole() const {
         ++used;
     }
     if (!slots_.empty() && used == slots_.size()) return false;  // a search would not end
+    const auto is_node = [&](std::uint32_t n) { return n == kClosed || n < nodes_.size(); };
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+        if (!is_node(pairs_[i].below) || !is_node(pairs_[i].above) || pairs_[i].name() == kClosed ||
+            (i > 0 && pairs_[i - 1].name() >= pairs_[i].name()))
+            return false;
     for (const Cell& cell : cells_) {
         if (cell.count > 8) return false;
         for (std::size_t i = 0; i < 8; ++i)
             if (cell.corner(i) != Cell::kNone && cell.corner(i) >= cell.count) return false;
-        for (std::size_t i = 0; i < cell.count; ++i)
-            if (cell.node[i] >= nodes_.size()) return false;
+        for (std::size_t i = 0; i < cell.count; ++i) {
+            const bool divided = (static_cast<unsigned>(cell.divided) >> i & 1u) != 0;
+            if (cell.node[i] >= nodes_.size() || divided != (pair(cell.node[i]) != nullptr)) return false;
+        }
     }
     return true;
 }

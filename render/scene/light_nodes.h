@@ -6,7 +6,8 @@
 // of 54 ways (30 degrees wide) and has no gap of a quarter of a cube in it, along that way, is a cell. Light belongs to nodes, which are the corners of the
 // cubes: a node stands for the cells of one kind that touch its corner, by a few points on them. A place
 // between has its cube's eight corners, weighted linearly, so that light is continuous where the surface is.
-// Corners that touch the same cells are one node: a flat wall has one layer.
+// Corners that touch the same cells are one node: a flat wall has one layer. Where something stands between a node's
+// points, there are two, for the places on either side of it (node_division.h).
 //
 // Nothing here depends on how the mesh is triangulated, so every level of detail finds its light in the same
 // nodes. What is finer than a cube is blurred: the size follows from how many nodes are wanted.
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "render/scene/light_cell_key.h"
+#include "render/scene/node_division.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
@@ -72,13 +74,14 @@ class LightNodes {
     // and one and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of
     // threads.
     LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
-               const Openness& openness);
+               const Openness& openness, const Sight& sight);
 
     // The nodes of a cell's cube, each once, and which of them its corners are.
     struct Cell {
         static constexpr unsigned kNone = 8;
         std::array<std::uint32_t, 8> node{};
-        std::uint32_t count = 0;
+        std::uint16_t count = 0;
+        std::uint16_t divided = 0;      // a bit each: the node is one of two
         std::uint32_t corners = 0;      // four bits each: x + 2 y + 4 z; kNone: closed
         float lowest = 0, highest = 0;  // height_of() what lies in it
 
@@ -124,10 +127,16 @@ class LightNodes {
         std::uint32_t layers = 0;
         static constexpr std::uint64_t kNone = ~std::uint64_t{0};
     };
+    // Two nodes in one's place; cells name the one that is not closed, or the first.
+    struct Pair {
+        NodeDivision division;
+        std::uint32_t below = kClosed, above = kClosed;
+        std::uint32_t name() const { return below != kClosed ? below : above; }
+    };
     template <class Archive>
     static void list(auto& self, Archive& archive) {
         archive(self.corner_m_), archive(self.cube_m_), archive(self.slots_), archive(self.cells_),
-            archive(self.nodes_);
+            archive(self.nodes_), archive(self.pairs_);
     }
     // True when what was read fits together.
     bool is_whole() const;
@@ -138,7 +147,16 @@ class LightNodes {
     std::vector<Slot> slots_;  // open addressing; a power of two
     std::vector<Cell> cells_;
     std::vector<LightNode> nodes_;
+    std::vector<Pair> pairs_;  // by name
 
+    // Cells that a node stands for, in order; unused places hold kClosed.
+    using CellSet = std::array<std::uint32_t, 8>;
+    class NodeMaker;
+    void make_nodes(std::span<const CellSet> sets, const NodeMaker& maker, const Sight& sight);
+    void take(const std::array<std::uint32_t, 8>& of_corner, Cell& cell) const;
+    const Pair* pair(std::uint32_t node) const;
+    std::uint32_t on_side(const Pair& pair, Vec3f at) const;
+    bool lies(std::uint32_t node, const Pair& pair, bool above) const;
     const Slot* slot(std::uint64_t key) const;
     const Cell* cell(const Slot& slot, Vec3f at) const;
     void take_neighbour(Search& search) const;

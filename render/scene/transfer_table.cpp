@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "render/brdf/microfacet.h"
 #include "render/scene/embree_scene.h"
@@ -178,6 +179,23 @@ float openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const Embr
     return static_cast<float>(open) / kPacketSize;
 }
 
+// Glass is no wall.
+std::optional<Wall> wall_between(std::span<const std::uint8_t> glass, const Mesh& mesh,
+                                 const EmbreeScene& scene, Vec3f from_m, Vec3f to_m) {
+    const Vec3f way_m = to_m - from_m;
+    const float distance_m = length(way_m);
+    if (!(distance_m > 0)) return std::nullopt;
+    RayPacket ray;
+    HitPacket hit;
+    ray.count = 1;
+    ray.set(0, from_m, way_m / distance_m, 0, distance_m);
+    scene.intersect(ray, Coherence::kIncoherent, hit);
+    if (hit.object[0] == HitPacket::kMiss || glass[mesh.surface_of_triangle[hit.triangle[0]]])
+        return std::nullopt;
+    return Wall{from_m + hit.distance[0] / distance_m * way_m,
+                {hit.normal_x[0], hit.normal_y[0], hit.normal_z[0]}};
+}
+
 }  // namespace
 
 std::vector<Vec3f> transfer_directions(int count) {
@@ -199,11 +217,13 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
     EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
-    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMaxNodes / 2),
-                        [&](Vec3f point_m, Vec3f normal, float within_m) {
-                            if (watcher) watcher(0);
-                            return openness(mesh, glass, scene, point_m, normal, within_m);
-                        });
+    nodes_ = LightNodes(
+        mesh, keeps, std::min(settings.nodes, kMaxNodes / 2),
+        [&](Vec3f point_m, Vec3f normal, float within_m) {
+            if (watcher) watcher(0);
+            return openness(mesh, glass, scene, point_m, normal, within_m);
+        },
+        [&](Vec3f from_m, Vec3f to_m) { return wall_between(glass, mesh, scene, from_m, to_m); });
     for (std::size_t n = 0; n < size(); ++n) {
         // Turns that are far from those of the nodes beside.
         const float part = std::fmod(static_cast<float>(n % 4096) * kGolden, 1.0f);

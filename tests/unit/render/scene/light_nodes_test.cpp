@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "tests/support/stage.h"
 
 namespace hilcam {
 namespace {
+
+// Nothing stands between any two points.
+const Sight kOpen = [](Vec3f, Vec3f) { return std::nullopt; };
 
 // Two floors of one surface, one half a cube above the other: places on each have nodes on that floor alone.
 TEST(LightNodes, WallsBehindEachOtherAreApart) {
@@ -18,8 +22,9 @@ TEST(LightNodes, WallsBehindEachOtherAreApart) {
         const SceneObject floors = object_of(
             {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}},
             {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, lambert(0.5), grid);
-        return LightNodes(floors.mesh, std::vector<std::uint8_t>(1, 1), 3000,
-                          [](Vec3f, Vec3f, float) { return 1.0f; });
+        return LightNodes(
+            floors.mesh, std::vector<std::uint8_t>(1, 1), 3000, [](Vec3f, Vec3f, float) { return 1.0f; },
+            kOpen);
     };
     const float above_m = 0.5f * nodes_of(0.01f).cube_m();
     const LightNodes nodes = nodes_of(above_m);
@@ -41,8 +46,8 @@ TEST(LightNodes, HaveThoseBesideThemOnTheirWall) {
     const SceneObject walls =
         object_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1, -1, 2}, {1, 1, 2}},
                   {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}, lambert(0.5), grid);
-    const LightNodes nodes(walls.mesh, std::vector<std::uint8_t>(1, 1), 3000,
-                           [](Vec3f, Vec3f, float) { return 1.0f; });
+    const LightNodes nodes(
+        walls.mesh, std::vector<std::uint8_t>(1, 1), 3000, [](Vec3f, Vec3f, float) { return 1.0f; }, kOpen);
     const NodeNeighbours neighbours = nodes.neighbours();
     ASSERT_EQ(neighbours.first.size(), nodes.nodes().size() + 1);
     for (std::uint32_t n = 0; n < nodes.nodes().size(); ++n) {
