@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "tests/support/split_triangles.h"
@@ -131,6 +132,35 @@ TEST(LightLeak, CracksLetInNoMoreThanTheyShould) {
         return s.mean() / (static_cast<double>(kSun_w_m2_um) * static_cast<double>(kWallAlbedo) / kPi);
     };
     EXPECT_LT(share_lit("kept"), share_lit("path") + kDark);
+}
+
+// A wall that stands on the floor, somewhere in the cubes that light is kept in. On the side of the Sun the floor has the wall's
+// light, on the other there is none: next to the wall, where its cubes are those of both sides, there is none either.
+TEST(LightLeak, NoneBelowAWallOnTheFloor) {
+    constexpr float kWall_m = 0.04f, kHigh_m = 0.5f;
+    constexpr double kShown_m = 0.8;  // half of what the picture shows
+    constexpr std::size_t kSize_px = 64;
+    Stage s;
+    s.quality.path_model = "kept";
+    s.quality.visibility = "buffer";
+    s.camera(kSize_px, 2 * std::atan(kShown_m / 4));
+    const SceneObject wall =
+        object_of({{kWall_m, -1, 0}, {kWall_m, 1, 0}, {kWall_m, 1, kHigh_m}, {kWall_m, -1, kHigh_m}},
+                  {{0, 1, 2}, {0, 2, 3}}, lambert(kWallAlbedo), s.grid);
+    s.add(joined(plate(lambert(kWallAlbedo), s.grid), wall), {0, 0, 4});
+    s.sun({-1, 0, -0.2});
+    s.render();
+    const double sunlit = static_cast<double>(kSun_w_m2_um) * static_cast<double>(kWallAlbedo) / kPi;
+    double before = 0, behind = 0;
+    for (std::size_t i = 0; i < kSize_px * kSize_px; ++i) {
+        const double x_m = (2 * (static_cast<double>(i % kSize_px) + 0.5) / kSize_px - 1) * kShown_m;
+        const double light = static_cast<double>(s.radiance.plane(0)[i]) / sunlit;
+        if (x_m < 0) before = std::max(before, light);
+        // As far as the wall hides what lies at its foot.
+        if (x_m > 0.1) behind = std::max(behind, light);
+    }
+    EXPECT_GT(before, 100 * kDark);
+    EXPECT_LT(behind, kDark);
 }
 
 }  // namespace
