@@ -2,8 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <functional>
-
 namespace hilcam {
 namespace {
 
@@ -162,58 +160,46 @@ std::vector<FoundCell> draw_cells(const Mesh& mesh, std::span<const std::uint8_t
     return all;
 }
 
-// True when a point is one that its cell may have. Any thread.
-using MayStand = std::function<bool(Vec3f point_m, Vec3f normal, float chance)>;
+// The points of cells that are seen: those that stand free, and those in nooks.
+struct OpenPoints {
+    std::vector<FoundCell> free, nooks;
+};
 
-// Keeps of the cells' points those that may stand.
-void keep_open(const Mesh& mesh, const CubeGrid& grid, float above_m, const MayStand& may_stand,
-               std::vector<FoundCell>& cells) {
+// Sorts the cells' points, each with the chance that it is seen.
+OpenPoints open_points(const Mesh& mesh, const CubeGrid& grid, float above_m, const Openness& openness,
+                       const std::vector<FoundCell>& cells) {
+    constexpr float kNook = 0.05f, kOpenThere = 0.75f;
+    OpenPoints out{cells, cells};
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t c) {
-        FoundCell& cell = cells[c];
-        int open = 0;
-        for (int i = 0; i < cell.count; ++i) {
-            const CellPoint point = cell.best[static_cast<std::size_t>(i)];
+        const FoundCell& cell = cells[c];
+        FoundCell& free = out.free[c];
+        FoundCell& nook = out.nooks[c];
+        free.count = nook.count = 0;
+        for (const CellPoint& point : std::span(cell.best).first(static_cast<std::size_t>(cell.count))) {
             const TriangleSpread spread(mesh, point.triangle, 0.5f * grid.cube_m);
             const Vec3f normal = point.back ? -spread.normal : spread.normal;
             const Vec3f at = spread.at(spread.weights(static_cast<int>(point.point))) + above_m * normal;
             const std::uint64_t word = mixed(cell.key ^ (std::uint64_t{point.triangle} << 24 | point.point));
-            if (may_stand(at, normal, static_cast<float>(word >> 40) * 0x1p-24f))
-                cell.best[static_cast<std::size_t>(open++)] = point;
+            const float u = static_cast<float>(word >> 40) * 0x1p-24f;
+            const auto [near, far] = openness(at, normal, kNook * grid.cube_m, 0.5f * grid.cube_m);
+            // A point in a corner is seen as well as one that stands free; one that looks out of a slit is not.
+            if (u >= 3 * far) continue;
+            FoundCell& to = near >= kOpenThere ? free : nook;
+            to.best[static_cast<std::size_t>(to.count++)] = point;
         }
-        cell.count = open;
     });
+    return out;
 }
 
-// Draws the points of cells anew where they may not stand. A cell where none may keeps what it had, and is one of those that are
-// returned.
-std::vector<FoundCell> draw_open(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
-                                 const LayerMap& layers, float above_m, const MayStand& may_stand,
-                                 std::vector<FoundCell>& cells) {
-    constexpr std::uint64_t kRounds = 8;
-    std::vector<FoundCell> open = cells;
-    keep_open(mesh, grid, above_m, may_stand, open);
-    for (std::uint64_t round = 1; round < kRounds; ++round) {
-        std::vector<FoundCell> wanted;
-        for (std::size_t c = 0; c < cells.size(); ++c)
-            if (open[c].count < cells[c].count) wanted.push_back(cells[c]);
-        if (wanted.empty()) break;
-        std::vector<FoundCell> drawn = draw_cells(mesh, keeps, grid, layers, round, &wanted);
-        keep_open(mesh, grid, above_m, may_stand, drawn);
-        std::size_t c = 0;
-        for (const FoundCell& more : drawn) {
-            while (open[c].order() != more.order()) ++c;
-            for (int i = 0; i < more.count && open[c].count < cells[c].count; ++i)
-                open[c].best[static_cast<std::size_t>(open[c].count++)] =
-                    more.best[static_cast<std::size_t>(i)];
-        }
+// Adds points of some of the cells to those of all, so many as there may be.
+void take_more(const std::vector<FoundCell>& more, const std::vector<FoundCell>& most,
+               std::vector<FoundCell>& to) {
+    std::size_t c = 0;
+    for (const FoundCell& from : more) {
+        while (to[c].order() != from.order()) ++c;
+        for (int i = 0; i < from.count && to[c].count < most[c].count; ++i)
+            to[c].best[static_cast<std::size_t>(to[c].count++)] = from.best[static_cast<std::size_t>(i)];
     }
-    std::vector<FoundCell> closed;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        if (open[c].count > 0)
-            cells[c].count = open[c].count, cells[c].best = open[c].best;
-        else
-            closed.push_back(cells[c]);
-    return closed;
 }
 
 }  // namespace
@@ -225,21 +211,21 @@ std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t
 
 void prefer_open_points(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
                         float above_m, const Openness& openness, std::vector<FoundCell>& cells) {
-    constexpr float kNook = 0.05f, kOpenThere = 0.75f;
+    constexpr std::uint64_t kRounds = 8;
     const LayerMap layers(mesh, keeps, grid);
-    // A point in a corner is seen as well as one that stands free; one that looks out of a slit is not.
-    const auto is_seen = [&](Vec3f at, Vec3f normal, float chance) {
-        return chance < 3 * openness(at, normal, 0.5f * grid.cube_m);
-    };
-    const auto stands_free = [&](Vec3f at, Vec3f normal, float chance) {
-        return openness(at, normal, kNook * grid.cube_m) >= kOpenThere && is_seen(at, normal, chance);
-    };
-    std::vector<FoundCell> closed = draw_open(mesh, keeps, grid, layers, above_m, stands_free, cells);
-    draw_open(mesh, keeps, grid, layers, above_m, is_seen, closed);
-    std::size_t c = 0;
-    for (const FoundCell& cell : closed) {
-        while (cells[c].order() != cell.order()) ++c;
-        cells[c].count = cell.count, cells[c].best = cell.best;
+    OpenPoints open = open_points(mesh, grid, above_m, openness, cells);
+    for (std::uint64_t round = 1; round < kRounds; ++round) {
+        std::vector<FoundCell> wanted;
+        for (std::size_t c = 0; c < cells.size(); ++c)
+            if (open.free[c].count < cells[c].count) wanted.push_back(cells[c]);
+        if (wanted.empty()) break;
+        const OpenPoints drawn =
+            open_points(mesh, grid, above_m, openness, draw_cells(mesh, keeps, grid, layers, round, &wanted));
+        take_more(drawn.free, cells, open.free), take_more(drawn.nooks, cells, open.nooks);
+    }
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const FoundCell& from = open.free[c].count > 0 ? open.free[c] : open.nooks[c];
+        if (from.count > 0) cells[c].count = from.count, cells[c].best = from.best;
     }
 }
 

@@ -73,7 +73,9 @@ struct FoundCell {
     float lowest = 0, highest = 0;  // height_of() what lies in it
     double area_m2 = 0;
     int count = 0;
-    std::array<CellPoint, LightNode::kPoints> best;
+    // More than a node has, as a wall may stand between them (node_division.h).
+    static constexpr int kMost = 2 * LightNode::kPoints;
+    std::array<CellPoint, kMost> best;
 
     void add(const CellPoint& candidate) {
         const auto before = [](const CellPoint& a, const CellPoint& b) {
@@ -82,7 +84,7 @@ struct FoundCell {
         auto end = best.begin() + count;
         const auto place = std::upper_bound(best.begin(), end, candidate, before);
         if (place == best.end()) return;
-        if (count < LightNode::kPoints) ++count, ++end;
+        if (count < kMost) ++count, ++end;
         std::move_backward(place, end - 1, end);
         *place = candidate;
     }

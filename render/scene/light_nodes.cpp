@@ -104,14 +104,15 @@ class LightNodes::NodeMaker {
     Made make(const CellSet& set, std::uint64_t seed, const Sight& sight) const {
         const Candidates all = candidates(set);
         const std::optional<DividedPoints> divided = find_division(all.raised_m, all.facing, sight);
-        Made out;
-        if (divided) {
-            out.division = divided->by;
-            out.node = of_points(all, divided->below, seed), out.above = of_points(all, divided->above, seed);
-        } else {
-            out.node = of_cells(set, seed);
-        }
-        return out;
+        if (!divided) return {of_cells(set, seed), {}, {}};
+        // What few points of a side meet is chance: the node is the other side's.
+        constexpr std::size_t kFew = 16;
+        const auto is_few = [&](const std::vector<std::size_t>& side) {
+            return kFew * side.size() < all.point.size();
+        };
+        if (is_few(divided->above)) return {of_points(all, divided->below, seed), {}, {}};
+        if (is_few(divided->below)) return {of_points(all, divided->above, seed), {}, {}};
+        return {of_points(all, divided->below, seed), of_points(all, divided->above, seed), divided->by};
     }
 
   private:

@@ -51,8 +51,11 @@ struct LightNode {
     Vec3f color{1, 1, 1};  // colour of the texture about there, linear RGB; 1 without
 };
 
-// The share of what a place just above a surface sees that is further away than within_m. Any thread.
-using Openness = std::function<float(Vec3f point_m, Vec3f geometric_normal, float within_m)>;
+// The shares of what a place just above a surface sees that are further away than each of two distances. Any thread.
+struct OpenShares {
+    float near, far;
+};
+using Openness = std::function<OpenShares(Vec3f point_m, Vec3f geometric_normal, float near_m, float far_m)>;
 
 // A list for each node of those that lie beside it on its surface.
 struct NodeNeighbours {

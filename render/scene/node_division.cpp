@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "render/vocabulary/check.h"
@@ -86,9 +87,9 @@ std::optional<DividedPoints> find_division(std::span<const Vec3f> points_m, Vec3
                                            const Sight& sight) {
     HILCAM_CHECK(points_m.size() <= kMostDivided);
     Walls walls(points_m, sight);
-    Numbers rest;
-    for (std::size_t i = 0; i < points_m.size(); ++i) rest.push_back(i);
-    // Mostly there is none.
+    Numbers rest(points_m.size());
+    std::iota(rest.begin(), rest.end(), std::size_t{0});
+    // Mostly there is no wall.
     if (std::none_of(rest.begin(), rest.end(), [&](std::size_t i) { return walls.is_between(0, i); }))
         return std::nullopt;
     DividedPoints out;

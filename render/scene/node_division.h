@@ -33,9 +33,9 @@ struct DividedPoints {
     NodeDivision by;
     std::vector<std::size_t> below, above;
 };
-inline constexpr std::size_t kMostDivided = 16;
+inline constexpr std::size_t kMostDivided = 32;
 // Divides so many points at most that a wall stands between, those apart that see neither side. None: there is no wall that hides nearly all of
-// one group from nearly all of another, or it is not flat enough for a plane to leave them on their sides. points_m: so far above
+// one group, from nearly all of another, or it is not flat enough for a plane to leave them on their sides. points_m: so far above
 // their surface that what is no wall does not reach them. facing: mean of the surface's normals, unit.
 std::optional<DividedPoints> find_division(std::span<const Vec3f> points_m, Vec3f facing, const Sight& sight);
 

@@ -163,20 +163,23 @@ class Tracer {
 };
 
 // Returns the openness by sixteen directions; glass is clear.
-float openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene, Vec3f point_m,
-               Vec3f normal, float within_m) {
+OpenShares openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene,
+                    Vec3f point_m, Vec3f normal, float near_m, float far_m) {
     static const std::vector<Vec3f> kDirections = transfer_directions(kPacketSize);
     const Frame frame(normal);
     RayPacket rays;
     HitPacket hits;
     rays.count = kPacketSize;
     for (std::size_t i = 0; i < kPacketSize; ++i)
-        rays.set(static_cast<int>(i), point_m, frame.to_world(kDirections[i]), 0, within_m);
+        rays.set(static_cast<int>(i), point_m, frame.to_world(kDirections[i]), 0, far_m);
     scene.intersect(rays, Coherence::kIncoherent, hits);
-    int open = 0;
-    for (std::size_t i = 0; i < kPacketSize; ++i)
-        open += hits.object[i] == HitPacket::kMiss || glass[mesh.surface_of_triangle[hits.triangle[i]]];
-    return static_cast<float>(open) / kPacketSize;
+    int near = 0, far = 0;
+    for (std::size_t i = 0; i < kPacketSize; ++i) {
+        const bool open =
+            hits.object[i] == HitPacket::kMiss || glass[mesh.surface_of_triangle[hits.triangle[i]]];
+        far += open, near += open || hits.distance[i] > near_m;
+    }
+    return {static_cast<float>(near) / kPacketSize, static_cast<float>(far) / kPacketSize};
 }
 
 // Glass is no wall.
@@ -219,9 +222,9 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
     nodes_ = LightNodes(
         mesh, keeps, std::min(settings.nodes, kMaxNodes / 2),
-        [&](Vec3f point_m, Vec3f normal, float within_m) {
+        [&](Vec3f point_m, Vec3f normal, float near_m, float far_m) {
             if (watcher) watcher(0);
-            return openness(mesh, glass, scene, point_m, normal, within_m);
+            return openness(mesh, glass, scene, point_m, normal, near_m, far_m);
         },
         [&](Vec3f from_m, Vec3f to_m) { return wall_between(glass, mesh, scene, from_m, to_m); });
     for (std::size_t n = 0; n < size(); ++n) {

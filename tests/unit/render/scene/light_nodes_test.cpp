@@ -11,6 +11,8 @@
 namespace hilcam {
 namespace {
 
+// Nothing stands near a point.
+const Openness kFree = [](Vec3f, Vec3f, float, float) { return OpenShares{1, 1}; };
 // Nothing stands between any two points.
 const Sight kOpen = [](Vec3f, Vec3f) { return std::nullopt; };
 
@@ -22,9 +24,7 @@ TEST(LightNodes, WallsBehindEachOtherAreApart) {
         const SceneObject floors = object_of(
             {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}},
             {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, lambert(0.5), grid);
-        return LightNodes(
-            floors.mesh, std::vector<std::uint8_t>(1, 1), 3000, [](Vec3f, Vec3f, float) { return 1.0f; },
-            kOpen);
+        return LightNodes(floors.mesh, std::vector<std::uint8_t>(1, 1), 3000, kFree, kOpen);
     };
     const float above_m = 0.5f * nodes_of(0.01f).cube_m();
     const LightNodes nodes = nodes_of(above_m);
@@ -46,8 +46,7 @@ TEST(LightNodes, HaveThoseBesideThemOnTheirWall) {
     const SceneObject walls =
         object_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1, -1, 2}, {1, 1, 2}},
                   {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}, lambert(0.5), grid);
-    const LightNodes nodes(
-        walls.mesh, std::vector<std::uint8_t>(1, 1), 3000, [](Vec3f, Vec3f, float) { return 1.0f; }, kOpen);
+    const LightNodes nodes(walls.mesh, std::vector<std::uint8_t>(1, 1), 3000, kFree, kOpen);
     const NodeNeighbours neighbours = nodes.neighbours();
     ASSERT_EQ(neighbours.first.size(), nodes.nodes().size() + 1);
     for (std::uint32_t n = 0; n < nodes.nodes().size(); ++n) {
@@ -72,9 +71,7 @@ TEST(LightNodes, AWallDividesThem) {
     const SceneObject floor =
         object_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, lambert(0.5), grid);
     const auto nodes_of = [&](const Sight& sight) {
-        return LightNodes(
-            floor.mesh, std::vector<std::uint8_t>(1, 1), 3000, [](Vec3f, Vec3f, float) { return 1.0f; },
-            sight);
+        return LightNodes(floor.mesh, std::vector<std::uint8_t>(1, 1), 3000, kFree, sight);
     };
     // Returns how many points of nodes about places of this side lie on the other.
     const auto beyond = [&](const LightNodes& nodes, float x_m) {
@@ -134,7 +131,10 @@ TEST(LightNodes, PointsAvoidNooks) {
         // Something is next to points of the strip; a little further off, there is not more than elsewhere.
         const LightNodes nodes(
             floor.mesh, std::vector<std::uint8_t>(1, 1), 300,
-            [&](Vec3f at_m, Vec3f, float) { return at_m.x < nook_m ? 0.5f : 1.0f; }, kOpen);
+            [&](Vec3f at_m, Vec3f, float, float) {
+                return OpenShares{at_m.x < nook_m ? 0.5f : 1.0f, 0.5f};
+            },
+            kOpen);
         std::size_t count = 0, all = 0;
         for (const LightNode& node : nodes.nodes())
             for (const Vec3f point : node.point_m) count += point.x < nook_m, ++all;
