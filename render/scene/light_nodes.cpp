@@ -393,7 +393,7 @@ bool LightNodes::finish(const Search& search, NodesAbout& about) const {
     return true;
 }
 
-// at: in cubes.
+// The one of a pair for a place; at: in cubes.
 std::uint32_t LightNodes::on_side(const Pair& pair, Vec3f at) const {
     return pair.division.is_above(corner_m_ + cube_m_ * at) ? pair.above : pair.below;
 }

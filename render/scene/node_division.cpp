@@ -14,7 +14,7 @@ constexpr float kNearly = 0.8f;  // share of all
 
 using Numbers = std::vector<std::size_t>;
 
-// What stands between some points.
+// Knows of each two of some points whether anything stands between them.
 class Walls {
   public:
     Walls(std::span<const Vec3f> points_m, const Sight& sight) : points_m_(points_m), sight_(sight) {}

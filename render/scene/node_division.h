@@ -13,7 +13,7 @@
 
 namespace hilcam {
 
-// What stands between two points.
+// A surface that stands between two points.
 struct Wall {
     Vec3f at_m, normal;  // where it is met, and its normal, to either side
 };
