@@ -311,10 +311,12 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
     const MetByLobe* met = lobes.met.find(at, node);
     if (!met || met->whole != whole) met = &lobes.met.keep(at, node, met_by_lobe(frame, place, whole));
     place.met = met->radiance, place.directions = met->directions;
-    const SentOfBodies* sent = lobes.bodies.find(at, 0);
-    if (!sent) sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
+    // Parts that lean otherwise are no kind that others are alike.
+    const SentOfBodies* known = at.facets ? nullptr : lobes.bodies.find(at, 0);
+    const SentOfBodies sent = known ? *known : sent_of_bodies(at);
+    if (!known && !at.facets) lobes.bodies.keep(at, 0, sent);
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-        place.bodies[b] = {(share * met->free[b]) * (*sent)[b].radiance, (*sent)[b].facet_cosine};
+        place.bodies[b] = {(share * met->free[b]) * sent[b].radiance, sent[b].facet_cosine};
 }
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
@@ -376,7 +378,8 @@ KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
     SentOfBodies sent;
     // Brighter texels may share it.
     const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sent[b] = sent_of_body(b, at, reflectance);
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        sent[b] = at.facets ? sent_by_parts(b, at, reflectance) : sent_of_body(b, at, at.normal, reflectance);
     return sent;
 }
 
@@ -396,12 +399,26 @@ bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum&
 }
 
 // Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
-SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, float reflectance) const {
-    SkyLight::Glossy sent = sky_.glossy(body, at.normal, at.view_dir, at.surface.alpha, reflectance);
+SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec3f normal,
+                                         float reflectance) const {
+    SkyLight::Glossy sent = sky_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
     if (!(largest(sent.radiance) > 0)) return {};
     if (!has_own_colors(at.surface))
         sent.radiance = brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance;
     return sent;
+}
+
+// The same of a vertex of several parts, each as it leans: of two that lean apart one may show the body, and their mean none of it.
+SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const {
+    Spectrum sum;
+    float samples = 0, cosines = 0;
+    for (const Facet* part = at.facets; part; part = part->next) {
+        const SkyLight::Glossy sent = sent_of_body(body, at, part->normal, reflectance);
+        const Spectrum light = part->samples * sent.radiance;
+        sum += light, cosines += largest(light) * sent.facet_cosine, samples += part->samples;
+    }
+    const float all = largest(sum);
+    return {(1 / samples) * sum, all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
 }
 
 Spectrum KeptScene::colored(const Scatterer& at, const SkyLight::Glossy& sent) {
@@ -419,7 +436,7 @@ void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec
     bool meets = false;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
         meets = meets || sky_.is_met(b, mirror);
-        radiance += at.weight * colored(at.surface, sent_of_body(b, at, largest(weight)));
+        radiance += at.weight * colored(at.surface, sent_of_body(b, at, at.normal, largest(weight)));
     }
     // Small bodies, and air.
     if (!meets && frame.background->may_meet_body(mirror))

@@ -157,7 +157,8 @@ class KeptScene {
     SentOfBodies sent_of_bodies(const Vertex& at) const;
     static void follow_together(Vertex& at, Place& place);
     static bool hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions);
-    SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
+    SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, Vec3f normal, float reflectance) const;
+    SkyLight::Glossy sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const;
     // Returns it in the colours that a vertex has.
     static Spectrum colored(const Scatterer& at, const SkyLight::Glossy& sent);
     Spectrum sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const;

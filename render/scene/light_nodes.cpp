@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <tuple>
 
-#include "render/scene/color_bands.h"
 #include "render/scene/light_cells.h"
-#include "render/scene/surface.h"
+#include "render/scene/node_maker.h"
 
 namespace hilcam {
 namespace {
@@ -64,160 +61,7 @@ std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
     return uses;
 }
 
-struct TextureReader {
-    const Mesh& mesh;
-    std::vector<MipTexture> pictures;
-
-    explicit TextureReader(const Mesh& m) : mesh(m) {
-        for (const Texture& texture : m.textures) pictures.emplace_back(Texture(texture));
-    }
-    Vec3f color(const TriangleSpread& spread, Vec3f w, std::uint16_t surface) const {
-        const int texture = mesh.surfaces[surface].base_color_texture;
-        if (texture < 0 || mesh.uvs.empty()) return {1, 1, 1};
-        const auto uv = [&](std::size_t i) { return mesh.uvs[spread.corner[i].vertex]; };
-        return pictures[static_cast<std::size_t>(texture)].sample(
-            w.x * uv(0).x + w.y * uv(1).x + w.z * uv(2).x, w.x * uv(0).y + w.y * uv(1).y + w.z * uv(2).y, 0);
-    }
-};
-
-// Returns how far above the surface points are: as rays leave it in path_vertex.cpp, with room for the
-// triangles' own rounding.
-float above_of(const Mesh& mesh) {
-    float greatest = 0;
-    for (const Vec3f v : mesh.vertices_m)
-        greatest = std::max({greatest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    return 32 * std::numeric_limits<float>::epsilon() * greatest;
-}
-
 }  // namespace
-
-class LightNodes::NodeMaker {
-  public:
-    NodeMaker(const Mesh& mesh, const CubeGrid& grid, std::span<const FoundCell> cells)
-        : mesh_(mesh), grid_(grid), cells_(cells), textures_(mesh), above_m_(above_of(mesh)) {}
-
-    // Two nodes where a wall stands between the cells' points, or one.
-    struct Made {
-        LightNode node, above;
-        std::optional<NodeDivision> division;
-    };
-    Made make(const CellSet& set, std::uint64_t seed, const Sight& sight) const {
-        const Candidates all = candidates(set);
-        const std::optional<DividedPoints> divided = find_division(all.raised_m, all.facing, sight);
-        if (!divided) return {of_cells(set, seed), {}, {}};
-        // What few points of a side meet is chance: the node is the other side's.
-        constexpr std::size_t kFew = 16;
-        const auto is_few = [&](const std::vector<std::size_t>& side) {
-            return kFew * side.size() < all.point.size();
-        };
-        if (is_few(divided->above)) return {of_points(all, divided->below, seed), {}, {}};
-        if (is_few(divided->below)) return {of_points(all, divided->above, seed), {}, {}};
-        return {of_points(all, divided->below, seed), of_points(all, divided->above, seed), divided->by};
-    }
-
-  private:
-    const Mesh& mesh_;
-    CubeGrid grid_;
-    std::span<const FoundCell> cells_;
-    TextureReader textures_;
-    float above_m_;
-
-    // The points of a node's cells, and places above them, higher than what is no wall.
-    struct Candidates {
-        std::vector<CellPoint> point;
-        std::vector<double> area_m2;  // that each stands for
-        std::vector<Vec3f> raised_m;
-        Vec3f facing;
-    };
-    Candidates candidates(const CellSet& set) const {
-        constexpr float kWall = 0.15f;  // in cubes
-        Candidates out;
-        const auto cells =
-            static_cast<std::size_t>(std::find(set.begin(), set.end(), LightNodes::kClosed) - set.begin());
-        for (const std::uint32_t c : std::span(set).first(cells)) {
-            const FoundCell& cell = cells_[c];
-            const std::size_t count = std::min(static_cast<std::size_t>(cell.count), kMostDivided / cells);
-            for (const CellPoint& point : std::span(cell.best).first(count)) {
-                const TriangleSpread spread(mesh_, point.triangle, 0.5f * grid_.cube_m);
-                out.point.push_back(point);
-                out.area_m2.push_back(cell.area_m2 / static_cast<double>(count));
-                out.raised_m.push_back(spread.at(spread.weights(static_cast<int>(point.point))));
-                out.facing = out.facing + (point.back ? -1.0f : 1.0f) * spread.normal;
-            }
-        }
-        if (length(out.facing) > 0) out.facing = normalized(out.facing);
-        for (Vec3f& point_m : out.raised_m) point_m = point_m + kWall * grid_.cube_m * out.facing;
-        return out;
-    }
-
-    // The node of some of the points, evenly by area.
-    LightNode of_points(const Candidates& all, std::span<const std::size_t> here, std::uint64_t seed) const {
-        double area_m2 = 0;
-        for (const std::size_t i : here) area_m2 += all.area_m2[i];
-        LightNode node;
-        const double shift = static_cast<double>(mixed(seed) >> 11) * 0x1p-53;
-        std::size_t k = 0;
-        double passed = all.area_m2[here[0]];
-        Vec3f color{};
-        for (int i = 0; i < LightNode::kPoints; ++i) {
-            const double at = (i + shift) / LightNode::kPoints * area_m2;
-            while (k + 1 < here.size() && passed <= at) passed += all.area_m2[here[++k]];
-            add(node, static_cast<std::size_t>(i), all.point[here[k]], color);
-        }
-        finish(node, color);
-        return node;
-    }
-
-    LightNode of_cells(const CellSet& set, std::uint64_t seed) const {
-        LightNode node;
-        double area = 0;
-        for (const std::uint32_t c : set)
-            if (c != LightNodes::kClosed) area += cells_[c].area_m2;
-        // Places along the cells' areas one behind the other, evenly.
-        const double shift = static_cast<double>(mixed(seed) >> 11) * 0x1p-53;
-        std::array<int, 8> used{};
-        std::size_t k = 0;
-        double passed = 0;
-        Vec3f color{};
-        for (int i = 0; i < LightNode::kPoints; ++i) {
-            const double at = (i + shift) / LightNode::kPoints * area;
-            while (k + 1 < set.size() && set[k + 1] != LightNodes::kClosed &&
-                   passed + cells_[set[k]].area_m2 <= at)
-                passed += cells_[set[k]].area_m2, ++k;
-            const FoundCell& cell = cells_[set[k]];
-            add(node, static_cast<std::size_t>(i),
-                cell.best[static_cast<std::size_t>(used[k]++ % cell.count)], color);
-        }
-        finish(node, color);
-        return node;
-    }
-
-    // color: sum of the points'.
-    static void finish(LightNode& node, Vec3f color) {
-        node.color = color / static_cast<float>(LightNode::kPoints);
-        Vec3f mean{};
-        for (const std::uint32_t normal : node.normal) mean = mean + unpack_normal(normal);
-        node.mean_normal = dot(mean, mean) > 1e-6f ? pack_normal(normalized(mean)) : node.normal[0];
-    }
-
-    void add(LightNode& node, std::size_t i, const CellPoint& candidate, Vec3f& color) const {
-        const TriangleSpread spread(mesh_, candidate.triangle, 0.5f * grid_.cube_m);
-        const Vec3f w = spread.weights(static_cast<int>(candidate.point));
-        const Vec3f geometric = candidate.back ? -spread.normal : spread.normal;
-        Vec3f normal = geometric;
-        if (!mesh_.normals.empty()) {
-            const auto at = [&](std::size_t k) { return mesh_.normals[spread.corner[k].vertex]; };
-            const Vec3f smooth = w.x * at(0) + w.y * at(1) + w.z * at(2);
-            if (dot(smooth, smooth) > 1e-6f) normal = normalized(smooth);
-            if (dot(normal, geometric) < 0) normal = -normal;
-        }
-        node.surface = mesh_.surface_of_triangle[candidate.triangle];
-        node.point_m[i] = spread.at(w) + above_m_ * geometric;
-        node.normal[i] = pack_normal(normal);
-        node.geometric[i] = pack_normal(geometric);
-        color = color + textures_.color(spread, w, node.surface);
-    }
-};
 
 LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
                        const Openness& openness, const Sight& sight) {
@@ -237,7 +81,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
         cube_m_ = std::max(min_cube_m, cube_m_ * static_cast<float>(std::sqrt(ratio)));
     }
 
-    prefer_open_points(mesh, keeps, {corner_m_, cube_m_}, above_of(mesh), openness, cells);
+    prefer_open_points(mesh, keeps, {corner_m_, cube_m_}, points_above_m(mesh), openness, cells);
 
     const std::vector<CornerUse> uses = corners_of(cells);
     struct Group {
@@ -266,7 +110,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
             corners[uses[i].cell][uses[i].corner] = static_cast<std::uint32_t>(sets.size() - 1);
     }
     cells_.resize(cells.size());
-    make_nodes(sets, NodeMaker(mesh, {corner_m_, cube_m_}, cells), sight);
+    make_nodes(sets, NodeMaker(mesh, {corner_m_, cube_m_}, cells, sight));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         take(corners[i], cells_[i]);
         cells_[i].lowest = cells[i].lowest, cells_[i].highest = cells[i].highest;
@@ -278,11 +122,10 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     index(keys);
 }
 
-void LightNodes::make_nodes(std::span<const CellSet> sets, const NodeMaker& maker, const Sight& sight) {
-    std::vector<NodeMaker::Made> made(sets.size());
-    tbb::parallel_for(std::size_t{0}, sets.size(),
-                      [&](std::size_t i) { made[i] = maker.make(sets[i], i, sight); });
-    for (const NodeMaker::Made& one : made) nodes_.push_back(one.node);
+void LightNodes::make_nodes(std::span<const CellSet> sets, const NodeMaker& maker) {
+    std::vector<MadeNode> made(sets.size());
+    tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t i) { made[i] = maker.make(sets[i], i); });
+    for (const MadeNode& one : made) nodes_.push_back(one.node);
     for (std::size_t i = 0; i < made.size(); ++i) {
         if (!made[i].division) continue;
         pairs_.push_back(
@@ -458,7 +301,7 @@ NodeNeighbours LightNodes::neighbours() const {
         for (const std::uint32_t node : {one->below, one->above})
             if (node != kClosed) out.push_back({node, one});
     };
-    // Of what a wall divides, those on one side of it.
+    // A part of what a wall divides has none beside it but on its own side.
     const auto on_side_of = [&](const Part& a, const Part& b) {
         return !a.of || lies(b.node, *a.of, a.node == a.of->above);
     };

@@ -68,6 +68,10 @@ struct NodeNeighbours {
     std::size_t bytes() const { return (first.size() + node.size()) * sizeof(std::uint32_t); }
 };
 
+// Cells that a node stands for, in order; unused places hold LightNodes::kClosed.
+using CellSet = std::array<std::uint32_t, 8>;
+class NodeMaker;
+
 class LightNodes {
   public:
     static constexpr std::uint32_t kClosed = ~std::uint32_t{0};
@@ -152,10 +156,7 @@ class LightNodes {
     std::vector<LightNode> nodes_;
     std::vector<Pair> pairs_;  // by name
 
-    // Cells that a node stands for, in order; unused places hold kClosed.
-    using CellSet = std::array<std::uint32_t, 8>;
-    class NodeMaker;
-    void make_nodes(std::span<const CellSet> sets, const NodeMaker& maker, const Sight& sight);
+    void make_nodes(std::span<const CellSet> sets, const NodeMaker& maker);
     void take(const std::array<std::uint32_t, 8>& of_corner, Cell& cell) const;
     const Pair* pair(std::uint32_t node) const;
     std::uint32_t on_side(const Pair& pair, Vec3f at) const;

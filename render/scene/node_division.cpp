@@ -1,11 +1,7 @@
 #include "render/scene/node_division.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
-#include <utility>
-
-#include "render/vocabulary/check.h"
 
 namespace hilcam {
 namespace {
@@ -17,25 +13,27 @@ using Numbers = std::vector<std::size_t>;
 // Knows of each two of some points whether anything stands between them.
 class Walls {
   public:
-    Walls(std::span<const Vec3f> points_m, const Sight& sight) : points_m_(points_m), sight_(sight) {}
+    Walls(std::span<const Vec3f> points_m, const Sight& sight)
+        : points_m_(points_m), sight_(sight), known_(points_m.size() * points_m.size()) {}
 
-    bool is_between(std::size_t i, std::size_t j) {
-        return i != j && wall(std::min(i, j), std::max(i, j)).has_value();
-    }
-    // The two faces of what is there.
+    bool is_between(std::size_t i, std::size_t j) { return i != j && wall(i, j).has_value(); }
+    // Both faces of what stands between two points.
     void add_faces(std::size_t i, std::size_t j, std::vector<Wall>& out) {
-        for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)})
-            if (const std::optional<Wall> met = sight_(points_m_[from], points_m_[to])) out.push_back(*met);
+        if (const std::optional<Wall>& there = wall(i, j)) out.push_back(*there);
+        const auto [from, to] = std::minmax(i, j);
+        if (const std::optional<Wall> back = sight_(points_m_[to], points_m_[from])) out.push_back(*back);
     }
 
   private:
     std::span<const Vec3f> points_m_;
     const Sight& sight_;
-    std::array<std::optional<std::optional<Wall>>, kMostDivided * kMostDivided> known_;
+    std::vector<std::optional<std::optional<Wall>>> known_;
 
+    // As it is met from the point of the lesser number.
     const std::optional<Wall>& wall(std::size_t i, std::size_t j) {
-        std::optional<std::optional<Wall>>& known = known_[i * kMostDivided + j];
-        if (!known) known = sight_(points_m_[i], points_m_[j]);
+        const auto [from, to] = std::minmax(i, j);
+        std::optional<std::optional<Wall>>& known = known_[from * points_m_.size() + to];
+        if (!known) known = sight_(points_m_[from], points_m_[to]);
         return *known;
     }
 };
@@ -85,13 +83,14 @@ std::optional<NodeDivision> plane_between(Walls& walls, std::span<const Vec3f> p
 
 std::optional<DividedPoints> find_division(std::span<const Vec3f> points_m, Vec3f facing,
                                            const Sight& sight) {
-    HILCAM_CHECK(points_m.size() <= kMostDivided);
+    // Mostly there is no wall.
+    if (points_m.empty() || std::none_of(points_m.begin() + 1, points_m.end(), [&](Vec3f point_m) {
+            return sight(points_m.front(), point_m).has_value();
+        }))
+        return std::nullopt;
     Walls walls(points_m, sight);
     Numbers rest(points_m.size());
     std::iota(rest.begin(), rest.end(), std::size_t{0});
-    // Mostly there is no wall.
-    if (std::none_of(rest.begin(), rest.end(), [&](std::size_t i) { return walls.is_between(0, i); }))
-        return std::nullopt;
     DividedPoints out;
     out.below = take_group(walls, rest);
     if (rest.empty()) return std::nullopt;

@@ -33,10 +33,10 @@ struct DividedPoints {
     NodeDivision by;
     std::vector<std::size_t> below, above;
 };
-inline constexpr std::size_t kMostDivided = 32;
-// Divides so many points at most that a wall stands between, those apart that see neither side. None: there is no wall that hides nearly all of
-// one group, from nearly all of another, or it is not flat enough for a plane to leave them on their sides. points_m: so far above
-// their surface that what is no wall does not reach them. facing: mean of the surface's normals, unit.
+// Divides points that a wall stands between. None: there is no wall that hides nearly all of one group from nearly all of
+// another, or it is not flat enough for a plane to leave them on their sides; points that see neither group are left out.
+// points_m: so far above their surface that what is no wall does not reach them; each two are asked for. facing: mean of the
+// surface's normals, unit.
 std::optional<DividedPoints> find_division(std::span<const Vec3f> points_m, Vec3f facing, const Sight& sight);
 
 }  // namespace hilcam

@@ -156,7 +156,7 @@ TEST(LightLeak, NoneBelowAWallOnTheFloor) {
         const double x_m = (2 * (static_cast<double>(i % kSize_px) + 0.5) / kSize_px - 1) * kShown_m;
         const double light = static_cast<double>(s.radiance.plane(0)[i]) / sunlit;
         if (x_m < 0) before = std::max(before, light);
-        // As far as the wall hides what lies at its foot.
+        // The camera sees the floor from here on: the wall hides its foot.
         if (x_m > 0.1) behind = std::max(behind, light);
     }
     EXPECT_GT(before, 100 * kDark);

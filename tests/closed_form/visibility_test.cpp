@@ -228,6 +228,32 @@ TEST(Visibility, AMirrorBesideTheEarthIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.02);
 }
 
+// Metal in folds narrower than a pixel, whose sides lean by 8 degrees each: what a pixel has of the Earth, beside the mirror's
+// direction, is what both sides show of it. Their mean direction shows it; one side alone would show a half more, or less.
+TEST(Visibility, FoldsShowTheEarthAsTheyLeanTogether) {
+    constexpr int kFolds = 23;  // over 16 pixels, so that each pixel has other parts of them
+    Stage s;
+    MaterialConfig metal = lambert(0.8);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.45;
+    s.quality.path_model = "kept";
+    s.earth(0.3);
+    s.world.bodies[BodyId::kEarth].world_m = {0, 3e7, -3e7};
+    s.sun({0, 0.2, 1});
+    std::vector<Vec3f> v;
+    std::vector<std::array<std::uint32_t, 3>> t;
+    const float step_m = 1.0f / kFolds, height_m = step_m * static_cast<float>(std::tan(8 * kDegree_rad));
+    for (int i = 0; i <= 2 * kFolds; ++i)
+        for (const float x : {-1.0f, 1.0f})
+            v.push_back({x, -1 + step_m * static_cast<float>(i), i % 2 == 0 ? 0.0f : height_m});
+    for (std::uint32_t i = 0; i < 4 * kFolds; i += 2)
+        t.push_back({i, i + 1, i + 2}), t.push_back({i + 1, i + 3, i + 2});
+    s.add(object_of(v, t, metal, s.grid), {0, 0, 4});
+    const Difference d = difference_from_rays(s);
+    EXPECT_LT(std::abs(d.mean), 0.02);
+    EXPECT_LT(d.greatest, 0.05);
+}
+
 // A plate of 2 m whose waves are 0.2 steep.
 SceneObject foil(const MaterialConfig& material, const SpectralGrid& grid) {
     Mesh mesh = wavy_plate(200, -1, 1, 3e-3);
