@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/earth/map_looks.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/units.h"
 
@@ -35,8 +36,9 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     // Geodetic latitudes onto the sphere.
     const double reduced = std::atan2(kEarth.polar_radius_m * std::sin(latitude),
                                       kEarth.equatorial_radius_m * std::cos(latitude));
-    // Looks of a long footprint lie up to four of their widths, eight texels, beside the place that it is of.
-    const double nearest_to_equator = std::abs(latitude) - down / 2 - 8 * per_row;
+    // Looks of a long footprint lie up to four of their widths, of two texels' each, beside the place that it is of.
+    constexpr double kBeside = 4 * 2 / static_cast<double>(kTexelOfLook);
+    const double nearest_to_equator = std::abs(latitude) - down / 2 - kBeside * per_row;
     const double cosine = std::max(1e-6, std::cos(std::max(0.0, nearest_to_equator)));
     const double half_across = 0.5 * across * cosine;
     return {
@@ -84,7 +86,8 @@ struct DetailNeed::Sight {
         const double mu = std::max(0.02, (distance_m * std::cos(nearest_rad) - kRadius_m) / d_m);
         // A look is as wide as the shorter side of a footprint, and an eighth of the longer (map_looks.h): the ray's slant makes it
         // long, and so do columns that run together towards a pole.
-        const double width_m = pixel_rad * d_m * std::max({1.0, 1 / (8 * mu), 1 / (8 * cap.cosine)});
+        const double width_m = static_cast<double>(kTexelOfLook) * pixel_rad * d_m *
+                               std::max({1.0, 1 / (8 * mu), 1 / (8 * cap.cosine)});
         // Distances are those of the stretched Earth, which are off by a third of a hundredth.
         constexpr double kMargin = 0.02;
         return std::max(0.0, std::log2(width_m / texel_m) - kMargin) + coarser_by;

@@ -193,9 +193,10 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
 
     // East and north on the level; a step there, as a share of the map.
     const Vec3d n = place.normal;
-    const double polar = std::max(1e-3, std::sqrt(n.x * n.x + n.y * n.y));
-    const Vec3d east{-n.y / polar, n.x / polar, 0}, north = cross(n, east);
-    const double per_u = 1 / (2 * kPi * kRadius_m * polar), per_v = -1 / (kPi * kRadius_m);
+    const double polar = std::sqrt(n.x * n.x + n.y * n.y);
+    const Vec3d east = polar > 0 ? Vec3d{-n.y / polar, n.x / polar, 0} : Vec3d{0, 1, 0},
+                north = cross(n, east);
+    const double per_u = 1 / (2 * kPi * kRadius_m * std::max(1e-3, polar)), per_v = -1 / (kPi * kRadius_m);
     const auto step = [&](Vec3d level_m, float& u, float& v) {
         u = static_cast<float>(dot(level_m, east) * per_u),
         v = static_cast<float>(dot(level_m, north) * per_v);
@@ -230,10 +231,12 @@ bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
     return true;
 }
 
-float EarthModel::texels_across(const MapFootprint& f, const EarthMoment& moment) const {
+EarthModel::Sides EarthModel::texels_across(const MapFootprint& f, const EarthMoment& moment) const {
     const int rows = moment.detail ? moment.detail->shape().rows : ground().height();
     const auto height = static_cast<float>(std::max(rows, cloud_maps_->height()));
-    return height * std::sqrt(std::max(4 * f.u1 * f.u1 + f.v1 * f.v1, 4 * f.u2 * f.u2 + f.v2 * f.v2));
+    const float first = std::sqrt(4 * f.u1 * f.u1 + f.v1 * f.v1),
+                second = std::sqrt(4 * f.u2 * f.u2 + f.v2 * f.v2);
+    return {height * std::min(first, second), height * std::max(first, second)};
 }
 
 bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
@@ -301,6 +304,29 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
     return out;
 }
 
+EarthModel::Shade EarthModel::shade_by_parts(const EarthAspect& aspect, const EarthMoment& moment,
+                                             int across) const {
+    const MapFootprint& f = aspect.footprint;
+    // Finer levels would have to be four times as many. Where texels are wider than the footprint they do not tell its parts apart.
+    if (moment.detail) across = 1;
+    if (across > 1) across = std::min(across, static_cast<int>(std::ceil(texels_across(f, moment).shorter)));
+    if (across <= 1) return shade(aspect, moment);
+    const float share = 1 / static_cast<float>(across);
+    EarthAspect part = aspect;
+    part.footprint = {share * f.u1, share * f.v1, share * f.u2, share * f.v2};
+    Shade sum;
+    for (int i = 0; i < across * across; ++i) {
+        const float a = share * (static_cast<float>(i % across) + 0.5f) - 0.5f,
+                    b = share * (static_cast<float>(i / across) + 0.5f) - 0.5f;
+        part.u = aspect.u + a * f.u1 + b * f.u2, part.v = aspect.v + a * f.v1 + b * f.v2;
+        const Shade seen = shade(part, moment);
+        sum.over_sun_sr += seen.over_sun_sr, sum.lights_w_m2_sr_um += seen.lights_w_m2_sr_um;
+    }
+    sum.over_sun_sr = (share * share) * sum.over_sun_sr;
+    sum.lights_w_m2_sr_um = (share * share) * sum.lights_w_m2_sr_um;
+    return sum;
+}
+
 // Along a ray that misses the ground.
 Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
     const Vec3d origin = stretched(ray.origin_m), dir = normalized(stretched(ray.dir)),
@@ -313,7 +339,7 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
     const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
-        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.moment);
+        const Shade seen = shade_by_parts(aspect_at(ray, to_ground_m, 0), ray.moment, ray.looks_across);
         radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
         return true;
     }

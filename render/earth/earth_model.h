@@ -43,7 +43,11 @@ class EarthModel {
         double width_rad = 0;  // width of the cone that it stands for
         Spectrum irradiance_w_m2_um;
         EarthMoment moment{};
+        int looks_across = 1;  // at the maps
     };
+    // What is seen is not linear in what the maps hold: one look for a pixel of clouds and gaps is 1 to 3 % off. So many looks at
+    // its parts, each way, are within 1 % (means of 8 x 8 px of geo_inspection).
+    static constexpr int kLooksOfPixel = 2;
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.
     bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;
@@ -52,8 +56,11 @@ class EarthModel {
     bool has_clouds() const { return table_ != nullptr; }
     // The same in two steps, for pixels that share an aspect. False where the ground is not met, or grazed.
     bool aspect_of(const Ray& ray, EarthAspect& aspect) const;
-    // The longest side of a footprint in texels of the finest map.
-    float texels_across(const MapFootprint& footprint, const EarthMoment& moment) const;
+    // The sides of a footprint in texels of the finest map.
+    struct Sides {
+        float shorter, longer;
+    };
+    Sides texels_across(const MapFootprint& footprint, const EarthMoment& moment) const;
     // Where a ray meets the ground, as EarthMap has it: u, v. False where it does not.
     static bool map_place(const Ray& ray, float& u, float& v);
     // Radiance by an aspect and the maps, per unit of irradiance [sr^-1], and that of lights [W m^-2 sr^-1 um^-1].
@@ -61,6 +68,8 @@ class EarthModel {
         Spectrum over_sun_sr, lights_w_m2_sr_um;
     };
     Shade shade(const EarthAspect& aspect, const EarthMoment& moment) const;
+    // The mean of looks at equal parts of the footprint, so many each way, fewer where texels are larger.
+    Shade shade_by_parts(const EarthAspect& aspect, const EarthMoment& moment, int across) const;
     const GroundMaps& ground() const { return *ground_maps_; }
     // Returns where an instant lies between the maps; and the nearest place that there is.
     MapNumbers numbers_at(TimeTai time) const {

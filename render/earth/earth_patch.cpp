@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/vocabulary/clones.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
@@ -15,6 +16,13 @@ HILCAM_CLONES void mix_nodes(const Floats& a, const Floats& b, const Floats& c, 
                              const std::array<float, 4>& w, Floats& sum) {
     for (std::size_t k = 0; k < sum.size(); ++k)
         sum[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + w[3] * d[k];
+}
+
+// What an aspect has of light, over that of white paint in the Sun: the air before it and what falls on it, low and high.
+using Light = std::array<Spectrum, 4>;
+Light light_of(const EarthAspect& a) {
+    constexpr auto kPerPaint = static_cast<float>(kPi);
+    return {kPerPaint * a.air_low, kPerPaint * a.air_high, a.sun_low + a.sky_low, a.sun_high + a.sky_high};
 }
 
 }  // namespace
@@ -45,8 +53,10 @@ void EarthPatch::choose_steps() {
                 const auto at = static_cast<std::size_t>(j * kMaxNodes + i + k);
                 carries = carries && carries_[at];
                 if (carries)
-                    texels = std::max(texels, earth_->texels_across(
-                                                  std::bit_cast<EarthAspect>(nodes_[at]).footprint, moment_));
+                    texels = std::max(
+                        texels,
+                        earth_->texels_across(std::bit_cast<EarthAspect>(nodes_[at]).footprint, moment_)
+                            .longer);
             }
             // Half a texel from look to look: what bends between texels is seen.
             step_px_[static_cast<std::size_t>(j * kMaxNodes + i)] =
@@ -54,12 +64,48 @@ void EarthPatch::choose_steps() {
         }
 }
 
-Spectrum EarthPatch::look(Cell cell, float s, float t) const {
-    const auto at = static_cast<std::size_t>(cell.row * kMaxNodes + cell.column);
+EarthPatch::Node EarthPatch::between_nodes(Cell cell, float s, float t) const {
+    const std::size_t at = cell.index();
     Node sum;
     mix_nodes(nodes_[at], nodes_[at + 1], nodes_[at + kMaxNodes], nodes_[at + kMaxNodes + 1],
               {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t}, sum);
-    EarthAspect aspect = std::bit_cast<EarthAspect>(sum);
+    return sum;
+}
+
+// At the terminator light falls by powers of ten in a few degrees, and near the limb the air grows fast: a cell does not carry
+// where what is linear between its nodes is not what its middle has. ray: the middle's.
+void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
+    // Of what it is; and of white paint in the Sun, where a millionth is below the noise of cameras that see cities.
+    constexpr float kShare = 0.01f, kLeast = 1e-6f;
+    EarthAspect there;
+    const bool met = earth_->aspect_of(ray, there);
+    const Light light = light_of(there),
+                between = light_of(std::bit_cast<EarthAspect>(between_nodes(cell, 0.5f, 0.5f)));
+    bool carries = met;
+    for (std::size_t i = 0; i < light.size(); ++i)
+        for (int b = 0; b < kMaxBins; ++b)
+            carries = carries && std::abs(between[i][b] - light[i][b]) <= kShare * light[i][b] + kLeast;
+    if (!carries) step_px_[cell.index()] = 0;
+}
+
+// True where light between its nodes may be something else: a fall by powers is e^(d^2 / 8) off half-way, so a hundredth where its
+// ends differ by a third.
+bool EarthPatch::may_bend(Cell cell) const {
+    constexpr float kMost = 1.3f;
+    if (step_px_[cell.index()] == 0) return false;
+    std::array<Light, 4> corners;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        corners[k] = light_of(std::bit_cast<EarthAspect>(nodes_[cell.index() + k % 2 + k / 2 * kMaxNodes]));
+    for (std::size_t i = 0; i < corners[0].size(); ++i) {
+        const auto [least, most] = std::minmax(
+            {largest(corners[0][i]), largest(corners[1][i]), largest(corners[2][i]), largest(corners[3][i])});
+        if (most > kMost * least) return true;
+    }
+    return false;
+}
+
+Spectrum EarthPatch::look(Cell cell, float s, float t) const {
+    EarthAspect aspect = std::bit_cast<EarthAspect>(between_nodes(cell, s, t));
     // Lagrange's parabolas, both ways; longitudes as turns from the first.
     const std::array<float, 3> across{(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)},
         along{(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
@@ -72,7 +118,7 @@ Spectrum EarthPatch::look(Cell cell, float s, float t) const {
             aspect.u += w * (off > 0.5f ? off - 1 : (off < -0.5f ? off + 1 : off));
             aspect.v += w * here.v;
         }
-    const EarthModel::Shade seen = earth_->shade(aspect, moment_);
+    const EarthModel::Shade seen = earth_->shade_by_parts(aspect, moment_, EarthModel::kLooksOfPixel);
     return irradiance_ * seen.over_sun_sr + seen.lights_w_m2_sr_um;
 }
 
@@ -92,7 +138,7 @@ bool EarthPatch::add(float x, float y, const Spectrum& weight, Spectrum& radianc
     const float in_x = x - static_cast<float>(box_.x0), in_y = y - static_cast<float>(box_.y0);
     const Cell cell{std::clamp(static_cast<int>(in_x) / pitch_px_, 0, across_ - 2),
                     std::clamp(static_cast<int>(in_y) / pitch_px_, 0, down_ - 2)};
-    const int step_px = step_px_[static_cast<std::size_t>(cell.row * kMaxNodes + cell.column)];
+    const int step_px = step_px_[cell.index()];
     if (step_px == 0) return false;
     if (step_px == 1) {
         radiance +=

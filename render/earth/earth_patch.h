@@ -16,7 +16,7 @@ class EarthPatch {
     static constexpr int kMaxNodes = kMaxPixels / kFinePitch_px + 1;
 
     // pitch_px: one of the two; fine where the Earth is small, so that fewer pixels are left out at its limb.
-    // ray_at(x, y): the ray of a place in the picture [px]. At most kMaxPixels each way. Loop.
+    // ray_at(x, y): the ray of a place in the picture [px], whole or half. At most kMaxPixels each way. Loop.
     template <class RayAt>
     void place(const EarthModel& earth, const PixelBox& box, int pitch_px, const RayAt& ray_at) {
         earth_ = &earth, box_ = box, pitch_px_ = pitch_px;
@@ -32,9 +32,14 @@ class EarthPatch {
         const EarthModel::Ray first = ray_at(box.x0, box.y0);
         irradiance_ = first.irradiance_w_m2_um, moment_ = first.moment;
         choose_steps();
+        for (int row = 0; row + 1 < down_; ++row)
+            for (int column = 0; column + 1 < across_; ++column)
+                if (may_bend({column, row}))
+                    check_middle({column, row}, ray_at(box.x0 + (column + 0.5) * pitch_px_,
+                                                       box.y0 + (row + 0.5) * pitch_px_));
     }
     // Radiance [W m^-2 sr^-1 um^-1] at a place within the box, times weight; false where the nodes about it do not carry: near
-    // the limb, at a pole. Loop.
+    // the limb, at a pole, where light bends between them. Loop.
     bool add(float x, float y, const Spectrum& weight, Spectrum& radiance);
 
   private:
@@ -62,8 +67,12 @@ class EarthPatch {
 
     struct Cell {
         int column, row;
+        std::size_t index() const { return static_cast<std::size_t>(row * kMaxNodes + column); }
     };
     void choose_steps();
+    bool may_bend(Cell cell) const;
+    void check_middle(Cell cell, const EarthModel::Ray& ray);
+    Node between_nodes(Cell cell, float s, float t) const;
     Spectrum look(Cell cell, float s, float t) const;  // s, t: within the cell, 0..1
     const Spectrum& look_at_corner(Cell cell, int column, int row);
     void place_node(int at, const EarthModel::Ray& ray);

@@ -16,9 +16,9 @@ namespace {
 
 constexpr Figure kEarthFigure = kFigures[index_of(BodyId::kEarth)];
 constexpr double kEarthRadius_m = kEarthFigure.equatorial_radius_m;
-// From ring to ring and from column to column, and the width for which a ray of them stands: with what is linear between them these
-// come nearest to a pixel's mean (ShippedEarth.IsKeptAsAPictureThatIsAsGoodAsARayAPixel).
-constexpr double kSpacing_px = 0.7, kWidth_px = 0.6;
+// From ring to ring and from column to column, the width for which a ray of them stands: with what is linear between them these
+// come near to a pixel's mean (ShippedEarth.IsKeptAsAPictureThatIsBetterThanARayAPixel).
+constexpr double kSpacing_px = 0.6, kWidth_px = 0.75;
 // A step of the Sun takes 27 s. The angles at which the ground is seen change as much with a step of the camera's distance.
 constexpr double kSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e-3;
 constexpr double kMapStep = 1.0 / 256;  // share of the way from one map to the next
@@ -180,8 +180,13 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
     const auto rows = static_cast<std::size_t>(band.rows);
     Coded* first = light_.data() + band.offset + row;
     Coded* out = first;
-    EarthModel::Ray ray{camera_m_,          {}, sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_, irradiance,
-                        {numbers_, nullptr}};
+    EarthModel::Ray ray{camera_m_,
+                        {},
+                        sun_dir_,
+                        (limb ? 1 : kWidth_px) * pixel_rad_,
+                        irradiance,
+                        {numbers_, nullptr},
+                        limb ? 1 : EarthModel::kLooksOfPixel};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
     for (int column = 0; column < band.columns; ++column, out += rows) {
         const double turn = 2 * kPi * column / band.columns;

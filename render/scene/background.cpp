@@ -175,13 +175,13 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
 }
 
 bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
-                                 double width_rad) const {
+                                 Cone cone) const {
     for (const PlacedBody& body : disks()) {
         const Figure& figure = this->figure(index_of(body.id));
         const Vec3d origin = body.camera_m + body.fixed_from_world * origin_m;
         const Vec3d d = body.fixed_from_world * dir;
         if (is_modelled(body.id)) {
-            if (add_earth(body, origin, d, width_rad, weight, radiance)) return true;
+            if (add_earth(body, origin, d, cone, weight, radiance)) return true;
             continue;
         }
         const double distance = met(body, origin, d);

@@ -99,7 +99,7 @@ class Background {
     bool add_bodies(Vec3f origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
                     double width_rad = 0) const {
         return add_bodies_from(to_double(origin_m) + objects_from_camera_m_, dir, weight, radiance,
-                               width_rad > 0 ? width_rad : pixel_rad_);
+                               {width_rad > 0 ? width_rad : pixel_rad_, false});
     }
     // Cheaply, whether add_bodies() could add anything. dir: unit.
     bool may_meet_body(Vec3f dir) const {
@@ -114,7 +114,7 @@ class Background {
     }
     // The same from the camera.
     bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
-        return add_bodies_from({}, dir, weight, radiance, pixel_rad_);
+        return add_bodies_from({}, dir, weight, radiance, {pixel_rad_, true});
     }
     // Adds the radiance of the Sun's disk as they do: mean radiance E_s / (pi sin^2 rho) inside its angular
     // radius rho, darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
@@ -198,9 +198,13 @@ class Background {
 
     const Figure& figure(std::size_t i) const { return bodies_.figure(static_cast<BodyId>(i)); }
     PlacedBody placed(BodyId id, const WorldSnapshot& world, bool stays) const;
-    bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
-                         double width_rad) const;
-    bool add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double width_rad, Spectrum& weight,
+    // What a ray stands for.
+    struct Cone {
+        double width_rad;
+        bool of_pixel;  // for one of the camera's
+    };
+    bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance, Cone cone) const;
+    bool add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, Cone cone, Spectrum& weight,
                    Spectrum& radiance) const;
     bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
     void add_planetshine(const WorldSnapshot& world, PlacedBody& body) const;

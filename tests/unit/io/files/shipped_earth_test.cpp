@@ -181,6 +181,7 @@ TEST(ShippedEarth, PixelsThatShareAnAspectLookLikeThoseOfTheirOwn) {
                                 kPixel_rad,
                                 {}};
             ray.irradiance_w_m2_um.bin.fill(1);
+            ray.looks_across = EarthModel::kLooksOfPixel;
             return ray;
         };
         auto patch = std::make_unique<EarthPatch>();
