@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/earth/map_looks.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
@@ -203,13 +204,16 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     };
     const MapPlace at = hilcam::map_place(n);
     out.u = at.u, out.v = at.v;
-    // The ray's cone is as wide as it is across, and longer by 1 / mu along.
+    // The ray's cone is as wide as it is across, and longer by 1 / mu along. By east and north, as sides along and across turn
+    // about where it is looked straight down.
     const Vec3d along = ray.dir - dot(ray.dir, n) * n;
     const double level = length(along);
     const Vec3d away = level > 1e-9 ? along / level : east;
     const double width_m = ray.width_rad * distance_m;
-    step(width_m / std::max(0.02, static_cast<double>(place.mu)) * away, out.footprint.u1, out.footprint.v1);
-    step(width_m * cross(n, away), out.footprint.u2, out.footprint.v2);
+    const double longer = 1 / std::max(0.02, static_cast<double>(place.mu)) - 1;
+    const auto on_level = [&](Vec3d side) { return width_m * (side + (longer * dot(away, side)) * away); };
+    step(on_level(east), out.footprint.u1, out.footprint.v1);
+    step(on_level(north), out.footprint.u2, out.footprint.v2);
     // The ray passes the usual height of clouds so much before its end; on a sphere, per metre of height.
     constexpr double kTop_m = static_cast<double>(kUsualTop_m);
     const double rmu = kRadius_m * static_cast<double>(place.mu);
@@ -234,9 +238,8 @@ bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
 EarthModel::Sides EarthModel::texels_across(const MapFootprint& f, const EarthMoment& moment) const {
     const int rows = moment.detail ? moment.detail->shape().rows : ground().height();
     const auto height = static_cast<float>(std::max(rows, cloud_maps_->height()));
-    const float first = std::sqrt(4 * f.u1 * f.u1 + f.v1 * f.v1),
-                second = std::sqrt(4 * f.u2 * f.u2 + f.v2 * f.v2);
-    return {height * std::min(first, second), height * std::max(first, second)};
+    const FootprintEllipse ellipse = ellipse_of(f, {2 * height, height});
+    return {ellipse.shorter, ellipse.longer};
 }
 
 bool EarthModel::map_place(const Ray& ray, float& u, float& v) {

@@ -183,10 +183,10 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
     EarthModel::Ray ray{camera_m_,
                         {},
                         sun_dir_,
-                        (limb ? 1 : kWidth_px) * pixel_rad_,
+                        kWidth_px * pixel_rad_,
                         irradiance,
                         {numbers_, nullptr},
-                        limb ? 1 : EarthModel::kLooksOfPixel};
+                        EarthModel::kLooksOfPixel};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
     for (int column = 0; column < band.columns; ++column, out += rows) {
         const double turn = 2 * kPi * column / band.columns;

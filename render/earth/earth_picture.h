@@ -9,7 +9,7 @@
 // Cameras and Suns belong to a grid of whole steps (Key), never to what was shown before: a frame is a function of its own
 // place and time. What a camera off the grid's place sees is looked for by the place on the ground (Tile), so coasts stay
 // where they are; what is off is light by up to half a step of both angles. How much that is, in units of
-// sensor noise: ShippedEarth.IsKeptAsAPictureThatIsAsGoodAsARayAPixel.
+// sensor noise: ShippedEarth.IsKeptAsAPictureThatIsBetterThanARayAPixel.
 //
 // Light is for the Sun at 1 AU; frames scale it, that of cities with it, by up to 3.4 % too much. What it does not hold: other bodies behind
 // the air, eclipses (EarthModel::add() has both).

@@ -19,23 +19,31 @@ struct MapSize {
 // much as it, but lets through what is finer; 0.7 comes nearest to a pixel's mean (docs/decisions.md).
 inline constexpr float kTexelOfLook = 0.7f;
 
+// The ellipse that has a footprint's sides as conjugate half diameters, in texels: what squares sum to along and across the map, and
+// its axes.
+struct FootprintEllipse {
+    float xx, xy, yy, longer, shorter;
+};
+inline FootprintEllipse ellipse_of(const MapFootprint& f, MapSize size) {
+    const float a1 = size.width * f.u1, b1 = size.height * f.v1, a2 = size.width * f.u2,
+                b2 = size.height * f.v2;
+    const float xx = a1 * a1 + a2 * a2, xy = a1 * b1 + a2 * b2, yy = b1 * b1 + b2 * b2;
+    const float middle = 0.5f * (xx + yy), off = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
+    return {xx, xy, yy, std::sqrt(middle + off), std::sqrt(std::max(0.0f, middle - off))};
+}
+
 // Calls add(u, v, level, weight) for each look; weights sum to 1. level: logarithm to base 2 of the width in texels of what it is
 // looked up by, 0 at least. Loop, any thread.
 template <class Add>
 void each_look(float u, float v, const MapFootprint& f, MapSize size, const Add& add) {
     constexpr int kMaxLooks = 8;
-    // The axes, in texels, of the ellipse that has the sides as conjugate half diameters.
-    const float a1 = size.width * f.u1, b1 = size.height * f.v1, a2 = size.width * f.u2,
-                b2 = size.height * f.v2;
-    const float xx = a1 * a1 + a2 * a2, xy = a1 * b1 + a2 * b2, yy = b1 * b1 + b2 * b2;
-    const float middle = 0.5f * (xx + yy), off = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
-    const float longer = std::sqrt(middle + off), shorter = std::sqrt(std::max(0.0f, middle - off));
+    const auto [xx, xy, yy, longer, shorter] = ellipse_of(f, size);
     const float width = std::max({shorter, longer / kMaxLooks, 1.0f});
     const float level = std::max(0.0f, std::log2(kTexelOfLook * width));
     const int looks = std::clamp(static_cast<int>(std::ceil(longer / width - 0.25f)), 1, kMaxLooks);
     if (looks == 1) return add(u, v, level, 1.0f);
-    // The direction of the longer axis: the eigenvector of the greater eigenvalue, middle + off.
-    float dx = xx > yy ? middle + off - yy : xy, dy = xx > yy ? xy : middle + off - xx;
+    // The direction of the longer axis: the eigenvector of the greater eigenvalue, its square.
+    float dx = xx > yy ? longer * longer - yy : xy, dy = xx > yy ? xy : longer * longer - xx;
     const float norm = std::sqrt(dx * dx + dy * dy);
     const float per_norm = norm > 0 ? longer / norm : 0;
     dx *= per_norm / size.width, dy *= per_norm / size.height;
