@@ -302,8 +302,8 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
         const auto dir_at = [&](double x, double y) {
             return normalized(x * kPixel_rad * east - y * kPixel_rad * north - out);
         };
-        const auto light = [&](Vec3d from_m, Vec3d dir, Vec3d sun_dir, double width_rad) {
-            const EarthModel::Ray ray{from_m, dir, sun_dir, width_rad, earth().sun};
+        const auto light = [&](Vec3d from_m, Vec3d dir, Vec3d sun_dir, double width_rad, int looks = 1) {
+            const EarthModel::Ray ray{from_m, dir, sun_dir, width_rad, earth().sun, {}, looks};
             Spectrum weight, sum;
             weight.bin.fill(1);
             earth().model->add(ray, weight, sum);
@@ -344,11 +344,13 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
                 // The same place on the ground from where the picture is kept, under its Sun.
                 const Vec3d ground_m =
                     view.camera_m + std::max(0.0, intersect_earth(view.camera_m, dir)) * dir;
-                const double one_ray = light(view.camera_m, dir, view.sun_dir, kPixel_rad);
-                const double from_kept = limb ? one_ray
-                                              : light(kept.camera_m, normalized(ground_m - kept.camera_m),
-                                                      kept.sun_dir, kPixel_rad);
-                pixels.push_back({static_cast<double>(seen[0][2]), one_ray, mean, from_kept - one_ray, limb});
+                const double one_ray =
+                    light(view.camera_m, dir, view.sun_dir, kPixel_rad, EarthModel::kLooksOfPixel);
+                const double step = limb ? 0
+                                         : light(kept.camera_m, normalized(ground_m - kept.camera_m),
+                                                 kept.sun_dir, kPixel_rad) -
+                                               light(view.camera_m, dir, view.sun_dir, kPixel_rad);
+                pixels.push_back({static_cast<double>(seen[0][2]), one_ray, mean, step, limb});
             }
         }
         std::vector<double> levels;
