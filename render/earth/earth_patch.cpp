@@ -18,7 +18,7 @@ HILCAM_CLONES void mix_nodes(const Floats& a, const Floats& b, const Floats& c, 
         sum[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + w[3] * d[k];
 }
 
-// What an aspect has of light, over that of white paint in the Sun: the air before it and what falls on it, low and high.
+// The light of an aspect, over that of white paint in the Sun: the air before it and what falls on it, low and high.
 using Light = std::array<Spectrum, 4>;
 Light light_of(const EarthAspect& a) {
     constexpr auto kPerPaint = static_cast<float>(kPi);

@@ -198,7 +198,7 @@ class Background {
 
     const Figure& figure(std::size_t i) const { return bodies_.figure(static_cast<BodyId>(i)); }
     PlacedBody placed(BodyId id, const WorldSnapshot& world, bool stays) const;
-    // What a ray stands for.
+    // The cone that a ray stands for.
     struct Cone {
         double width_rad;
         bool of_pixel;  // for one of the camera's
