@@ -25,8 +25,7 @@ constexpr double kMapStep = 1.0 / 256;  // share of the way from one map to the 
 // The disk's radius in pixels, and the camera's distance from the middle in radii.
 constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
 constexpr int kRings = 16;  // rings of a band, without the one that the next band shares
-// The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width, of a pixel's
-// width.
+// The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width.
 constexpr double kLimb_px = 1.5;
 constexpr int kFiner = 3, kLimbLooks = 4;
 
