@@ -36,7 +36,8 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     // Geodetic latitudes onto the sphere.
     const double reduced = std::atan2(kEarth.polar_radius_m * std::sin(latitude),
                                       kEarth.equatorial_radius_m * std::cos(latitude));
-    // Looks of a long footprint lie up to four of their widths, of two texels' each, beside the place that it is of.
+    // Looks of a long footprint lie up to four of their widths beside the place that it is of, and a level is looked at by those
+    // that are looked up in up to two of its texels.
     constexpr double kBeside = 4 * 2 / static_cast<double>(kTexelOfLook);
     const double nearest_to_equator = std::abs(latitude) - down / 2 - kBeside * per_row;
     const double cosine = std::max(1e-6, std::cos(std::max(0.0, nearest_to_equator)));

@@ -46,7 +46,7 @@ class EarthModel {
         int looks_across = 1;  // at the maps
     };
     // Light is not linear in what the maps hold: one look for a pixel of clouds and gaps is 1 to 3 % off. So many looks at
-    // its parts, each way, are within 1 % (means of 8 x 8 px of geo_inspection).
+    // its parts, each way, are mostly within 1 %, and within 2 % (means of 8 x 8 px of geo_inspection).
     static constexpr int kLooksOfPixel = 2;
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.

@@ -75,7 +75,8 @@ EarthPatch::Node EarthPatch::between_nodes(Cell cell, float s, float t) const {
 // At the terminator light falls by powers of ten in a few degrees, and near the limb the air grows fast: a cell does not carry
 // where what is linear between its nodes is not what its middle has. ray: the middle's.
 void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
-    // Of what it is; and of white paint in the Sun, where a millionth is below the noise of cameras that see cities.
+    // The middle may be off by so much of its light, or of what white paint in the Sun has: a millionth of the latter is below the
+    // noise of cameras that see cities.
     constexpr float kShare = 0.01f, kLeast = 1e-6f;
     EarthAspect there;
     const bool met = earth_->aspect_of(ray, there);
@@ -88,8 +89,8 @@ void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
     if (!carries) step_px_[cell.index()] = 0;
 }
 
-// True where light between its nodes may be something else: a fall by powers is e^(d^2 / 8) off half-way, so a hundredth where its
-// ends differ by a third.
+// True where light between its nodes may not be linear. Of light that falls as an exponential the mean of two ends is cosh(d / 2) of
+// what is half-way, d being the logarithm of their ratio: 0.9 % too much where one is 1.3 of the other.
 bool EarthPatch::may_bend(Cell cell) const {
     constexpr float kMost = 1.3f;
     if (step_px_[cell.index()] == 0) return false;

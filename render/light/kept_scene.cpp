@@ -311,12 +311,15 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
     const MetByLobe* met = lobes.met.find(at, node);
     if (!met || met->whole != whole) met = &lobes.met.keep(at, node, met_by_lobe(frame, place, whole));
     place.met = met->radiance, place.directions = met->directions;
-    // Parts that lean otherwise are no kind that others are alike.
-    const SentOfBodies* known = at.facets ? nullptr : lobes.bodies.find(at, 0);
-    const SentOfBodies sent = known ? *known : sent_of_bodies(at);
-    if (!known && !at.facets) lobes.bodies.keep(at, 0, sent);
+    // Two vertices of several parts are not alike: what one sends is not kept for others.
+    SentOfBodies by_parts;
+    const SentOfBodies* sent = &by_parts;
+    if (at.facets)
+        by_parts = sent_of_bodies(at);
+    else if (sent = lobes.bodies.find(at, 0); !sent)
+        sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-        place.bodies[b] = {(share * met->free[b]) * sent[b].radiance, sent[b].facet_cosine};
+        place.bodies[b] = {(share * met->free[b]) * (*sent)[b].radiance, (*sent)[b].facet_cosine};
 }
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.

@@ -29,7 +29,7 @@ class Walls {
     const Sight& sight_;
     std::vector<std::optional<std::optional<Wall>>> known_;
 
-    // As it is met from the point of the lesser number.
+    // Returns what is met on the way from the point with the lesser number.
     const std::optional<Wall>& wall(std::size_t i, std::size_t j) {
         const auto [from, to] = std::minmax(i, j);
         std::optional<std::optional<Wall>>& known = known_[from * points_m_.size() + to];

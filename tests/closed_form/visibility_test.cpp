@@ -211,17 +211,26 @@ TEST(Visibility, KeptLightIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.05);
 }
 
+MaterialConfig rough_metal(double roughness) {
+    MaterialConfig out = lambert(0.8);
+    out.model = kModel<brdf::Metal>;
+    out.roughness = roughness;
+    return out;
+}
+// The Sun is behind the camera.
+void keep_light_of_earth_at(Vec3d earth_m, Stage& s) {
+    s.quality.path_model = "kept";
+    s.earth(0.3);
+    s.world.bodies[BodyId::kEarth].world_m = earth_m;
+    s.sun({0, 0.2, 1});
+}
+
 // Four pixels share what a mirror has of the Earth's light by the tails of its lobe, where it shows none of the Earth; the
 // mirrored Earth ends in the picture.
 TEST(Visibility, AMirrorBesideTheEarthIsWhatRaysSee) {
     Stage s;
-    MaterialConfig metal = lambert(0.8);
-    metal.model = kModel<brdf::Metal>;
-    metal.roughness = 0.15;
-    s.quality.path_model = "kept";
-    s.earth(0.3);
-    s.world.bodies[BodyId::kEarth].world_m = {0, 0, -6.7875e6};
-    s.sun({0, 0.2, 1});
+    keep_light_of_earth_at({0, 0, -6.7875e6}, s);
+    const MaterialConfig metal = rough_metal(0.15);
     s.add(plate(metal, s.grid), {0, 0, 4}, {kPi + 36 * kDegree_rad, 0, 0});
     const Difference d = difference_from_rays(s);
     EXPECT_LT(std::abs(d.mean), 1e-3);
@@ -229,17 +238,12 @@ TEST(Visibility, AMirrorBesideTheEarthIsWhatRaysSee) {
 }
 
 // Metal in folds narrower than a pixel, whose sides lean by 8 degrees each: what a pixel has of the Earth, beside the mirror's
-// direction, is what both sides show of it. Their mean direction shows it; one side alone would show a half more, or less.
+// direction, is what both sides show of it. By the normals' mean 36 % of it would be missing, by one side up to 77 %.
 TEST(Visibility, FoldsShowTheEarthAsTheyLeanTogether) {
     constexpr int kFolds = 23;  // over 16 pixels, so that each pixel has other parts of them
     Stage s;
-    MaterialConfig metal = lambert(0.8);
-    metal.model = kModel<brdf::Metal>;
-    metal.roughness = 0.45;
-    s.quality.path_model = "kept";
-    s.earth(0.3);
-    s.world.bodies[BodyId::kEarth].world_m = {0, 3e7, -3e7};
-    s.sun({0, 0.2, 1});
+    keep_light_of_earth_at({0, 3e7, -3e7}, s);
+    const MaterialConfig metal = rough_metal(0.45);
     std::vector<Vec3f> v;
     std::vector<std::array<std::uint32_t, 3>> t;
     const float step_m = 1.0f / kFolds, height_m = step_m * static_cast<float>(std::tan(8 * kDegree_rad));
