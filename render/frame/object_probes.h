@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "render/frame/object_probe.h"
+#include "render/light/point_field.h"
+#include "render/vocabulary/point_source.h"
 
 namespace hilcam {
 

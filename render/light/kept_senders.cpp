@@ -66,10 +66,8 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
     Sender* const senders = senders_.data() + base_[member.object];
     // The questions for each node: how much its points would receive, rays sent, and rays that get through.
     struct Asked {
-        float received = 0;
-        int points = 0, rays = 0, lit = 0;
-        Vec3f dir;
-        Vec3f normal{};  // mean normal of the points that face the source, by how much they receive; not unit
+        LitPoints lit;
+        int rays = 0, pass = 0;
     };
     std::array<Asked, kSendBlock> asked;
     RayPacket rays;
@@ -79,20 +77,19 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
         if (rays.count == 0) return;
         const std::uint32_t stopped = this->blocked(member, rays);
         for (int i = 0; i < rays.count; ++i)
-            if (!(stopped >> i & 1u)) ++asked[of[static_cast<std::size_t>(i)]].lit;
+            if (!(stopped >> i & 1u)) ++asked[of[static_cast<std::size_t>(i)]].pass;
         rays.count = 0;
     };
     const bool cone = source.kind == KeptSource::Kind::kCone;
     const auto cone_dirs = cone_directions(source.dir, cone ? source.cone_cosine : 1);
     for (std::size_t n = first; n < last; ++n) {
         Asked& a = asked[n - first];
-        a.dir = source.dir;
         if (source.kind == KeptSource::Kind::kGlow) continue;
         const LightNode& node = table.nodes().nodes()[n];
-        float most = 0;
         for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
             if (!table.is_live(n, p)) continue;
-            ++a.points;
+            const std::size_t place = a.lit.count++;
+            a.lit.normal[place] = node.normal[p];
             const Vec3f normal = unpack_normal(node.normal[p]), geometric = unpack_normal(node.geometric[p]);
             Vec3f dir = source.dir;
             float strength = 1, until_m = std::numeric_limits<float>::infinity();
@@ -114,9 +111,7 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
                 cosine = sum / faced;
             }
             if (cosine * strength <= 0 || (!cone && dot(geometric, dir) <= 0)) continue;
-            a.received += cosine * strength;
-            a.normal = a.normal + cosine * strength * normal;
-            if (cosine * strength > most) most = cosine * strength, a.dir = dir;
+            a.lit.cosine[place] = cosine, a.lit.received[place] = cosine * strength;
             // Two points tell of a node's shadow.
             if (cone || a.rays == 2) continue;
             of[static_cast<std::size_t>(rays.count)] = n - first;
@@ -127,61 +122,56 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
     }
     flush();
     for (std::size_t n = first; n < last; ++n) {
-        const Asked& a = asked[n - first];
-        float share = a.rays > 0 ? static_cast<float>(a.lit) / static_cast<float>(a.rays) : 0;
+        Asked& a = asked[n - first];
+        float share = a.rays > 0 ? static_cast<float>(a.pass) / static_cast<float>(a.rays) : 0;
         if (cone) {
             share = seen_of_cone(member, light, n);
             member.out->seen[n] = static_cast<std::uint8_t>(std::lround(255 * share));
         }
-        const float mean = a.points > 0 ? a.received / static_cast<float>(a.points) : 0;
+        for (float& received : a.lit.received) received *= share;
         Sender& sender = senders[n];
-        send(light, n, a.dir, a.normal, share * mean, sender);
+        send(light, n, a.lit, sender);
         if (source.kind == KeptSource::Kind::kGlow)
             sender.diffuse = PackedSpectrum(light.materials_[table.nodes().nodes()[n].surface]->emission);
-        if (cone && sender.alpha > 0) widen(light, n, source, share * mean, sender);
+        if (cone && sender.alpha > 0) widen(light, n, source, sender);
     }
 }
 
 // A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
 // reflect.
-void KeptSolver::widen(const KeptLight& light, std::size_t n, const KeptSource& source, float received,
-                       Sender& sender) {
+void KeptSolver::widen(const KeptLight& light, std::size_t n, const KeptSource& source, Sender& sender) {
     constexpr float kBegins = 0.2f, kWhole = 0.4f;
     const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
     sender.alpha = std::min(1.0f, std::hypot(sender.alpha, 0.5f * sine));
     const float paint = std::clamp((sender.alpha - kBegins) / (kWhole - kBegins), 0.0f, 1.0f);
     if (paint == 0) return;
+    const float received = sender.lit.mean();
     const Spectrum albedo =
-        light.facet_color(n, light.albedo(light.table().nodes().nodes()[n].surface).lobe(sender.ni));
+        light.facet_color(n, light.albedo(light.table().nodes().nodes()[n].surface).lobe(sender.lit.mean_cosine()));
     sender.diffuse = PackedSpectrum(sender.diffuse.unpacked() + (paint * received / kPiF) * albedo);
     sender.lobe = PackedSpectrum((1 - paint) * sender.lobe.unpacked());
-    sender.received *= 1 - paint;
+    sender.gain *= 1 - paint;
     if (paint == 1) sender.alpha = 0;
 }
 
-// facing: along the normal of what is lit; received: irradiance, per unit of the source.
-void KeptSolver::send(const KeptLight& light, std::size_t n, Vec3f source_dir, Vec3f facing, float received,
-                      Sender& sender) const {
-    const LightNode& node = light.table().nodes().nodes()[n];
+void KeptSolver::send(const KeptLight& light, std::size_t n, const LitPoints& lit, Sender& sender) const {
     sender = {};
+    const float received = lit.mean();
     if (!(received > 0)) return;
-    const Vec3f normal = normalized(facing);
-    const float cosine = std::clamp(dot(normal, source_dir), 1e-3f, 1.0f);
-    const Material& material = *light.materials_[node.surface];
-    const MaterialAlbedo& albedo = light.albedo(node.surface);
+    const float cosine = lit.mean_cosine();
+    const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
+    const Material& material = *light.materials_[surface];
+    const MaterialAlbedo& albedo = light.albedo(surface);
     Spectrum diffuse = (received / kPiF) * albedo.base(cosine);
     if (!light.colors_.empty()) diffuse = diffuse * light.colors_[n];
     sender.diffuse = PackedSpectrum(diffuse);
-    sender.normal = pack_normal(normal);
-    sender.ni = cosine;
     if (!material.has_facets()) return;
+    sender.lit = lit;
     sender.alpha = std::max(material.ggx_alpha, KeptLight::min_alpha(light.table()));
-    const Spectrum normal_incidence = light.facet_color(n, material.highlight);
     // However wide the facets are taken, they send as much in all as they reflect.
-    const float whole = largest(light.albedos_->wide[node.surface].lobe(cosine));
-    const float gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;
-    sender.lobe = PackedSpectrum((gain * received) * normal_incidence);
-    sender.received = gain * received;
+    const float whole = largest(light.albedos_->wide[surface].lobe(cosine));
+    sender.gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;
+    sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));
 }
 
 }  // namespace hilcam

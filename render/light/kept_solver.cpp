@@ -17,21 +17,28 @@ namespace {
 using Nodes = tbb::blocked_range<std::size_t>;
 constexpr std::size_t kBlock = 256;  // nodes that a thread takes at a time; no result depends on it
 
-// A facet lobe of a sender, of what it receives, towards one that gathers.
+// The lobe of a sender's facets towards one that gathers: of its points, as each leans and as much as it is seen.
 template <class Sender>
 void add_lobe(const Sender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
-    const float facing = -dot(unpack_normal(from.normal), dir);
-    // What is lit of the sender faces away.
-    if (facing <= 0) return;
-    const float no = std::max(facing, 1e-2f);
     const float io = -dot(dir, source_dir);
-    const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f));
-    const float nh = std::min((no + from.ni) * inverse, 1.0f), ih = 0.5f / inverse;
-    const float law = ggx_distribution(from.alpha, nh) * ggx_visibility(from.alpha, no, from.ni);
-    // Schlick's term: F0 + (1 - F0) w, of what is received.
+    const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f)), ih = 0.5f / inverse;
+    float sum = 0, seen = 0;
+    for (std::size_t p = 0; p < from.lit.count; ++p) {
+        const float facing = -dot(unpack_normal(from.lit.normal[p]), dir);
+        if (facing <= 0) continue;
+        const float no = std::max(facing, 1e-2f), ni = std::max(from.lit.cosine[p], 1e-3f);
+        seen += no;
+        if (!(from.lit.received[p] > 0)) continue;
+        const float nh = std::min((no + ni) * inverse, 1.0f);
+        sum += no * from.lit.received[p] * ggx_distribution(from.alpha, nh) *
+               ggx_visibility(from.alpha, no, ni);
+    }
+    if (!(sum > 0)) return;
+    const float law = sum / seen;
+    // Schlick's term: F0 + (1 - F0) w.
     const float grazing = schlick_weight(ih);
     radiance += (law * (1 - grazing)) * from.lobe.unpacked();
-    for (float& bin : radiance.bin) bin += law * grazing * from.received;
+    for (float& bin : radiance.bin) bin += law * grazing * from.gain;
 }
 
 Spectrum at_least_zero(Spectrum s) {

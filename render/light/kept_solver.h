@@ -14,6 +14,9 @@
 // light; from the second bounce on everything scatters as a diffuse surface of the same albedo; glass is
 // clear.
 
+#include <algorithm>
+#include <array>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -47,14 +50,27 @@ class KeptSolver {
     void solve(std::span<const Member> group);
 
   private:
+    // What the points of a node receive of a source, per unit of it.
+    struct LitPoints {
+        std::size_t count = 0;  // points that lie open
+        std::array<std::uint32_t, LightNode::kPoints> normal;         // packed
+        std::array<float, LightNode::kPoints> cosine{}, received{};  // of the source to the normal; irradiance
+
+        float sum() const { return std::accumulate(received.begin(), received.end(), 0.0f); }
+        float mean() const { return count > 0 ? sum() / static_cast<float>(count) : 0.0f; }
+        // Returns the cosine that the source has where it is received, in the mean. Only where some is.
+        float mean_cosine() const {
+            const float at = std::inner_product(cosine.begin(), cosine.end(), received.begin(), 0.0f);
+            return std::clamp(at / sum(), 1e-3f, 1.0f);
+        }
+    };
     // The radiance that a node sends, per unit of the source.
     struct alignas(64) Sender {
         PackedSpectrum diffuse;
-        PackedSpectrum lobe;   // the lobe of its facets, at normal incidence
-        float received;        // irradiance
-        std::uint32_t normal;  // packed
-        float alpha;           // 0: no facets that shine
-        float ni;              // cosine of the source
+        PackedSpectrum lobe;  // the lobe of its facets at normal incidence, per irradiance
+        float gain;           // of full reflection
+        float alpha;          // 0: no facets that shine
+        LitPoints lit;        // where there are facets
     };
     // The light that a node's directions bring the first way, by its brightest bin: sums of it and of its squares.
     struct Brought {
@@ -82,10 +98,8 @@ class KeptSolver {
     void light_nodes(const Member& member);
     void light_block(const Member& member, std::size_t first, std::size_t last);
     std::uint32_t blocked(const Member& member, const RayPacket& rays) const;
-    void send(const KeptLight& light, std::size_t node, Vec3f source_dir, Vec3f facing, float received,
-              Sender& sender) const;
-    static void widen(const KeptLight& light, std::size_t node, const KeptSource& source, float received,
-                      Sender& sender);
+    void send(const KeptLight& light, std::size_t node, const LitPoints& lit, Sender& sender) const;
+    static void widen(const KeptLight& light, std::size_t node, const KeptSource& source, Sender& sender);
     static float seen_of_cone(const Member& member, const KeptLight& light, std::size_t node);
     void gather_first(const Member& member, std::span<const Member> group);
     void bounce(std::span<const Member> group);

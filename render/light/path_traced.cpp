@@ -38,7 +38,6 @@ struct NextRay {
     Spectrum if_free{};       // light that it adds where it meets nothing
     // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
     bool may_be_many = false;
-    bool is_of_many = false;  // it is one of those
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {
@@ -72,6 +71,13 @@ class TracedPaths final : public PathModel {
     // Numbers of a sequence that fills the square evenly, however few follow each other (multiples of the plastic number's
     // powers: Roberts 2018, extremelearning.com.au).
     static constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
+    // The rays through one mirror's pixel that are traced together, and what they meet.
+    struct MirrorRays {
+        RayPacket rays;
+        HitPacket hits;
+        std::uint32_t met = 0;  // a bit for each that meets something
+    };
+
     std::array<Vertex, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
     Vertex* current_ = a_.data();
@@ -81,6 +87,7 @@ class TracedPaths final : public PathModel {
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
+    std::array<MirrorRays, kMostSamples / kPacketSize> many_;  // of one mirror's pixel
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
@@ -137,7 +144,7 @@ class TracedPaths final : public PathModel {
         return ray_count;
     }
 
-    // Rays from a vertex that keeps light: a mirror's one direction, in whose place add_many() may put more, four of a narrow
+    // Rays from a vertex that keeps light: a mirror's one direction, in whose place send_many() may put more, four of a narrow
     // lobe, both of a sheet of glass.
     void continue_kept(Tile& tile, Vertex& at, std::size_t& ray_count) {
         const Scatterer& surface = at.surface;
@@ -203,32 +210,80 @@ class TracedPaths final : public PathModel {
         return size_m < kSmall * width_m;
     }
 
-    // Puts a ray from each sample of a mirror's pixel in the place of the one from their middle, by a facet of its own; no more
-    // than `most`.
-    void add_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& ray_count) {
-        const Vertex& at = *middle.from;
-        SampleMask rest = at.samples;
-        const std::size_t count = std::min(static_cast<std::size_t>(std::popcount(rest)), most);
-        const float share = 1 / static_cast<float>(count);
-        const float distance_m = at.footprint_m * static_cast<float>(tile.frame.geometry.focal_length_px);
+    // Sends some of a mirror's rays, each from another of the samples that are left and by a facet of its own. first: how many
+    // there were before.
+    static void send(Tile& tile, const Vertex& at, SampleMask& left, std::size_t first, std::size_t count,
+                     MirrorRays& out) {
+        const FrameView& frame = tile.frame;
+        const float distance_m = at.footprint_m * static_cast<float>(frame.geometry.focal_length_px);
         const Frame local(at.normal);
-        NextRay ray = middle;
-        ray.may_be_many = ray.sees_bodies = false;
-        ray.is_of_many = true;
-        ray.weight = share * middle.weight;
-        add_background_seen(tile.frame, middle, ray.if_free);
-        ray.if_free = share * ray.if_free;
+        out.rays.count = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            const int sample = std::countr_zero(rest);
-            rest &= rest - 1;
-            const Vec3f way_m = way_to_sample(tile, at, sample);
-            const auto number = static_cast<float>(i) + 0.5f;
-            ray.origin_m = at.start() + way_m;
-            ray.dir = sample_facets(at.surface.alpha, local, normalized(distance_m * at.view_dir - way_m),
-                                    std::fmod(kAlong * number, 1.0f), std::fmod(kAbout * number, 1.0f));
-            // Together they count, however little each does.
-            add(ray, ray_count);
+            const Vec3f way_m = way_to_sample(tile, at, next_sample(frame.samples, left, at.samples));
+            const float number = static_cast<float>(first + i) + 0.5f;
+            const Vec3f dir =
+                sample_facets(at.surface.alpha, local, normalized(distance_m * at.view_dir - way_m),
+                              std::fmod(kAlong * number, 1.0f), std::fmod(kAbout * number, 1.0f));
+            if (dot(at.geometric_normal, dir) > 0)
+                out.rays.set(out.rays.count++, at.start() + way_m, dir, 0,
+                             std::numeric_limits<float>::infinity());
         }
+        frame.scene->intersect(out.rays, Coherence::kCoherent, out.hits);
+        tile.stats.secondary_rays += static_cast<std::uint64_t>(out.rays.count);
+        out.met = 0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(out.rays.count); ++k)
+            if (meets(frame, out.hits, k, out.rays.origin(k), out.rays.dir(k))) out.met |= 1u << k;
+    }
+
+    // True when what these meet sends so little light, against white paint in the Sun, that it matters little which of them meet it:
+    // dark things that face away from the Sun.
+    static bool meet_the_dark(const FrameView& frame, const MirrorRays& rays) {
+        constexpr float kDark = 0.1f;
+        const Vec3f sun = to_float(frame.background->sun_world_dir());
+        const HitPacket& hits = rays.hits;
+        for (std::uint32_t rest = rays.met; rest != 0; rest &= rest - 1) {
+            const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+            const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+            const Material& material = object.materials[object.triangles[hits.triangle[k]].surface];
+            const Vec3f normal = frame.world_from_body[hits.object[k]] *
+                                 Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+            const bool sunlit = dot(normal, sun) * dot(normal, rays.rays.dir(k)) < 0;
+            if (sunlit || largest(material.base) + largest(material.highlight) > kDark) return false;
+        }
+        return true;
+    }
+
+    // Sends rays from the samples of a mirror's pixel in the place of the one from their middle: sixteen, and where these do not
+    // meet the same one from each, `most` at most. Returns how many.
+    std::size_t send_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& found) {
+        const Vertex& at = *middle.from;
+        SampleMask left = at.samples;
+        const std::size_t all = std::min(static_cast<std::size_t>(std::popcount(left)), most);
+        std::size_t sent = 0;
+        for (MirrorRays& rays : many_) {
+            const std::size_t count = std::min<std::size_t>(kPacketSize, all - sent);
+            send(tile, at, left, sent, count, rays);
+            sent += count;
+            if (sent == all || (sent == count && meet_the_dark(tile.frame, rays))) break;
+        }
+        NextRay ray = middle;
+        const float share = 1 / static_cast<float>(sent);
+        ray.weight = share * middle.weight;
+        Spectrum free;
+        add_background_seen(tile.frame, middle, free);
+        const std::size_t begin = found;
+        for (std::size_t first = 0; first < sent; first += kPacketSize) {
+            const MirrorRays& rays = many_[first / kPacketSize];
+            const int free_rays = rays.rays.count - std::popcount(rays.met);
+            if (free_rays > 0) tile.add(at, (share * static_cast<float>(free_rays)) * free);
+            for (std::uint32_t rest = rays.met; rest != 0; rest &= rest - 1) {
+                const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+                ray.origin_m = rays.rays.origin(k), ray.dir = rays.rays.dir(k);
+                if (add_met(tile.frame, rays.hits, k, ray, found) && !join(ray, following_, begin, found))
+                    ++found;
+            }
+        }
+        return sent;
     }
 
     // The vertices whose lobes the same rays follow, and their pixels' shares of what these find.
@@ -304,10 +359,26 @@ class TracedPaths final : public PathModel {
         return hits;
     }
 
-    static bool meets(const FrameView& frame, const HitPacket& hits, std::size_t k, const NextRay& ray) {
+    static bool meets(const FrameView& frame, const HitPacket& hits, std::size_t k, Vec3f origin_m,
+                      Vec3f dir) {
         return hits.object[k] != HitPacket::kMiss &&
-               !(frame.bodies_may_hide && frame.background->hides(ray.origin_m, to_double(ray.dir),
-                                                                  static_cast<double>(hits.distance[k])));
+               !(frame.bodies_may_hide &&
+                 frame.background->hides(origin_m, to_double(dir), static_cast<double>(hits.distance[k])));
+    }
+
+    // Makes what a ray has met the vertex after those that are found. False where there is nothing to see.
+    bool add_met(const FrameView& frame, const HitPacket& hits, std::size_t k, const NextRay& ray,
+                 std::size_t found) {
+        Vertex& vertex = following_[found];
+        if (!make_vertex(frame, hits, static_cast<int>(k), ray.origin_m, ray.dir, ray.alpha_least,
+                         ray.width(), vertex))
+            return false;
+        vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
+        vertex.halves = ray.from->halves, vertex.shared = ray.from->shared;
+        vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
+        vertex.weight = ray.weight;
+        vertex.weight_samples = ray.from->weight_samples;
+        return true;
     }
 
     // Puts the rays that may be many first and traces them. Where one meets a part of what its mirror shows, those of the pixels
@@ -324,7 +395,7 @@ class TracedPaths final : public PathModel {
             const HitPacket& hits = trace_packet(tile, first, count, mirror_hits_[first / kPacketSize]);
             for (std::size_t k = 0; k < count; ++k) {
                 const NextRay& ray = next_[first + k];
-                if (meets(tile.frame, hits, k, ray) && has_met_a_part(hits, k, ray))
+                if (meets(tile.frame, hits, k, ray.origin_m, ray.dir) && has_met_a_part(hits, k, ray))
                     mark_about(tile, *ray.from, hits.distance[k]);
             }
         }
@@ -350,7 +421,7 @@ class TracedPaths final : public PathModel {
 
     // Makes what one of many rays has met, the last of these vertices, a part of what others of the same pixel have, where that is
     // alike: it is shaded once. Few, as a shadow's edge may pass between them. False: nothing is.
-    static bool join(const NextRay& ray, Vertex* found, std::size_t last) {
+    static bool join(const NextRay& ray, Vertex* found, std::size_t first, std::size_t last) {
         constexpr float kMost = 8;
         const Vertex& at = found[last];
         // A facet lobe turns by twice as much: half of alpha, as far as 10 degrees.
@@ -358,7 +429,7 @@ class TracedPaths final : public PathModel {
         const float alpha = kOfAlpha * at.surface.alpha;
         const float least =
             at.surface.material->has_facets() ? std::max(kLeansAlike, 1 - 0.5f * alpha * alpha) : kLeansAlike;
-        for (std::size_t i = last; i-- > 0 && found[i].pixel == at.pixel && found[i].sample == at.sample;) {
+        for (std::size_t i = last; i-- > first;) {
             Vertex& other = found[i];
             if (other.object != at.object || other.surface_number != at.surface_number ||
                 largest(other.weight) > (kMost - 0.5f) * largest(ray.weight) || other.back != at.back ||
@@ -381,6 +452,7 @@ class TracedPaths final : public PathModel {
         auto marked = static_cast<std::size_t>(
             std::count_if(next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(mirrors),
                           [&](const NextRay& ray) { return near_part_[ray.from->pixel]; }));
+        std::size_t room = kMostRays - ray_count;
         for (std::size_t first = 0; first < ray_count; first += count) {
             count = std::min<std::size_t>(kPacketSize, (first < mirrors ? mirrors : ray_count) - first);
             const HitPacket& hits = first < mirrors ? mirror_hits_[first / kPacketSize]
@@ -389,27 +461,17 @@ class TracedPaths final : public PathModel {
                 const NextRay& ray = next_[first + k];
                 if (first < mirrors && near_part_[ray.from->pixel]) {
                     // All have the same room.
-                    add_many(tile, ray, (next_.size() - ray_count) / marked--, ray_count);
+                    room -= send_many(tile, ray, room / marked--, found);
                     continue;
                 }
-                if (!meets(frame, hits, k, ray)) {
+                if (!meets(frame, hits, k, ray.origin_m, ray.dir)) {
                     if (ray.sees_bodies)
                         add_background(tile, ray);
                     else
                         tile.add(*ray.from, ray.if_free);
                     continue;
                 }
-                if (last) continue;
-                Vertex& vertex = following_[found];
-                if (!make_vertex(frame, hits, static_cast<int>(k), ray.origin_m, ray.dir, ray.alpha_least,
-                                 ray.width(), vertex))
-                    continue;
-                vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
-                vertex.halves = ray.from->halves, vertex.shared = ray.from->shared;
-                vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
-                vertex.weight = ray.weight;
-                vertex.weight_samples = ray.from->weight_samples;
-                if (!ray.is_of_many || !join(ray, following_, found)) ++found;
+                if (!last && add_met(frame, hits, k, ray, found)) ++found;
             }
         }
         std::swap(current_, following_);

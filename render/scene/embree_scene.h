@@ -34,6 +34,8 @@ struct alignas(64) RayPacket {
         dir_x[k] = dir.x, dir_y[k] = dir.y, dir_z[k] = dir.z;
         nearest[k] = least, farthest[k] = most;
     }
+    Vec3f origin(std::size_t k) const { return {origin_x[k], origin_y[k], origin_z[k]}; }
+    Vec3f dir(std::size_t k) const { return {dir_x[k], dir_y[k], dir_z[k]}; }
 };
 
 struct alignas(64) HitPacket {
