@@ -64,32 +64,27 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
     const TransferTable& table = light.table();
     const KeptSource& source = member.source;
     Sender* const senders = senders_.data() + base_[member.object];
-    // The questions for each node: how much its points would receive, rays sent, and rays that get through.
-    struct Asked {
-        LitPoints lit;
-        int rays = 0, pass = 0;
-    };
-    std::array<Asked, kSendBlock> asked;
+    std::array<LitPoints, kSendBlock> lit;
     RayPacket rays;
-    std::array<std::size_t, kPacketSize> of;
+    std::array<float*, kPacketSize> of;  // by ray, what it asks for
     rays.count = 0;
     const auto flush = [&] {
         if (rays.count == 0) return;
         const std::uint32_t stopped = this->blocked(member, rays);
         for (int i = 0; i < rays.count; ++i)
-            if (!(stopped >> i & 1u)) ++asked[of[static_cast<std::size_t>(i)]].pass;
+            if (stopped >> i & 1u) *of[static_cast<std::size_t>(i)] = 0;
         rays.count = 0;
     };
     const bool cone = source.kind == KeptSource::Kind::kCone;
     const auto cone_dirs = cone_directions(source.dir, cone ? source.cone_cosine : 1);
     for (std::size_t n = first; n < last; ++n) {
-        Asked& a = asked[n - first];
+        LitPoints& points = lit[n - first];
         if (source.kind == KeptSource::Kind::kGlow) continue;
         const LightNode& node = table.nodes().nodes()[n];
         for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
             if (!table.is_live(n, p)) continue;
-            const std::size_t place = a.lit.count++;
-            a.lit.normal[place] = node.normal[p];
+            const std::size_t place = points.count++;
+            points.normal[place] = node.normal[p];
             const Vec3f normal = unpack_normal(node.normal[p]), geometric = unpack_normal(node.geometric[p]);
             Vec3f dir = source.dir;
             float strength = 1, until_m = std::numeric_limits<float>::infinity();
@@ -111,26 +106,23 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
                 cosine = sum / faced;
             }
             if (cosine * strength <= 0 || (!cone && dot(geometric, dir) <= 0)) continue;
-            a.lit.cosine[place] = cosine, a.lit.received[place] = cosine * strength;
-            // Two points tell of a node's shadow.
-            if (cone || a.rays == 2) continue;
-            of[static_cast<std::size_t>(rays.count)] = n - first;
+            points.cosine[place] = cosine, points.received[place] = cosine * strength;
+            if (cone) continue;
+            of[static_cast<std::size_t>(rays.count)] = &points.received[place];
             rays.set(rays.count, node.point_m[p], dir, 0, until_m);
-            ++a.rays;
             if (++rays.count == kPacketSize) flush();
         }
     }
     flush();
     for (std::size_t n = first; n < last; ++n) {
-        Asked& a = asked[n - first];
-        float share = a.rays > 0 ? static_cast<float>(a.pass) / static_cast<float>(a.rays) : 0;
+        LitPoints& points = lit[n - first];
         if (cone) {
-            share = seen_of_cone(member, light, n);
+            const float share = seen_of_cone(member, light, n);
             member.out->seen[n] = static_cast<std::uint8_t>(std::lround(255 * share));
+            for (float& received : points.received) received *= share;
         }
-        for (float& received : a.lit.received) received *= share;
         Sender& sender = senders[n];
-        send(light, n, a.lit, sender);
+        send(light, n, points, sender);
         if (source.kind == KeptSource::Kind::kGlow)
             sender.diffuse = PackedSpectrum(light.materials_[table.nodes().nodes()[n].surface]->emission);
         if (cone && sender.alpha > 0) widen(light, n, source, sender);
