@@ -138,8 +138,8 @@ void KeptSolver::widen(const KeptLight& light, std::size_t n, const KeptSource& 
     const float paint = std::clamp((sender.alpha - kBegins) / (kWhole - kBegins), 0.0f, 1.0f);
     if (paint == 0) return;
     const float received = sender.lit.mean();
-    const Spectrum albedo =
-        light.facet_color(n, light.albedo(light.table().nodes().nodes()[n].surface).lobe(sender.lit.mean_cosine()));
+    const Spectrum albedo = light.facet_color(
+        n, light.albedo(light.table().nodes().nodes()[n].surface).lobe(sender.lit.mean_cosine()));
     sender.diffuse = PackedSpectrum(sender.diffuse.unpacked() + (paint * received / kPiF) * albedo);
     sender.lobe = PackedSpectrum((1 - paint) * sender.lobe.unpacked());
     sender.gain *= 1 - paint;

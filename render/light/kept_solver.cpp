@@ -30,8 +30,8 @@ void add_lobe(const Sender& from, Vec3f dir, Vec3f source_dir, Spectrum& radianc
         seen += no;
         if (!(from.lit.received[p] > 0)) continue;
         const float nh = std::min((no + ni) * inverse, 1.0f);
-        sum += no * from.lit.received[p] * ggx_distribution(from.alpha, nh) *
-               ggx_visibility(from.alpha, no, ni);
+        sum +=
+            no * from.lit.received[p] * ggx_distribution(from.alpha, nh) * ggx_visibility(from.alpha, no, ni);
     }
     if (!(sum > 0)) return;
     const float law = sum / seen;

@@ -2,7 +2,7 @@
 // Solves kept light (kept_light.h) for a source, over objects that stand near each other together.
 //
 // What a node receives first is summed from what its directions meet (scene/transfer_table.h, kept_links.h),
-// each seen from there as its own reflection law says; then light goes on as from white, grey or coloured
+// each seen from there as its own reflection law says, point by point as these lean; then light goes on as from white, grey or coloured
 // paint until it stays the same (radiosity: Goral et al., SIGGRAPH 84), with the directions in place of form
 // factors. No ray is traced but those that ask which nodes a source shines on, and nothing is drawn by
 // chance.
@@ -50,11 +50,11 @@ class KeptSolver {
     void solve(std::span<const Member> group);
 
   private:
-    // What the points of a node receive of a source, per unit of it.
+    // The points of a node in the light of a source, per unit of it.
     struct LitPoints {
-        std::size_t count = 0;  // points that lie open
-        std::array<std::uint32_t, LightNode::kPoints> normal;         // packed
-        std::array<float, LightNode::kPoints> cosine{}, received{};  // of the source to the normal; irradiance
+        std::size_t count = 0;                                       // points that lie open
+        std::array<std::uint32_t, LightNode::kPoints> normal;        // packed
+        std::array<float, LightNode::kPoints> cosine{}, received{};  // the source's to the normal; irradiance
 
         float sum() const { return std::accumulate(received.begin(), received.end(), 0.0f); }
         float mean() const { return count > 0 ? sum() / static_cast<float>(count) : 0.0f; }
@@ -68,7 +68,7 @@ class KeptSolver {
     struct alignas(64) Sender {
         PackedSpectrum diffuse;
         PackedSpectrum lobe;  // the lobe of its facets at normal incidence, per irradiance
-        float gain;           // of full reflection
+        float gain;           // irradiance that facets send of one that they receive
         float alpha;          // 0: no facets that shine
         LitPoints lit;        // where there are facets
     };

@@ -16,6 +16,7 @@
 
 #include "render/brdf/microfacet.h"
 #include "render/light/kept_scene.h"
+#include "render/light/lamp_light.h"
 #include "render/light/path_models.h"
 #include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
@@ -87,7 +88,7 @@ class TracedPaths final : public PathModel {
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
-    std::array<MirrorRays, kMostSamples / kPacketSize> many_;  // of one mirror's pixel
+    std::array<MirrorRays, kMostSamples / kPacketSize> many_;  // those of one pixel
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
@@ -235,10 +236,11 @@ class TracedPaths final : public PathModel {
             if (meets(frame, out.hits, k, out.rays.origin(k), out.rays.dir(k))) out.met |= 1u << k;
     }
 
-    // True when what these meet sends so little light, against white paint in the Sun, that it matters little which of them meet it:
-    // dark things that face away from the Sun.
+    // True when all that these meet is dark and faces away from the Sun: against the sensor's noise it matters little how much of a
+    // pixel shows it.
     static bool meet_the_dark(const FrameView& frame, const MirrorRays& rays) {
-        constexpr float kDark = 0.1f;
+        constexpr float kDark = 0.1f;  // reflectance
+        if (rays.met != 0 && frame.lamps && !frame.lamps->lit().empty()) return false;
         const Vec3f sun = to_float(frame.background->sun_world_dir());
         const HitPacket& hits = rays.hits;
         for (std::uint32_t rest = rays.met; rest != 0; rest &= rest - 1) {
@@ -248,13 +250,15 @@ class TracedPaths final : public PathModel {
             const Vec3f normal = frame.world_from_body[hits.object[k]] *
                                  Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
             const bool sunlit = dot(normal, sun) * dot(normal, rays.rays.dir(k)) < 0;
-            if (sunlit || largest(material.base) + largest(material.highlight) > kDark) return false;
+            if (sunlit || largest(material.base) + largest(material.highlight) > kDark ||
+                largest(material.emission) > 0)
+                return false;
         }
         return true;
     }
 
-    // Sends rays from the samples of a mirror's pixel in the place of the one from their middle: sixteen, and where these do not
-    // meet the same one from each, `most` at most. Returns how many.
+    // Sends rays from the samples of a mirror's pixel in the place of the one from their middle: sixteen, and one from each, `most`
+    // at most, where not all is dark that those meet. Returns how many.
     std::size_t send_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& found) {
         const Vertex& at = *middle.from;
         SampleMask left = at.samples;

@@ -279,12 +279,13 @@ double light_beside_bar(const char* model, int samples) {
     return sum / static_cast<double>(count);
 }
 
-// What is lit of a place may face away from what sees the place: its facets send nothing there. Of the light between bar and
-// paint there is 1.3 times as much as by random paths, and 4.3 times where they do.
+// A place of a round thing is lit where it faces the Sun and seen where it does not: each of its points sends as it leans. Of the
+// light between bar and paint there is 1.14 times as much as by random paths; by the mean normal of what is lit 1.31 times, and
+// 4.3 times where that may be seen from behind.
 TEST(KeptLight, WhatIsLitOfABarDoesNotShineBehindIt) {
     const double direct = light_beside_bar("direct", 4), paths = light_beside_bar("path", 16) - direct;
     EXPECT_GT(paths, 0);
-    EXPECT_LT(light_beside_bar("kept", 4) - direct, 2 * paths);
+    EXPECT_NEAR((light_beside_bar("kept", 4) - direct) / paths, 1, 0.2);
 }
 
 // White paint: how many of a place's sixty directions meet the bar is chance, but where few do, places have what they have

@@ -124,5 +124,29 @@ TEST(MirrorImage, ADimMirrorShowsThemAsWell) { EXPECT_LT(error_of_strips(64, fal
 // A pixel of 33 mm has some eleven tiles of the mirror, which together are what it shows.
 TEST(MirrorImage, APixelShowsWhatAllTilesInItMirror) { EXPECT_LT(error_of_strips(64, true), 0.13); }
 
+// Bars that face away from the Sun, some pixels of the mirror wide: their light, and how many rays went along paths.
+struct Bars {
+    double light;
+    std::uint64_t rays;
+};
+Bars bars_in_the_shade(double reflectance, const char* model, int samples) {
+    MirrorImage m(model, samples, 48, 64);
+    m.s.sun({-0.5, 0, -1});
+    std::vector<Vec3f> v;
+    std::vector<std::array<std::uint32_t, 3>> t;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        const float x = 0.5f + 0.05f * static_cast<float>(i);
+        v.insert(v.end(), {{x, -0.4f, 1}, {x + 0.02f, -0.4f, 1}, {x + 0.05f, 0.4f, 1}, {x + 0.03f, 0.4f, 1}});
+        t.push_back({4 * i, 4 * i + 1, 4 * i + 2}), t.push_back({4 * i, 4 * i + 2, 4 * i + 3});
+    }
+    m.render(object_of(v, t, lambert(reflectance), m.s.grid));
+    return {m.s.mean(), m.s.stats.secondary_rays};
+}
+TEST(MirrorImage, FewRaysAreEnoughForWhatIsDark) {
+    const Bars dark = bars_in_the_shade(0.08, "kept", 1);
+    EXPECT_LT(2 * dark.rays, bars_in_the_shade(0.9, "kept", 1).rays);
+    EXPECT_NEAR(dark.light / bars_in_the_shade(0.08, "path", 16).light, 1, 0.15);
+}
+
 }  // namespace
 }  // namespace hilcam
