@@ -14,10 +14,10 @@
 
 #include "render/brdf/microfacet.h"
 #include "render/light/kept_source.h"
-#include "render/light/material_albedo.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/flat_mirrors.h"
+#include "render/scene/material_albedo.h"
 #include "render/scene/shown_object.h"
 #include "render/scene/transfer_table.h"
 #include "render/skylight/sky_light.h"

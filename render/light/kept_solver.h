@@ -53,7 +53,7 @@ class KeptSolver {
     // The points of a node in the light of a source, per unit of it.
     struct LitPoints {
         std::size_t count = 0;                                       // points that lie open
-        std::array<std::uint32_t, LightNode::kPoints> normal;        // packed
+        std::array<std::uint32_t, LightNode::kPoints> normal{};      // packed
         std::array<float, LightNode::kPoints> cosine{}, received{};  // the source's to the normal; irradiance
 
         float sum() const { return std::accumulate(received.begin(), received.end(), 0.0f); }

@@ -19,9 +19,9 @@
 #include <span>
 #include <vector>
 
-#include "render/light/material_albedo.h"
 #include "render/light/tile.h"
 #include "render/scene/flat_mirrors.h"
+#include "render/scene/material_albedo.h"
 #include "render/scene/mirror_beam.h"
 #include "render/scene/shown_object.h"
 

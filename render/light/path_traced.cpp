@@ -16,11 +16,12 @@
 
 #include "render/brdf/microfacet.h"
 #include "render/light/kept_scene.h"
-#include "render/light/lamp_light.h"
+#include "render/light/mirror_rays.h"
 #include "render/light/path_models.h"
 #include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
+#include "render/visibility/place_sequence.h"
 
 namespace hilcam {
 namespace {
@@ -69,16 +70,6 @@ class TracedPaths final : public PathModel {
     // What a mirror of this reflectance shows is looked for in any case: a glint in it is as bright as paint.
     static constexpr float kBright = 0.1f;
     static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
-    // Numbers of a sequence that fills the square evenly, however few follow each other (multiples of the plastic number's
-    // powers: Roberts 2018, extremelearning.com.au).
-    static constexpr float kAlong = 0.7548777f, kAbout = 0.5698403f;
-    // The rays through one mirror's pixel that are traced together, and what they meet.
-    struct MirrorRays {
-        RayPacket rays;
-        HitPacket hits;
-        std::uint32_t met = 0;  // a bit for each that meets something
-    };
-
     std::array<Vertex, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
     Vertex* current_ = a_.data();
@@ -88,7 +79,7 @@ class TracedPaths final : public PathModel {
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
-    std::array<MirrorRays, kMostSamples / kPacketSize> many_;  // those of one pixel
+    MirrorRays many_;
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
@@ -145,7 +136,7 @@ class TracedPaths final : public PathModel {
         return ray_count;
     }
 
-    // Rays from a vertex that keeps light: a mirror's one direction, in whose place send_many() may put more, four of a narrow
+    // Rays from a vertex that keeps light: a mirror's one direction, in whose place follow_many() may put more, four of a narrow
     // lobe, both of a sheet of glass.
     void continue_kept(Tile& tile, Vertex& at, std::size_t& ray_count) {
         const Scatterer& surface = at.surface;
@@ -211,79 +202,22 @@ class TracedPaths final : public PathModel {
         return size_m < kSmall * width_m;
     }
 
-    // Sends some of a mirror's rays, each from another of the samples that are left and by a facet of its own. first: how many
-    // there were before.
-    static void send(Tile& tile, const Vertex& at, SampleMask& left, std::size_t first, std::size_t count,
-                     MirrorRays& out) {
-        const FrameView& frame = tile.frame;
-        const float distance_m = at.footprint_m * static_cast<float>(frame.geometry.focal_length_px);
-        const Frame local(at.normal);
-        out.rays.count = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3f way_m = way_to_sample(tile, at, next_sample(frame.samples, left, at.samples));
-            const float number = static_cast<float>(first + i) + 0.5f;
-            const Vec3f dir =
-                sample_facets(at.surface.alpha, local, normalized(distance_m * at.view_dir - way_m),
-                              std::fmod(kAlong * number, 1.0f), std::fmod(kAbout * number, 1.0f));
-            if (dot(at.geometric_normal, dir) > 0)
-                out.rays.set(out.rays.count++, at.start() + way_m, dir, 0,
-                             std::numeric_limits<float>::infinity());
-        }
-        frame.scene->intersect(out.rays, Coherence::kCoherent, out.hits);
-        tile.stats.secondary_rays += static_cast<std::uint64_t>(out.rays.count);
-        out.met = 0;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(out.rays.count); ++k)
-            if (meets(frame, out.hits, k, out.rays.origin(k), out.rays.dir(k))) out.met |= 1u << k;
-    }
-
-    // True when all that these meet is dark and faces away from the Sun: against the sensor's noise it matters little how much of a
-    // pixel shows it.
-    static bool meet_the_dark(const FrameView& frame, const MirrorRays& rays) {
-        constexpr float kDark = 0.1f;  // reflectance
-        if (rays.met != 0 && frame.lamps && !frame.lamps->lit().empty()) return false;
-        const Vec3f sun = to_float(frame.background->sun_world_dir());
-        const HitPacket& hits = rays.hits;
-        for (std::uint32_t rest = rays.met; rest != 0; rest &= rest - 1) {
-            const auto k = static_cast<std::size_t>(std::countr_zero(rest));
-            const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
-            const Material& material = object.materials[object.triangles[hits.triangle[k]].surface];
-            const Vec3f normal = frame.world_from_body[hits.object[k]] *
-                                 Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
-            const bool sunlit = dot(normal, sun) * dot(normal, rays.rays.dir(k)) < 0;
-            if (sunlit || largest(material.base) + largest(material.highlight) > kDark ||
-                largest(material.emission) > 0)
-                return false;
-        }
-        return true;
-    }
-
-    // Sends rays from the samples of a mirror's pixel in the place of the one from their middle: sixteen, and one from each, `most`
-    // at most, where not all is dark that those meet. Returns how many.
-    std::size_t send_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& found) {
-        const Vertex& at = *middle.from;
-        SampleMask left = at.samples;
-        const std::size_t all = std::min(static_cast<std::size_t>(std::popcount(left)), most);
-        std::size_t sent = 0;
-        for (MirrorRays& rays : many_) {
-            const std::size_t count = std::min<std::size_t>(kPacketSize, all - sent);
-            send(tile, at, left, sent, count, rays);
-            sent += count;
-            if (sent == all || (sent == count && meet_the_dark(tile.frame, rays))) break;
-        }
+    // Follows many rays of a mirror's pixel, `most` at most, in the place of the one from its middle. Returns how many.
+    std::size_t follow_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& found) {
+        const std::size_t sent = many_.trace(tile, *middle.from, most);
         NextRay ray = middle;
         const float share = 1 / static_cast<float>(sent);
         ray.weight = share * middle.weight;
         Spectrum free;
         add_background_seen(tile.frame, middle, free);
         const std::size_t begin = found;
-        for (std::size_t first = 0; first < sent; first += kPacketSize) {
-            const MirrorRays& rays = many_[first / kPacketSize];
-            const int free_rays = rays.rays.count - std::popcount(rays.met);
-            if (free_rays > 0) tile.add(at, (share * static_cast<float>(free_rays)) * free);
-            for (std::uint32_t rest = rays.met; rest != 0; rest &= rest - 1) {
+        for (const MirrorRays::Packet& packet : many_.packets()) {
+            const int met_nothing = packet.rays.count - std::popcount(packet.met);
+            if (met_nothing > 0) tile.add(*middle.from, (share * static_cast<float>(met_nothing)) * free);
+            for (std::uint32_t rest = packet.met; rest != 0; rest &= rest - 1) {
                 const auto k = static_cast<std::size_t>(std::countr_zero(rest));
-                ray.origin_m = rays.rays.origin(k), ray.dir = rays.rays.dir(k);
-                if (add_met(tile.frame, rays.hits, k, ray, found) && !join(ray, following_, begin, found))
+                ray.origin_m = packet.rays.origin(k), ray.dir = packet.rays.dir(k);
+                if (add_met(tile.frame, packet.hits, k, ray, found) && !join(ray, following_, begin, found))
                     ++found;
             }
         }
@@ -321,8 +255,8 @@ class TracedPaths final : public PathModel {
             const Vertex& from = *followers.vertex[i % followers.count];
             const auto number = static_cast<float>(at.sample + i);
             const Vec3f facet = local.to_world(sample_visible_normal(
-                at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kAlong * number, 1.0f),
-                std::fmod(0.25f * quarter + kAbout * number, 1.0f)));
+                at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kPlasticAlong * number, 1.0f),
+                std::fmod(0.25f * quarter + kPlasticAbout * number, 1.0f)));
             const Vec3f dir = normalized(reflect(at.view_dir, facet));
             if (dot(from.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
                 next_[ray_count++] = {&at, from.start(), dir, 0, at.surface.alpha, false, {}, false, false};
@@ -363,13 +297,6 @@ class TracedPaths final : public PathModel {
         return hits;
     }
 
-    static bool meets(const FrameView& frame, const HitPacket& hits, std::size_t k, Vec3f origin_m,
-                      Vec3f dir) {
-        return hits.object[k] != HitPacket::kMiss &&
-               !(frame.bodies_may_hide &&
-                 frame.background->hides(origin_m, to_double(dir), static_cast<double>(hits.distance[k])));
-    }
-
     // Makes what a ray has met the vertex after those that are found. False where there is nothing to see.
     bool add_met(const FrameView& frame, const HitPacket& hits, std::size_t k, const NextRay& ray,
                  std::size_t found) {
@@ -399,7 +326,7 @@ class TracedPaths final : public PathModel {
             const HitPacket& hits = trace_packet(tile, first, count, mirror_hits_[first / kPacketSize]);
             for (std::size_t k = 0; k < count; ++k) {
                 const NextRay& ray = next_[first + k];
-                if (meets(tile.frame, hits, k, ray.origin_m, ray.dir) && has_met_a_part(hits, k, ray))
+                if (meets_object(tile.frame, hits, k, ray.origin_m, ray.dir) && has_met_a_part(hits, k, ray))
                     mark_about(tile, *ray.from, hits.distance[k]);
             }
         }
@@ -465,10 +392,10 @@ class TracedPaths final : public PathModel {
                 const NextRay& ray = next_[first + k];
                 if (first < mirrors && near_part_[ray.from->pixel]) {
                     // All have the same room.
-                    room -= send_many(tile, ray, room / marked--, found);
+                    room -= follow_many(tile, ray, room / marked--, found);
                     continue;
                 }
-                if (!meets(frame, hits, k, ray.origin_m, ray.dir)) {
+                if (!meets_object(frame, hits, k, ray.origin_m, ray.dir)) {
                     if (ray.sees_bodies)
                         add_background(tile, ray);
                     else

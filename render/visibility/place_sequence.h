@@ -33,4 +33,8 @@ inline std::array<float, 2> place_in_sequence(std::uint32_t index, std::uint32_t
     return {uniform01(reversed_bits(index) ^ word_x), uniform01(sobol_word(index) ^ word_y)};
 }
 
+// Multiples of these, without their whole parts, fill the square evenly however few follow each other (powers of the plastic number:
+// Roberts 2018, extremelearning.com.au).
+inline constexpr float kPlasticAlong = 0.7548777f, kPlasticAbout = 0.5698403f;
+
 }  // namespace hilcam

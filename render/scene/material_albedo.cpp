@@ -1,4 +1,4 @@
-#include "render/light/material_albedo.h"
+#include "render/scene/material_albedo.h"
 
 #include <algorithm>
 #include <cmath>
