@@ -59,9 +59,10 @@ KeptLight::KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedo
     const std::vector<Material>& materials = object.materials();
     for (const Material& material : materials) materials_.push_back(&material);
     for (const Vec3f d : transfer_directions(table_->directions()))
-        local_x_.push_back(d.x), local_y_.push_back(d.y), local_z_.push_back(d.z), counts_.push_back(1);
-    while (counts_.size() % kDirectionLanes != 0)
-        local_x_.push_back(0), local_y_.push_back(0), local_z_.push_back(1), counts_.push_back(0);
+        local_x_.push_back(d.x), local_y_.push_back(d.y), local_z_.push_back(d.z),
+            per_cosine_.push_back(1 / d.z);
+    while (per_cosine_.size() % kDirectionLanes != 0)
+        local_x_.push_back(0), local_y_.push_back(0), local_z_.push_back(1), per_cosine_.push_back(0);
 
     const std::vector<LightNode>& nodes = table_->nodes().nodes();
     const bool textured =

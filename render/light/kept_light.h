@@ -166,6 +166,9 @@ class KeptLight {
   private:
     friend class KeptSolver;
     static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
+    // The same of a solution, and of links, that need not be those that are shown; null: there are none.
+    Lobe lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
+              std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
     // The values of a node that lookups of lobes read, side by side.
     struct alignas(32) LobeNode {
         std::uint32_t normal;              // packed
@@ -195,7 +198,7 @@ class KeptLight {
     float step_rad_;
     // Local directions, component by component, and after them some that never count, to full vectors.
     static constexpr std::size_t kMaxDirections = 256;
-    std::vector<float> local_x_, local_y_, local_z_, counts_;
+    std::vector<float> local_x_, local_y_, local_z_, per_cosine_;  // the last: one over the third, or 0
     std::vector<Spectrum> colors_;          // by node where there are textures; else empty
     std::vector<PackedSpectrum> white_;     // by node: albedo over pi
     std::vector<LobeNode> lobes_;           // by node

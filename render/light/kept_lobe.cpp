@@ -20,10 +20,12 @@ struct LobeQuery {
     float whole = 0, kept = 0;
 };
 
-// The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a
-// narrow one. counts: 0 for directions that only fill up. n is a multiple of kDirectionLanes.
+// The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a narrow one. Directions
+// lie as the cosine to the node's normal, so that of a surface which leans against it each counts by the ratio of both cosines
+// (importance sampling: Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the node's; 0 for
+// directions that only fill up. n is a multiple of kDirectionLanes.
 HILCAM_CLONES
-void lobe_weights(const float* x, const float* y, const float* z, const float* counts, std::size_t n,
+void lobe_weights(const float* x, const float* y, const float* z, const float* per_cosine, std::size_t n,
                   LobeQuery& query, float* whole, float* kept) {
     // A narrow lobe's tails begin 15 degrees from the mirror's direction and are whole at 30.
     constexpr float kNone = 0.966f, kWhole = 0.866f;
@@ -32,7 +34,7 @@ void lobe_weights(const float* x, const float* y, const float* z, const float* c
     for (std::size_t d = 0; d < n; ++d) {
         const float ni = x[d] * m.x + y[d] * m.y + z[d] * m.z;
         const float io = x[d] * v.x + y[d] * v.y + z[d] * v.z;
-        whole[d] = (ni > 0 ? counts[d] : 0.0f) * law.at(std::max(ni, 1e-3f), io);
+        whole[d] = (ni > 0 ? ni * per_cosine[d] : 0.0f) * law.at(std::max(ni, 1e-3f), io);
     }
     if (query.narrow)
         for (std::size_t d = 0; d < n; ++d) {
@@ -82,8 +84,13 @@ void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
 
 KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t n, Vec3f normal,
                                 Vec3f view_dir, float alpha) const {
+    if (lobes_[n].all_free) return {};
+    return lobe(sun == kNoTerm ? nullptr : &terms_[sun], links_, cones, n, normal, view_dir, alpha);
+}
+
+KeptLight::Lobe KeptLight::lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
+                                std::uint32_t n, Vec3f normal, Vec3f view_dir, float alpha) const {
     const LobeNode& node = lobes_[n];
-    if (node.all_free) return {};
     const Local axes = local(node);
     LobeQuery query{.law = {alpha, std::max(dot(normal, view_dir), 1e-2f)},
                     .normal = axes.dir(normal),
@@ -91,8 +98,8 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
                     .mirror = axes.dir(reflect(view_dir, normal)),
                     .narrow = alpha < kNarrowestKept};
     alignas(64) std::array<float, kMaxDirections> whole, kept;  // weights, by direction
-    lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), counts_.data(), counts_.size(), query,
-                 whole.data(), kept.data());
+    lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), per_cosine_.data(), per_cosine_.size(),
+                 query, whole.data(), kept.data());
     // Points that are buried do not count.
     const std::size_t of_point = table_->directions_of_point();
     for (std::size_t p = 0; p < LightNode::kPoints; ++p)
@@ -108,13 +115,13 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
         const ConeShare cone(axes.dir(cones[c].dir), cones[c].cosine, table_->directions());
         alignas(64) std::array<float, kMaxDirections> in_cone;
         const float of_cone = cone_weights(local_x_.data(), local_y_.data(), local_z_.data(), whole.data(),
-                                           counts_.size(), cone, in_cone.data());
+                                           per_cosine_.size(), cone, in_cone.data());
         float met = 0;
         for_each_met(n, [&](std::size_t d) { met += in_cone[d]; });
         out.free[c] = of_cone > 0 ? std::clamp(1 - met / of_cone, 0.0f, 1.0f) : 0.0f;
     }
-    const bool facets = sun != kNoTerm && node.first_along != kNoLobe;
-    const PackedSpectrum* along = facets ? terms_[sun].along.data() + node.first_along : nullptr;
+    const bool facets = sun && node.first_along != kNoLobe;
+    const PackedSpectrum* along = facets ? sun->along.data() + node.first_along : nullptr;
     float occupied = 0;
     std::size_t met_nodes = node.entries;
     const TransferTable::Entry* const entries = table_->entry(node.first_entry);
@@ -125,10 +132,9 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
         out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
         for (std::size_t i = 0; i < node.entries; ++i) brought.add(of_entry[i] * along[i].greatest());
     }
-    if (links_ && !links_->empty()) {
-        const PackedSpectrum* there =
-            sun != kNoTerm ? terms_[sun].along_links.data() + links_->first(n) : nullptr;
-        for (const KeptLinks::Link& link : links_->of(n)) {
+    if (links && !links->empty()) {
+        const PackedSpectrum* there = sun ? sun->along_links.data() + links->first(n) : nullptr;
+        for (const KeptLinks::Link& link : links->of(n)) {
             ++met_nodes;
             occupied += kept[link.direction];
             if (!there) continue;

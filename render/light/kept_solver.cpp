@@ -62,8 +62,10 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
         base_.push_back(nodes);
         if (light) nodes += light->table().size();
     }
-    senders_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes),
-        now_.resize(nodes), before_.resize(nodes);
+    senders_.resize(nodes), shines_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes),
+        first_.resize(nodes), sends_on_.resize(nodes), by_lobes_.resize(nodes), second_.resize(nodes),
+        first_second_.resize(nodes), now_.resize(nodes), before_.resize(nodes);
+    second_along_.resize(lights_.size());
     if (std::any_of(lights_.begin(), lights_.end(),
                     [](const KeptLight* light) { return light && light->throws_sun(); }))
         mirrored_.resize(nodes);
@@ -72,6 +74,7 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
 void KeptSolver::solve(std::span<const Member> group) {
     for (const Member& member : group) light_nodes(member);
     for (const Member& member : group) gather_first(member, group);
+    for (const Member& member : group) gather_second(member);
     bounce(group);
     for (const Member& member : group) smooth(member), store(member);
 }
@@ -112,6 +115,10 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
                 brought += {bright, bright * bright};
             };
             for (const TransferTable::Entry e : table.entries(n)) {
+                if (!shines_[base + e.node]) {
+                    if (along) *along++ = {};
+                    continue;
+                }
                 const Sender& from = senders_[base + e.node];
                 Spectrum radiance = from.diffuse.unpacked();
                 if (from.alpha > 0)
@@ -155,7 +162,8 @@ void KeptSolver::bounce(std::span<const Member> group) {
             const std::size_t base = base_[member.object];
             tbb::parallel_for(Nodes(0, light.table().size(), 4096), [&](const Nodes& r) {
                 for (std::size_t n = r.begin(); n < r.end(); ++n)
-                    radiosity_[base + n] = light.white_[n].unpacked() * now_[base + n];
+                    radiosity_[base + n] = at_least_zero(light.white_[n].unpacked() * now_[base + n] +
+                                                         -1.0f * by_lobes_[base + n]);
             });
         }
         Progress step;
@@ -193,9 +201,9 @@ KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
             for (std::size_t n = r.begin(); n < r.end(); ++n) {
                 Spectrum met;
                 for (const TransferTable::Entry e : table.entries(n)) met += radiosity_[base + e.node];
-                for (const KeptLinks::Link& link : member.links->of(n))
-                    met += radiosity_[base_[link.object] + link.node];
-                const Spectrum next = first_[base + n] + (kPiF / static_cast<float>(table.counted(n))) * met;
+                for (const KeptLinks::Link& link : member.links->of(n)) met += radiosity_to(link);
+                const Spectrum next = first_[base + n] + second_[base + n] +
+                                      (kPiF / static_cast<float>(table.counted(n))) * met;
                 // By how much of it can be seen from outside; a little, so that closed rooms have an end too.
                 const double weight = 0.01 + static_cast<double>(std::popcount(table.free(n)[0]));
                 for (int b = 0; b < kMaxBins; ++b)
@@ -252,13 +260,16 @@ void KeptSolver::store(const Member& member) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             out.irradiance[n] = PackedSpectrum(before_[base + n]);
             if (!keeps_along) continue;
-            std::size_t to = light.lobes_[n].first_along;
+            std::size_t to = light.lobes_[n].first_along, second = first_second_[base + n];
             if (to != KeptLight::kNoLobe)
-                for (const TransferTable::Entry e : light.table().entries(n))
-                    add_to(out.along[to++], radiosity_[base + e.node]);
+                for (const TransferTable::Entry e : light.table().entries(n)) {
+                    Spectrum more = radiosity_[base + e.node];
+                    if (sends_on_[base + e.node]) more += second_along_[member.object][second++].unpacked();
+                    add_to(out.along[to++], more);
+                }
             std::size_t link_to = member.links->empty() ? 0 : member.links->first(n);
             for (const KeptLinks::Link& link : member.links->of(n))
-                add_to(out.along_links[link_to++], radiosity_[base_[link.object] + link.node]);
+                add_to(out.along_links[link_to++], radiosity_to(link));
         }
     });
 }

@@ -2,7 +2,8 @@
 // Solves kept light (kept_light.h) for a source, over objects that stand near each other together.
 //
 // What a node receives first is summed from what its directions meet (scene/transfer_table.h, kept_links.h),
-// each seen from there as its own reflection law says, point by point as these lean; then light goes on as from white, grey or coloured
+// each seen from there as its own reflection law says, point by point as these lean. What is bright of the Sun's light goes on so
+// once more within an object, by lobes about what a node's directions have brought; then light goes on as from white, grey or coloured
 // paint until it stays the same (radiosity: Goral et al., SIGGRAPH 84), with the directions in place of form
 // factors. No ray is traced but those that ask which nodes a source shines on, and nothing is drawn by
 // chance.
@@ -11,8 +12,8 @@
 // up has it sharp (mirrored_suns.h).
 //
 // The approximation: facets that other surfaces see are at least so wide that the directions find their
-// light; from the second bounce on everything scatters as a diffuse surface of the same albedo; glass is
-// clear.
+// light; from the third bounce on (of what is dim, of lamps and bodies, and between objects from the second) everything
+// scatters as a diffuse surface of the same albedo; glass is clear.
 
 #include <algorithm>
 #include <array>
@@ -43,10 +44,12 @@ class KeptSolver {
     std::span<const KeptLight* const> lights() const { return lights_; }
     // Returns an object's share of the workspace.
     std::size_t bytes(std::size_t object) const {
-        return lights_[object]->table().size() *
-               (sizeof(Sender) + sizeof(Brought) + (mirrored_.empty() ? 4 : 5) * sizeof(Spectrum));
+        constexpr std::size_t kOfNode =
+            sizeof(Sender) + sizeof(Brought) + sizeof(std::uint32_t) + 2 + 6 * sizeof(Spectrum);
+        return lights_[object]->table().size() * (kOfNode + (mirrored_.empty() ? 0 : sizeof(Spectrum))) +
+               second_along_[object].capacity() * sizeof(PackedSpectrum);
     }
-    // One term. On oneTBB. Nothing is allocated but by links that are more than ever before.
+    // One term. On oneTBB. Nothing is allocated but by links, or lobes that send on, that are more than ever before.
     void solve(std::span<const Member> group);
 
   private:
@@ -89,9 +92,18 @@ class KeptSolver {
     const EmbreeScene& scene_;
     std::vector<std::size_t> base_;  // by object: of its nodes in what follows
     std::vector<Sender> senders_;
+    std::vector<std::uint8_t>
+        shines_;  // by node: it sends anything; most of the dark side is told by this alone
     std::vector<Spectrum> radiosity_;  // over pi
     std::vector<Brought> brought_;
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
+    // What has come by one way and goes on by the lobes of bright facets: whether a node has such, the part of what it sends,
+    // over pi, which therefore is no radiosity, and the irradiance that others' make.
+    std::vector<std::uint8_t> sends_on_;
+    std::vector<Spectrum> by_lobes_, second_;
+    // By object: radiance along the entries of nodes with facets that meet such nodes; by node: the number of its first.
+    std::vector<std::vector<PackedSpectrum>> second_along_;
+    std::vector<std::uint32_t> first_second_;
     // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
     std::vector<Spectrum> mirrored_;
 
@@ -102,6 +114,15 @@ class KeptSolver {
     static void widen(const KeptLight& light, std::size_t node, const KeptSource& source, Sender& sender);
     static float seen_of_cone(const Member& member, const KeptLight& light, std::size_t node);
     void gather_first(const Member& member, std::span<const Member> group);
+    void gather_second(const Member& member);
+    void part_lobes(const Member& member);
+    std::size_t number_second(const Member& member);
+    Spectrum sent_on(const Member& member, std::size_t node, float choice, Vec3f to) const;
+    // What goes on to another object goes as from paint.
+    Spectrum radiosity_to(const KeptLinks::Link& link) const {
+        const std::size_t n = base_[link.object] + link.node;
+        return radiosity_[n] + by_lobes_[n];
+    }
     void bounce(std::span<const Member> group);
     Progress gather_again(const Member& member);
     void smooth(const Member& member);
