@@ -198,7 +198,8 @@ class KeptLight {
     float step_rad_;
     // Local directions, component by component, and after them some that never count, to full vectors.
     static constexpr std::size_t kMaxDirections = 256;
-    std::vector<float> local_x_, local_y_, local_z_, per_cosine_;  // the last: one over the third, or 0
+    std::vector<float> local_x_, local_y_, local_z_;
+    std::vector<float> per_cosine_;         // one over local_z_, or 0
     std::vector<Spectrum> colors_;          // by node where there are textures; else empty
     std::vector<PackedSpectrum> white_;     // by node: albedo over pi
     std::vector<LobeNode> lobes_;           // by node

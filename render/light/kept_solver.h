@@ -92,16 +92,15 @@ class KeptSolver {
     const EmbreeScene& scene_;
     std::vector<std::size_t> base_;  // by object: of its nodes in what follows
     std::vector<Sender> senders_;
-    std::vector<std::uint8_t>
-        shines_;  // by node: it sends anything; most of the dark side is told by this alone
-    std::vector<Spectrum> radiosity_;  // over pi
+    std::vector<std::uint8_t> shines_;  // by node: it sends anything, as most of the dark side does not
+    std::vector<Spectrum> radiosity_;   // over pi
     std::vector<Brought> brought_;
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
-    // What has come by one way and goes on by the lobes of bright facets: whether a node has such, the part of what it sends,
+    // Light that has come by one way and goes on by the lobes of bright facets: whether a node has such, the part of what it sends,
     // over pi, which therefore is no radiosity, and the irradiance that others' make.
     std::vector<std::uint8_t> sends_on_;
     std::vector<Spectrum> by_lobes_, second_;
-    // By object: radiance along the entries of nodes with facets that meet such nodes; by node: the number of its first.
+    // Radiance along the entries of nodes with facets that meet such nodes, by object; and the number of each node's first.
     std::vector<std::vector<PackedSpectrum>> second_along_;
     std::vector<std::uint32_t> first_second_;
     // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
@@ -118,7 +117,7 @@ class KeptSolver {
     void part_lobes(const Member& member);
     std::size_t number_second(const Member& member);
     Spectrum sent_on(const Member& member, std::size_t node, float choice, Vec3f to) const;
-    // What goes on to another object goes as from paint.
+    // Returns what a node of another object sends along a link: all of it as paint does.
     Spectrum radiosity_to(const KeptLinks::Link& link) const {
         const std::size_t n = base_[link.object] + link.node;
         return radiosity_[n] + by_lobes_[n];
