@@ -155,6 +155,10 @@ std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfac
 
 namespace {
 
+// Texels may be so much coarser than a level's error, and then are a pixel at most where an object is nearest: that blurs gaps, but has
+// their light, which samples that are lit from the middles of gaps have not (docs/decisions.md).
+constexpr double kTexelOverError = 4;
+
 // Places of a mosaic are found from its ground's triangle, by its edges.
 bool reaches_all(const Mesh& mesh, std::uint32_t triangle, const Mosaic& mosaic) {
     const auto& [a, b, c] = mesh.triangles[triangle];
@@ -171,7 +175,8 @@ void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, c
     const std::vector<MosaicParts> parts = mosaic_parts(*mosaics, mesh, may_be_in_mosaics(mesh, surfaces));
     for (std::size_t m = 0; m < parts.size(); ++m) {
         const Mosaic& mosaic = (*mosaics)[m];
-        if (1.001 * error_m < static_cast<double>(mosaic.texel_m) || parts[m].ground.empty()) continue;
+        if (kTexelOverError * error_m < static_cast<double>(mosaic.texel_m) || parts[m].ground.empty())
+            continue;
         const std::uint32_t ground = parts[m].ground.front();
         if (!reaches_all(mesh, ground, mosaic)) continue;
         if (surfaces.patches.empty()) {

@@ -31,8 +31,8 @@ void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces);
 
 // By triangle, 1 where a mosaic may have it (mosaic_finder.h). Owner thread.
 std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces);
-// In a level of detail, the ground's largest triangle stands for all of a mosaic where its texels are no coarser than the level's
-// error, and what lies on the ground is not shown by itself. After find_patches(). Owner thread.
+// In a level of detail, the ground's largest triangle stands for all of a mosaic where its texels are at most four times as coarse as
+// the level's error, and what lies on the ground is not shown by itself. After find_patches(). Owner thread.
 void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, const Mesh& mesh,
                     double error_m, ObjectSurfaces& surfaces);
 

@@ -19,7 +19,7 @@ std::vector<Material> widened(std::vector<Material> materials, const std::vector
 }
 
 // Levels of smaller errors, over the object's size, have no mosaics: texels would be many.
-constexpr double kFinestMosaic = 1.0 / 16384;
+constexpr double kFinestMosaic = 1.0 / 65536;
 
 }  // namespace
 
