@@ -152,7 +152,7 @@ TEST(Mosaic, TheGroundStandsForAllInALevelOfDetail) {
     ObjectSurfaces surfaces = surfaces_of(mesh);
     find_patches(mesh, surfaces);
     const auto mosaics = std::make_shared<const std::vector<Mosaic>>(mosaics_of(mesh));
-    attach_mosaics(mosaics, mesh, 0.9 * kError_m, surfaces);  // too fine a level
+    attach_mosaics(mosaics, mesh, 0.24 * kError_m, surfaces);  // too fine a level
     EXPECT_EQ(surfaces.mosaics, nullptr);
     attach_mosaics(mosaics, mesh, kError_m, surfaces);
     ASSERT_EQ(surfaces.mosaics, mosaics);
