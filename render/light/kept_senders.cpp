@@ -13,6 +13,7 @@
 #include "render/light/kept_solver.h"
 #include "render/light/lamp_light.h"
 #include "render/scene/surface.h"
+#include "render/vocabulary/random.h"
 
 namespace hilcam {
 namespace {
@@ -182,9 +183,7 @@ void KeptSolver::part_lobes(const Member& member) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             sends_on_[base + n] = 0, by_lobes_[base + n] = {};
             if (!keeps_along || light.lobes_[n].first_along == KeptLight::kNoLobe) continue;
-            Spectrum came = first_[base + n];
-            if (light.throws_sun())
-                for (int b = 0; b < kMaxBins; ++b) came[b] = std::max(0.0f, came[b] - mirrored_[base + n][b]);
+            const Spectrum came = light.throws_sun() ? unmirrored(first_, base + n) : first_[base + n];
             const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
             const Spectrum sent =
                 (1 / kPiF) * (light.facet_color(n, light.albedo(surface).white_lobe()) * came);
@@ -223,8 +222,8 @@ void KeptSolver::gather_second(const Member& member) {
     }
     std::vector<PackedSpectrum>& along = second_along_[member.object];
     if (const std::size_t count = number_second(member); count > along.size()) along.resize(count);
-    // Neighbours in the golden section's sequence take points in turn.
-    constexpr float kGolden = 0.61803399f;
+    // The golden section of 2^32, so that a place's points take turns (Schretter et al., Journal of Graphics Tools 16(2), 2012).
+    constexpr std::uint32_t kGolden = 0x9E3779B9;
     tbb::parallel_for(Nodes(0, table.size(), kSendBlock), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const bool has_facets = light.lobes_[n].first_along != KeptLight::kNoLobe;
@@ -232,9 +231,8 @@ void KeptSolver::gather_second(const Member& member) {
             Spectrum sum;
             for (const TransferTable::Entry e : table.entries(n)) {
                 if (!sends_on_[base + e.node]) continue;
-                const float number = kGolden * static_cast<float>((n + e.direction) % 4096);
-                const Spectrum sent =
-                    sent_on(member, e.node, number - std::floor(number), -light.direction(n, e.direction));
+                const float choice = uniform01(kGolden * static_cast<std::uint32_t>(n + e.direction));
+                const Spectrum sent = sent_on(member, e.node, choice, -light.direction(n, e.direction));
                 if (has_facets) along[to++] = PackedSpectrum(sent);
                 sum += sent;
             }
@@ -256,8 +254,9 @@ Spectrum KeptSolver::sent_on(const Member& member, std::size_t n, float choice, 
     }
     if (!(all > 0)) return {};
     std::size_t p = 0;
-    for (float rest = choice * all; p + 1 < LightNode::kPoints && rest >= facing[p]; ++p) rest -= facing[p];
-    if (!(facing[p] > 0)) return {};
+    float rest = choice * all;
+    for (std::size_t i = 0; i < LightNode::kPoints && rest >= 0; rest -= facing[i++])
+        if (facing[i] > 0) p = i;
     const float alpha =
         std::max(light.materials_[node.surface]->ggx_alpha, KeptLight::min_alpha(light.table()));
     const KeptLight::Lobe lobe = light.lobe(member.out, member.links, {}, static_cast<std::uint32_t>(n),

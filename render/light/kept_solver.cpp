@@ -65,10 +65,17 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
     senders_.resize(nodes), shines_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes),
         first_.resize(nodes), sends_on_.resize(nodes), by_lobes_.resize(nodes), second_.resize(nodes),
         first_second_.resize(nodes), now_.resize(nodes), before_.resize(nodes);
+    // Addresses for the most there can be; pages are taken as they are needed.
     second_along_.resize(lights_.size());
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        if (lights_[i]) second_along_[i].reserve(lights_[i]->along_);
     if (std::any_of(lights_.begin(), lights_.end(),
                     [](const KeptLight* light) { return light && light->throws_sun(); }))
         mirrored_.resize(nodes);
+}
+
+Spectrum KeptSolver::unmirrored(const std::vector<Spectrum>& irradiance, std::size_t n) const {
+    return at_least_zero(irradiance[n] + -1.0f * mirrored_[n]);
 }
 
 void KeptSolver::solve(std::span<const Member> group) {
@@ -229,9 +236,7 @@ void KeptSolver::smooth(const Member& member) {
     const KeptLight& light = *lights_[member.object];
     const std::size_t base = base_[member.object];
     const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
-    const auto kept = [&](std::size_t n) {
-        return subtract ? at_least_zero(now_[base + n] + -1.0f * mirrored_[base + n]) : now_[base + n];
-    };
+    const auto kept = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
     tbb::parallel_for(Nodes(0, light.table().size(), kBlock), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const std::span<const std::uint32_t> beside = light.neighbours(n);

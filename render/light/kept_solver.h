@@ -47,9 +47,9 @@ class KeptSolver {
         constexpr std::size_t kOfNode =
             sizeof(Sender) + sizeof(Brought) + sizeof(std::uint32_t) + 2 + 6 * sizeof(Spectrum);
         return lights_[object]->table().size() * (kOfNode + (mirrored_.empty() ? 0 : sizeof(Spectrum))) +
-               second_along_[object].capacity() * sizeof(PackedSpectrum);
+               second_along_[object].size() * sizeof(PackedSpectrum);
     }
-    // One term. On oneTBB. Nothing is allocated but by links, or lobes that send on, that are more than ever before.
+    // One term. On oneTBB. Nothing is allocated but by links that are more than ever before.
     void solve(std::span<const Member> group);
 
   private:
@@ -122,6 +122,8 @@ class KeptSolver {
         const std::size_t n = base_[link.object] + link.node;
         return radiosity_[n] + by_lobes_[n];
     }
+    // Returns a node's irradiance without what mirrors throw there. Only of an object that has such.
+    Spectrum unmirrored(const std::vector<Spectrum>& irradiance, std::size_t node) const;
     void bounce(std::span<const Member> group);
     Progress gather_again(const Member& member);
     void smooth(const Member& member);

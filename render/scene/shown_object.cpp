@@ -18,7 +18,8 @@ std::vector<Material> widened(std::vector<Material> materials, const std::vector
     return materials;
 }
 
-// Levels of smaller errors, over the object's size, have no mosaics: texels would be many.
+// Levels of smaller errors, over the object's size, have no mosaics: texels of small panels would be many. Those of a satellite with
+// wings from 20 to 40 m have more (docs/decisions.md).
 constexpr double kFinestMosaic = 1.0 / 65536;
 
 }  // namespace

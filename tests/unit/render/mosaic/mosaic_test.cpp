@@ -154,7 +154,7 @@ TEST(Mosaic, TheGroundStandsForAllInALevelOfDetail) {
     const auto mosaics = std::make_shared<const std::vector<Mosaic>>(mosaics_of(mesh));
     attach_mosaics(mosaics, mesh, 0.24 * kError_m, surfaces);  // too fine a level
     EXPECT_EQ(surfaces.mosaics, nullptr);
-    attach_mosaics(mosaics, mesh, kError_m, surfaces);
+    attach_mosaics(mosaics, mesh, 0.26 * kError_m, surfaces);  // a quarter of a texel
     ASSERT_EQ(surfaces.mosaics, mosaics);
     const std::uint32_t ground = surfaces.patches[0];
     EXPECT_LT(ground, 2u);
