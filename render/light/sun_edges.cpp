@@ -24,8 +24,25 @@ void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
 
 void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
     const auto lit = [](Asked* const& a, const Spectrum*) { a->lit = 1; };
-    ShadowRays<Asked*, decltype(lit)> shadow(tile.frame, tile.stats.shadow_rays, lit);
-    for (Asked& a : std::span(asked_).first(count_)) shadow.add(a.starts.at_m[0], sun_dir, &a);
+    {
+        ShadowRays<Asked*, decltype(lit)> shadow(tile.frame, tile.stats.shadow_rays, lit);
+        for (Asked& a : std::span(asked_).first(count_))
+            if (!a.like) shadow.add(a.starts.at_m[0], sun_dir, &a);
+    }
+    for (Asked& a : std::span(asked_).first(count_))
+        if (a.like) a.lit = a.like->lit;
+}
+
+// The vertex before one whose first ray is this one's as well: that of a mosaic's layer in the same pixel, which the same samples
+// see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which Vertex::sunlit has.
+const SunEdges::Asked* SunEdges::layer_below(const Asked& a) const {
+    if (count_ < 2) return nullptr;
+    const Asked& before = asked_[count_ - 2];
+    const Vertex &here = *a.at, &there = *before.at;
+    const bool layers = here.pixel == there.pixel && here.samples == there.samples && here.samples != 0 &&
+                        here.object == there.object && here.geometric_normal == there.geometric_normal;
+    if (!layers) return nullptr;
+    return before.like ? before.like : &before;
 }
 
 void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {

@@ -1,7 +1,7 @@
 #pragma once
 // Shadows' edges on what the camera sees by the visibility buffer, as wide as the Sun's disk makes them.
 //
-// One ray to the middle of the Sun tells which vertices are lit. Where vertices of one kind that differ lie in pixels within
+// One ray to the middle of the Sun tells which vertices are lit, and one for all layers of a mosaic in a pixel. Where vertices of one kind that differ lie in pixels within
 // kReach_px of each other, an edge passes: each of them asks again, from other places of what its samples see, for
 // other places of the disk. A kind is a surface of an object, or more than one, where it faces the same way by and large:
 // what lies in shadow behind an edge of the body is no edge of a shadow on what stands before it. The
@@ -47,6 +47,7 @@ class SunEdges {
     static constexpr std::uint32_t kAgain = 4;  // rays
     struct Asked {
         const Vertex* at;
+        const Asked* like;  // whose first ray tells for this one, too; null: it has its own
         Spectrum light;
         Starts starts;
         float lit, of;      // shares that have got through, and that were asked for
@@ -66,10 +67,11 @@ class SunEdges {
     // waits for its own stores.
     Starts& next(const Vertex& at, const Spectrum& light) {
         Asked& a = asked_[count_++];
-        a.at = &at, a.light = light;
+        a.at = &at, a.light = light, a.like = layer_below(a);
         a.lit = 0, a.of = 1, a.halves = {}, a.by_sample = false, a.kind = 0;
         return a.starts;
     }
+    const Asked* layer_below(const Asked& a) const;
     void ask_once(Tile& tile, Vec3f sun_dir);
     void ask_again(Tile& tile, const SunSampler& sun);
     static std::uint8_t kind_of(const Vertex& at);
