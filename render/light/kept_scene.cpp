@@ -225,10 +225,15 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
                     has_own_colors(surface) ? lobe_albedo(*use.at) * use.place->met : use.place->met;
                 use.at->follows_lobe =
                     use.at->weight_samples <= room && hangs_on_few(tile, *use.at, met, use.place->directions);
-                if (use.at->follows_lobe)
+                if (use.at->follows_lobe) {
                     room -= use.at->weight_samples, follow_together(*use.at, *use.place);
-                else
+                    const Spectrum plain =
+                        has_own_colors(surface) ? plain_lobe_albedo(*use.at) * use.place->met : met;
+                    use.at->kept_lobe = largest(use.at->weight * plain);
+                    use.at->kept_lobe_directions = use.place->directions;
+                } else {
                     reflected += met + sum_of_bodies(*use.at, use.place->bodies);
+                }
             }
             tile.add(*use.at, use.at->weight * reflected);
         }

@@ -35,9 +35,10 @@ struct NextRay {
     float alpha_least;  // least alpha of the next vertex's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum weight;
-    bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
-    bool sees_bodies = true;  // false: their light in its lobe has been counted
-    Spectrum if_free{};       // light that it adds where it meets nothing
+    bool whole_lobe = false;    // it stands for all of a narrow facet lobe about it
+    bool sees_bodies = true;    // false: their light in its lobe has been counted
+    Spectrum if_free{};         // light that it adds where it meets nothing
+    std::uint8_t lobe_ray = 0;  // number among those of a lobe (FollowedLobe)
     // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
     bool may_be_many = false;
 
@@ -75,7 +76,8 @@ class TracedPaths final : public PathModel {
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
     std::array<PixelShare, kMax> shares_;
-    std::size_t share_count_ = 0;
+    std::array<FollowedLobe, kMax> lobes_;
+    std::size_t share_count_ = 0, lobe_count_ = 0;
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
@@ -83,7 +85,7 @@ class TracedPaths final : public PathModel {
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
-        share_count_ = 0;
+        share_count_ = lobe_count_ = 0;
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.kept) {
@@ -100,6 +102,7 @@ class TracedPaths final : public PathModel {
             for (std::size_t i = 0; i < keep; ++i) continue_kept(tile, current_[i], rays);
             count = follow(tile, choose(tile, keep, count, rays, last), last);
         }
+        for (const FollowedLobe& lobe : std::span(lobes_).first(lobe_count_)) tile.add(lobe);
     }
 
     // At the last surface only exact directions go on: no lamp has been counted in them.
@@ -239,7 +242,9 @@ class TracedPaths final : public PathModel {
             const float samples = at->weight_samples / first.weight_samples;
             shares_[share_count_++] = {at->pixel, at->halves, samples * tile.frame.kept->lobe_tint(*at)};
         }
-        first.shared = {shares_.data() + begin, out.count};
+        first.lobe = &lobes_[lobe_count_++];
+        *first.lobe = {
+            {shares_.data() + begin, out.count}, first.kept_lobe, first.kept_lobe_directions, {}, {}, {}};
         return out;
     }
 
@@ -251,7 +256,8 @@ class TracedPaths final : public PathModel {
         const auto count = static_cast<std::size_t>(std::lround(rays_for(followers.samples)));
         const Frame local(at.normal);
         const std::size_t first = ray_count;
-        for (std::size_t i = 0; i < count && ray_count < next_.size(); ++i) {
+        for (std::size_t i = 0; i < std::min(count, FollowedLobe::kMostRays) && ray_count < next_.size();
+             ++i) {
             const Vertex& from = *followers.vertex[i % followers.count];
             const auto number = static_cast<float>(at.sample + i);
             const Vec3f facet = local.to_world(sample_visible_normal(
@@ -266,7 +272,9 @@ class TracedPaths final : public PathModel {
                                 (at.weight * tile.frame.kept->plain_lobe_albedo(at));
         KeptScene::LobeRays bodies(*tile.frame.kept, at);
         for (const NextRay& ray : rays) bodies.count(ray.dir);
-        for (NextRay& ray : rays) ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir);
+        std::uint8_t number = 0;
+        for (NextRay& ray : rays)
+            ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir), ray.lobe_ray = number++;
     }
     // One for two of a pixel's samples, and for four of those beyond: of a square of four pixels, 20 rays instead of 32.
     static float rays_for(float samples) {
@@ -305,7 +313,8 @@ class TracedPaths final : public PathModel {
                          ray.width(), vertex))
             return false;
         vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
-        vertex.halves = ray.from->halves, vertex.shared = ray.from->shared;
+        vertex.halves = ray.from->halves, vertex.lobe = ray.from->lobe;
+        vertex.lobe_ray = vertex.lobe && ray.from->depth > 1 ? ray.from->lobe_ray : ray.lobe_ray;
         vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
         vertex.weight = ray.weight;
         vertex.weight_samples = ray.from->weight_samples;
@@ -398,8 +407,8 @@ class TracedPaths final : public PathModel {
                 if (!meets_object(frame, hits, k, ray.origin_m, ray.dir)) {
                     if (ray.sees_bodies)
                         add_background(tile, ray);
-                    else
-                        tile.add(*ray.from, ray.if_free);
+                    else if (ray.from->lobe)
+                        ray.from->lobe->sky += ray.if_free;
                     continue;
                 }
                 if (!last && add_met(frame, hits, k, ray, found)) ++found;

@@ -1,6 +1,8 @@
 #pragma once
 // A path at one of its vertices: where a ray has met an object, and how light scatters there.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -22,11 +24,28 @@ struct Facet {
     const Facet* next = nullptr;
 };
 
-// A pixel that has part of the light of one vertex's rays.
+// A pixel that has part of the light of one lobe's rays.
 struct PixelShare {
     std::uint32_t pixel;  // in the tile
     HalfShares halves;    // where in the pixel it is
     Spectrum share;       // part of the light as the vertex sends it, with the pixel's own colour
+};
+
+// What the rays find that follow one vertex's lobe, until all have come back.
+struct FollowedLobe {
+    static constexpr std::size_t kMostRays = 32;
+    std::span<const PixelShare> pixels;     // that have it
+    float kept = 0;                         // what kept light has in the lobe, as the sum of by_ray
+    float kept_directions = 0;              // that bring that (KeptLight::Lobe)
+    Spectrum sky, light;                    // of rays that meet nothing, and of all others
+    std::array<float, kMostRays> by_ray{};  // the latter's greatest bin
+
+    void add(std::size_t ray, const Spectrum& found) {
+        light += found;
+        by_ray[ray] += largest(found);
+    }
+    // Returns what the vertex sends of it.
+    Spectrum sum() const;
 };
 
 struct Vertex {
@@ -51,12 +70,15 @@ struct Vertex {
     bool has_bodies;     // the light of bodies in its lobe has been added
     bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
     const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
-    std::span<const PixelShare> shared;  // the pixels that its light is added to; empty: its own
-    float sunlit;          // share of it that what lies on it leaves in the Sun (mosaic/mosaic.h)
-    float weight_samples;  // samples of sixteen a pixel that see it, where it is not one ray's
-    HalfShares halves;     // where in the pixel they are
-    float facet_alpha;     // alpha of the lobes of its facets
-    const Facet* facets;   // the vertex's own among them; null: it is one
+    float kept_lobe;            // where that, what kept light has in it, greatest bin; of so many directions
+    float kept_lobe_directions;
+    FollowedLobe* lobe;     // whose rays have met it, or are its own; null: its light is its pixel's
+    std::uint8_t lobe_ray;  // which of them
+    float sunlit;           // share of it that what lies on it leaves in the Sun (mosaic/mosaic.h)
+    float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
+    HalfShares halves;      // where in the pixel they are
+    float facet_alpha;      // alpha of the lobes of its facets
+    const Facet* facets;    // the vertex's own among them; null: it is one
     Spectrum weight;
     Scatterer surface;
 

@@ -101,7 +101,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
         const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));
         if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;
         if (!frame.sun_is_disk && at.known_sun == KnownSun::kLit)
-            tile.pixels[at.pixel] += weight;
+            tile.add(at, weight);
         else if (finds_edges)
             tile.edges->add(at, weight);
         else

@@ -55,10 +55,16 @@ struct Tile {
     std::span<const Spectrum> half_responses{};
     std::span<HalfKind> kinds{};  // by pixel; likewise
 
-    // Adds light that a vertex sends to its pixel: radiance, times the samples for which it stands.
+    // Adds light that a vertex sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for which it
+    // stands.
     void add(const Vertex& at, const Spectrum& light) {
-        if (at.shared.empty()) return add(at.pixel, at.halves, light);
-        for (const PixelShare& part : at.shared) add(part.pixel, part.halves, part.share * light);
+        if (at.lobe) return at.lobe->add(at.lobe_ray, light);
+        add(at.pixel, at.halves, light);
+    }
+    // Adds what all rays of a lobe have found to the pixels that have it.
+    void add(const FollowedLobe& lobe) {
+        const Spectrum light = lobe.sum();
+        for (const PixelShare& part : lobe.pixels) add(part.pixel, part.halves, part.share * light);
     }
     void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
         pixels[pixel] += light;

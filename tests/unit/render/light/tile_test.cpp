@@ -15,7 +15,7 @@ Spectrum of(float value) {
     return out;
 }
 
-// A vertex whose rays serve two pixels: each has its share, where in the pixel its own samples are.
+// A lobe whose rays serve two pixels: each has its share, where in the pixel its own samples are.
 TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     const FrameView frame;
     std::array<Spectrum, 4> pixels{};
@@ -30,8 +30,12 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     at.pixel = 3;
     at.halves = {1, 1, 1};
     tile.add(at, of(2));
-    at.shared = parts;
+    FollowedLobe lobe;
+    lobe.pixels = parts;
+    at.lobe = &lobe;
     tile.add(at, of(4));
+    EXPECT_EQ(pixels[1][0], 0) << "until all rays have come back";
+    tile.add(lobe);
     EXPECT_EQ(pixels[0][0], 0);
     EXPECT_EQ(pixels[1][0], 4);
     EXPECT_EQ(pixels[2][0], 1);
