@@ -405,7 +405,6 @@ bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum&
 SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec3f normal,
                                          float reflectance) const {
     SkyLight::Glossy sent = sky_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
-    if (!(largest(sent.radiance) > 0)) return {};
     if (!has_own_colors(at.surface))
         sent.radiance = brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance;
     return sent;
@@ -413,15 +412,26 @@ SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec
 
 // The same of a vertex of several parts, each as it leans: of two that lean apart one may show the body, and their mean none of it.
 SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const {
+    const bool own_colors = has_own_colors(at.surface);
     Spectrum sum;
     float samples = 0, cosines = 0;
-    for (const Facet* part = at.facets; part; part = part->next) {
-        const SkyLight::Glossy sent = sent_of_body(body, at, part->normal, reflectance);
-        const Spectrum light = part->samples * sent.radiance;
-        sum += light, cosines += largest(light) * sent.facet_cosine, samples += part->samples;
+    std::array<SkyLight::Glossy, SkyLight::Lobes::kMost> sent;
+    for (const Facet* part = at.facets; part;) {
+        SkyLight::Lobes lobes{at.view_dir, at.surface.alpha, reflectance};
+        for (const Facet* next = part; next && lobes.count < sent.size(); next = next->next)
+            lobes.add(next->normal);
+        sky_.glossy(body, lobes, sent);
+        for (std::size_t i = 0; i < lobes.count; ++i, part = part->next) {
+            const Spectrum white = sent[i].radiance;
+            const Spectrum light =
+                part->samples *
+                (own_colors ? white : brdf_mirrored(at.surface, sent[i].facet_cosine) * white);
+            sum += light, samples += part->samples;
+            if (own_colors) cosines += largest(light) * sent[i].facet_cosine;
+        }
     }
     const float all = largest(sum);
-    return {(1 / samples) * sum, all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
+    return {(1 / samples) * sum, own_colors && all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
 }
 
 Spectrum KeptScene::colored(const Scatterer& at, const SkyLight::Glossy& sent) {
