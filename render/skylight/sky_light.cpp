@@ -306,9 +306,11 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
 
 // What lobes see of a disk.
 struct SkyLight::Seen {
-    std::array<float, Lobes::kMost> off;  // cosine between the mirror's direction and the disk's
-    std::array<bool, Lobes::kMost> something;
-    std::array<SchlickSums, Lobes::kMost> sums;  // where there is something
+    static constexpr float kNextToNothing = 1e-3f;
+    std::array<float, Lobes::kMost> off;   // cosine between the mirror's direction and the disk's
+    std::array<float, Lobes::kMost> most;  // radiance as a share of the irradiance, at most
+    // Where that is not next to nothing.
+    std::array<SchlickSums, Lobes::kMost> sums;
     std::array<Spectrum, Lobes::kMost> radiance;
 };
 
@@ -320,17 +322,17 @@ void SkyLight::look(const Disks& disks, const Disk& disk, std::size_t count, Vec
     const float alpha = lobes.alpha;
     // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
     // the disk has.
-    constexpr float kNextToNothing = 1e-3f;  // radiance as a share of the irradiance
-    for (std::size_t k = 0; k < Lobes::kMost; ++k) {
+    constexpr std::size_t kEach = 8;
+    const std::size_t filled = (lobes.count + kEach - 1) / kEach * kEach;
+    for (std::size_t k = 0; k < filled; ++k) {
         const Vec3f normal{lobes.x[k], lobes.y[k], lobes.z[k]};
         const float off = std::clamp(dot(reflect(view, normal), body_dir), -1.0f, 1.0f);
         const float beside = off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;
         const float limb = off >= disks.cosine ? 1.0f : beside;
         const float no = std::max(dot(normal, view), 1e-2f);
         seen.off[k] = off;
-        seen.something[k] = !(lobes.reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) *
-                                  0.5f / (no * std::max(alpha, 1e-4f)) <
-                              kNextToNothing);
+        seen.most[k] = lobes.reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) * 0.5f /
+                       (no * std::max(alpha, 1e-4f));
     }
     // What Schlick's Fresnel term has of full reflection hangs on the viewer alone.
     alignas(64) std::array<float, kPatches> to_view, schlick, weight;
@@ -340,7 +342,7 @@ void SkyLight::look(const Disks& disks, const Disk& disk, std::size_t count, Vec
         schlick[i] = squared * squared * left;
     }
     for (std::size_t k = 0; k < lobes.count; ++k) {
-        if (!seen.something[k]) continue;
+        if (seen.most[k] < Seen::kNextToNothing) continue;
         const Vec3f normal{lobes.x[k], lobes.y[k], lobes.z[k]};
         const GgxLobe law(alpha, std::max(dot(normal, view), 1e-2f));
         for (std::size_t i = 0; i < count; ++i) {
@@ -378,7 +380,7 @@ void SkyLight::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> ou
     for (std::size_t k = 0; k < lobes.count; ++k) {
         if (narrow && seen.off[k] > close)
             out[k] = narrow_lobe(body, lobes.normal(k), lobes.view_dir, alpha);
-        else if (seen.something[k] && seen.sums[k].light > 0)
+        else if (!(seen.most[k] < Seen::kNextToNothing) && seen.sums[k].light > 0)
             out[k] = {seen.radiance[k], seen.sums[k].facet_cosine()};
         else
             out[k] = {};
