@@ -168,12 +168,11 @@ bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
 }  // namespace
 
 // The place whose light a vertex shares; null: it needs its own. What mirrors show may be seen from anywhere.
-KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const {
-    if (!tile.seen) return nullptr;
+KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const Vertex& at,
+                                          std::uint32_t quad) const {
     const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
-    const std::uint32_t quad = quad_of(tile, at);
     for (auto place = places.rbegin(); place != places.rend(); ++place) {
-        if (quad_of(tile, *place->at) != quad) return nullptr;
+        if (place->quad != quad) return nullptr;
         if (is_alike(*place->at, at, near_m) && (at.depth == 1 || sends_alike(*place->at, at)))
             return &*place;
     }
@@ -196,8 +195,9 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
         for (; next < vertices.size() && count < places.size() && used < uses.size(); ++next) {
             Vertex& at = vertices[next];
             if (at.surface.is_glass()) continue;
-            Place* place = shared_place(tile, {places.data(), count}, at);
-            if (!place) place = &places[count++], place->at = &at;
+            const std::uint32_t quad = quad_of(tile, at);
+            Place* place = tile.seen ? shared_place({places.data(), count}, at, quad) : nullptr;
+            if (!place) place = &places[count++], place->at = &at, place->quad = quad;
             uses[used++] = {&at, place};
         }
         const std::span<Place> block(places.data(), count);
