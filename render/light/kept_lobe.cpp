@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "render/light/kept_light.h"
 #include "render/light/kept_links.h"
@@ -19,6 +20,23 @@ struct LobeQuery {
     bool narrow;
     float whole = 0, kept = 0;
 };
+
+// The sum of every sixteenth value. Vectors are written out, as GCC 12 keeps sums in memory, where each waits for the one
+// before. n is a multiple of kDirectionLanes.
+[[gnu::always_inline]] inline std::array<float, kDirectionLanes> sums_by_lane(const float* value,
+                                                                              std::size_t n) {
+    using Eight [[gnu::vector_size(32)]] = float;
+    std::array<Eight, kDirectionLanes / 8> sums = {};
+    for (std::size_t d = 0; d < n; d += kDirectionLanes)
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            Eight values;
+            std::memcpy(&values, value + d + 8 * k, sizeof values);
+            sums[k] += values;
+        }
+    std::array<float, kDirectionLanes> out;
+    std::memcpy(out.data(), sums.data(), sizeof out);
+    return out;
+}
 
 // The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a narrow one. Directions
 // lie as the cosine to the node's normal, so that of a surface which leans against it each counts by the ratio of both cosines
@@ -43,10 +61,7 @@ void lobe_weights(const float* x, const float* y, const float* z, const float* p
         }
     else
         std::copy_n(whole, n, kept);
-    // In lanes, so that sums are vectors too.
-    std::array<float, kDirectionLanes> wholes{}, kepts{};
-    for (std::size_t d = 0; d < n; d += kDirectionLanes)
-        for (std::size_t i = 0; i < kDirectionLanes; ++i) wholes[i] += whole[d + i], kepts[i] += kept[d + i];
+    const auto wholes = sums_by_lane(whole, n), kepts = sums_by_lane(kept, n);
     for (std::size_t i = 0; i < kDirectionLanes; ++i) query.whole += wholes[i], query.kept += kepts[i];
 }
 
@@ -55,11 +70,8 @@ HILCAM_CLONES
 float cone_weights(const float* x, const float* y, const float* z, const float* weight, std::size_t n,
                    const ConeShare& share, float* in_cone) {
     const ConeShare cone = share;
-    std::array<float, kDirectionLanes> sums{};
-    for (std::size_t d = 0; d < n; d += kDirectionLanes)
-        for (std::size_t i = 0; i < kDirectionLanes; ++i)
-            sums[i] += in_cone[d + i] = weight[d + i] * cone.of(x[d + i], y[d + i], z[d + i]);
-    return lane_sum(sums);
+    for (std::size_t d = 0; d < n; ++d) in_cone[d] = weight[d] * cone.of(x[d], y[d], z[d]);
+    return lane_sum(sums_by_lane(in_cone, n));
 }
 
 // The light that directions bring, summed for Lobe::directions.
@@ -126,12 +138,13 @@ KeptLight::Lobe KeptLight::lobe(const KeptSolution* sun, const KeptLinks* links,
     std::size_t met_nodes = node.entries;
     const TransferTable::Entry* const entries = table_->entry(node.first_entry);
     std::array<float, kMaxDirections> of_entry;  // a direction meets one thing at most
-    for (std::size_t i = 0; i < node.entries; ++i) occupied += of_entry[i] = kept[entries[i].direction];
     Brought brought;
-    if (along) {
-        out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
-        for (std::size_t i = 0; i < node.entries; ++i) brought.add(of_entry[i] * along[i].greatest());
+    // One loop for all sums, each of which waits for itself.
+    for (std::size_t i = 0; i < node.entries; ++i) {
+        occupied += of_entry[i] = kept[entries[i].direction];
+        if (along) brought.add(of_entry[i] * along[i].greatest());
     }
+    if (along) out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
     if (links && !links->empty()) {
         const PackedSpectrum* there = sun ? sun->along_links.data() + links->first(n) : nullptr;
         for (const KeptLinks::Link& link : links->of(n)) {

@@ -168,12 +168,11 @@ bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
 }  // namespace
 
 // The place whose light a vertex shares; null: it needs its own. What mirrors show may be seen from anywhere.
-KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const {
-    if (!tile.seen) return nullptr;
+KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const Vertex& at,
+                                          std::uint32_t quad) const {
     const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
-    const std::uint32_t quad = quad_of(tile, at);
     for (auto place = places.rbegin(); place != places.rend(); ++place) {
-        if (quad_of(tile, *place->at) != quad) return nullptr;
+        if (place->quad != quad) return nullptr;
         if (is_alike(*place->at, at, near_m) && (at.depth == 1 || sends_alike(*place->at, at)))
             return &*place;
     }
@@ -196,8 +195,9 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
         for (; next < vertices.size() && count < places.size() && used < uses.size(); ++next) {
             Vertex& at = vertices[next];
             if (at.surface.is_glass()) continue;
-            Place* place = shared_place(tile, {places.data(), count}, at);
-            if (!place) place = &places[count++], place->at = &at;
+            const std::uint32_t quad = quad_of(tile, at);
+            Place* place = tile.seen ? shared_place({places.data(), count}, at, quad) : nullptr;
+            if (!place) place = &places[count++], place->at = &at, place->quad = quad;
             uses[used++] = {&at, place};
         }
         const std::span<Place> block(places.data(), count);
@@ -410,7 +410,6 @@ bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum&
 SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec3f normal,
                                          float reflectance) const {
     SkyLight::Glossy sent = sky_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
-    if (!(largest(sent.radiance) > 0)) return {};
     if (!has_own_colors(at.surface))
         sent.radiance = brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance;
     return sent;
@@ -418,15 +417,26 @@ SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec
 
 // The same of a vertex of several parts, each as it leans: of two that lean apart one may show the body, and their mean none of it.
 SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const {
+    const bool own_colors = has_own_colors(at.surface);
     Spectrum sum;
     float samples = 0, cosines = 0;
-    for (const Facet* part = at.facets; part; part = part->next) {
-        const SkyLight::Glossy sent = sent_of_body(body, at, part->normal, reflectance);
-        const Spectrum light = part->samples * sent.radiance;
-        sum += light, cosines += largest(light) * sent.facet_cosine, samples += part->samples;
+    std::array<SkyLight::Glossy, SkyLight::Lobes::kMost> sent;
+    for (const Facet* part = at.facets; part;) {
+        SkyLight::Lobes lobes{at.view_dir, at.surface.alpha, reflectance};
+        for (const Facet* next = part; next && lobes.count < sent.size(); next = next->next)
+            lobes.add(next->normal);
+        sky_.glossy(body, lobes, sent);
+        for (std::size_t i = 0; i < lobes.count; ++i, part = part->next) {
+            const Spectrum white = sent[i].radiance;
+            const Spectrum light =
+                part->samples *
+                (own_colors ? white : brdf_mirrored(at.surface, sent[i].facet_cosine) * white);
+            sum += light, samples += part->samples;
+            if (own_colors) cosines += largest(light) * sent[i].facet_cosine;
+        }
     }
     const float all = largest(sum);
-    return {(1 / samples) * sum, all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
+    return {(1 / samples) * sum, own_colors && all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
 }
 
 Spectrum KeptScene::colored(const Scatterer& at, const SkyLight::Glossy& sent) {

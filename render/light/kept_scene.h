@@ -121,6 +121,7 @@ class KeptScene {
     // A vertex on its way through the lookup: many go together, so that none waits for memory.
     struct Place {
         Vertex* at;
+        std::uint32_t quad;  // square of four pixels in which it is seen
         LightNodes::Search search;
         NodesAbout about;
         std::uint32_t nearest;  // node, where there is one
@@ -144,7 +145,7 @@ class KeptScene {
         AlikeLobes<MetByLobe> met;
         AlikeLobes<SentOfBodies> bodies;
     };
-    Place* shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const;
+    Place* shared_place(std::span<Place> places, const Vertex& at, std::uint32_t quad) const;
     void find(const FrameView& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
     bool is_near(const FrameView& frame, const Place& place) const;

@@ -15,21 +15,6 @@ namespace {
 constexpr float kGolden = 0.61803399f;
 constexpr std::size_t kLanes = 16;
 
-// Weights of directions in a facet lobe, D V cos, and what Schlick's Fresnel term has there of full reflection.
-HILCAM_CLONES
-void lobe_weights(const float* x, const float* y, const float* z, std::size_t count, Vec3f normal, Vec3f view,
-                  float alpha, float* weight, float* schlick) {
-    const GgxLobe law(alpha, std::max(dot(normal, view), 1e-2f));
-    for (std::size_t i = 0; i < count; ++i) {
-        const float ni = std::max(x[i] * normal.x + y[i] * normal.y + z[i] * normal.z, 0.0f);
-        const float io = x[i] * view.x + y[i] * view.y + z[i] * view.z;
-        // The patches' irradiance is across the way: their cosine belongs to the weight.
-        weight[i] = ni * law.at(std::max(ni, 1e-3f), io);
-        const float left = 1 - std::sqrt(std::max(0.5f + 0.5f * io, 0.0f)), squared = left * left;
-        schlick[i] = squared * squared * left;
-    }
-}
-
 // Sums over what a lobe sees of a body, by its brightest bin: of the light, and of it times Schlick's Fresnel term.
 struct SchlickSums {
     float light = 0, term = 0;
@@ -38,34 +23,31 @@ struct SchlickSums {
     float facet_cosine() const { return light > 0 ? 1 - std::pow(std::max(term / light, 0.0f), 0.2f) : 1.0f; }
 };
 // Vectors are written out, as GCC 12 takes a plain loop over sixteen lanes apart. count: a multiple of kLanes.
-HILCAM_CLONES
-void schlick_sums(const float* weight, const float* brightest, const float* schlick, std::size_t count,
-                  SchlickSums& out) {
+[[gnu::always_inline]] inline SchlickSums schlick_sums(const float* weight, const float* brightest,
+                                                       const float* schlick, std::size_t count) {
     using Eight [[gnu::vector_size(32)]] = float;
     constexpr std::size_t kEach = 8;
     std::array<Eight, kLanes / kEach> lights = {}, terms = {};
-    const auto at = [](const float* floats) {
-        Eight eight;
-        std::memcpy(&eight, floats, sizeof eight);
-        return eight;
-    };
     for (std::size_t first = 0; first < count; first += kLanes)
         for (std::size_t k = 0; k < lights.size(); ++k) {
             const std::size_t i = first + kEach * k;
-            const Eight light = at(weight + i) * at(brightest + i);
-            lights[k] += light, terms[k] += light * at(schlick + i);
+            Eight weights, values, schlicks;
+            std::memcpy(&weights, weight + i, sizeof weights);
+            std::memcpy(&values, brightest + i, sizeof values);
+            std::memcpy(&schlicks, schlick + i, sizeof schlicks);
+            const Eight light = weights * values;
+            lights[k] += light, terms[k] += light * schlicks;
         }
-    std::array<float, kLanes> each;
-    std::memcpy(each.data(), lights.data(), sizeof each);
-    out.light = lane_sum(each);
-    std::memcpy(each.data(), terms.data(), sizeof each);
-    out.term = lane_sum(each);
+    std::array<float, kLanes> light, term;
+    std::memcpy(light.data(), lights.data(), sizeof light);
+    std::memcpy(term.data(), terms.data(), sizeof term);
+    return {lane_sum(light), lane_sum(term)};
 }
 
 // Sum of weight times value: a vector holds the bins of one, and four sums side by side do not wait for each other.
 // count: a multiple of four.
-HILCAM_CLONES
-void weighted_sum(const float* weights, const Spectrum* values, std::size_t count, Spectrum& sum) {
+[[gnu::always_inline]] inline void weighted_sum(const float* weights, const Spectrum* values,
+                                                std::size_t count, Spectrum& sum) {
     using Bins [[gnu::vector_size(sizeof(Spectrum))]] = float;
     constexpr std::size_t kSums = 4;
     std::array<Bins, kSums> sums = {};
@@ -322,37 +304,87 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
     body.light_cosine = std::max(-1.0f, 1 - square / sum);  // |off|^2 is 2 - 2 cos
 }
 
-SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
-                                  float reflectance) const {
-    const Disks& disks = disks_[body];
-    // The fewer parts where facets turn by half of alpha, at most, from one to the next.
-    const std::size_t k = alpha < 2 * disks.of.front().min_alpha ? 1 : 0;
-    const Disk& disk = disks.of[k];
-    const std::size_t count = kParts[k];
+// What lobes see of a disk.
+struct SkyLight::Seen {
+    static constexpr float kNextToNothing = 1e-3f;
+    std::array<float, Lobes::kMost> off;   // cosine between the mirror's direction and the disk's
+    std::array<float, Lobes::kMost> most;  // radiance as a share of the irradiance, at most
+    // Where that is not next to nothing.
+    std::array<SchlickSums, Lobes::kMost> sums;
+    std::array<Spectrum, Lobes::kMost> radiance;
+};
+
+// One kernel for all of it, as calls through clones cost as much as sixteen directions.
+HILCAM_CLONES
+void SkyLight::look(const Disks& disks, const Disk& disk, std::size_t count, Vec3f body_dir,
+                    const Lobes& lobes, Seen& seen) {
+    const Vec3f view = lobes.view_dir;
+    const float alpha = lobes.alpha;
     // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
     // the disk has.
-    const float off = std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f);
+    constexpr std::size_t kEach = 8;
+    const std::size_t filled = (lobes.count + kEach - 1) / kEach * kEach;
+    for (std::size_t k = 0; k < filled; ++k) {
+        const Vec3f normal{lobes.x[k], lobes.y[k], lobes.z[k]};
+        const float off = std::clamp(dot(reflect(view, normal), body_dir), -1.0f, 1.0f);
+        const float beside = off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;
+        const float limb = off >= disks.cosine ? 1.0f : beside;
+        const float no = std::max(dot(normal, view), 1e-2f);
+        seen.off[k] = off;
+        seen.most[k] = lobes.reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) * 0.5f /
+                       (no * std::max(alpha, 1e-4f));
+    }
+    // What Schlick's Fresnel term has of full reflection hangs on the viewer alone.
+    alignas(64) std::array<float, kPatches> to_view, schlick, weight;
+    for (std::size_t i = 0; i < count; ++i) {
+        to_view[i] = disk.x[i] * view.x + disk.y[i] * view.y + disk.z[i] * view.z;
+        const float left = 1 - std::sqrt(std::max(0.5f + 0.5f * to_view[i], 0.0f)), squared = left * left;
+        schlick[i] = squared * squared * left;
+    }
+    for (std::size_t k = 0; k < lobes.count; ++k) {
+        if (seen.most[k] < Seen::kNextToNothing) continue;
+        const Vec3f normal{lobes.x[k], lobes.y[k], lobes.z[k]};
+        const GgxLobe law(alpha, std::max(dot(normal, view), 1e-2f));
+        for (std::size_t i = 0; i < count; ++i) {
+            const float ni =
+                std::max(disk.x[i] * normal.x + disk.y[i] * normal.y + disk.z[i] * normal.z, 0.0f);
+            // The patches' irradiance is across the way: their cosine belongs to the weight.
+            weight[i] = ni * law.at(std::max(ni, 1e-3f), to_view[i]);
+        }
+        weighted_sum(weight.data(), disk.irradiance.data(), count, seen.radiance[k]);
+        seen.sums[k] = schlick_sums(weight.data(), disk.brightest.data(), schlick.data(), count);
+    }
+}
+
+SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
+                                  float reflectance) const {
+    Lobes lobes{view_dir, alpha, reflectance};
+    lobes.add(normal);
+    Glossy out;
+    glossy(body, lobes, {&out, 1});
+    return out;
+}
+
+void SkyLight::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const {
+    const Disks& disks = disks_[body];
+    const float alpha = lobes.alpha;
+    // The fewer parts where facets turn by half of alpha, at most, from one to the next.
+    const std::size_t parts = alpha < 2 * disks.of.front().min_alpha ? 1 : 0;
+    const Disk& disk = disks.of[parts];
+    Seen seen;
+    look(disks, disk, kParts[parts], bodies_[body].world_dir, lobes, seen);
     // Two parts' distance past the limb a narrow lobe's tail is even over a part, and the disk is no half of
     // the sky.
-    if (alpha < disk.min_alpha && off > std::cos(disks.half_angle_rad + 4 * disk.min_alpha))
-        return narrow_lobe(body, normal, view_dir, alpha);
-    const float limb =
-        off >= disks.cosine ? 1.0f : off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;
-    const float no = std::max(dot(normal, view_dir), 1e-2f);
-    constexpr float kNextToNothing = 1e-3f;  // radiance as a share of the irradiance
-    if (reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) * 0.5f /
-            (no * std::max(alpha, 1e-4f)) <
-        kNextToNothing)
-        return {};
-    alignas(64) std::array<float, kPatches> weight, schlick;
-    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data(),
-                 schlick.data());
-    Glossy out;
-    weighted_sum(weight.data(), disk.irradiance.data(), count, out.radiance);
-    SchlickSums sums;
-    schlick_sums(weight.data(), disk.brightest.data(), schlick.data(), count, sums);
-    out.facet_cosine = sums.facet_cosine();
-    return out;
+    const bool narrow = alpha < disk.min_alpha;
+    const float close = narrow ? std::cos(disks.half_angle_rad + 4 * disk.min_alpha) : 1.0f;
+    for (std::size_t k = 0; k < lobes.count; ++k) {
+        if (narrow && seen.off[k] > close)
+            out[k] = narrow_lobe(body, lobes.normal(k), lobes.view_dir, alpha);
+        else if (!(seen.most[k] < Seen::kNextToNothing) && seen.sums[k].light > 0)
+            out[k] = {seen.radiance[k], seen.sums[k].facet_cosine()};
+        else
+            out[k] = {};
+    }
 }
 
 }  // namespace hilcam

@@ -4,6 +4,7 @@
 // chance.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "render/scene/background.h"
@@ -49,6 +50,19 @@ class SkyLight {
     };
     // alpha: of GGX; 0: a mirror. Unit vectors, world. reflectance: what is not worth it with that is zero.
     Glossy glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
+    // Lobes that differ in their normals alone.
+    struct Lobes {
+        static constexpr std::size_t kMost = 8;
+        Vec3f view_dir;
+        float alpha, reflectance;
+        std::size_t count = 0;
+        alignas(32) std::array<float, kMost> x{}, y{}, z{};  // normals
+
+        Vec3f normal(std::size_t i) const { return {x[i], y[i], z[i]}; }
+        void add(Vec3f n) { x[count] = n.x, y[count] = n.y, z[count] = n.z, ++count; }
+    };
+    // The same of each of several; out: one for each, at least.
+    void glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const;
 
   private:
     // A function of the direction, on an octahedron's faces (Cigolle et al., JCGT 3(2), 2014); bilinear.
@@ -93,6 +107,9 @@ class SkyLight {
     std::array<Cone, hilcam::kMaxBodies> cones_;
     std::size_t cone_count_ = 0;
 
+    struct Seen;
+    static void look(const Disks& disks, const Disk& disk, std::size_t count, Vec3f body_dir,
+                     const Lobes& lobes, Seen& seen);
     Glossy narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
     void place_disks(const Background& background, std::size_t number, Disks& disks) const;
