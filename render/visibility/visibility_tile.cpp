@@ -127,9 +127,12 @@ constexpr int kSquare_px = 4;
 struct SquarePlaces {
     HWY_ALIGN float column[kSquare_px * kSquare_px];
     HWY_ALIGN float row[kSquare_px * kSquare_px];
-    constexpr SquarePlaces() : column(), row() {
-        for (int i = 0; i < kSquare_px * kSquare_px; ++i)
-            column[i] = static_cast<float>(i % kSquare_px), row[i] = static_cast<float>(i / kSquare_px);
+    HWY_ALIGN std::int32_t pixel[kSquare_px * kSquare_px];  // in the tile, from the square's first
+    constexpr SquarePlaces() : column(), row(), pixel() {
+        for (int i = 0; i < kSquare_px * kSquare_px; ++i) {
+            const int x = i % kSquare_px, y = i / kSquare_px;
+            column[i] = static_cast<float>(x), row[i] = static_cast<float>(y), pixel[i] = y * kSide_px + x;
+        }
     }
 };
 constexpr SquarePlaces kSquare;
@@ -162,11 +165,8 @@ class Filler {
         near_most_ = hn::Set(d, s.max_depth[k]), far_most_ = hn::Set(d, s.min_depth[k]);
         id_ = hn::Set(di, static_cast<std::int32_t>(s.id[k]));
         for (int y = s.y0[k]; y <= y1_; y += kSquare_px)
-            for (int x = s.x0[k]; x <= x1_; x += kSquare_px)
-                for (unsigned rest = candidates(bounds, k, x, y); rest; rest &= rest - 1) {
-                    const int i = __builtin_ctz(rest);
-                    fill(x + i % kSquare_px, y + i / kSquare_px);
-                }
+            for (int x = s.x0[k]; x <= x1_; x += kSquare_px) add_candidates(bounds, k, x, y);
+        for (std::size_t i = 0; i < count_; ++i) fill(static_cast<std::size_t>(candidates_[i]));
     }
 
   private:
@@ -174,15 +174,20 @@ class Filler {
     int x1_, y1_;
     V a_[3], b_[3], c_[3], gx_, gy_, g_, near_most_, far_most_;
     I flip_[3], id_;
+    // The pixels in which a sample may see the triangle, listed before any is filled: a loop over those of each square would end at a
+    // number that no processor foresees.
+    std::size_t count_ = 0;
+    HWY_ALIGN std::int32_t candidates_[VisibilityTile::kPixels + hn::MaxLanes(Ints())];
 
-    // The pixels of a square, from its corner, in which a sample may see the triangle, a bit each.
-    HWY_INLINE unsigned candidates(const PixelBounds& bounds, std::size_t k, int left, int top) const {
+    // Adds those of a square.
+    HWY_INLINE void add_candidates(const PixelBounds& bounds, std::size_t k, int left, int top) {
         const Floats d;
         constexpr std::size_t lanes = hn::MaxLanes(d);
         const V x0 = hn::Set(d, static_cast<float>(left)), y0 = hn::Set(d, static_cast<float>(top));
         const V x1 = hn::Set(d, static_cast<float>(x1_)), y1 = hn::Set(d, static_cast<float>(y1_));
-        const float* behind = &tile_.farthest_of[static_cast<std::size_t>(top * kSide_px + left)];
-        unsigned out = 0;
+        const Ints di;
+        const int corner = top * kSide_px + left;
+        const float* behind = &tile_.farthest_of[static_cast<std::size_t>(corner)];
         for (std::size_t part = 0; part < kSquare_px * kSquare_px; part += lanes) {
             const V x = hn::Add(hn::Load(d, kSquare.column + part), x0);
             const V y = hn::Add(hn::Load(d, kSquare.row + part), y0);
@@ -196,17 +201,17 @@ class Filler {
             const auto within = hn::And(hn::Le(x, x1), hn::Le(y, y1));
             const auto seen = hn::And(hn::Ge(least, hn::Zero(d)),
                                       hn::Gt(nearest, rows(d, behind + part / kSquare_px * kSide_px)));
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(d, hn::And(within, seen), bits);
-            out |= (bits[0] | unsigned{bits[1]} << 8) << part;
+            const auto found = hn::RebindMask(di, hn::And(within, seen));
+            const I pixels = hn::Add(hn::Load(di, kSquare.pixel + part), hn::Set(di, corner));
+            hn::StoreU(hn::Compress(pixels, found), di, candidates_ + count_);
+            count_ += hn::CountTrue(di, found);
         }
-        return out;
     }
-    HWY_INLINE void fill(int px, int row) {
+    HWY_INLINE void fill(std::size_t pixel) {
         const Floats d;
         const Ints di;
         constexpr std::size_t lanes = hn::MaxLanes(d);
-        const auto first = static_cast<std::size_t>(row * kSide_px + px) * kVisibilitySamples;
+        const std::size_t px = pixel % kSide_px, row = pixel / kSide_px, first = pixel * kVisibilitySamples;
         for (std::size_t sample = 0; sample < kVisibilitySamples; sample += lanes) {
             const V x = hn::Load(d, &kPlaces.x[px][sample]), y = hn::Load(d, &kPlaces.y[row][sample]);
             const auto side = [&](std::size_t i) {
