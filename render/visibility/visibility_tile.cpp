@@ -137,19 +137,6 @@ struct SquarePlaces {
 };
 constexpr SquarePlaces kSquare;
 
-// The first four of each row, as many rows as there are lanes for. They are put together in registers: memory would be slow
-// to give back what was written to it in parts.
-template <class Tag>
-HWY_INLINE hn::Vec<Tag> rows(Tag d, const float* first) {
-    if constexpr (hn::MaxLanes(Tag()) == kSquare_px) {
-        return hn::LoadU(d, first);
-    } else {
-        const hn::Half<Tag> half;
-        constexpr std::size_t kHalfRows = hn::MaxLanes(hn::Half<Tag>()) / kSquare_px;
-        return hn::Combine(d, rows(half, first + kHalfRows * kSide_px), rows(half, first));
-    }
-}
-
 // A triangle in a tile.
 class Filler {
   public:
@@ -187,7 +174,9 @@ class Filler {
         const V x1 = hn::Set(d, static_cast<float>(x1_)), y1 = hn::Set(d, static_cast<float>(y1_));
         const Ints di;
         const int corner = top * kSide_px + left;
-        const float* behind = &tile_.farthest_of[static_cast<std::size_t>(corner)];
+        const auto behind = [&](std::size_t i) {
+            return &tile_.farthest_of[static_cast<std::size_t>(corner) + i / kSquare_px * kSide_px];
+        };
         for (std::size_t part = 0; part < kSquare_px * kSquare_px; part += lanes) {
             const V x = hn::Add(hn::Load(d, kSquare.column + part), x0);
             const V y = hn::Add(hn::Load(d, kSquare.row + part), y0);
@@ -199,8 +188,8 @@ class Filler {
                 hn::Min(hn::Min(most(bounds.edge[0]), most(bounds.edge[1])), most(bounds.edge[2]));
             const V nearest = hn::Min(hn::Max(most(bounds.depth), far_most_), near_most_);
             const auto within = hn::And(hn::Le(x, x1), hn::Le(y, y1));
-            const auto seen = hn::And(hn::Ge(least, hn::Zero(d)),
-                                      hn::Gt(nearest, rows(d, behind + part / kSquare_px * kSide_px)));
+            const auto seen =
+                hn::And(hn::Ge(least, hn::Zero(d)), hn::Gt(nearest, blocks_of(d, behind, part)));
             const auto found = hn::RebindMask(di, hn::And(within, seen));
             const I pixels = hn::Add(hn::Load(di, kSquare.pixel + part), hn::Set(di, corner));
             hn::StoreU(hn::Compress(pixels, found), di, candidates_ + count_);
@@ -239,15 +228,12 @@ void fill(const TriangleSetup& s, VisibilityTile& tile) {
 }
 
 // A bit for each of sixteen ids that is the wanted one.
-HWY_INLINE std::uint32_t equal_of_sixteen(const std::uint32_t* ids, std::uint32_t wanted) {
+HWY_INLINE SampleMask equal_of_sixteen(const std::uint32_t* ids, std::uint32_t wanted) {
     const hn::CappedTag<std::uint32_t, kVisibilitySamples> d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
-    std::uint32_t same = 0;
-    for (std::size_t i = 0; i < kVisibilitySamples; i += lanes) {
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(d, hn::Eq(hn::Load(d, ids + i), hn::Set(d, wanted)), bits);
-        same |= (bits[0] | std::uint32_t{bits[1]} << 8) << i;
-    }
+    SampleMask same = 0;
+    for (std::size_t i = 0; i < kVisibilitySamples; i += lanes)
+        same |= SampleMask{bits_of(d, hn::Eq(hn::Load(d, ids + i), hn::Set(d, wanted)))} << i;
     return same;
 }
 
@@ -259,19 +245,23 @@ void list_pixel(const std::uint32_t* ids, PixelFragments& out) {
     const auto of_quarter = [&](int q) {
         return ids + (q / kAcross * kSide_px + q % kAcross) * kVisibilitySamples;
     };
-    // Quarters before the first are known to have no such id.
-    const auto equal = [&](std::uint32_t id, int first) {
+    // All quarters, also those before the first that has it: a loop from there would end at a number that no processor foresees.
+    const auto equal = [&](std::uint32_t id) {
         SampleMask same = 0;
-        for (int q = first; q < kQuarters; ++q)
-            same |= SampleMask{equal_of_sixteen(of_quarter(q), id)} << (kVisibilitySamples * q);
+        for (int q = 0; q < kQuarters; ++q)
+            same |= equal_of_sixteen(of_quarter(q), id) << (kVisibilitySamples * q);
         return same;
     };
-    out.nothing = equal(VisibilityTile::kNothing, 0);
+    out.nothing = 0;
     out.count = 0;
-    for (SampleMask rest = kAll & ~out.nothing, same; rest != 0; rest &= ~same) {
-        const int first = __builtin_ctzll(rest), quarter = first / kVisibilitySamples;
-        const std::uint32_t id = of_quarter(quarter)[first % kVisibilitySamples];
-        same = equal(id, quarter);
+    for (SampleMask rest = kAll, same; rest != 0; rest &= ~same) {
+        const int first = __builtin_ctzll(rest);
+        const std::uint32_t id = of_quarter(first / kVisibilitySamples)[first % kVisibilitySamples];
+        same = equal(id);
+        if (id == VisibilityTile::kNothing) {
+            out.nothing = same;
+            continue;
+        }
         const auto others =
             static_cast<std::uint32_t>(kVisibilitySamples * kQuarters - __builtin_popcountll(same));
         const auto comes_after = [&](const PixelFragments::Fragment& other) {
