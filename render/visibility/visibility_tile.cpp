@@ -253,7 +253,7 @@ void list_pixel(const std::uint32_t* ids, PixelFragments& out) {
         return same;
     };
     out.nothing = 0;
-    out.count = 0;
+    std::size_t count = 0;
     for (SampleMask rest = kAll, same; rest != 0; rest &= ~same) {
         const int first = __builtin_ctzll(rest);
         const std::uint32_t id = of_quarter(first / kVisibilitySamples)[first % kVisibilitySamples];
@@ -267,11 +267,12 @@ void list_pixel(const std::uint32_t* ids, PixelFragments& out) {
         const auto comes_after = [&](const PixelFragments::Fragment& other) {
             return other.others != others ? other.others > others : other.samples > same;
         };
-        std::size_t place = out.count++;
+        std::size_t place = count++;
         for (; place > 0 && comes_after(out.fragments[place - 1]); --place)
             out.fragments[place] = out.fragments[place - 1];
         out.fragments[place] = {id, others, same};
     }
+    out.count = count;
 }
 
 void list(const std::uint32_t* ids, int across, PixelFragments& out) {
