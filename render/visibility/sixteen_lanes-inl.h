@@ -10,6 +10,10 @@
 
 #include <hwy/highway.h>
 
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
@@ -22,6 +26,44 @@ using I = hn::Vec<Ints>;
 
 // One sum and one product after the other, never fused: every width must round alike.
 HWY_INLINE V times_plus(V a, V b, V c) { return hn::Add(hn::Mul(a, b), c); }
+
+// Four numbers in each block of four lanes: of places first, first + 4 and so on. They are put together in registers: memory would be slow
+// to give back what was written to it in parts.
+template <class Tag, class PlaceOf>
+HWY_INLINE hn::Vec<Tag> blocks_of(Tag d, const PlaceOf& place_of, std::size_t first) {
+    if constexpr (hn::MaxLanes(Tag()) == 4) {
+        return hn::LoadU(d, place_of(first));
+    } else {
+        const hn::Half<Tag> half;
+        constexpr std::size_t kHalf = hn::MaxLanes(hn::Half<Tag>());
+        return hn::Combine(d, blocks_of(half, place_of, first + kHalf), blocks_of(half, place_of, first));
+    }
+}
+// The first three of four numbers at a place for each lane.
+template <class PlaceOf>
+HWY_INLINE void three_of_four(const PlaceOf& place_of, V& first, V& second, V& third) {
+    const Floats d;
+    using Pairs = hn::Repartition<double, Floats>;
+    const auto of = [&](std::size_t i) { return blocks_of(d, place_of, i); };
+    const V a = of(0), b = of(1), e = of(2), f = of(3);
+    const auto pairs = [](V v) { return hn::BitCast(Pairs(), v); };
+    const auto p = pairs(hn::InterleaveLower(d, a, b)), q = pairs(hn::InterleaveLower(d, e, f));
+    first = hn::BitCast(d, hn::InterleaveLower(Pairs(), p, q));
+    second = hn::BitCast(d, hn::InterleaveUpper(Pairs(), p, q));
+    third = hn::BitCast(d, hn::InterleaveLower(Pairs(), pairs(hn::InterleaveUpper(d, a, b)),
+                                               pairs(hn::InterleaveUpper(d, e, f))));
+}
+
+// A bit for each lane of a mask. The whole of it is written at once, so that it stays in a register.
+template <class Tag>
+HWY_INLINE unsigned bits_of(Tag d, hn::Mask<Tag> mask) {
+    static_assert(hn::MaxLanes(Tag()) <= 16);
+    std::conditional_t<(hn::MaxLanes(Tag()) > 8), std::uint16_t, std::uint8_t> bits;
+    std::uint8_t bytes[8];
+    hn::StoreMaskBits(d, mask, bytes);
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace hilcam

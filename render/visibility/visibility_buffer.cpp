@@ -297,12 +297,14 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
     std::array<NearBlock, kBlocksTogether> blocks;
     std::size_t count = 0;
     bool any = false;
+    for (std::size_t group = 0; group < kGroups; ++group) __builtin_prefetch(&heads_[first[group]]);
     const auto fill_those = [&] {
         if (!std::exchange(any, true)) tile.clear();
         fill_blocks(std::span(blocks).first(std::exchange(count, 0)), x_px, y_px, tile);
     };
     for (std::size_t group = 0; group < kGroups; ++group)
         for (std::uint32_t block = first[group]; block != kNoBlock; block = heads_[block].next) {
+            __builtin_prefetch(&blocks_[block]);
             blocks[count] = {heads_[block].nearest, static_cast<std::uint32_t>(count), block};
             if (++count == blocks.size()) fill_those();
         }
@@ -331,6 +333,16 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
     std::sort(blocks.begin(), blocks.end(), [](const NearBlock& a, const NearBlock& b) {
         return a.nearest != b.nearest ? a.nearest > b.nearest : a.order < b.order;
     });
+    // Most tiles have a few blocks only: the first ones are asked for, too.
+    constexpr std::size_t kCornersAhead = 4, kVerticesAhead = 2;
+    const auto ask_for_corners = [&](std::size_t i) {
+        if (i < blocks.size()) prefetch_corners(blocks[i].block);
+    };
+    const auto ask_for_vertices = [&](std::size_t i) {
+        if (i < blocks.size()) prefetch_vertices(blocks[i].block);
+    };
+    for (std::size_t i = 0; i < kCornersAhead; ++i) ask_for_corners(i);
+    for (std::size_t i = 0; i < kVerticesAhead; ++i) ask_for_vertices(i);
     constexpr std::size_t kTriangles = 64;  // between two looks at what is hidden
     TriangleSetup setup;
     std::size_t filled = 0;
@@ -338,8 +350,7 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
         const auto& [nearest, order, block] = blocks[i];
         const BlockHead& head = heads_[block];
         if (nearest <= *std::min_element(tile.farthest.begin(), tile.farthest.end())) break;
-        if (i + 4 < blocks.size()) prefetch_corners(blocks[i + 4].block);
-        if (i + 2 < blocks.size()) prefetch_vertices(blocks[i + 2].block);
+        ask_for_corners(i + kCornersAhead), ask_for_vertices(i + kVerticesAhead);
         const Placed& placed = placed_[head.placed];
         if (head.cut)
             set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);

@@ -70,19 +70,10 @@ struct Corners {
 template <class NumberOf>
 HWY_INLINE Corners corners_of(const ScreenVertex* vertices, const TriangleCorners* triangles,
                               const NumberOf& number_of) {
-    const Floats d;
-    const hn::Full128<float> one;
-    const std::size_t lanes = hn::Lanes(d);
-    HWY_ALIGN ScreenVertex at[3][kTrianglesAtOnce];
-    for (std::size_t k = 0; k < lanes; ++k) {
-        const TriangleCorners& corners = triangles[number_of(k)];
-        for (std::size_t i = 0; i < 3; ++i)
-            hn::Store(hn::Load(one, &vertices[corners[i]].x), one, &at[i][k].x);
-    }
     Corners out;
-    V unused;
     for (std::size_t i = 0; i < 3; ++i)
-        hn::LoadInterleaved4(d, &at[i][0].x, out.x[i], out.y[i], out.depth[i], unused);
+        three_of_four([&](std::size_t k) { return &vertices[triangles[number_of(k)][i]].x; }, out.x[i],
+                      out.y[i], out.depth[i]);
     return out;
 }
 HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); }
@@ -195,15 +186,10 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
         static_assert(kSide_px == 16);
         hn::Store(tile_of(x0, right), di, box[0]), hn::Store(tile_of(x1, right), di, box[1]);
         hn::Store(tile_of(y0, low), di, box[2]), hn::Store(tile_of(y1, low), di, box[3]);
-        const auto bits_of = [&](auto mask) {
-            std::uint8_t bytes[8] = {};
-            hn::StoreMaskBits(d, mask, bytes);
-            return bytes[0] | unsigned{bytes[1]} << 8;
-        };
-        const unsigned unknown_bits = bits_of(unknown), missed_bits = bits_of(missed);
+        const unsigned unknown_bits = bits_of(d, unknown), missed_bits = bits_of(d, missed);
         const auto n = static_cast<unsigned>(std::min(lanes, triangles.size() - t));
         unsigned rest = (unknown_bits | ~missed_bits) & ((1u << n) - 1);
-        if constexpr (kBent) rest &= ~bits_of(outside);
+        if constexpr (kBent) rest &= ~bits_of(d, outside);
         for (; rest; rest &= rest - 1) {
             const auto k = static_cast<std::size_t>(__builtin_ctz(rest));
             TileRange& out = ranges[count++];

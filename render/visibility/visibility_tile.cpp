@@ -127,25 +127,15 @@ constexpr int kSquare_px = 4;
 struct SquarePlaces {
     HWY_ALIGN float column[kSquare_px * kSquare_px];
     HWY_ALIGN float row[kSquare_px * kSquare_px];
-    constexpr SquarePlaces() : column(), row() {
-        for (int i = 0; i < kSquare_px * kSquare_px; ++i)
-            column[i] = static_cast<float>(i % kSquare_px), row[i] = static_cast<float>(i / kSquare_px);
+    HWY_ALIGN std::int32_t pixel[kSquare_px * kSquare_px];  // in the tile, from the square's first
+    constexpr SquarePlaces() : column(), row(), pixel() {
+        for (int i = 0; i < kSquare_px * kSquare_px; ++i) {
+            const int x = i % kSquare_px, y = i / kSquare_px;
+            column[i] = static_cast<float>(x), row[i] = static_cast<float>(y), pixel[i] = y * kSide_px + x;
+        }
     }
 };
 constexpr SquarePlaces kSquare;
-
-// The first four of each row, as many rows as there are lanes for. They are put together in registers: memory would be slow
-// to give back what was written to it in parts.
-template <class Tag>
-HWY_INLINE hn::Vec<Tag> rows(Tag d, const float* first) {
-    if constexpr (hn::MaxLanes(Tag()) == kSquare_px) {
-        return hn::LoadU(d, first);
-    } else {
-        const hn::Half<Tag> half;
-        constexpr std::size_t kHalfRows = hn::MaxLanes(hn::Half<Tag>()) / kSquare_px;
-        return hn::Combine(d, rows(half, first + kHalfRows * kSide_px), rows(half, first));
-    }
-}
 
 // A triangle in a tile.
 class Filler {
@@ -162,11 +152,8 @@ class Filler {
         near_most_ = hn::Set(d, s.max_depth[k]), far_most_ = hn::Set(d, s.min_depth[k]);
         id_ = hn::Set(di, static_cast<std::int32_t>(s.id[k]));
         for (int y = s.y0[k]; y <= y1_; y += kSquare_px)
-            for (int x = s.x0[k]; x <= x1_; x += kSquare_px)
-                for (unsigned rest = candidates(bounds, k, x, y); rest; rest &= rest - 1) {
-                    const int i = __builtin_ctz(rest);
-                    fill(x + i % kSquare_px, y + i / kSquare_px);
-                }
+            for (int x = s.x0[k]; x <= x1_; x += kSquare_px) add_candidates(bounds, k, x, y);
+        for (std::size_t i = 0; i < count_; ++i) fill(static_cast<std::size_t>(candidates_[i]));
     }
 
   private:
@@ -174,15 +161,22 @@ class Filler {
     int x1_, y1_;
     V a_[3], b_[3], c_[3], gx_, gy_, g_, near_most_, far_most_;
     I flip_[3], id_;
+    // The pixels in which a sample may see the triangle, listed before any is filled: a loop over those of each square would end at a
+    // number that no processor foresees.
+    std::size_t count_ = 0;
+    HWY_ALIGN std::int32_t candidates_[VisibilityTile::kPixels + hn::MaxLanes(Ints())];
 
-    // The pixels of a square, from its corner, in which a sample may see the triangle, a bit each.
-    HWY_INLINE unsigned candidates(const PixelBounds& bounds, std::size_t k, int left, int top) const {
+    // Adds those of a square.
+    HWY_INLINE void add_candidates(const PixelBounds& bounds, std::size_t k, int left, int top) {
         const Floats d;
         constexpr std::size_t lanes = hn::MaxLanes(d);
         const V x0 = hn::Set(d, static_cast<float>(left)), y0 = hn::Set(d, static_cast<float>(top));
         const V x1 = hn::Set(d, static_cast<float>(x1_)), y1 = hn::Set(d, static_cast<float>(y1_));
-        const float* behind = &tile_.farthest_of[static_cast<std::size_t>(top * kSide_px + left)];
-        unsigned out = 0;
+        const Ints di;
+        const int corner = top * kSide_px + left;
+        const auto behind = [&](std::size_t i) {
+            return &tile_.farthest_of[static_cast<std::size_t>(corner) + i / kSquare_px * kSide_px];
+        };
         for (std::size_t part = 0; part < kSquare_px * kSquare_px; part += lanes) {
             const V x = hn::Add(hn::Load(d, kSquare.column + part), x0);
             const V y = hn::Add(hn::Load(d, kSquare.row + part), y0);
@@ -194,19 +188,19 @@ class Filler {
                 hn::Min(hn::Min(most(bounds.edge[0]), most(bounds.edge[1])), most(bounds.edge[2]));
             const V nearest = hn::Min(hn::Max(most(bounds.depth), far_most_), near_most_);
             const auto within = hn::And(hn::Le(x, x1), hn::Le(y, y1));
-            const auto seen = hn::And(hn::Ge(least, hn::Zero(d)),
-                                      hn::Gt(nearest, rows(d, behind + part / kSquare_px * kSide_px)));
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(d, hn::And(within, seen), bits);
-            out |= (bits[0] | unsigned{bits[1]} << 8) << part;
+            const auto seen =
+                hn::And(hn::Ge(least, hn::Zero(d)), hn::Gt(nearest, blocks_of(d, behind, part)));
+            const auto found = hn::RebindMask(di, hn::And(within, seen));
+            const I pixels = hn::Add(hn::Load(di, kSquare.pixel + part), hn::Set(di, corner));
+            hn::StoreU(hn::Compress(pixels, found), di, candidates_ + count_);
+            count_ += hn::CountTrue(di, found);
         }
-        return out;
     }
-    HWY_INLINE void fill(int px, int row) {
+    HWY_INLINE void fill(std::size_t pixel) {
         const Floats d;
         const Ints di;
         constexpr std::size_t lanes = hn::MaxLanes(d);
-        const auto first = static_cast<std::size_t>(row * kSide_px + px) * kVisibilitySamples;
+        const std::size_t px = pixel % kSide_px, row = pixel / kSide_px, first = pixel * kVisibilitySamples;
         for (std::size_t sample = 0; sample < kVisibilitySamples; sample += lanes) {
             const V x = hn::Load(d, &kPlaces.x[px][sample]), y = hn::Load(d, &kPlaces.y[row][sample]);
             const auto side = [&](std::size_t i) {
@@ -234,15 +228,12 @@ void fill(const TriangleSetup& s, VisibilityTile& tile) {
 }
 
 // A bit for each of sixteen ids that is the wanted one.
-HWY_INLINE std::uint32_t equal_of_sixteen(const std::uint32_t* ids, std::uint32_t wanted) {
+HWY_INLINE SampleMask equal_of_sixteen(const std::uint32_t* ids, std::uint32_t wanted) {
     const hn::CappedTag<std::uint32_t, kVisibilitySamples> d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
-    std::uint32_t same = 0;
-    for (std::size_t i = 0; i < kVisibilitySamples; i += lanes) {
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(d, hn::Eq(hn::Load(d, ids + i), hn::Set(d, wanted)), bits);
-        same |= (bits[0] | std::uint32_t{bits[1]} << 8) << i;
-    }
+    SampleMask same = 0;
+    for (std::size_t i = 0; i < kVisibilitySamples; i += lanes)
+        same |= SampleMask{bits_of(d, hn::Eq(hn::Load(d, ids + i), hn::Set(d, wanted)))} << i;
     return same;
 }
 
@@ -254,29 +245,34 @@ void list_pixel(const std::uint32_t* ids, PixelFragments& out) {
     const auto of_quarter = [&](int q) {
         return ids + (q / kAcross * kSide_px + q % kAcross) * kVisibilitySamples;
     };
-    // Quarters before the first are known to have no such id.
-    const auto equal = [&](std::uint32_t id, int first) {
+    // All quarters, also those before the first that has it: a loop from there would end at a number that no processor foresees.
+    const auto equal = [&](std::uint32_t id) {
         SampleMask same = 0;
-        for (int q = first; q < kQuarters; ++q)
-            same |= SampleMask{equal_of_sixteen(of_quarter(q), id)} << (kVisibilitySamples * q);
+        for (int q = 0; q < kQuarters; ++q)
+            same |= equal_of_sixteen(of_quarter(q), id) << (kVisibilitySamples * q);
         return same;
     };
-    out.nothing = equal(VisibilityTile::kNothing, 0);
-    out.count = 0;
-    for (SampleMask rest = kAll & ~out.nothing, same; rest != 0; rest &= ~same) {
-        const int first = __builtin_ctzll(rest), quarter = first / kVisibilitySamples;
-        const std::uint32_t id = of_quarter(quarter)[first % kVisibilitySamples];
-        same = equal(id, quarter);
+    out.nothing = 0;
+    std::size_t count = 0;
+    for (SampleMask rest = kAll, same; rest != 0; rest &= ~same) {
+        const int first = __builtin_ctzll(rest);
+        const std::uint32_t id = of_quarter(first / kVisibilitySamples)[first % kVisibilitySamples];
+        same = equal(id);
+        if (id == VisibilityTile::kNothing) {
+            out.nothing = same;
+            continue;
+        }
         const auto others =
             static_cast<std::uint32_t>(kVisibilitySamples * kQuarters - __builtin_popcountll(same));
         const auto comes_after = [&](const PixelFragments::Fragment& other) {
             return other.others != others ? other.others > others : other.samples > same;
         };
-        std::size_t place = out.count++;
+        std::size_t place = count++;
         for (; place > 0 && comes_after(out.fragments[place - 1]); --place)
             out.fragments[place] = out.fragments[place - 1];
         out.fragments[place] = {id, others, same};
     }
+    out.count = count;
 }
 
 void list(const std::uint32_t* ids, int across, PixelFragments& out) {

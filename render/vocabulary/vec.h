@@ -42,8 +42,9 @@ T length(Vec3<T> a) {
     return std::sqrt(dot(a, a));
 }
 // A unit vector along a; a zero or non-finite vector gives NaN, so callers check what comes from outside.
+// Always inline: a call would cost more than its root.
 template <class T>
-Vec3<T> normalized(Vec3<T> a) {
+[[gnu::always_inline]] inline Vec3<T> normalized(Vec3<T> a) {
     return a / length(a);
 }
 // The one place where the world's doubles become single precision: after the camera was subtracted.
