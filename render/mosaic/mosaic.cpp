@@ -9,80 +9,72 @@ namespace {
 
 // Texels are no longer than this, where there are such: a choice by its error (docs/decisions.md).
 constexpr float kSharp_px = 0.35f;
+constexpr auto kEight = static_cast<int>(MosaicTexels::kLanes);
 
-// Whole numbers.
+// Whole numbers, from the first until before the end.
 struct WholeNumbers {
-    int first, last;
+    int first, end;
 
-    // Those at which a line through `at` with this step is within half_width of the pixel's middle, of those before.
-    void cut(float at, float step, float half_width) {
-        const float from = (0.5f - half_width - at) / step, to = (0.5f + half_width - at) / step;
-        // Beyond all texels, or no number: nothing is cut.
-        if (!(std::abs(from) < 1e6f && std::abs(to) < 1e6f)) {
-            if (std::abs(at - 0.5f) > half_width) last = first - 1;
-            return;
-        }
-        first = std::max(first, static_cast<int>(std::ceil(std::min(from, to))));
-        last = std::min(last, static_cast<int>(std::floor(std::max(from, to))));
+    // Those within reach, from 0 until before count.
+    static WholeNumbers about(double middle, double reach, int count) {
+        const auto bound = [&](double at) {
+            return at > 0 ? static_cast<int>(std::min(at, static_cast<double>(count))) : 0;
+        };
+        return {bound(std::ceil(middle - reach)), bound(std::floor(middle + reach) + 1)};
     }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(std::max(0, end - first)); }
 };
 
 }  // namespace
 
-// The way in the pixel from a texel to the next in its row and in its column [px].
+// How texels lie in a pixel, by the width that one takes there: a side falls off over it, so that pixels side by side add up to
+// one.
 struct Mosaic::Steps {
+    // From a texel to the next in its row and in its column [widths].
     float x_column, x_row, y_column, y_row;
+    float x_px, y_px;  // width of the finest texels
 
-    // Those of the finest texels. False: the pixel sees the plane from its edge.
+    // False: the pixel sees the plane from its edge.
     static bool find(const Footprint& pixel, Steps& out) {
-        const float turned = pixel.per_x.x * pixel.per_y.y - pixel.per_x.y * pixel.per_y.x, per = 1 / turned;
+        const Vec2f x = pixel.per_x, y = pixel.per_y;
+        const float turned = x.x * y.y - x.y * y.x, per = 1 / turned;
         if (!(std::abs(turned) > 1e-12f) || !std::isfinite(per)) return false;
-        out = {per * pixel.per_y.y, -per * pixel.per_y.x, -per * pixel.per_x.y, per * pixel.per_x.x};
+        const float across = std::abs(y.x) + std::abs(y.y), down = std::abs(x.x) + std::abs(x.y);
+        const float per_across = std::copysign(1 / across, turned),
+                    per_down = std::copysign(1 / down, turned);
+        out = {per_across * y.y, -per_across * y.x,      -per_down * x.y,
+               per_down * x.x,   std::abs(per) * across, std::abs(per) * down};
         return true;
     }
-    Steps times(float size) const { return {size * x_column, size * x_row, size * y_column, size * y_row}; }
-    float x_width() const { return std::abs(x_column) + std::abs(x_row); }
-    float y_width() const { return std::abs(y_column) + std::abs(y_row); }
 };
 
-// False: there is no room in the window.
-bool Mosaic::find_window(const Footprint& pixel, const Steps& finest, std::size_t level,
-                         MosaicWindow& out) const {
+// What of a level is about a pixel.
+MosaicWindow Mosaic::window(const Footprint& pixel, const Steps& steps, std::size_t level) const {
     const Level& there = levels_[level];
     const auto size = static_cast<float>(std::size_t{1} << level);
-    const Steps steps = finest.times(size);
-    out.count = 0;
-    out.x_step = steps.x_column, out.y_step = steps.y_column;
-    out.x_fall = 1 / steps.x_width(), out.y_fall = 1 / steps.y_width();
-    const float half_x = 0.5f + 0.5f * steps.x_width(), half_y = 0.5f + 0.5f * steps.y_width();
-    // In texels of this level, by their middles.
-    const double column = pixel.middle.x / static_cast<double>(size) - 0.5,
-                 row = pixel.middle.y / static_cast<double>(size) - 0.5;
-    const double reach =
-        static_cast<double>((half_x * std::abs(pixel.per_x.y) + half_y * std::abs(pixel.per_y.y)) / size);
-    const auto whole = [&](double at) {
-        return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(there.rows)));
+    MosaicWindow out;
+    out.x_column = steps.x_column, out.x_row = steps.x_row;
+    out.y_column = steps.y_column, out.y_row = steps.y_row;
+    out.x_reach = 0.5f + 0.5f / (size * steps.x_px), out.y_reach = 0.5f + 0.5f / (size * steps.y_px);
+    const auto about = [&](double middle, float x_way, float y_way, int count) {
+        const float reach =
+            out.x_reach * steps.x_px * std::abs(x_way) + out.y_reach * steps.y_px * std::abs(y_way);
+        return WholeNumbers::about(middle, static_cast<double>(reach), count);
     };
-    const int first = std::max(0, whole(std::ceil(row - reach))),
-              last = std::min(there.rows - 1, whole(std::floor(row + reach)));
-    for (int r = first; r <= last; ++r) {
-        const double below = r - row;
-        const auto at = [&](float per_column, float per_row) {
-            return static_cast<float>(0.5 - column * static_cast<double>(per_column) +
-                                      below * static_cast<double>(per_row));
-        };
-        const float x = at(steps.x_column, steps.x_row), y = at(steps.y_column, steps.y_row);
-        WholeNumbers columns{0, there.columns - 1};
-        columns.cut(x, steps.x_column, half_x), columns.cut(y, steps.y_column, half_y);
-        constexpr auto kLanes = static_cast<int>(MosaicTexels::kLanes);
-        for (int c = columns.first & -kLanes; c <= columns.last; c += kLanes) {
-            if (out.count == MosaicWindow::kMost) return false;
-            out.texels[out.count] = &there.texels[there.eight(c, r)];
-            out.x[out.count] = x + static_cast<float>(c) * steps.x_column;
-            out.y[out.count++] = y + static_cast<float>(c) * steps.y_column;
-        }
-    }
-    return true;
+    // In texels of this level, by their middles.
+    const auto per_size = 1 / static_cast<double>(size);
+    const double column = per_size * pixel.middle.x - 0.5, row = per_size * pixel.middle.y - 0.5;
+    const WholeNumbers columns = about(column, pixel.per_x.x, pixel.per_y.x, there.columns),
+                       rows = about(row, pixel.per_x.y, pixel.per_y.y, there.rows),
+                       eights{columns.first / kEight, (columns.end + kEight - 1) / kEight};
+    if (rows.count() == 0 || columns.count() == 0) return out;
+    out.row = static_cast<float>(rows.first - row);
+    out.column = static_cast<float>(eights.first * kEight - column);
+    out.rows = rows.count(), out.across = eights.count();
+    out.row_of_eights = there.row_of_eights();
+    out.kinds = there.kinds.data();
+    out.eights = there.eights.data() + there.eight(eights.first, rows.first);
+    return out;
 }
 
 Mosaic::Look Mosaic::look(const Footprint& pixel, Vec2f way) const {
@@ -90,19 +82,24 @@ Mosaic::Look Mosaic::look(const Footprint& pixel, Vec2f way) const {
     Steps steps{};
     if (!Steps::find(pixel, steps)) return out;
     std::size_t level = 0;
-    for (float widest = 2 * std::max(steps.x_width(), steps.y_width());
+    for (float widest = 2 * std::max(steps.x_px, steps.y_px);
          widest <= kSharp_px && level + 1 < levels_.size(); widest *= 2)
         ++level;
-    MosaicWindow window;
-    window.across = std::abs(way.x), window.down = std::abs(way.y);
-    while (!find_window(pixel, steps, level, window) && level + 1 < levels_.size()) ++level;
-    const MosaicSums sums = sums_of(window, layers);
+    MosaicSums sums;
+    for (;; ++level) {
+        MosaicWindow there = window(pixel, steps, level);
+        there.light_across = std::abs(way.x), there.light_down = std::abs(way.y);
+        if (find_sums(there, sums) || level + 1 == levels_.size()) break;
+    }
     const float all = std::accumulate(sums.share.begin(), sums.share.end(), 0.0f);
     if (!(all > 0)) return out;
+    const auto size = static_cast<float>(std::size_t{1} << level);
+    const float per_all = 1 / all;
     for (std::size_t k = 0; k < layers; ++k) {
         if (!(sums.share[k] > 0)) continue;
-        out.share[k] = sums.share[k] / all;
-        out.place[k] = {sums.x[k] / sums.share[k], sums.y[k] / sums.share[k]};
+        const float px = size / sums.share[k];
+        out.share[k] = per_all * sums.share[k];
+        out.place[k] = {0.5f + px * steps.x_px * sums.x[k], 0.5f + px * steps.y_px * sums.y[k]};
     }
     if (sums.share[0] > 0) out.lit = std::min(1.0f, sums.lit / sums.share[0]);
     const float upon = all - sums.share[0], lean = kMostLean * 255 / 127;
@@ -118,8 +115,8 @@ bool Mosaic::covers(const std::array<Vec3d, 3>& corners) const {
             return std::clamp(static_cast<int>(way_m / static_cast<double>(texel_m)), 0, count - 1);
         };
         const int column = texel(dot(at, to_double(across)), finest.columns);
-        const MosaicTexels& there =
-            finest.texels[finest.eight(column, texel(dot(at, to_double(down)), finest.rows))];
+        const int row = texel(dot(at, to_double(down)), finest.rows);
+        const MosaicTexels& there = finest.kinds[finest.eights[finest.eight(column / kEight, row)]];
         return std::any_of(there.share.begin(), there.share.begin() + layers,
                            [&](const MosaicTexels::Bytes& share) {
                                return share[static_cast<std::size_t>(column) % MosaicTexels::kLanes] > 0;

@@ -1,14 +1,28 @@
 #include "render/mosaic/mosaic_painter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
+
+#include "render/vocabulary/fnv.h"
 
 namespace hilcam {
 namespace {
 
 // A gap runs along the side on which it is free for so many times longer: any figure well above one tells gaps from squares.
 constexpr float kClear = 2;
+
+struct HashOfTexels {
+    std::size_t operator()(const MosaicTexels& texels) const {
+        Fnv1a hash;
+        for (const std::uint64_t word :
+             std::bit_cast<std::array<std::uint64_t, sizeof(texels) / sizeof(std::uint64_t)>>(texels))
+            hash.take(word);
+        return hash.value();
+    }
+};
 
 int texel(double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1); }
 
@@ -215,31 +229,45 @@ std::vector<MosaicPainter::Parts> MosaicPainter::covered_parts(std::size_t axis,
 void MosaicPainter::pack() {
     Mosaic::Level& level = mosaic_.levels_.emplace_back();
     level.columns = columns_, level.rows = rows_;
-    level.texels.resize(level.eights() * static_cast<std::size_t>(rows_));
+    std::unordered_map<MosaicTexels, std::uint32_t, HashOfTexels> numbers;
+    for (int y = 0; y < rows_; ++y)
+        for (int x = 0; x < columns_; x += static_cast<int>(MosaicTexels::kLanes)) {
+            const MosaicTexels texels = packed(x, y);
+            const auto [found, fresh] =
+                numbers.try_emplace(texels, static_cast<std::uint32_t>(level.kinds.size()));
+            if (fresh) level.kinds.push_back(texels);
+            level.eights.push_back(found->second);
+        }
+    level.kinds.shrink_to_fit();
+}
+
+// Eight texels of a row.
+MosaicTexels MosaicPainter::packed(int first, int row) const {
+    MosaicTexels out{};
     const auto byte = [](float share) {
         return static_cast<std::uint8_t>(std::clamp(255 * share + 0.5f, 0.0f, 255.0f));
     };
-    for (int y = 0; y < rows_; ++y)
-        for (int x = 0; x < columns_; ++x) {
-            MosaicTexels& to = level.texels[level.eight(x, y)];
-            const std::size_t lane = static_cast<std::size_t>(x) % MosaicTexels::kLanes, t = at(x, y);
-            // Rounded so that their sum is.
-            float sum = 0;
-            int given = 0;
-            for (std::size_t k = 0; k < mosaic_.layers; ++k) {
-                sum += covered_[k][t];
-                const int part = byte(sum) - given;
-                to.share[k][lane] = static_cast<std::uint8_t>(std::max(part, 0));
-                given += part;
-            }
-            to.down[lane] = byte(down_[t]);
-            for (std::size_t axis = 0; axis < 2; ++axis) {
-                const float lean = std::clamp(lean_[axis][t] / Mosaic::kMostLean, -1.0f, 1.0f);
-                to.lean[axis][lane] =
-                    static_cast<std::uint8_t>(static_cast<std::int8_t>(std::lround(127 * lean)));
-                to.gap[axis][lane] = byte(gap_[axis][t]);
-            }
+    const auto count = std::min(MosaicTexels::kLanes, static_cast<std::size_t>(columns_ - first));
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const std::size_t t = at(first, row) + lane;
+        // Rounded so that their sum is.
+        float sum = 0;
+        int given = 0;
+        for (std::size_t k = 0; k < mosaic_.layers; ++k) {
+            sum += covered_[k][t];
+            const int part = byte(sum) - given;
+            out.share[k][lane] = static_cast<std::uint8_t>(std::max(part, 0));
+            given += part;
         }
+        out.down[lane] = byte(down_[t]);
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const float lean = std::clamp(lean_[axis][t] / Mosaic::kMostLean, -1.0f, 1.0f);
+            out.lean[axis][lane] =
+                static_cast<std::uint8_t>(static_cast<std::int8_t>(std::lround(127 * lean)));
+            out.gap[axis][lane] = byte(gap_[axis][t]);
+        }
+    }
+    return out;
 }
 
 // The means of four texels, in place: what is written has been read.

@@ -46,6 +46,7 @@ class MosaicPainter {
                         bool along_rows) const;
     std::vector<Parts> covered_parts(std::size_t axis, int lines) const;
     void pack();
+    MosaicTexels packed(int first, int row) const;
     void halve();
 };
 

@@ -1,113 +1,214 @@
 #include "render/mosaic/mosaic_sums.h"
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/mosaic/mosaic_sums.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-#include "render/vocabulary/lane_sum.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, MosaicTexels::kLanes>;
+// Two eights side by side, in as many vectors as they take.
+constexpr std::size_t kEight = MosaicTexels::kLanes, kLanes = 2 * kEight;
+using Floats = hn::CappedTag<float, kLanes>;
+using Numbers = hn::RebindToUnsigned<Floats>;
 using V = hn::Vec<Floats>;
-constexpr std::size_t kStep = hn::MaxLanes(Floats()), kParts = MosaicTexels::kLanes / kStep;
+constexpr std::size_t kStep = hn::MaxLanes(Floats());
 
-// Weights of texels, and those times their places.
-struct Weights {
-    static constexpr std::size_t kSize = MosaicWindow::kMost * MosaicTexels::kLanes;
-    alignas(64) float weight[kSize], x[kSize], y[kSize];
-};
+// Two eights that lie anywhere.
+using Pair = std::array<const MosaicTexels*, 2>;
+// A vector's part of them, which begins with lane kFirst.
+template <std::size_t kFirst>
+struct Part {
+    static constexpr std::size_t kOf = kFirst / kEight, kTexel = kFirst % kEight;
 
-// The share of a pixel's width at which a texel's middle is in it.
-HWY_INLINE V inside(V at, V fall) {
-    const Floats d;
-    const V half = hn::Set(d, 0.5f);
-    const V in = hn::Add(hn::Mul(hn::Sub(half, hn::Abs(hn::Sub(at, half))), fall), half);
-    return hn::Min(hn::Max(in, hn::Zero(d)), hn::Set(d, 1));
-}
-
-void weigh(const MosaicWindow& w, Weights& out) {
-    const Floats d;
-    const V x_fall = hn::Set(d, w.x_fall), y_fall = hn::Set(d, w.y_fall);
-    for (std::size_t b = 0; b < w.count; ++b)
-        for (std::size_t first = 0; first < MosaicTexels::kLanes; first += kStep) {
-            const V lane = hn::Iota(d, static_cast<float>(first));
-            const V x = hn::Add(hn::Set(d, w.x[b]), hn::Mul(lane, hn::Set(d, w.x_step))),
-                    y = hn::Add(hn::Set(d, w.y[b]), hn::Mul(lane, hn::Set(d, w.y_step)));
-            const V weight = hn::Mul(inside(x, x_fall), inside(y, y_fall));
-            const std::size_t at = b * MosaicTexels::kLanes + first;
-            hn::Store(weight, d, out.weight + at);
-            hn::Store(hn::Mul(weight, x), d, out.x + at), hn::Store(hn::Mul(weight, y), d, out.y + at);
-        }
-}
-
-template <class Byte>
-HWY_INLINE V numbers(const std::uint8_t* bytes) {
-    const Floats d;
-    const hn::Rebind<Byte, Floats> db;
-    const hn::Rebind<std::int32_t, Floats> di;
-    return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(db, reinterpret_cast<const Byte*>(bytes))));
-}
-
-// A sum lane by lane, in one order for all widths.
-struct Sum {
-    V part[kParts];
-
-    Sum() {
-        for (V& p : part) p = hn::Zero(Floats());
+    // What each texel is away from the first of its eight.
+    static HWY_INLINE V ways(float step) {
+        const hn::RebindToSigned<Floats> di;
+        const auto texel = hn::And(hn::Iota(di, static_cast<std::int32_t>(kFirst)), hn::Set(di, kEight - 1));
+        return hn::Mul(hn::ConvertTo(Floats(), texel), hn::Set(Floats(), step));
     }
-    HWY_INLINE void add(std::size_t i, V more) { part[i] = hn::Add(part[i], more); }
-    HWY_INLINE float value() const {
-        alignas(64) std::array<float, MosaicTexels::kLanes> lanes;
-        for (std::size_t i = 0; i < kParts; ++i) hn::Store(part[i], Floats(), lanes.data() + i * kStep);
-        return lane_sum(lanes);
+    static HWY_INLINE V places(const float* first, V ways) {
+        const Floats d;
+        if constexpr (kStep == kLanes) {
+            const hn::Half<Floats> half;
+            return hn::Add(hn::Combine(d, hn::Set(half, first[1]), hn::Set(half, first[0])), ways);
+        } else {
+            return hn::Add(hn::Set(d, first[kOf]), ways);
+        }
+    }
+    // What the texels have at an offset in MosaicTexels.
+    template <class Byte = std::uint8_t>
+    static HWY_INLINE V numbers(const Pair& eights, std::size_t offset) {
+        const hn::Rebind<Byte, Floats> bytes;
+        const hn::RebindToSigned<Floats> di;
+        const auto at = [&](std::size_t i)
+                            HWY_ATTR { return reinterpret_cast<const Byte*>(eights[i]) + offset; };
+        if constexpr (kStep == kLanes) {
+            const hn::Half<decltype(bytes)> half;
+            const auto both = hn::Combine(bytes, hn::LoadU(half, at(1)), hn::LoadU(half, at(0)));
+            return hn::ConvertTo(Floats(), hn::PromoteTo(di, both));
+        } else {
+            return hn::ConvertTo(Floats(), hn::PromoteTo(di, hn::LoadU(bytes, at(kOf) + kTexel)));
+        }
     }
 };
 
-void sums(const MosaicWindow& w, std::size_t layers, MosaicSums& out) {
-    const Floats d;
-    Weights weights;
-    weigh(w, weights);
-    for (std::size_t k = 0; k < layers; ++k) {
-        Sum share, x, y;
-        for (std::size_t b = 0; b < w.count; ++b)
-            for (std::size_t i = 0; i < kParts; ++i) {
-                const std::size_t at = b * MosaicTexels::kLanes + i * kStep;
-                const V part = numbers<std::uint8_t>(w.texels[b]->share[k].data() + i * kStep);
-                share.add(i, hn::Mul(hn::Load(d, weights.weight + at), part));
-                x.add(i, hn::Mul(hn::Load(d, weights.x + at), part));
-                y.add(i, hn::Mul(hn::Load(d, weights.y + at), part));
+// Eights of which a part may be in the pixel, and where the first texel of each is.
+struct Found {
+    std::size_t count = 0;
+    alignas(64) std::array<std::uint32_t, MosaicWindow::kMost + kLanes> number;
+    alignas(64) std::array<float, MosaicWindow::kMost + kLanes> x, y;
+
+    // Appends those of a vector that are seen.
+    HWY_INLINE void append(hn::Mask<Floats> seen, hn::Vec<Numbers> numbers, V x_there, V y_there) {
+        const Floats d;
+        const Numbers du;
+        if constexpr (kStep == kLanes) {
+            hn::StoreU(hn::Compress(numbers, hn::RebindMask(du, seen)), du, &number[count]);
+            hn::StoreU(hn::Compress(x_there, seen), d, &x[count]);
+            hn::StoreU(hn::Compress(y_there, seen), d, &y[count]);
+            count += hn::CountTrue(d, seen);
+        } else {
+            // Highway has a table for these, which is slower than one after the other.
+            alignas(64) std::array<std::uint32_t, kStep> n, is_seen;
+            alignas(64) std::array<float, kStep> x_of, y_of;
+            hn::Store(numbers, du, n.data()), hn::Store(x_there, d, x_of.data()),
+                hn::Store(y_there, d, y_of.data());
+            hn::Store(hn::VecFromMask(du, hn::RebindMask(du, seen)), du, is_seen.data());
+            for (std::size_t i = 0; i < kStep; ++i) {
+                number[count] = n[i], x[count] = x_of[i], y[count] = y_of[i];
+                count += is_seen[i] & 1u;
             }
-        out.share[k] = share.value(), out.x[k] = x.value(), out.y[k] = y.value();
-    }
-    for (std::size_t k = 0; k < 2; ++k) {
-        Sum lean;
-        for (std::size_t b = 0; b < w.count; ++b)
-            for (std::size_t i = 0; i < kParts; ++i) {
-                const V weight = hn::Load(d, weights.weight + b * MosaicTexels::kLanes + i * kStep);
-                lean.add(i, hn::Mul(weight, numbers<std::int8_t>(w.texels[b]->lean[k].data() + i * kStep)));
-            }
-        out.lean[k] = lean.value();
-    }
-    // Texel by texel, as a narrow gap that is dark must not darken a wide one.
-    Sum lit;
-    const V across = hn::Set(d, w.across), down = hn::Set(d, w.down), dark = hn::Zero(d);
-    for (std::size_t b = 0; b < w.count; ++b)
-        for (std::size_t i = 0; i < kParts; ++i) {
-            const auto of = [&](const MosaicTexels::Bytes& bytes) {
-                return numbers<std::uint8_t>(bytes.data() + i * kStep);
-            };
-            const MosaicTexels& t = *w.texels[b];
-            const V running_down = of(t.down), running_across = hn::Sub(of(t.share[0]), running_down);
-            const V open = hn::Add(hn::Max(hn::Sub(running_down, hn::Mul(across, of(t.gap[0]))), dark),
-                                   hn::Max(hn::Sub(running_across, hn::Mul(down, of(t.gap[1]))), dark));
-            lit.add(i, hn::Mul(hn::Load(d, weights.weight + b * MosaicTexels::kLanes + i * kStep), open));
         }
-    out.lit = lit.value();
+    }
+};
+
+// One by a step. Along a side of the pixel a row is seen wholly or not at all, as by a step that is all but none.
+float inverse(float step) { return std::copysign(1 / std::max(std::abs(step), 1e-6f), step); }
+
+// False: there are too many. Rows are lanes.
+HWY_INLINE bool find(const MosaicWindow& w, Found& out) {
+    const Floats d;
+    const Numbers du;
+    const float x_per_column = inverse(w.x_column), y_per_column = inverse(w.y_column);
+    const V x_half = hn::Set(d, w.x_reach * std::abs(x_per_column)),
+            y_half = hn::Set(d, w.y_reach * std::abs(y_per_column));
+    const auto rows_of_eights = hn::Mul(hn::Iota(du, 0), hn::Set(du, w.row_of_eights));
+    for (std::uint32_t e = 0; e < w.across; ++e) {
+        const float first = w.column + static_cast<float>(e * kEight),
+                    last = first + static_cast<float>(kEight - 1);
+        for (std::uint32_t r = 0; r < w.rows; r += kStep) {
+            const V below = hn::Add(hn::Set(d, w.row), hn::Iota(d, static_cast<float>(r)));
+            const V x = hn::Mul(below, hn::Set(d, w.x_row)), y = hn::Mul(below, hn::Set(d, w.y_row));
+            // Columns from and until which the row is in the pixel.
+            const V x_middle = hn::Mul(x, hn::Set(d, -x_per_column)),
+                    y_middle = hn::Mul(y, hn::Set(d, -y_per_column));
+            const V from = hn::Max(hn::Sub(x_middle, x_half), hn::Sub(y_middle, y_half)),
+                    until = hn::Min(hn::Add(x_middle, x_half), hn::Add(y_middle, y_half));
+            const auto seen =
+                hn::And(hn::And(hn::Le(from, hn::Set(d, last)), hn::Ge(until, hn::Set(d, first))),
+                        hn::FirstN(d, w.rows - r));
+            const auto number = hn::Add(rows_of_eights, hn::Set(du, r * w.row_of_eights + e));
+            out.append(seen, number, hn::Add(x, hn::Set(d, first * w.x_column)),
+                       hn::Add(y, hn::Set(d, first * w.y_column)));
+            if (out.count > MosaicWindow::kMost) return false;
+        }
+    }
+    // They are taken by twos: the last may be one far away.
+    out.number[out.count] = 0;
+    out.x[out.count] = out.y[out.count] = 1e9f;
+    return true;
+}
+
+// The share of a texel that is in the pixel along one side.
+HWY_INLINE V inside(V at, V reach) {
+    const Floats d;
+    return hn::Min(hn::Max(hn::Sub(reach, hn::Abs(at)), hn::Zero(d)), hn::Set(d, 1));
+}
+
+// The terms of MosaicSums, in order.
+constexpr std::size_t kLayers = MosaicTexels::kLayers, kShare = 0, kX = kLayers, kY = 2 * kLayers,
+                      kLean = 3 * kLayers, kLit = kLean + 2, kTerms = kLit + 1;
+static_assert(sizeof(MosaicSums) == kTerms * sizeof(float) && kTerms % 4 == 0);
+using Lanes = std::array<std::array<float, kLanes>, kTerms>;
+
+template <std::size_t kFirst>
+HWY_INLINE void sum_part(const MosaicWindow& w, const Found& found, Lanes& out) {
+    using P = Part<kFirst>;
+    const Floats d;
+    const V x_ways = P::ways(w.x_column), y_ways = P::ways(w.y_column), x_reach = hn::Set(d, w.x_reach),
+            y_reach = hn::Set(d, w.y_reach), light_across = hn::Set(d, w.light_across),
+            light_down = hn::Set(d, w.light_down), dark = hn::Zero(d);
+    V sum[kTerms];
+    for (V& term : sum) term = hn::Zero(d);
+    const auto add = [&](std::size_t term, V more) HWY_ATTR { sum[term] = hn::Add(sum[term], more); };
+    for (std::size_t i = 0; i < found.count; i += 2) {
+        const Pair eights{w.kinds + w.eights[found.number[i]], w.kinds + w.eights[found.number[i + 1]]};
+        const V x = P::places(&found.x[i], x_ways), y = P::places(&found.y[i], y_ways),
+                weight = hn::Mul(inside(x, x_reach), inside(y, y_reach));
+        V share[kLayers];
+        for (std::size_t k = 0; k < kLayers; ++k) {
+            share[k] = P::numbers(eights, offsetof(MosaicTexels, share) + k * kEight);
+            const V part = hn::Mul(weight, share[k]);
+            add(kShare + k, part), add(kX + k, hn::Mul(part, x)), add(kY + k, hn::Mul(part, y));
+        }
+        V gap[2];
+        for (std::size_t k = 0; k < 2; ++k) {
+            const std::size_t lean = offsetof(MosaicTexels, lean) + k * kEight;
+            add(kLean + k, hn::Mul(weight, P::template numbers<std::int8_t>(eights, lean)));
+            gap[k] = P::numbers(eights, offsetof(MosaicTexels, gap) + k * kEight);
+        }
+        // Texel by texel, as a narrow gap that is dark must not darken a wide one.
+        const V down = P::numbers(eights, offsetof(MosaicTexels, down)), across = hn::Sub(share[0], down);
+        const V open = hn::Add(hn::Max(hn::Sub(down, hn::Mul(light_across, gap[0])), dark),
+                               hn::Max(hn::Sub(across, hn::Mul(light_down, gap[1])), dark));
+        add(kLit, hn::Mul(weight, open));
+    }
+    for (std::size_t i = 0; i < kTerms; ++i) hn::StoreU(sum[i], d, &out[i][kFirst]);
+}
+
+template <std::size_t... kPart>
+HWY_INLINE void sum_parts(const MosaicWindow& w, const Found& found, Lanes& out,
+                          std::index_sequence<kPart...>) {
+    (sum_part<kPart * kStep>(w, found, out), ...);
+}
+
+// Halves of lanes are added to each other, of four sums at a time.
+MosaicSums add_lanes(const Lanes& lanes) {
+    const hn::Full128<float> d;
+    const auto four = [&](std::size_t term) HWY_ATTR {
+        const float* lane = lanes[term].data();
+        return hn::Add(hn::Add(hn::Load(d, lane), hn::Load(d, lane + 8)),
+                       hn::Add(hn::Load(d, lane + 4), hn::Load(d, lane + 12)));
+    };
+    const auto two_each = [&](std::size_t term) HWY_ATTR {
+        const auto a = four(term), b = four(term + 1);
+        return hn::Add(hn::ConcatLowerLower(d, b, a), hn::ConcatUpperUpper(d, b, a));
+    };
+    alignas(16) std::array<float, kTerms> out;
+    for (std::size_t i = 0; i < kTerms; i += 4) {
+        const auto ab = two_each(i), cd = two_each(i + 2);
+        hn::Store(hn::Add(hn::ConcatEven(d, cd, ab), hn::ConcatOdd(d, cd, ab)), d, &out[i]);
+    }
+    return std::bit_cast<MosaicSums>(out);
+}
+
+bool sums(const MosaicWindow& w, MosaicSums& out) {
+    Found found;
+    if (!find(w, found)) return false;
+    alignas(64) Lanes lanes;
+    sum_parts(w, found, lanes, std::make_index_sequence<kLanes / kStep>());
+    out = add_lanes(lanes);
+    return true;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -119,10 +220,8 @@ namespace hilcam {
 
 HWY_EXPORT(sums);
 
-MosaicSums sums_of(const MosaicWindow& window, std::size_t layers) {
-    MosaicSums out;
-    HWY_DYNAMIC_DISPATCH(sums)(window, layers, out);
-    return out;
+bool find_sums(const MosaicWindow& window, MosaicSums& out) {
+    return HWY_DYNAMIC_DISPATCH(sums)(window, out);
 }
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// Sums over the texels of a mosaic (mosaic.h) about a pixel, eight texels of a row at a time. Compiled for several widths of
+// Sums over the texels of a mosaic (mosaic.h) about a pixel, twice eight texels of a row at a time. Compiled for several widths of
 // vectors that give the same results.
 
 #include <array>
@@ -20,29 +20,35 @@ struct alignas(64) MosaicTexels {
     // By the share of the ground that is in gaps which run down, and across: how narrow they are, 255 where they are as wide as
     // Mosaic::upper_m.
     std::array<Bytes, 2> gap;
+
+    bool operator==(const MosaicTexels&) const = default;
 };
 static_assert(sizeof(MosaicTexels) == 64);
 
-// Eights of texels with their places in the pixel [px from its corner].
+// Eights of texels about a pixel, and how these lie in it. Lengths in it are widths that a texel takes along its sides there: a
+// side falls off over one, so that pixels side by side add up to one.
 struct MosaicWindow {
     static constexpr std::size_t kMost = 256;
-    std::array<const MosaicTexels*, kMost> texels;
-    std::array<float, kMost> x, y;  // places of the first of each
-    std::size_t count = 0;
-    float x_step = 0, y_step = 0;  // from each to the next
-    // Sides fall off over the width that a texel has there, so that pixels side by side add up to one: that, inverse.
-    float x_fall = 0, y_fall = 0;
-    // The way of light along across and down, either way, while it rises as high as what lies on the ground, less that of the line of
-    // sight [Mosaic::upper_m].
-    float across = 0, down = 0;
+    const MosaicTexels* kinds = nullptr;
+    const std::uint32_t* eights = nullptr;  // the kind of each, from the window's first one on
+    std::uint32_t row_of_eights = 0;        // from one row to the next
+    std::uint32_t rows = 0, across = 0;     // how many rows, and eights in each
+    float column = 0, row = 0;              // the first texel, from the pixel's middle [texels]
+    // The way in the pixel from a texel to the next in its row and in its column.
+    float x_column = 0, x_row = 0, y_column = 0, y_row = 0;
+    // A texel is just not in the pixel as far from its middle as this, and wholly if a width nearer.
+    float x_reach = 0, y_reach = 0;
+    // The way of light along the mosaic's sides, either way, while it rises as high as what lies on the ground, less that of the
+    // line of sight [Mosaic::upper_m].
+    float light_across = 0, light_down = 0;
 };
 struct MosaicSums {
     std::array<float, MosaicTexels::kLayers> share{};
-    std::array<float, MosaicTexels::kLayers> x{}, y{};  // sums of shares times their places
+    std::array<float, MosaicTexels::kLayers> x{}, y{};  // sums of shares times their places, from the middle
     std::array<float, 2> lean{};
     float lit = 0;  // sum of the share of the ground that light reaches
 };
-// layers: the first ones, which are asked for. Loop, any thread.
-MosaicSums sums_of(const MosaicWindow& window, std::size_t layers);
+// False: the pixel has parts of more than kMost eights. Loop, any thread.
+bool find_sums(const MosaicWindow& window, MosaicSums& out);
 
 }  // namespace hilcam
