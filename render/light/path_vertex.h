@@ -31,13 +31,13 @@ struct PixelShare {
     Spectrum share;       // part of the light as the vertex sends it, with the pixel's own colour
 };
 
-// What the rays find that follow one vertex's lobe, until all have come back.
+// The light that rays find which follow one vertex's lobe, until all have come back.
 struct FollowedLobe {
     static constexpr std::size_t kMostRays = 32;
     std::span<const PixelShare> pixels;     // that have it
-    float kept = 0;                         // what kept light has in the lobe, as the sum of by_ray
+    float kept = 0;                         // kept light in the lobe, as the sum of by_ray
     float kept_directions = 0;              // that bring that (KeptLight::Lobe)
-    Spectrum sky, light;                    // of rays that meet nothing, and of all others
+    Spectrum sky, light;                    // light of rays that meet nothing, and of all others
     std::array<float, kMostRays> by_ray{};  // the latter's greatest bin
 
     void add(std::size_t ray, const Spectrum& found) {
@@ -72,7 +72,7 @@ struct Vertex {
     const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
     float kept_lobe;            // where that, what kept light has in it, greatest bin; of so many directions
     float kept_lobe_directions;
-    FollowedLobe* lobe;     // whose rays have met it, or are its own; null: its light is its pixel's
+    FollowedLobe* lobe;     // the lobe whose rays have met it, or are its own; null: its light is its pixel's
     std::uint8_t lobe_ray;  // which of them
     float sunlit;           // share of it that what lies on it leaves in the Sun (mosaic/mosaic.h)
     float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's

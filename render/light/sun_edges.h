@@ -47,7 +47,7 @@ class SunEdges {
     static constexpr std::uint32_t kAgain = 4;  // rays
     struct Asked {
         const Vertex* at;
-        const Asked* like;  // whose first ray tells for this one, too; null: it has its own
+        const Asked* like;  // the one whose first ray tells for it, too; null: it has its own
         Spectrum light;
         Starts starts;
         float lit, of;      // shares that have got through, and that were asked for

@@ -27,7 +27,7 @@ struct WholeNumbers {
 
 }  // namespace
 
-// How texels lie in a pixel, by the width that one takes there: a side falls off over it, so that pixels side by side add up to
+// Ways of texels in a pixel, by the width that one takes there: a side falls off over it, so that pixels side by side add up to
 // one.
 struct Mosaic::Steps {
     // From a texel to the next in its row and in its column [widths].
@@ -48,7 +48,7 @@ struct Mosaic::Steps {
     }
 };
 
-// What of a level is about a pixel.
+// Returns the part of a level that is about a pixel.
 MosaicWindow Mosaic::window(const Footprint& pixel, const Steps& steps, std::size_t level) const {
     const Level& there = levels_[level];
     const auto size = static_cast<float>(std::size_t{1} << level);

@@ -32,7 +32,7 @@ struct MosaicWindow {
     const MosaicTexels* kinds = nullptr;
     const std::uint32_t* eights = nullptr;  // the kind of each, from the window's first one on
     std::uint32_t row_of_eights = 0;        // from one row to the next
-    std::uint32_t rows = 0, across = 0;     // how many rows, and eights in each
+    std::uint32_t rows = 0, across = 0;     // number of rows, and of eights in each
     float column = 0, row = 0;              // the first texel, from the pixel's middle [texels]
     // The way in the pixel from a texel to the next in its row and in its column.
     float x_column = 0, x_row = 0, y_column = 0, y_row = 0;

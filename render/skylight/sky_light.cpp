@@ -304,7 +304,7 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
     body.light_cosine = std::max(-1.0f, 1 - square / sum);  // |off|^2 is 2 - 2 cos
 }
 
-// What lobes see of a disk.
+// The part of a disk that lobes see.
 struct SkyLight::Seen {
     static constexpr float kNextToNothing = 1e-3f;
     std::array<float, Lobes::kMost> off;   // cosine between the mirror's direction and the disk's
