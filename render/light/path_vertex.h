@@ -44,8 +44,11 @@ struct FollowedLobe {
         light += found;
         by_ray[ray] += largest(found);
     }
-    // Returns what the vertex sends of it.
-    Spectrum sum() const;
+    // Returns the light of all rays, and as much of it as is believed at this one vertex; greatest bin.
+    float found() const;
+    float believed() const;
+    // Returns what the vertex sends where so much is believed.
+    Spectrum sum(float light_believed) const;
 };
 
 struct Vertex {

@@ -61,9 +61,9 @@ struct Tile {
         if (at.lobe) return at.lobe->add(at.lobe_ray, light);
         add(at.pixel, at.halves, light);
     }
-    // Adds what all rays of a lobe have found to the pixels that have it.
-    void add(const FollowedLobe& lobe) {
-        const Spectrum light = lobe.sum();
+    // Adds what all rays of a lobe have found to the pixels that have it, as far as it is believed.
+    void add(const FollowedLobe& lobe, float light_believed) {
+        const Spectrum light = lobe.sum(light_believed);
         for (const PixelShare& part : lobe.pixels) add(part.pixel, part.halves, part.share * light);
     }
     void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {

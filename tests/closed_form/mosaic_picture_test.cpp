@@ -88,6 +88,14 @@ TEST(MosaicPicture, TilesShadeTheGapsBesideThem) {
     EXPECT_GT(std::abs(seen.error(cosine, 1).mean), 2e-3);
 }
 
+// Tiles and gaps of a pixel ask for the Sun by one ray, though each is lit by itself.
+TEST(MosaicPicture, OneRayToTheSunTellsForAPixelsLayers) {
+    const Panel seen(0.0283, true, {0, 0, -1});
+    const double covered_px = seen.s.stats.coverage * kSize_px * kSize_px;
+    EXPECT_GT(covered_px, 0.9 * kSize_px * kSize_px);
+    EXPECT_LE(static_cast<double>(seen.s.stats.shadow_rays), covered_px);
+}
+
 // From behind the panel is its ground, and from its edge nothing.
 TEST(MosaicPicture, IsTheGroundFromBehind) {
     Stage s;

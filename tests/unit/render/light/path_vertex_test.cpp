@@ -18,7 +18,7 @@ FollowedLobe lobe_of(float kept, float directions, float light, std::size_t brig
     for (std::size_t i = 0; i < bright; ++i) lobe.add(i, gray(light / static_cast<float>(bright)));
     return lobe;
 }
-float found(const FollowedLobe& lobe) { return largest(lobe.sum()); }
+float found(const FollowedLobe& lobe) { return largest(lobe.sum(lobe.believed())); }
 
 TEST(FollowedLobe, RaysAreRightWhereTheyFindLess) {
     EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 3, 1)), 3);

@@ -35,7 +35,7 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     at.lobe = &lobe;
     tile.add(at, of(4));
     EXPECT_EQ(pixels[1][0], 0) << "until all rays have come back";
-    tile.add(lobe);
+    tile.add(lobe, lobe.believed());
     EXPECT_EQ(pixels[0][0], 0);
     EXPECT_EQ(pixels[1][0], 4);
     EXPECT_EQ(pixels[2][0], 1);
