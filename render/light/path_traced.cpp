@@ -102,15 +102,8 @@ class TracedPaths final : public PathModel {
             for (std::size_t i = 0; i < keep; ++i) continue_kept(tile, current_[i], rays);
             count = follow(tile, choose(tile, keep, count, rays, last), last);
         }
-        give_lobes(tile);
-    }
-
-    // The light that is not believed at one vertex others of the tile have, so that all of them send what their rays have found.
-    void give_lobes(Tile& tile) const {
         const std::span<const FollowedLobe> lobes = std::span(lobes_).first(lobe_count_);
-        float found = 0, believed = 0;
-        for (const FollowedLobe& lobe : lobes) found += lobe.found(), believed += lobe.believed();
-        const float share = believed > 0 ? found / believed : 1.0f;
+        const float share = found_over_believed(lobes);
         for (const FollowedLobe& lobe : lobes) tile.add(lobe, share * lobe.believed());
     }
 

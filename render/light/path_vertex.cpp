@@ -56,6 +56,12 @@ float FollowedLobe::believed() const {
     return kept + rays / (rays + kept_directions) * (all - kept);
 }
 
+float found_over_believed(std::span<const FollowedLobe> lobes) {
+    float found = 0, believed = 0;
+    for (const FollowedLobe& lobe : lobes) found += lobe.found(), believed += lobe.believed();
+    return believed > 0 ? found / believed : 1.0f;
+}
+
 Spectrum FollowedLobe::sum(float light_believed) const {
     const float all = found();
     return all > 0 ? sky + (light_believed / all) * light : sky;

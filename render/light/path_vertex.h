@@ -50,6 +50,9 @@ struct FollowedLobe {
     // Returns what the vertex sends where so much is believed.
     Spectrum sum(float light_believed) const;
 };
+// Returns the factor on what is believed of each by which all together send what their rays have found: what one vertex does not
+// have, those about it have. At least 1.
+float found_over_believed(std::span<const FollowedLobe> lobes);
 
 struct Vertex {
     std::uint32_t pixel;     // in the tile

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace hilcam {
 namespace {
 
@@ -25,27 +27,39 @@ TEST(FollowedLobe, RaysAreRightWhereTheyFindLess) {
     EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 0, 0)), 0);
 }
 
-// With four directions one ray has as much to say as they have.
-TEST(FollowedLobe, OneRayThatMeetsAGlintCountsByHalf) {
-    EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 30, 1)), 20);
-    EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 30, 4)), 26);
-    EXPECT_NEAR(found(lobe_of(10, 4, 30, 20)), 30, 1);
+TEST(FollowedLobe, ARayThatMeetsAGlintIsBelievedAsADirectionIs) {
+    EXPECT_FLOAT_EQ(found(lobe_of(10, 1, 30, 1)), 20);
+    EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 30, 1)), 14);
+    EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 30, 4)), 20);
+    EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 30, 16)), 26);
 }
 
 // Nothing is kept that rays could be held against.
 TEST(FollowedLobe, RaysAloneAreRight) { EXPECT_FLOAT_EQ(found(lobe_of(0, 0, 30, 1)), 30); }
 
 TEST(FollowedLobe, LightOfTheSkyIsAsItIs) {
-    FollowedLobe lobe = lobe_of(10, 4, 30, 1);
+    FollowedLobe lobe = lobe_of(10, 1, 30, 1);
     lobe.sky = gray(5);
     EXPECT_FLOAT_EQ(found(lobe), 25);
 }
 
 // A ray's light comes in parts, from all that it meets.
 TEST(FollowedLobe, PartsOfOneRayAreOne) {
-    FollowedLobe lobe = lobe_of(10, 4, 20, 1);
+    FollowedLobe lobe = lobe_of(10, 1, 20, 1);
     lobe.add(0, gray(10));
     EXPECT_FLOAT_EQ(found(lobe), 20);
+}
+
+// One of three has met a glint: they send what all rays have found, the dark one nothing.
+TEST(FollowedLobe, WhatOneDoesNotHaveOthersHave) {
+    const std::array lobes{lobe_of(10, 4, 60, 1), lobe_of(10, 4, 10, 4), lobe_of(10, 4, 0, 0)};
+    const float share = found_over_believed(lobes);
+    float sum = 0;
+    for (const FollowedLobe& lobe : lobes) sum += largest(lobe.sum(share * lobe.believed()));
+    EXPECT_FLOAT_EQ(sum, 70);
+    EXPECT_FLOAT_EQ(share, 70.0f / 30);
+    EXPECT_EQ(lobes[2].believed(), 0);
+    EXPECT_EQ(found_over_believed({}), 1);
 }
 
 }  // namespace
