@@ -255,11 +255,11 @@ class TracedPaths final : public PathModel {
         const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
         const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
         const Followers followers = share_rays(tile, at);
-        const auto count = static_cast<std::size_t>(std::lround(rays_for(followers.samples)));
+        const std::size_t count = std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))),
+                                           FollowedLobe::kMostRays);
         const Frame local(at.normal);
         const std::size_t first = ray_count;
-        for (std::size_t i = 0; i < std::min(count, FollowedLobe::kMostRays) && ray_count < next_.size();
-             ++i) {
+        for (std::size_t i = 0; i < count && ray_count < next_.size(); ++i) {
             const Vertex& from = *followers.vertex[i % followers.count];
             const auto number = static_cast<float>(at.sample + i);
             const Vec3f facet = local.to_world(sample_visible_normal(

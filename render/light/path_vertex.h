@@ -39,13 +39,13 @@ struct FollowedLobe {
     float kept_directions = 0;              // that bring that (KeptLight::Lobe)
     Spectrum sky, light;                    // light of rays that meet nothing, and of all others
     std::array<float, kMostRays> by_ray{};  // the latter's greatest bin
+    float found = 0;                        // sum of these
 
-    void add(std::size_t ray, const Spectrum& found) {
-        light += found;
-        by_ray[ray] += largest(found);
+    void add(std::size_t ray, const Spectrum& more) {
+        const float brightest = largest(more);
+        light += more, by_ray[ray] += brightest, found += brightest;
     }
-    // Returns the light of all rays, and as much of it as is believed at this one vertex; greatest bin.
-    float found() const;
+    // Returns as much of what is found as is believed at this one vertex.
     float believed() const;
     // Returns what the vertex sends where so much is believed.
     Spectrum sum(float light_believed) const;

@@ -1,8 +1,8 @@
 #pragma once
 // Shadows' edges on what the camera sees by the visibility buffer, as wide as the Sun's disk makes them.
 //
-// One ray to the middle of the Sun tells which vertices are lit, and one for all layers of a mosaic in a pixel. Where vertices of one kind that differ lie in pixels within
-// kReach_px of each other, an edge passes: each of them asks again, from other places of what its samples see, for
+// One ray to the middle of the Sun tells which vertices are lit, and one for all layers of a mosaic in a pixel. Where
+// vertices of one kind that differ lie in pixels within kReach_px of each other, an edge passes: each of them asks again, from other places of what its samples see, for
 // other places of the disk. A kind is a surface of an object, or more than one, where it faces the same way by and large:
 // what lies in shadow behind an edge of the body is no edge of a shadow on what stands before it. The
 // approximation: a vertex further off has its one ray, so penumbras wider than twice the reach keep a hard edge

@@ -27,8 +27,8 @@ using I = hn::Vec<Ints>;
 // One sum and one product after the other, never fused: every width must round alike.
 HWY_INLINE V times_plus(V a, V b, V c) { return hn::Add(hn::Mul(a, b), c); }
 
-// Four numbers in each block of four lanes: of places first, first + 4 and so on. They are put together in registers: memory would be slow
-// to give back what was written to it in parts.
+// Four numbers in each block of four lanes: of places first, first + 4 and so on. They are put together in registers:
+// memory would be slow to give back what was written to it in parts.
 template <class Tag, class PlaceOf>
 HWY_INLINE hn::Vec<Tag> blocks_of(Tag d, const PlaceOf& place_of, std::size_t first) {
     if constexpr (hn::MaxLanes(Tag()) == 4) {
