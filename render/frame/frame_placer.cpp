@@ -170,13 +170,21 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
 // The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
 void FramePlacer::choose_levels() {
     for (std::size_t i = 0; i < objects_.size(); ++i) {
+        const ShownObject& object = objects_[i];
+        const auto level_from = [&](double distance_m) {
+            const double error_m =
+                lod_error_px_ * std::max(0.0, distance_m) / frame_.geometry.focal_length_px;
+            std::size_t level = 0;
+            while (level + 1 < object.levels.size() && object.error_m[level + 1] <= error_m) ++level;
+            return level;
+        };
         const Vec3d to_camera_m = world_.camera.position_world_m - world_.objects[i].position_world_m;
-        const double nearest_m = length(to_camera_m) - radii_m_[i];
-        const double error_m = lod_error_px_ * std::max(0.0, nearest_m) / frame_.geometry.focal_length_px;
-        std::size_t level = 0;
-        while (level + 1 < objects_[i].levels.size() && objects_[i].error_m[level + 1] <= error_m) ++level;
-        levels_[i] = level;
-        shown_[i] = objects_[i].levels[level].get();
+        levels_[i] = level_from(length(to_camera_m) - radii_m_[i]);
+        // A satellite's wings make its sphere large where there is nothing.
+        if (levels_[i] + 1 < object.levels.size())
+            levels_[i] = level_from(
+                object.distance_m(transposed(to_matrix(world_.objects[i].world_from_body)) * to_camera_m));
+        shown_[i] = object.levels[levels_[i]].get();
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/levels/triangle_order.h"
 #include "render/mosaic/mosaic_finder.h"
@@ -18,11 +19,39 @@ std::vector<Material> widened(std::vector<Material> materials, const std::vector
     return materials;
 }
 
+// Neighbours in the mesh's order, which lie close together, have a box together.
+std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
+    constexpr std::size_t kMost = 512;
+    const auto& clusters = mesh.cluster_bounds_m;
+    const std::size_t together = (clusters.size() + kMost - 1) / kMost;
+    std::vector<std::array<Vec3f, 2>> out;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+        if (i % together == 0) out.push_back(clusters[i]);
+        auto& [least, most] = out.back();
+        const auto& [low, high] = clusters[i];
+        least = {std::min(least.x, low.x), std::min(least.y, low.y), std::min(least.z, low.z)};
+        most = {std::max(most.x, high.x), std::max(most.y, high.y), std::max(most.z, high.z)};
+    }
+    return out;
+}
+
 // Levels of smaller errors, over the object's size, have no mosaics: texels of small panels would be many. Those of a satellite with
 // wings from 20 to 40 m have more (docs/decisions.md).
 constexpr double kFinestMosaic = 1.0 / 65536;
 
 }  // namespace
+
+double ShownObject::distance_m(Vec3d from_m) const {
+    double nearest = std::numeric_limits<double>::infinity();  // squared
+    for (const auto& [low, high] : bounds_m) {
+        const Vec3d least = to_double(low), most = to_double(high);
+        const Vec3d way{std::max({least.x - from_m.x, from_m.x - most.x, 0.0}),
+                        std::max({least.y - from_m.y, from_m.y - most.y, 0.0}),
+                        std::max({least.z - from_m.z, from_m.z - most.z, 0.0})};
+        nearest = std::min(nearest, dot(way, way));
+    }
+    return std::sqrt(nearest);
+}
 
 std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
     std::vector<std::vector<const Mesh*>> objects;
@@ -57,6 +86,7 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));
         auto finest = std::make_shared<ObjectSurfaces>(object.mesh, object.materials, textures);
         find_patches(object.mesh, *finest);
+        out.bounds_m = bounds_of(*finest);
         out.levels.push_back(std::move(finest));
         out.error_m.push_back(0);
         std::shared_ptr<const std::vector<Mosaic>> mosaics;

@@ -1,6 +1,7 @@
 #pragma once
 // The scene's objects as the renderer keeps them: surfaces for shading at every level of detail.
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,7 +17,11 @@ struct ShownObject {
     std::vector<double> error_m;                                // error of each level
     std::shared_ptr<const TransferTable> transfer;  // null: no light is kept on it; shared by its like
     double turn_rate_rad_s = 0;
+    // Least and greatest corners of boxes that hold the mesh, some hundred at most; body axes.
+    std::vector<std::array<Vec3f, 2>> bounds_m;
 
+    // Returns how far a place [m, body axes] is from the nearest of these boxes; 0 within one.
+    double distance_m(Vec3d from_m) const;
     const std::vector<Material>& materials() const { return levels.front()->materials; }
     double radius_m() const { return levels.front()->radius_m; }
 };
