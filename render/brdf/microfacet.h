@@ -90,20 +90,31 @@ struct Frame {
     Vec3f to_local(Vec3f v) const { return {dot(v, t), dot(v, b), dot(v, n)}; }
 };
 
+// A place in the unit disk that two numbers in [0, 1) choose, equal areas equally.
+struct DiskPlace {
+    float radius, cosine, sine;
+
+    static DiskPlace of(float u1, float u2) {
+        const float phi = 2 * kPiF * u2;
+        return {std::sqrt(u1), std::cos(phi), std::sin(phi)};
+    }
+};
+
 // A facet normal seen from `view` (local frame, z = normal), distributed as the visible GGX normals: Heitz
 // 2018.
-inline Vec3f sample_visible_normal(float alpha, Vec3f view, float u1, float u2) {
+inline Vec3f sample_visible_normal(float alpha, Vec3f view, DiskPlace at) {
     const Vec3f v = normalized(Vec3f{alpha * view.x, alpha * view.y, view.z});
     const float across = v.x * v.x + v.y * v.y;
     const Vec3f t1 = across > 0 ? Vec3f{-v.y, v.x, 0} / std::sqrt(across) : Vec3f{1, 0, 0};
     const Vec3f t2 = cross(v, t1);
-    const float r = std::sqrt(u1);
-    const float phi = 2 * kPiF * u2;
-    const float p1 = r * std::cos(phi);
+    const float p1 = at.radius * at.cosine;
     const float s = 0.5f * (1 + v.z);
-    const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * std::sin(phi);
+    const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * at.radius * at.sine;
     const Vec3f n = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2)) * v;
     return normalized(Vec3f{alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)});
+}
+inline Vec3f sample_visible_normal(float alpha, Vec3f view, float u1, float u2) {
+    return sample_visible_normal(alpha, view, DiskPlace::of(u1, u2));
 }
 
 // A direction above the local plane with density cos/pi (Malley's method, pbrt 3rd ed., 13.6.3).
@@ -117,9 +128,12 @@ inline Vec3f reflect(Vec3f view, Vec3f normal) { return 2 * dot(view, normal) * 
 
 // A direction towards the light by a facet of the lobe, world; its density is ggx_density(). local: about the
 // normal.
-inline Vec3f sample_facets(float alpha, const Frame& local, Vec3f view_dir, float u1, float u2) {
-    const Vec3f facet = local.to_world(sample_visible_normal(alpha, local.to_local(view_dir), u1, u2));
+inline Vec3f sample_facets(float alpha, const Frame& local, Vec3f view_dir, DiskPlace at) {
+    const Vec3f facet = local.to_world(sample_visible_normal(alpha, local.to_local(view_dir), at));
     return normalized(reflect(view_dir, facet));
+}
+inline Vec3f sample_facets(float alpha, const Frame& local, Vec3f view_dir, float u1, float u2) {
+    return sample_facets(alpha, local, view_dir, DiskPlace::of(u1, u2));
 }
 
 }  // namespace hilcam

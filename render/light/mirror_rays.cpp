@@ -1,6 +1,7 @@
 #include "render/light/mirror_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -9,28 +10,62 @@
 #include "render/light/lamp_light.h"
 #include "render/light/primary_vertices.h"
 #include "render/visibility/place_sequence.h"
+#include "render/vocabulary/clones.h"
 
 namespace hilcam {
 namespace {
 
+// Where in the disk of visible facets the rays of a pixel lie, by their number.
+struct Places {
+    alignas(64) std::array<float, kMostSamples> radius, cosine, sine;
+};
+const Places kPlaces = [] {
+    Places out;
+    for (std::size_t i = 0; i < kMostSamples; ++i) {
+        const float number = static_cast<float>(i) + 0.5f;
+        const DiskPlace at =
+            DiskPlace::of(std::fmod(kPlasticAlong * number, 1.0f), std::fmod(kPlasticAbout * number, 1.0f));
+        out.radius[i] = at.radius, out.cosine[i] = at.cosine, out.sine[i] = at.sine;
+    }
+    return out;
+}();
+
+// Three coordinates of each lane.
+struct Lanes {
+    using Floats = std::array<float, kPacketSize>;
+    alignas(64) Floats x{}, y{}, z{};
+    Vec3f at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+    void set(std::size_t k, Vec3f v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
+};
+
+// Reflects the views of a lobe's points by a facet each, from place `first` on. to_viewer_m: from the vertex; ways_m: from it to
+// the points.
+HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer_m, const Lanes& ways_m,
+                                 std::size_t first, Lanes& dirs) {
+    const Frame local = lobe;
+    const float *radius = kPlaces.radius.data() + first, *cosine = kPlaces.cosine.data() + first,
+                *sine = kPlaces.sine.data() + first;
+    for (std::size_t k = 0; k < kPacketSize; ++k)
+        dirs.set(k, sample_facets(alpha, local, normalized(to_viewer_m - ways_m.at(k)),
+                                  {radius[k], cosine[k], sine[k]}));
+}
+
 // Sends some of the rays, each from another of the samples that are left and by a facet of its own. first: how many there were
-// before.
+// before, a multiple of kPacketSize.
 void send(Tile& tile, const Vertex& at, SampleMask& left, std::size_t first, std::size_t count,
           MirrorRays::Packet& out) {
     const FrameView& frame = tile.frame;
     const float distance_m = at.footprint_m * static_cast<float>(frame.geometry.focal_length_px);
-    const Frame local(at.normal);
+    const WayToSample way(tile, at);
+    Lanes ways_m, dirs;
+    for (std::size_t k = 0; k < count; ++k)
+        ways_m.set(k, way.to(next_sample(frame.samples, left, at.samples)));
+    reflect_views(at.surface.alpha, Frame(at.normal), distance_m * at.view_dir, ways_m, first, dirs);
     out.rays.count = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec3f way_m = way_to_sample(tile, at, next_sample(frame.samples, left, at.samples));
-        const float number = static_cast<float>(first + i) + 0.5f;
-        const Vec3f dir =
-            sample_facets(at.surface.alpha, local, normalized(distance_m * at.view_dir - way_m),
-                          std::fmod(kPlasticAlong * number, 1.0f), std::fmod(kPlasticAbout * number, 1.0f));
-        if (dot(at.geometric_normal, dir) > 0)
-            out.rays.set(out.rays.count++, at.start() + way_m, dir, 0,
+    for (std::size_t k = 0; k < count; ++k)
+        if (dot(at.geometric_normal, dirs.at(k)) > 0)
+            out.rays.set(out.rays.count++, at.start() + ways_m.at(k), dirs.at(k), 0,
                          std::numeric_limits<float>::infinity());
-    }
     frame.scene->intersect(out.rays, Coherence::kCoherent, out.hits);
     tile.stats.secondary_rays += static_cast<std::uint64_t>(out.rays.count);
     out.met = 0;

@@ -295,14 +295,15 @@ class TracedPaths final : public PathModel {
     }
 
     // Traces some of the chosen rays.
-    const HitPacket& trace_packet(Tile& tile, std::size_t first, std::size_t count, HitPacket& hits) const {
+    const HitPacket& trace_packet(Tile& tile, std::size_t first, std::size_t count, Coherence coherence,
+                                  HitPacket& hits) const {
         RayPacket rays;
         rays.count = static_cast<int>(count);
         for (int i = 0; i < rays.count; ++i) {
             const NextRay& ray = next_[first + static_cast<std::size_t>(i)];
             rays.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
         }
-        tile.frame.scene->intersect(rays, Coherence::kIncoherent, hits);
+        tile.frame.scene->intersect(rays, coherence, hits);
         tile.stats.secondary_rays += count;
         return hits;
     }
@@ -334,7 +335,8 @@ class TracedPaths final : public PathModel {
         if (mirrors > 0) near_part_.fill(false);
         for (std::size_t first = 0; first < mirrors; first += kPacketSize) {
             const std::size_t count = std::min<std::size_t>(kPacketSize, mirrors - first);
-            const HitPacket& hits = trace_packet(tile, first, count, mirror_hits_[first / kPacketSize]);
+            const HitPacket& hits =
+                trace_packet(tile, first, count, Coherence::kCoherent, mirror_hits_[first / kPacketSize]);
             for (std::size_t k = 0; k < count; ++k) {
                 const NextRay& ray = next_[first + k];
                 if (meets_object(tile.frame, hits, k, ray.origin_m, ray.dir) && has_met_a_part(hits, k, ray))
@@ -397,8 +399,9 @@ class TracedPaths final : public PathModel {
         std::size_t room = kMostRays - ray_count;
         for (std::size_t first = 0; first < ray_count; first += count) {
             count = std::min<std::size_t>(kPacketSize, (first < mirrors ? mirrors : ray_count) - first);
-            const HitPacket& hits = first < mirrors ? mirror_hits_[first / kPacketSize]
-                                                    : trace_packet(tile, first, count, own_hits);
+            const HitPacket& hits = first < mirrors
+                                        ? mirror_hits_[first / kPacketSize]
+                                        : trace_packet(tile, first, count, Coherence::kIncoherent, own_hits);
             for (std::size_t k = 0; k < count; ++k) {
                 const NextRay& ray = next_[first + k];
                 if (first < mirrors && near_part_[ray.from->pixel]) {

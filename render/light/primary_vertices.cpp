@@ -359,24 +359,28 @@ Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px
                                        {at.x - static_cast<float>(right), at.y - static_cast<float>(down)});
 }
 
-Vec3f way_to_sample(const Tile& tile, const Vertex& at, int sample) {
-    const FrameView& frame = tile.frame;
-    const float facing = dot(at.geometric_normal, at.view_dir);
-    if (facing < 0.02f) return {};
+WayToSample::WayToSample(const Tile& tile, const Vertex& at)
+    : frame_(tile.frame),
+      at_(at),
+      rays_(frame_.rays->linear()),
+      facing_(dot(at.geometric_normal, at.view_dir)) {
     const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
-    const int x = tile.box.x0 + pixel % width, y = tile.box.y0 + pixel / width;
-    const Vec2f from = at.place_px, to = frame.samples.place(sample);
-    const LinearRays* rays = frame.rays->linear();
-    const auto dir = [&](Vec2f p) {
-        return rays ? rays->corner + (x + static_cast<double>(p.x)) * rays->right +
-                          (y + static_cast<double>(p.y)) * rays->down
-                    : direction_seen(frame, x, y, p);
-    };
-    const Vec3d dir_from = dir(from);
-    const double distance_m = static_cast<double>(at.footprint_m) * frame.geometry.focal_length_px;
-    const Vec3f across = to_float(distance_m / length(dir_from) * (dir(to) - dir_from));
-    return across - (dot(across, at.geometric_normal) / facing) * at.view_dir +
-           at.lift_m * at.geometric_normal;
+    x_px_ = tile.box.x0 + pixel % width, y_px_ = tile.box.y0 + pixel / width;
+    dir_ = through(at.place_px);
+    per_dir_m_ = static_cast<double>(at.footprint_m) * frame_.geometry.focal_length_px / length(dir_);
+}
+
+Vec3d WayToSample::through(Vec2f place_px) const {
+    return rays_ ? rays_->corner + (x_px_ + static_cast<double>(place_px.x)) * rays_->right +
+                       (y_px_ + static_cast<double>(place_px.y)) * rays_->down
+                 : direction_seen(frame_, x_px_, y_px_, place_px);
+}
+
+Vec3f WayToSample::to(int sample) const {
+    if (facing_ < 0.02f) return {};
+    const Vec3f across = to_float(per_dir_m_ * (through(frame_.samples.place(sample)) - dir_));
+    return across - (dot(across, at_.geometric_normal) / facing_) * at_.view_dir +
+           at_.lift_m * at_.geometric_normal;
 }
 
 }  // namespace hilcam

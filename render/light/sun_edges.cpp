@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "render/light/primary_vertices.h"
@@ -64,16 +65,18 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
         if (!((a.lit > 0 ? near.dark : near.lit)[a.kind][y] >> x & 1u)) continue;
         a.lit = a.of = 0;
         a.by_sample = !a.at->facets && a.at->samples != 0;
+        std::optional<WayToSample> way;
+        if (a.by_sample) way.emplace(tile, *a.at);
         SampleMask rest = a.at->samples;
         for (std::uint32_t i = 0; i < kAgain; ++i) {
             // Facets each ask for themselves; what is flat asks from where its samples are.
             const std::size_t facet = a.starts.share[i] > 0 ? i : 0;
             Vec3f start_m = a.starts.at_m[facet];
             Vec2f at_px{};
-            if (a.by_sample) {
+            if (way) {
                 const int sample = next_sample(tile.frame.samples, rest, a.at->samples);
                 at_px = tile.frame.samples.place(sample);
-                start_m = start_m + way_to_sample(tile, *a.at, sample);
+                start_m = start_m + way->to(sample);
             }
             const float share = a.starts.share[facet];
             a.of += share;
