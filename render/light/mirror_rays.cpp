@@ -67,6 +67,7 @@ void send(Tile& tile, const Vertex& at, SampleMask& left, std::size_t first, std
             out.rays.set(out.rays.count++, at.start() + ways_m.at(k), dirs.at(k), 0,
                          std::numeric_limits<float>::infinity());
     frame.scene->intersect(out.rays, Coherence::kCoherent, out.hits);
+    prefetch_vertices(frame, out.hits, out.rays.count);
     tile.stats.secondary_rays += static_cast<std::uint64_t>(out.rays.count);
     out.met = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(out.rays.count); ++k)

@@ -304,6 +304,7 @@ class TracedPaths final : public PathModel {
             rays.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
         }
         tile.frame.scene->intersect(rays, coherence, hits);
+        prefetch_vertices(tile.frame, hits, rays.count);
         tile.stats.secondary_rays += count;
         return hits;
     }
