@@ -111,14 +111,10 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     return true;
 }
 
-void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
-                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex) {
+void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                  Vec3f dir, RayWidth width, Vertex& vertex) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
-    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
-    const Material& material = object.materials[triangle.surface];
-    const float u = hits.u[k];
-    const float v = hits.v[k];
     vertex.view_dir = lie.view_dir;
     vertex.geometric_normal = lie.geometric_normal;
     vertex.normal = lie.normal;
@@ -133,7 +129,6 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.offset_m = rounding_m(vertex.point_m, origin_m);
 
     vertex.object = hits.object[k];
-    vertex.surface_number = triangle.surface;
     vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
     vertex.mirrors_near = true;
     vertex.has_bodies = vertex.follows_lobe = false;
@@ -141,7 +136,18 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.known_sun = object.known_sun.empty() || frame.objects->size() > 1
                            ? KnownSun::kAsk
                            : object.known_sun[hits.triangle[k]];
+}
 
+void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex) {
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+    const Material& material = object.materials[triangle.surface];
+    const float u = hits.u[k];
+    const float v = hits.v[k];
+    place_vertex(frame, hits, lane, lie, origin_m, dir, width, vertex);
+    vertex.surface_number = triangle.surface;
     set_material(material, alpha_least, vertex);
     if (!object.corner_colors.empty())
         vertex.surface.base =

@@ -122,6 +122,9 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
 // The same where it is known how the surface lies.
 void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
                  Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex);
+// The same but for the surface, for set_surface().
+void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                  Vec3f dir, RayWidth width, Vertex& vertex);
 // Gives a vertex one of its object's surfaces, without colours or textures of its own.
 void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex);
 // Asks for the memory that make_vertex() reads, of all lanes that met an object.

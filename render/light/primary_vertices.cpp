@@ -150,11 +150,11 @@ std::size_t PrimaryVertices::look_at_fragments() {
         if (seen.shown != &shown) break;
         const Vec2f at = places_px_[n] = frame.samples.middle(fragment.samples);
         const int x = fragment.x, y = fragment.y;
-        dirs_[n] = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
-                              static_cast<double>(static_cast<float>(y) + at.y) * rays->down
-                        : direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, at);
-        origins_[n] =
-            frame.start_before_m > 0 ? frame.start_of(normalized(dirs_[n])) : to_float(frame.camera_m);
+        const Vec3d dir = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
+                                     static_cast<double>(static_cast<float>(y) + at.y) * rays->down
+                               : direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, at);
+        dirs_[n] = dir;
+        origins_[n] = frame.start_before_m > 0 ? frame.start_of(normalized(dir)) : to_float(frame.camera_m);
         packet_.triangle[n] = seen.triangle;
         __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
         __builtin_prefetch(&surfaces.triangles[seen.triangle]);
@@ -163,7 +163,7 @@ std::size_t PrimaryVertices::look_at_fragments() {
             __builtin_prefetch(&surfaces.corner_uvs[seen.triangle]);
             __builtin_prefetch(&surfaces.uv_per_m[seen.triangle]);
         }
-        packet_.dir.set(n, to_float(dirs_[n]));
+        packet_.dir.set(n, to_float(dir));
         packet_.origin.set(n, origins_[n] - body_m);
     }
     for (std::size_t k = n; k < kPacketSize; ++k) packet_.triangle[k] = packet_.triangle[0];
@@ -197,11 +197,10 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         const ObjectSurfaces& surfaces = *(*frame.objects)[hits_.object[k]];
         const std::uint8_t patch = surfaces.triangles[hits_.triangle[k]].patch;
         const Mosaic* mosaic = patch > 1 ? &(*surfaces.mosaics)[patch - 2u] : nullptr;
-        const float facing =
-            mosaic ? dot(frame.world_from_body[hits_.object[k]] * mosaic->normal, lie.view_dir) : 0.0f;
+        const float facing = mosaic ? dot(shown(*mosaic).normal, lie.view_dir) : 0.0f;
         if (facing > kFlattest) {
             const std::size_t before = count;
-            count = make_mosaic(*mosaic, k, lie, vertices, count);
+            count = make_mosaic(k, lie, vertices, count);
             if (count > before) continue;
         }
         Vertex* const joined = mosaic ? nullptr
@@ -271,40 +270,58 @@ void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Ve
     add_air_before(tile_, dirs_[k], vertex);
 }
 
-// One vertex for each surface of a mosaic that is in a pixel, with its part of what the samples see. Returns how
-// many vertices there are then.
-std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, const Lie& lie,
-                                         std::span<Vertex> vertices, std::size_t count) {
-    const FrameView& frame = tile_.frame;
-    const Fragment& fragment = fragments_[k];
-    const Mat3f& axes = frame.world_from_body[hits_.object[k]];
-    const Vec3f normal = axes * mosaic.normal, across = axes * mosaic.across, down = axes * mosaic.down;
-    const PixelRays pixel = rays_of(fragment);
-    const Vec3d up = to_double(normal);
-    const Vec3d corner_m = to_double(axes * mosaic.corner_m) - to_double(packet_.origin.at(k)) +
-                           to_double(origins_[k]) - frame.camera_m;
+// Returns how far rays go along the sides while they rise by one.
+Vec2f PrimaryVertices::ShownMosaic::slopes(Vec3f dir) const {
+    const float per_rise = 1 / std::max(dot(dir, normal), 1e-3f);
+    return {per_rise * dot(dir, across), per_rise * dot(dir, down)};
+}
+
+// Returns a mosaic of the packet's object as the frame shows it.
+const PrimaryVertices::ShownMosaic& PrimaryVertices::shown(const Mosaic& mosaic) {
+    const std::uint32_t object = hits_.object[0];
+    if (mosaic_.is == &mosaic && mosaic_.object == object) return mosaic_;
+    const Mat3f& axes = tile_.frame.world_from_body[object];
+    mosaic_ = {&mosaic,
+               object,
+               axes * mosaic.normal,
+               axes * mosaic.across,
+               axes * mosaic.down,
+               to_double(axes * mosaic.corner_m),
+               {}};
+    mosaic_.to_sun = mosaic_.slopes(to_float(tile_.frame.background->sun_world_dir()));
+    return mosaic_;
+}
+
+// Returns what is seen of the mosaic through the pixel of fragment k.
+PrimaryVertices::MosaicPixel PrimaryVertices::look_at_mosaic(std::size_t k, Vec3f view_dir) const {
+    const PixelRays pixel = rays_of(fragments_[k]);
+    const Vec3d up = to_double(mosaic_.normal);
+    const Vec3d corner_m =
+        mosaic_.corner_m - to_double(packet_.origin.at(k)) + to_double(origins_[k]) - tile_.frame.camera_m;
     const double facing = dot(pixel.middle, up), way = dot(corner_m, up) / facing;
     const auto on_plane = [&](Vec3d step) { return way * (step - (dot(step, up) / facing) * pixel.middle); };
-    const Vec3d per_x = on_plane(pixel.right), per_y = on_plane(pixel.down);
+    const double per_m = 1 / static_cast<double>(mosaic_.is->texel_m);
     const auto texels = [&](Vec3d at_m) {
-        const double per_m = 1 / static_cast<double>(mosaic.texel_m);
-        return Vec2d{per_m * dot(at_m, to_double(across)), per_m * dot(at_m, to_double(down))};
+        return Vec2d{per_m * dot(at_m, to_double(mosaic_.across)),
+                     per_m * dot(at_m, to_double(mosaic_.down))};
     };
     const auto single = [](Vec2d v) { return Vec2f{static_cast<float>(v.x), static_cast<float>(v.y)}; };
-    const Vec3d middle_m = way * pixel.middle;
-    const HalfShares halves = frame.samples.halves(fragment.samples);
-    const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
-    const auto from_m = static_cast<float>(frame.way_to_start_m());
-    const Vec3f sun = to_float(frame.background->sun_world_dir());
-    // How far rays go along the sides while they rise by one.
-    const auto slopes = [&](Vec3f dir) {
-        const float per_rise = 1 / std::max(dot(dir, normal), 1e-3f);
-        return Vec2f{per_rise * dot(dir, across), per_rise * dot(dir, down)};
-    };
-    const Vec2f to_sun = slopes(sun), to_viewer = slopes(lie.view_dir);
-    const Mosaic::Look look =
-        mosaic.look({texels(middle_m - corner_m), single(texels(per_x)), single(texels(per_y))},
-                    {to_sun.x - to_viewer.x, to_sun.y - to_viewer.y});
+    MosaicPixel out{way * pixel.middle, on_plane(pixel.right), on_plane(pixel.down), {}};
+    const Vec2f to_viewer = mosaic_.slopes(view_dir);
+    out.look = mosaic_.is->look(
+        {texels(out.middle_m - corner_m), single(texels(out.per_x_m)), single(texels(out.per_y_m))},
+        {mosaic_.to_sun.x - to_viewer.x, mosaic_.to_sun.y - to_viewer.y});
+    return out;
+}
+
+// One vertex for each surface of the mosaic that is in a pixel, with its part of what the samples see. Returns how
+// many vertices there are then.
+std::size_t PrimaryVertices::make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices,
+                                         std::size_t count) {
+    const FrameView& frame = tile_.frame;
+    const Mosaic& mosaic = *mosaic_.is;
+    const MosaicPixel pixel = look_at_mosaic(k, lie.view_dir);
+    const Mosaic::Look& look = pixel.look;
     float shown = 0;
     Vec2f middle_px{};
     for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
@@ -312,28 +329,34 @@ std::size_t PrimaryVertices::make_mosaic(const Mosaic& mosaic, std::size_t k, co
         middle_px.x += look.share[layer] * look.place[layer].x;
         middle_px.y += look.share[layer] * look.place[layer].y;
     }
+    const SampleMask seen_by = fragments_[k].samples;
+    const float samples = frame.samples.weight(seen_by);
+    const HalfShares halves = frame.samples.halves(seen_by);
+    const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
+    const RayWidth width{pixel_rad * static_cast<float>(frame.way_to_start_m()), pixel_rad};
+    const auto lane = static_cast<int>(k);
     for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
         if (look.share[layer] < kLeastShare) continue;
-        Lie own = lie;
-        if (layer > 0)
-            own.normal = normalized(lie.geometric_normal + look.lean.x * across + look.lean.y * down);
         Vertex& vertex = vertices[count++];
-        make_vertex(frame, hits_, static_cast<int>(k), own, origins_[k], packet_.dir.at(k), 0,
-                    {pixel_rad * from_m, pixel_rad}, vertex);
-        // The ground is what make_vertex() has met.
-        if (layer > 0)
-            set_surface(frame, mosaic.surface[layer], vertex);
-        else
+        // The ground is what the fragment has met.
+        if (layer == 0) {
+            make_vertex(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), 0, width, vertex);
             vertex.sunlit = look.lit;
+        } else {
+            place_vertex(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), width, vertex);
+            set_surface(frame, mosaic.surface[layer], vertex);
+            vertex.normal =
+                normalized(lie.geometric_normal + look.lean.x * mosaic_.across + look.lean.y * mosaic_.down);
+        }
         // Parts of the mosaic may stand out of its plane by as much as it takes for rounding.
         vertex.offset_m += Mosaic::kLoose * mosaic.texel_m;
-        const Vec2f off{look.place[layer].x - 0.5f, look.place[layer].y - 0.5f};
-        vertex.point_m = to_float(frame.camera_m + middle_m + static_cast<double>(off.x) * per_x +
-                                  static_cast<double>(off.y) * per_y);
-        const float samples = look.share[layer] / shown * frame.samples.weight(fragment.samples);
-        finish(k, samples,
-               moved(halves, {look.place[layer].x - middle_px.x, look.place[layer].y - middle_px.y}),
-               look.place[layer], vertex);
+        const Vec2f place = look.place[layer];
+        const Vec2f off{place.x - 0.5f, place.y - 0.5f};
+        vertex.point_m =
+            to_float(frame.camera_m + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
+                     static_cast<double>(off.y) * pixel.per_y_m);
+        finish(k, look.share[layer] / shown * samples,
+               moved(halves, {place.x - middle_px.x, place.y - middle_px.y}), place, vertex);
     }
     return count;
 }

@@ -43,6 +43,17 @@ class PrimaryVertices {
     std::array<Vec2f, kPacketSize> places_px_;  // in their pixels
     std::array<Vec3d, kPacketSize> dirs_;
     std::array<Vec3f, kPacketSize> origins_;
+    // The mosaic that was met last, as the frame shows it.
+    struct ShownMosaic {
+        const Mosaic* is = nullptr;
+        std::uint32_t object = 0;
+        Vec3f normal, across, down;  // world axes
+        Vec3d corner_m;              // world axes, from the body's origin
+        Vec2f to_sun{};              // how far a ray to the Sun goes along the sides while it rises by one
+
+        Vec2f slopes(Vec3f dir) const;
+    };
+    ShownMosaic mosaic_;
 
     std::size_t next_fragments(std::span<Vertex> vertices);
     bool open_next_part();
@@ -55,8 +66,14 @@ class PrimaryVertices {
         Vec3d middle, right, down;
     };
     PixelRays rays_of(const Fragment& fragment) const;
-    std::size_t make_mosaic(const Mosaic& mosaic, std::size_t k, const Lie& lie, std::span<Vertex> vertices,
-                            std::size_t count);
+    const ShownMosaic& shown(const Mosaic& mosaic);
+    struct MosaicPixel {
+        // Where its middle is from the camera, and how far a step of a pixel goes.
+        Vec3d middle_m, per_x_m, per_y_m;
+        Mosaic::Look look;
+    };
+    MosaicPixel look_at_mosaic(std::size_t k, Vec3f view_dir) const;
+    std::size_t make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices, std::size_t count);
     void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, Vertex& vertex);
     void take_in(std::size_t k, const Lie& lie, Vertex& vertex);
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
