@@ -75,23 +75,17 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
     const std::int64_t arrived_ns = camera_now();
     if (idle_) schedule_.restart(arrived_ns);
     idle_ = false;
-    const auto period_now_ns = [&] { return to_ns(period_s(start.settings, exposure_of(start.settings))); };
     if (paced_) {
         const FrameSchedule before = schedule_;
-        std::int64_t period_ns = period_now_ns();
-        FrameSchedule::Slot due = take_slot(arrived_ns, period_ns, start);
+        FrameSchedule::Slot due = take_slot(arrived_ns);
         while (settings_.wait_for_news_until(when_begins(clock_, due.start_ns) - kLastStretch_ns)) {
-            start.settings = settings_.read_in_loop();
-            if (stopping.load(std::memory_order_relaxed) || !start.settings.running ||
-                start.settings.triggered || waits_for_poses())
+            const CameraSettings& now = settings_.read_in_loop();
+            if (stopping.load(std::memory_order_relaxed) || !now.running || now.triggered ||
+                waits_for_poses())
                 return false;
-            if (period_now_ns() == period_ns) continue;
             // A new period counts from the last frame on: what waits for its begin begins at another time.
-            period_ns = period_now_ns();
             schedule_ = before;
-            const std::int64_t now_ns = camera_now();
-            if (due.skipped == 0 && schedule_.next_ns(period_ns) < now_ns) schedule_.restart(now_ns);
-            due = take_slot(arrived_ns, period_ns, start);
+            due = take_slot(arrived_ns);
         }
         if (!sleep_until(due.start_ns, stopping)) {
             schedule_ = before;
@@ -99,7 +93,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
         }
         start.camera_ns = due.start_ns;
         start.skipped = due.skipped;
-        start.settings = settings_.read_in_loop();
+        start.settings = settings_.history_in_loop().at(due.start_ns);
     } else {
         start.camera_ns = arrived_ns;
     }
@@ -107,13 +101,30 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
     return true;
 }
 
+// Takes the next exposure by the settings that hold when it begins: one that was due before they changed is still taken,
+// and none is due before the rate that it is due by.
+FrameSchedule::Slot FrameStarter::take_slot(std::int64_t arrived_ns) {
+    const SettingsHistory::Held& held =
+        settings_.history_in_loop().of_exposure([&](const CameraSettings& settings) {
+            FrameSchedule trial = schedule_;
+            return take_slot_by(settings, arrived_ns, trial).start_ns;
+        });
+    const FrameSchedule before = schedule_;
+    const FrameSchedule::Slot slot = take_slot_by(held.settings, arrived_ns, schedule_);
+    if (slot.start_ns >= held.from_ns) return slot;
+    schedule_ = before;
+    schedule_.restart(held.from_ns);
+    return take_slot_by(held.settings, arrived_ns, schedule_);
+}
+
 // An exposure that begins late shows what is newest, where that is wanted and it is over before the next one.
-FrameSchedule::Slot FrameStarter::take_slot(std::int64_t arrived_ns, std::int64_t period_ns,
-                                            const Start& start) {
-    const std::int64_t length_ns =
-        to_ns(timing_.end_s(std::max(exposure_of(start.settings), longest_step_s_)));
-    return schedule_.take(arrived_ns, period_ns,
-                          prefers_newest_ ? std::max(period_ns - length_ns, std::int64_t{0}) : 0);
+FrameSchedule::Slot FrameStarter::take_slot_by(const CameraSettings& settings, std::int64_t arrived_ns,
+                                               FrameSchedule& schedule) const {
+    const double exposure_s = exposure_of(settings);
+    const std::int64_t period_ns = to_ns(period_s(settings, exposure_s));
+    const std::int64_t length_ns = to_ns(timing_.end_s(std::max(exposure_s, longest_step_s_)));
+    return schedule.take(arrived_ns, period_ns,
+                         prefers_newest_ ? std::max(period_ns - length_ns, std::int64_t{0}) : 0);
 }
 
 bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start) {
@@ -123,7 +134,8 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
         return false;
     }
     if (!lockstep_ && !wait_for_order(stopping)) return false;
-    start.settings = settings_.read_in_loop();
+    const SettingsHistory& history = settings_.history_in_loop();
+    start.settings = lockstep_ ? history.newest() : history.at(next_ns_);
     start.exposure_s = exposure_of(start.settings);
     start.camera_ns = next_ns_;
     const std::int64_t period_ns = to_ns(period_s(start.settings, start.exposure_s));

@@ -14,7 +14,8 @@
 // clock or in simulated time, whichever it names. Where frames stop without poses (pose_watch.h), none begins
 // and orders that wait are dropped.
 //
-// Settings are those of the instant the exposure begins.
+// Settings are those of the instant the exposure begins, also of one that is late: what came after that instant is for
+// the next (settings_history.h). In lockstep they are the newest.
 
 #include <atomic>
 #include <cstdint>
@@ -54,7 +55,9 @@ class FrameStarter {
 
   private:
     bool begin_free_run(const std::atomic<bool>& stopping, Start& start);
-    FrameSchedule::Slot take_slot(std::int64_t arrived_ns, std::int64_t period_ns, const Start& start);
+    FrameSchedule::Slot take_slot(std::int64_t arrived_ns);
+    FrameSchedule::Slot take_slot_by(const CameraSettings& settings, std::int64_t arrived_ns,
+                                     FrameSchedule& schedule) const;
     bool begin_ordered(const std::atomic<bool>& stopping, Start& start);
     bool take_order(const CameraSettings& settings, double exposure_s);
     std::int64_t begin_of_order() const;

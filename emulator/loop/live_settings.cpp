@@ -72,7 +72,8 @@ LiveSettings::LiveSettings(const CameraModel& c, const Mode& mode)
       timing_(c),
       clock_(&machine_clock()),
       settings_(at_power_up(c, mode)),
-      latest_(settings_),
+      history_(settings_),
+      latest_(history_),
       own_exposure_s_(settings_.exposure_s),
       own_gain_db_(settings_.gain_db) {}
 
@@ -104,7 +105,9 @@ bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const 
            w.burst_frames <= l.max_burst_frames && binning_fits(c.binning_x) && binning_fits(c.binning_y);
 }
 
-bool LiveSettings::change(const SettingsChange& c) {
+bool LiveSettings::change(const SettingsChange& c) { return change(c, clock_->camera_at(monotonic_ns())); }
+
+bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) {
     const std::lock_guard lock(mutex_);
     CameraSettings wanted = settings_;
     apply(c, wanted);
@@ -113,7 +116,8 @@ bool LiveSettings::change(const SettingsChange& c) {
     if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)
         wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
     settings_ = wanted;
-    latest_.write(settings_);
+    history_.add(settings_, from_camera_ns);
+    latest_.write(history_);
     if (changed_) changed_(c);
     wake();
     return true;

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <semaphore>
 
+#include "emulator/loop/settings_history.h"
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/world/clock.h"
 #include "emulator/world/pose_watch.h"
@@ -35,7 +36,9 @@ class LiveSettings : public CameraControl {
 
     CameraSettings settings() const override;
     CameraLimits limits() const override { return limits_; }
+    // From now on; or from an instant of the camera's time (clock.h) on that may have passed, or be about to come.
     bool change(const SettingsChange& change) override;
+    bool change(const SettingsChange& change, std::int64_t from_camera_ns);
     // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
     // highest frame rate, as the camera's time goes now (clock.h); or, in lockstep, when kMaxWaiting are
     // waiting. Not armed: also where frames wait for poses (pose_watch.h).
@@ -57,7 +60,9 @@ class LiveSettings : public CameraControl {
     bool wait_for_order(double patience_s);
 
     // --- Loop, one thread. No lock.
-    const CameraSettings& read_in_loop() { return latest_.read(); }
+    const CameraSettings& read_in_loop() { return history_in_loop().newest(); }
+    // The settings over time. In lockstep frames have the newest, as orders and changes come in turn.
+    const SettingsHistory& history_in_loop() { return latest_.read(); }
     // The next trigger in its order of arrival; false when there is none.
     struct WaitingOrder : TriggerOrder {
         std::int64_t delay_ns = 0;  // after its time, of the camera's time
@@ -99,7 +104,8 @@ class LiveSettings : public CameraControl {
     const PoseWatch* poses_ = nullptr;
     mutable std::mutex mutex_;
     CameraSettings settings_;
-    Latest<CameraSettings> latest_;
+    SettingsHistory history_;
+    Latest<SettingsHistory> latest_;
     std::atomic<double> own_exposure_s_, own_gain_db_;
     // Writers under the mutex, one reader.
     std::array<WaitingOrder, kMaxWaiting> triggers_;

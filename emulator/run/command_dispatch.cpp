@@ -201,10 +201,18 @@ CommandStatus CommandDispatch::switch_lamp(const LampCommand& lamp, const Comman
                 });
 }
 
+// Returns the instant in the camera's time from which a sender's settings hold, or an event's, which may be carried out
+// before its time or after. Where time is to stand before that, they hold at once.
+std::int64_t CommandDispatch::settings_hold_from(const CommandSource& source) const {
+    const std::int64_t due_ns = source.due.ns == 0 ? SimulatedClock::kNever_ns : clock_.camera_of(source.due);
+    return due_ns == SimulatedClock::kNever_ns ? clock_.camera_at(source.arrival_monotonic_ns) : due_ns;
+}
+
 CommandStatus CommandDispatch::change(const SettingsChange& change, const CommandSource& source,
                                       CommandStatus refused) {
+    const std::int64_t from_ns = settings_hold_from(source);
     return for_cameras(source.camera, [&](const CommandedCamera& c) {
-        return c.settings->change(change) ? CommandStatus::kAccepted : refused;
+        return c.settings->change(change, from_ns) ? CommandStatus::kAccepted : refused;
     });
 }
 

@@ -58,6 +58,7 @@ class CommandDispatch : public CommandHandler {
     bool resolve(TimeTai& tag, const CommandSource& source) const;
     CommandStatus order(const ClockCommand& clock);
     void wake_cameras();
+    std::int64_t settings_hold_from(const CommandSource& source) const;
     CommandStatus change(const SettingsChange& change, const CommandSource& source, CommandStatus refused);
     CommandStatus expose(const ExposeCommand& expose, const CommandSource& source);
     CommandStatus expose_in_lockstep(const TriggerOrder& order, const CommandSource& source);

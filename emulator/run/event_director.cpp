@@ -166,6 +166,7 @@ void EventDirector::happen(const EventSequence::Due& due) {
     CommandSource source;
     source.camera = static_cast<std::uint16_t>(config.camera);
     source.event = static_cast<std::uint16_t>(std::min<std::size_t>(due.event + 1, 65535));
+    source.due = due.time;
     for (const Command& command : actions.commands) {
         source.arrival_monotonic_ns = monotonic_ns();
         const CommandStatus status = bench_.commands.handle(stamped(command, due), source);

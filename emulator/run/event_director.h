@@ -13,7 +13,8 @@
 //   free-run,           a thread of the director's own is woken by every frame and at the events' times; what
 //   triggered           is due when a frame begins is done 0.9 ms before that. When the machine does not let
 //                       it run in time, the event is a frame late: its log line says before which frame it
-//                       was done.
+//                       was done. Settings hold for what begins at its time or later, however late it or
+//                       a frame is (settings_history.h).
 //
 // Joints turn, lamps are switched and poses hold from the event's time on; a fault without `--from-frame`
 // strikes from the next frame on.

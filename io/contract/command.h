@@ -133,6 +133,7 @@ struct CommandSource {
     std::uint16_t camera = 0;  // that it is for, from 1; 0: every one. Poses, angles and lamps are for all.
     CommandNotes* notes = nullptr;  // to be filled, also when it is refused; may be null
     std::uint16_t event = 0;        // event of the scenario that gave it, from 1; 0: a sender
+    TimeTai due{};  // the event's simulated time, from which settings hold; ns = 0: on arrival
 };
 
 // The emulator's side: carries out decoded commands. Called by the receivers' threads, one at a time per
