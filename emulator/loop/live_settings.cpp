@@ -10,7 +10,6 @@ namespace hilcam {
 namespace {
 
 constexpr std::int64_t kMaxBinning = 8;
-constexpr std::int64_t kLongestWait_ns = 50'000'000;
 
 // The machine's own clock, on which all three times are one.
 const SimulatedClock& machine_clock() {
@@ -168,8 +167,7 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
 }
 
 TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
-    while (done_.try_acquire()) {  // clears orders that were given up
-    }
+    done_.take_all();  // of orders that were given up
     const TriggerResult result = trigger(order);
     ordered_ = result == TriggerResult::kTaken;
     return result;
@@ -180,7 +178,7 @@ bool LiveSettings::wait_for_order(double patience_s) {
     ordered_ = false;
     // An order may come just when the loop has looked for the last time: nobody answers it.
     const std::int64_t until_ns = monotonic_ns() + static_cast<std::int64_t>(patience_s * 1e9);
-    while (!done_.try_acquire_for(std::chrono::nanoseconds(kLongestWait_ns))) {
+    while (!done_.try_acquire_for(kLongestWait_ns)) {
         if (closed_.load()) return true;
         if (monotonic_ns() >= until_ns) return false;
     }
@@ -202,11 +200,10 @@ bool LiveSettings::take_trigger(WaitingOrder& order) {
 }
 
 bool LiveSettings::wait_for_news_until(std::int64_t until_ns) {
-    const std::int64_t left_ns = until_ns - monotonic_ns();
-    if (left_ns <= 0) return false;
-    static_cast<void>(news_.try_acquire_for(std::chrono::nanoseconds(std::min(left_ns, kLongestWait_ns))));
-    while (news_.try_acquire()) {
-    }
+    const std::int64_t now_ns = monotonic_ns();
+    if (now_ns >= until_ns) return false;
+    static_cast<void>(news_.try_acquire_until(std::min(until_ns, now_ns + kLongestWait_ns)));
+    news_.take_all();
     return monotonic_ns() < until_ns;
 }
 

@@ -8,13 +8,13 @@
 #include <functional>
 #include <limits>
 #include <mutex>
-#include <semaphore>
 
 #include "emulator/loop/settings_history.h"
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/world/clock.h"
 #include "emulator/world/pose_watch.h"
 #include "io/contract/camera_control.h"
+#include "io/system/timed_semaphore.h"
 #include "render/vocabulary/latest.h"
 #include "sensor/camera_model.h"
 
@@ -70,9 +70,8 @@ class LiveSettings : public CameraControl {
     bool take_trigger(WaitingOrder& order);
     // Returns after a change or a trigger, or after 50 ms.
     void wait_for_news() {
-        static_cast<void>(news_.try_acquire_for(std::chrono::milliseconds(50)));
-        while (news_.try_acquire()) {
-        }
+        static_cast<void>(news_.try_acquire_for(kLongestWait_ns));
+        news_.take_all();
     }
     // Any thread: the loop shall look anew at what it waits for.
     void wake() { news_.release(); }
@@ -94,6 +93,8 @@ class LiveSettings : public CameraControl {
     static constexpr std::size_t kMaxWaiting = 64;
 
   private:
+    static constexpr std::int64_t kLongestWait_ns = 50'000'000;
+
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
     std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;
@@ -111,7 +112,7 @@ class LiveSettings : public CameraControl {
     std::array<WaitingOrder, kMaxWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
     std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();  // for the next trigger; camera's time
-    std::counting_semaphore<> news_{0}, done_{0};
+    TimedSemaphore news_, done_;
     std::atomic<bool> closed_{false};
     bool ordered_ = false;
     std::atomic<std::int64_t> newest_middle_ns_{0};  // 0: no frame yet

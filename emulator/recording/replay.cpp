@@ -1,7 +1,6 @@
 #include "emulator/recording/replay.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 
@@ -13,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-constexpr auto kPatience = std::chrono::milliseconds(50);  // the longest that a stop may have to wait
+constexpr std::int64_t kPatience_ns = 50'000'000;  // the longest that a stop may have to wait
 constexpr std::int64_t kStopsWithin_ns = 50'000'000;
 
 bool binning_fits(std::int64_t binning, std::int64_t at_power_up, std::int64_t most) {
@@ -73,7 +72,7 @@ void Replay::stop() noexcept {
 
 bool Replay::next(const std::atomic<bool>& stopping, FrameUse& use, std::int64_t& not_before_ns) {
     while (!stopping.load(std::memory_order_relaxed)) {
-        if (!offered_.try_acquire_for(kPatience)) continue;
+        if (!offered_.try_acquire_for(kPatience_ns)) continue;
         if (ended_) return false;
         use = use_;
         not_before_ns = not_before_ns_;
@@ -221,7 +220,7 @@ bool Replay::offer(const FrameUse& use) {
         }
     }
     offered_.release();
-    while (!seen_.try_acquire_for(kPatience))
+    while (!seen_.try_acquire_for(kPatience_ns))
         if (stopping_.load()) return false;
     return true;
 }

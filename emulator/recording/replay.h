@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
-#include <semaphore>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,6 +22,7 @@
 #include "emulator/world/world_state.h"
 #include "io/contract/camera_control.h"
 #include "io/contract/fault.h"
+#include "io/system/timed_semaphore.h"
 
 namespace hilcam {
 
@@ -90,7 +90,7 @@ class Replay : public FrameScript {
     FrameUse use_;
     std::int64_t not_before_ns_ = 0;
     bool ended_ = false;
-    std::counting_semaphore<> offered_{0}, seen_{0};
+    TimedSemaphore offered_, seen_;
 
     mutable std::mutex mutex_;
     Outcome outcome_;

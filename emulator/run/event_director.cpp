@@ -5,7 +5,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "io/commands/acknowledgement.h"
@@ -102,11 +101,8 @@ void EventDirector::drive() {
 void EventDirector::run() {
     while (!stopping_.load()) {
         const std::int64_t now_ns = monotonic_ns(), until_ns = wait_until_ns();
-        const std::int64_t wait_ns =
-            std::clamp<std::int64_t>(until_ns, now_ns, now_ns + kLongestWait_ns) - now_ns;
-        static_cast<void>(news_.try_acquire_for(std::chrono::nanoseconds(wait_ns)));
-        while (news_.try_acquire()) {
-        }
+        static_cast<void>(news_.try_acquire_until(std::min(until_ns, now_ns + kLongestWait_ns)));
+        news_.take_all();
         look();
         happen_until(horizon());
     }

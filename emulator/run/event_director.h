@@ -21,7 +21,6 @@
 
 #include <atomic>
 #include <memory>
-#include <semaphore>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,6 +31,7 @@
 #include "emulator/world/clock.h"
 #include "emulator/world/frame_watcher.h"
 #include "io/contract/command.h"
+#include "io/system/timed_semaphore.h"
 #include "render/vocabulary/latest.h"
 
 namespace hilcam {
@@ -89,7 +89,7 @@ class EventDirector : public FrameWatcher {
     Seen seen_;  // the loop's
     Latest<Seen> newest_;
     SeenFrame frame_;  // that the sequence knows
-    std::counting_semaphore<> news_{0};
+    TimedSemaphore news_;
     bool picture_refused_ = false;  // the driver's
     std::atomic<bool> stopping_{false}, asks_to_end_{false};
     std::thread thread_;

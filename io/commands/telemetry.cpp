@@ -119,16 +119,16 @@ SinkReport TelemetrySender::Sink::report() const {
 }
 
 void TelemetrySender::run() {
-    using Clock = std::chrono::steady_clock;
-    auto next_housekeeping = Clock::now() + std::chrono::seconds(1);
+    constexpr std::int64_t kPeriod_ns = 1'000'000'000;
+    std::int64_t next_housekeeping_ns = monotonic_ns() + kPeriod_ns;
     while (true) {
-        const bool asked = ready_.try_acquire_until(next_housekeeping);
+        const bool asked = ready_.try_acquire_until(next_housekeeping_ns);
         if (stopping_) return;
         if (asked) send_reports();
-        if (Clock::now() < next_housekeeping) continue;
+        if (monotonic_ns() < next_housekeeping_ns) continue;
         send(figures_());
         // Late: the missed ones are left out.
-        while (next_housekeeping <= Clock::now()) next_housekeeping += std::chrono::seconds(1);
+        while (next_housekeeping_ns <= monotonic_ns()) next_housekeeping_ns += kPeriod_ns;
     }
 }
 

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <semaphore>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "io/contract/command_receiver.h"
 #include "io/contract/frame_sink.h"
 #include "io/system/fd.h"
+#include "io/system/timed_semaphore.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
@@ -54,7 +54,7 @@ class TelemetrySender {
     void send(const Telemetry& telemetry);
 
     std::vector<Sink*> sinks_;
-    std::counting_semaphore<> ready_{0};  // counts the reports that wait in all of them
+    TimedSemaphore ready_;  // counts the reports that wait in all of them
 
     TelemetryConfig config_;
     std::function<HousekeepingFigures()> figures_;

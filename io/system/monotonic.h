@@ -12,10 +12,13 @@ inline std::int64_t clock_ns(clockid_t clock) {
     clock_gettime(clock, &t);
     return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
+inline timespec timespec_of(std::int64_t ns) {
+    return {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+}
 inline std::int64_t monotonic_ns() { return clock_ns(CLOCK_MONOTONIC); }
 // Returns when it is that late, however often a signal comes.
 inline void sleep_until_monotonic_ns(std::int64_t ns) {
-    const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+    const timespec t = timespec_of(ns);
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) != 0) {
     }
 }

@@ -26,9 +26,9 @@ void VizardSink::expect(std::uint32_t trigger_sequence, TimeTai exposure_mid) {
 }
 
 bool VizardSink::wait_for(std::chrono::nanoseconds patience) {
-    const auto deadline = std::chrono::steady_clock::now() + patience;
+    const std::int64_t until_ns = monotonic_ns() + patience.count();
     do {  // a release may be that of a frame that was forgotten
-        if (!full_.try_acquire_until(deadline)) return false;
+        if (!full_.try_acquire_until(until_ns)) return false;
     } while (state_.load(std::memory_order_acquire) != State::kFull);
     return true;
 }

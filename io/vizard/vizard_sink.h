@@ -8,10 +8,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <semaphore>
 #include <string>
 
 #include "io/contract/frame_sink.h"
+#include "io/system/timed_semaphore.h"
 
 namespace hilcam {
 
@@ -44,7 +44,7 @@ class VizardSink : public FrameSink {
     TimeTai time_;
     DnImage frame_;
     FrameRecord record_;
-    std::counting_semaphore<> full_{0};
+    TimedSemaphore full_;
     std::atomic<std::uint64_t> given_{0};
 };
 

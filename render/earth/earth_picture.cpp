@@ -25,6 +25,7 @@ constexpr double kMapStep = 1.0 / 256;  // share of the way from one map to the 
 // The disk's radius in pixels, and the camera's distance from the middle in radii.
 constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
 constexpr int kRings = 16;  // rings of a band, without the one that the next band shares
+constexpr int kRun = 64;    // columns of a piece
 // The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width.
 constexpr double kLimb_px = 1.5;
 constexpr int kFiner = 3, kLimbLooks = 4;
@@ -171,14 +172,16 @@ void EarthPicture::place_bands() {
     dark_from_ = static_cast<float>(1 + top_m_ / kEarthRadius_m + 0.5 * pixel + fine);
 }
 
-void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row) {
+int EarthPicture::Band::runs() const { return (columns + kRun - 1) / kRun; }
+
+void EarthPicture::fill_run(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row,
+                            int first) {
     const bool limb = &band == &bands_.back();
     const int looks = limb ? kLimbLooks : 1;
     const double spacing = 1 / static_cast<double>(band.per_step);
     const double b = static_cast<double>(band.first) + row * spacing;
     const auto rows = static_cast<std::size_t>(band.rows);
-    Coded* first = light_.data() + band.offset + row;
-    Coded* out = first;
+    Coded* const ring = light_.data() + band.offset + row;
     EarthModel::Ray ray{camera_m_,
                         {},
                         sun_dir_,
@@ -187,7 +190,8 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
                         {numbers_, nullptr},
                         EarthModel::kLooksOfPixel};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
-    for (int column = 0; column < band.columns; ++column, out += rows) {
+    const int last = std::min(first + kRun, band.columns);
+    for (int column = first; column < last; ++column) {
         const double turn = 2 * kPi * column / band.columns;
         const Vec3d out_dir = std::cos(turn) * right_ + std::sin(turn) * down_;
         Spectrum sum;
@@ -199,10 +203,11 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
             weight.bin.fill(1);
             earth.add(ray, weight, sum);
         }
+        Coded& out = ring[static_cast<std::size_t>(column) * rows];
         for (int k = 0; k < kMaxBins; ++k)
-            (*out)[static_cast<std::size_t>(k)] = coded(sum[k] / static_cast<float>(looks));
+            out[static_cast<std::size_t>(k)] = coded(sum[k] / static_cast<float>(looks));
     }
-    *out = *first;
+    if (first == 0) ring[static_cast<std::size_t>(band.columns) * rows] = ring[0];
 }
 
 void EarthPicture::take_memory(std::size_t used) {
@@ -210,7 +215,7 @@ void EarthPicture::take_memory(std::size_t used) {
     if (light_.size() < used) light_.resize(used);
 }
 
-void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance) {
+void EarthPicture::begin(const Key& key) {
     camera_m_ = kEarthRadius_m * std::exp(key.camera[2] * kDistanceStep) *
                 from_steps(key.camera[0] * kCameraStep_rad, key.camera[1] * kCameraStep_rad);
     sun_dir_ = from_steps(key.sun[0] * kSunStep_rad, key.sun[1] * kSunStep_rad);
@@ -222,13 +227,24 @@ void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum&
     down_ = cross(ahead_, right_);
     place_bands();
     take_memory(used_);
-    int rows = 0;
-    for (const Band& band : bands_) rows += band.rows;
-    tbb::parallel_for(0, rows, [&](int row) {
-        std::size_t i = 0;
-        while (row >= bands_[i].rows) row -= bands_[i++].rows;
-        fill_row(earth, sun_irradiance, bands_[i], row);
+    pieces_ = 0;
+    for (const Band& band : bands_) pieces_ += band.rows * band.runs();
+    next_piece_.store(0, std::memory_order_relaxed);
+}
+
+void EarthPicture::make_rest(const EarthModel& earth, const Spectrum& sun_irradiance) {
+    const int left = pieces_ - next_piece_.load(std::memory_order_relaxed);
+    tbb::parallel_for(0, left, [&](int) {
+        const int piece = next_piece_.fetch_add(1, std::memory_order_relaxed);
+        if (piece < pieces_) make_piece(earth, sun_irradiance, piece);
     });
+}
+
+void EarthPicture::make_piece(const EarthModel& earth, const Spectrum& sun_irradiance, int piece) {
+    std::size_t i = 0;
+    while (piece >= bands_[i].rows * bands_[i].runs()) piece -= bands_[i].rows * bands_[i].runs(), ++i;
+    const int runs = bands_[i].runs();
+    fill_run(earth, sun_irradiance, bands_[i], piece / runs, kRun * (piece % runs));
 }
 
 EarthPicture::Tile EarthPicture::tile(Vec3d camera_m, const std::array<Vec3d, kNodes * kNodes>& dirs) const {

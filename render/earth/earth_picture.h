@@ -14,6 +14,7 @@
 // Light is for the Sun at 1 AU; frames scale it, that of cities with it, by up to 3.4 % too much. What it does not hold: other bodies behind
 // the air, eclipses (EarthModel::add() has both).
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -38,8 +39,11 @@ class EarthPicture {
 
     // pixel_rad: the camera's. top_m: the height up to which there is light.
     EarthPicture(double pixel_rad, double top_m);
-    // Works a picture out on all threads of the arena. Loop; allocates nothing. sun_irradiance_1au: [W m^-2 um^-1].
-    void make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance_1au_w_m2_um);
+    // Begins a picture: begun, none of its pieces is made. Loop; allocates nothing.
+    void begin(const Key& key);
+    // Works out, on all threads of the arena, the pieces that nobody is at; the picture is there when all who called this
+    // have returned. Loop, any thread; allocates nothing. sun_irradiance_1au: [W m^-2 um^-1].
+    void make_rest(const EarthModel& earth, const Spectrum& sun_irradiance_1au_w_m2_um);
     // Takes as much memory as a picture that is made, so that making one like it needs none. Loop; allocates nothing.
     void take_memory_as(const EarthPicture& other) { take_memory(other.used_); }
     std::size_t bytes() const { return light_.size() * sizeof(Coded); }
@@ -79,6 +83,8 @@ class EarthPicture {
         float first, per_step;  // row = (b - first) per_step, b: closest approach over the radius
         int rows, columns;      // the first column is stored once more behind the last
         std::size_t offset;
+
+        int runs() const;  // of each ring
     };
 
     double pixel_rad_, top_m_;
@@ -92,10 +98,15 @@ class EarthPicture {
     using Coded = std::array<std::uint16_t, kMaxBins>;
     std::vector<Coded> light_;
     std::size_t used_ = 0;
+    // Pieces are a run of columns of a ring each: half a millisecond's work or less, so that who waits for one does not
+    // wait long. They are taken in order.
+    int pieces_ = 0;
+    std::atomic<int> next_piece_{0};
 
     void take_memory(std::size_t used);
     void place_bands();
-    void fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row);
+    void make_piece(const EarthModel& earth, const Spectrum& irradiance, int piece);
+    void fill_run(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row, int first);
     // The row and the column before a place, and how far it is behind them, 0..1.
     struct Spot {
         const Band& band;

@@ -8,7 +8,7 @@ namespace hilcam {
 KeptEarth::KeptEarth(const EarthModel& earth, const Spectrum& sun_irradiance, double pixel_rad, double top_m)
     : earth_(earth), sun_irradiance_1au_(sun_irradiance), pixel_rad_(pixel_rad) {
     for (Kept& kept : pictures_) kept.picture = std::make_unique<EarthPicture>(pixel_rad, top_m);
-    ahead_.start([this] { make(asked_); });
+    ahead_.start([this] { make_rest(asked_); });
 }
 
 std::size_t KeptEarth::bytes() const {
@@ -21,11 +21,13 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
     if (!EarthPicture::is_for(camera_m, pixel_rad_)) return false;
     const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir, numbers);
     std::size_t at = find(key);
-    const bool is_being_made = at == asked_ && ahead_.is_at_work();
-    if (at == pictures_.size() || is_being_made) ahead_.wait();
+    if (is_being_made(at)) {
+        make_rest(at);
+        ahead_.wait();  // for the piece that it is at
+    }
     if (at == pictures_.size()) {
         at = room_for(key);
-        make(at);
+        make_rest(at);
         // The kernel gives pages at their first use, with which later frames shall not be busy.
         if (frames_ == 0)
             for (const Kept& kept : pictures_) kept.picture->take_memory_as(*pictures_[at].picture);
@@ -42,18 +44,18 @@ std::size_t KeptEarth::find(const EarthPicture::Key& key) const {
     return static_cast<std::size_t>(found - pictures_.begin());
 }
 
-// Takes the place of the one that was not shown for longest.
+// Takes the place of the one that was not shown for longest, but not of one that is being made.
 std::size_t KeptEarth::room_for(const EarthPicture::Key& key) {
-    const auto oldest =
-        std::min_element(pictures_.begin(), pictures_.end(),
-                         [](const Kept& a, const Kept& b) { return a.last_shown < b.last_shown; });
-    oldest->key = key, oldest->made = true, oldest->last_shown = frames_;
-    return static_cast<std::size_t>(oldest - pictures_.begin());
+    std::size_t oldest = is_being_made(0) ? 1 : 0;
+    for (std::size_t i = oldest + 1; i < pictures_.size(); ++i)
+        if (pictures_[i].last_shown < pictures_[oldest].last_shown && !is_being_made(i)) oldest = i;
+    Kept& kept = pictures_[oldest];
+    kept.key = key, kept.made = true, kept.last_shown = frames_;
+    kept.picture->begin(key);
+    return oldest;
 }
 
-void KeptEarth::make(std::size_t at) {
-    pictures_[at].picture->make(earth_, pictures_[at].key, sun_irradiance_1au_);
-}
+void KeptEarth::make_rest(std::size_t at) { pictures_[at].picture->make_rest(earth_, sun_irradiance_1au_); }
 
 // Has the first picture made that the next frames will ask for, if everything moves on as it did.
 void KeptEarth::look_ahead(const Place& now) {

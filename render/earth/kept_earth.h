@@ -23,8 +23,8 @@ class KeptEarth {
     void stop_looking_ahead() { ahead_.stop(); }
 
     // Has the picture of a frame, the camera and the Sun in the Earth's axes, at this place between the maps
-    // (EarthModel::numbers_at); false: for such a camera none is kept. Loop; makes it, or waits for the thread, where it is
-    // not there yet.
+    // (EarthModel::numbers_at); false: for such a camera none is kept. Loop; makes it, or what the thread has left of it, where it
+    // is not there yet.
     bool place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers = {});
     // The one that was placed last. Any thread.
     const EarthPicture& picture() const { return *pictures_[shown_].picture; }
@@ -54,7 +54,8 @@ class KeptEarth {
     Place before_, long_before_;
     AheadThread ahead_;  // the last: it ends first
 
-    void make(std::size_t at);
+    bool is_being_made(std::size_t at) const { return at == asked_ && ahead_.is_at_work(); }
+    void make_rest(std::size_t at);
     std::size_t find(const EarthPicture::Key& key) const;
     std::size_t room_for(const EarthPicture::Key& key);
     void look_ahead(const Place& now);

@@ -143,11 +143,13 @@ void KeptLinks::make(std::span<const KeptNeighbour> near, std::size_t self,
     if (near.empty() || table.size() == 0) return;
     const Prober prober(near_, light, lights, scene);
     std::vector<std::vector<Probe>> blocks((table.size() + kNodesAtOnce - 1) / kNodesAtOnce);
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    const auto ask = [&](std::size_t b) {
         blocks[b] = prober.probe(b * kNodesAtOnce, std::min(table.size(), (b + 1) * kNodesAtOnce));
         std::stable_sort(blocks[b].begin(), blocks[b].end(),
                          [](const Probe& x, const Probe& y) { return x.node < y.node; });
-    });
+    };
+    // One at a time, so that one who waits for a block does not wait long.
+    tbb::parallel_for(std::size_t{0}, blocks.size(), ask, tbb::simple_partitioner{});
     const std::size_t words = table.free(0).size();
     for (std::size_t n = 0; n < table.size(); ++n)
         free_.insert(free_.end(), table.free(n).begin(), table.free(n).end());

@@ -1,8 +1,7 @@
 // Finds what the nodes of an object send: of a source that shines on them, KeptSolver's first step, and of its light that has
 // come to them by one way, which bright facets send on by their lobes.
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <array>
@@ -17,9 +16,6 @@
 
 namespace hilcam {
 namespace {
-
-using Nodes = tbb::blocked_range<std::size_t>;
-constexpr std::size_t kSendBlock = 256;  // nodes that a thread takes at a time; no result depends on it
 
 // A cone's directions, sixteen of equal solid angle (Vogel 1979), for the irradiance that it makes.
 constexpr int kConeDirections = 16;
@@ -38,10 +34,8 @@ std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_co
 }  // namespace
 
 void KeptSolver::light_nodes(const Member& member) {
-    tbb::parallel_for(Nodes(0, lights_[member.object]->table().size(), kSendBlock), [&](const Nodes& r) {
-        for (std::size_t first = r.begin(); first < r.end(); first += kSendBlock)
-            light_block(member, first, std::min(r.end(), first + kSendBlock));
-    });
+    for_nodes(lights_[member.object]->table().size(),
+              [&](const Nodes& r) { light_block(member, r.begin(), r.end()); });
 }
 
 // Returns which rays are blocked by the object itself, or by one that stands near.
@@ -67,7 +61,7 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
     const TransferTable& table = light.table();
     const KeptSource& source = member.source;
     Sender* const senders = senders_.data() + base_[member.object];
-    std::array<LitPoints, kSendBlock> lit;
+    std::array<LitPoints, kBlock> lit;
     RayPacket rays;
     std::array<float*, kPacketSize> of;  // by ray, what it asks for
     rays.count = 0;
@@ -179,7 +173,7 @@ void KeptSolver::part_lobes(const Member& member) {
     const KeptLight& light = *lights_[member.object];
     const std::size_t base = base_[member.object];
     const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
-    tbb::parallel_for(Nodes(0, light.table().size(), kSendBlock), [&](const Nodes& r) {
+    for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             sends_on_[base + n] = 0, by_lobes_[base + n] = {};
             if (!keeps_along || light.lobes_[n].first_along == KeptLight::kNoLobe) continue;
@@ -198,13 +192,14 @@ std::size_t KeptSolver::number_second(const Member& member) {
     const KeptLight& light = *lights_[member.object];
     const std::uint8_t* const sends = sends_on_.data() + base_[member.object];
     std::uint32_t* const first = first_second_.data() + base_[member.object];
-    tbb::parallel_for(Nodes(0, light.table().size(), kSendBlock), [&](const Nodes& r) {
+    for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             first[n] = 0;
             if (light.lobes_[n].first_along != KeptLight::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n)) first[n] += sends[e.node];
         }
     });
+    if (tbb::is_current_task_group_canceling()) return 0;  // not all are counted
     std::uint32_t sum = 0;
     for (std::size_t n = 0; n < light.table().size(); ++n) sum += std::exchange(first[n], sum);
     return sum;
@@ -224,7 +219,7 @@ void KeptSolver::gather_second(const Member& member) {
     if (const std::size_t count = number_second(member); count > along.size()) along.resize(count);
     // The golden section of 2^32, so that a place's points take turns (Schretter et al., Journal of Graphics Tools 16(2), 2012).
     constexpr std::uint32_t kGolden = 0x9E3779B9;
-    tbb::parallel_for(Nodes(0, table.size(), kSendBlock), [&](const Nodes& r) {
+    for_nodes(table.size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const bool has_facets = light.lobes_[n].first_along != KeptLight::kNoLobe;
             std::size_t to = first_second_[base + n];

@@ -1,7 +1,5 @@
 #include "render/light/kept_solver.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -13,9 +11,6 @@
 
 namespace hilcam {
 namespace {
-
-using Nodes = tbb::blocked_range<std::size_t>;
-constexpr std::size_t kBlock = 256;  // nodes that a thread takes at a time; no result depends on it
 
 // The lobe of a sender's facets towards one that gathers: of its points, as each leans and as much as it is seen.
 template <class Sender>
@@ -104,7 +99,7 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
         const KeptLight& other = *lights_[link.object];
         return other.materials_[other.table().nodes().nodes()[link.node].surface]->ggx_alpha < kNarrowestKept;
     };
-    tbb::parallel_for(Nodes(0, table.size(), kBlock), [&](const Nodes& r) {
+    for_nodes(table.size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const KeptLight::LobeNode& node = light.lobes_[n];
             PackedSpectrum* along = keeps_along && node.first_along != KeptLight::kNoLobe
@@ -237,7 +232,7 @@ void KeptSolver::smooth(const Member& member) {
     const std::size_t base = base_[member.object];
     const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
     const auto kept = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
-    tbb::parallel_for(Nodes(0, light.table().size(), kBlock), [&](const Nodes& r) {
+    for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const std::span<const std::uint32_t> beside = light.neighbours(n);
             const auto count = static_cast<float>(beside.size() + 1);
@@ -261,7 +256,7 @@ void KeptSolver::store(const Member& member) {
     const auto add_to = [](PackedSpectrum& sum, const Spectrum& more) {
         sum = PackedSpectrum(sum.unpacked() + more);
     };
-    tbb::parallel_for(Nodes(0, light.table().size(), kBlock), [&](const Nodes& r) {
+    for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             out.irradiance[n] = PackedSpectrum(before_[base + n]);
             if (!keeps_along) continue;

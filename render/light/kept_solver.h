@@ -15,6 +15,9 @@
 // light; from the third bounce on (of what is dim, of lamps and bodies, and between objects from the second) everything
 // scatters as a diffuse surface of the same albedo; glass is clear.
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -49,7 +52,8 @@ class KeptSolver {
         return lights_[object]->table().size() * (kOfNode + (mirrored_.empty() ? 0 : sizeof(Spectrum))) +
                second_along_[object].size() * sizeof(PackedSpectrum);
     }
-    // One term. On oneTBB. Nothing is allocated but by links that are more than ever before.
+    // One term. On oneTBB; where its group of tasks is canceled, what comes out is worth nothing. Nothing is allocated but
+    // by links that are more than ever before.
     void solve(std::span<const Member> group);
 
   private:
@@ -106,6 +110,14 @@ class KeptSolver {
     // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
     std::vector<Spectrum> mirrored_;
 
+    // Has nodes seen to in blocks: a millisecond's work or less, so that one who waits for a block does not wait long. No
+    // result depends on them.
+    using Nodes = tbb::blocked_range<std::size_t>;
+    static constexpr std::size_t kBlock = 256;  // nodes
+    template <class Body>
+    static void for_nodes(std::size_t count, const Body& body) {
+        tbb::parallel_for(Nodes(0, count, kBlock), body, tbb::simple_partitioner{});
+    }
     void light_nodes(const Member& member);
     void light_block(const Member& member, std::size_t first, std::size_t last);
     std::uint32_t blocked(const Member& member, const RayPacket& rays) const;

@@ -28,6 +28,7 @@ KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& 
 
 void KeptUpdates::bring_to(const KeptTarget& target) {
     if (target == shown_) return;
+    ahead_.give_up();
     ahead_.wait();
     prepare(target);
     adopt();
@@ -40,16 +41,19 @@ void KeptUpdates::look_ahead(const KeptTarget& target) {
 }
 
 // Fills the stage with what the target has and the lights have not; what it holds already and is asked for
-// stays.
+// stays. Given up, it holds less.
 void KeptUpdates::prepare(const KeptTarget& target) {
     prepare_links(target);
+    if (AheadThread::was_given_up()) return;
     std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(target.group[a], a) < std::pair(target.group[b], b);
     });
     for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
         while (last < order_.size() && target.group[order_[last]] == target.group[order_[first]]) ++last;
-        for (std::size_t t = 0; t < terms_.count(); ++t)
+        for (std::size_t t = 0; t < terms_.count(); ++t) {
             prepare_group(target, t, {order_.data() + first, last - first});
+            if (AheadThread::was_given_up()) return;
+        }
     }
     stage_.target = target;
 }
@@ -60,10 +64,15 @@ void KeptUpdates::prepare_links(const KeptTarget& target) {
         const bool wanted = target.near[i] != shown_.near[i];
         if (wanted == (stage_.has_links[i] != 0) && (!wanted || stage_.target.near[i] == target.near[i]))
             continue;
-        if (wanted) stage_.links[i].make(target.near[i], i, solver_.lights(), solver_.scene());
-        stage_.has_links[i] = wanted;
+        if (wanted) {
+            stage_.links[i].make(target.near[i], i, solver_.lights(), solver_.scene());
+            stage_.target.near[i] = target.near[i];
+        }
+        const bool given_up = AheadThread::was_given_up();
+        stage_.has_links[i] = wanted && !given_up;
         // Solutions by way of other links are worth nothing.
         for (std::vector<std::uint8_t>& has : stage_.has_solution) std::fill(has.begin(), has.end(), 0);
+        if (given_up) return;
     }
 }
 
@@ -80,10 +89,12 @@ void KeptUpdates::prepare_group(const KeptTarget& target, std::size_t term,
         shines = shines || source.kind != KeptSource::Kind::kNone;
     }
     if (staged && differs) return;
-    for (const KeptSolver::Member& member : members_)
-        stage_.has_solution[member.object][term] = differs && shines;
     // A source that does not shine stays as it was: its level is zero.
     if (differs && shines) solver_.solve(members_);
+    for (const KeptSolver::Member& member : members_) {
+        stage_.has_solution[member.object][term] = differs && shines && !AheadThread::was_given_up();
+        stage_.target.sources[member.object][term] = member.source;
+    }
 }
 
 std::size_t KeptUpdates::bytes(std::size_t i) const {

@@ -20,8 +20,8 @@ class KeptUpdates {
     KeptUpdates(const KeptUpdates&) = delete;
     KeptUpdates& operator=(const KeptUpdates&) = delete;
 
-    // The lights have what the target asks for when this returns. Loop; waits for the thread where that is at
-    // work.
+    // The lights have what the target asks for when this returns. Loop; where the thread is at work it gives up
+    // the term that it is at, and what is left is made here.
     void bring_to(const KeptTarget& target);
     // Asks the thread for what will be needed; does nothing while it is at work. Loop.
     void look_ahead(const KeptTarget& target);
@@ -32,7 +32,8 @@ class KeptUpdates {
     bool is_busy() const { return ahead_.is_busy(); }
 
   private:
-    // The parts that have been made and not been taken: links by object, solutions by object and term.
+    // The parts that have been made and not been taken: links by object, solutions by object and term; and what
+    // of the target they were made for.
     struct Stage {
         KeptTarget target;
         std::vector<KeptLinks> links;

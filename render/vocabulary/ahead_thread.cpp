@@ -7,9 +7,9 @@
 
 namespace hilcam {
 
-void AheadThread::start(std::function<void()> work) {
+void AheadThread::start(std::function<void()> work, Rank rank) {
     work_ = std::move(work);
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([this, rank] { run(rank); });
 }
 
 void AheadThread::stop() {
@@ -19,15 +19,15 @@ void AheadThread::stop() {
     thread_.join();
 }
 
-void AheadThread::run() {
+void AheadThread::run(Rank rank) {
     // Frames come first; and one core of those that they leave is enough.
     constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
-    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
+    if (rank == Rank::kNice) setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
     tbb::task_arena alone(1, 1);
     while (true) {
         state_.wait(State::kIdle);
         if (state_.load(std::memory_order_acquire) == State::kStop) return;
-        alone.execute([this] { work_(); });
+        alone.execute([this] { tbb::task_group(pieces_).run_and_wait(work_); });
         state_.store(State::kIdle, std::memory_order_release), state_.notify_one();
     }
 }

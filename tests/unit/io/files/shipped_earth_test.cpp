@@ -287,7 +287,8 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
             earth().model->add(ray, weight, sum);
             return static_cast<double>(sum[2]);
         };
-        picture.make(*earth().model, EarthPicture::key_of(view.camera_m, view.sun_dir), earth().sun);
+        picture.begin(EarthPicture::key_of(view.camera_m, view.sun_dir));
+        picture.make_rest(*earth().model, earth().sun);
         struct Pixel {
             double kept, one_ray, mean, step;
             bool limb;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <thread>
 
 #include "render/sky/sun.h"
 #include "render/vocabulary/units.h"
@@ -27,7 +28,7 @@ struct KeptEarthTest : testing::Test {
     Spectrum sun = solar_irradiance_1au_w_m2_um(grid);
 
     // A row of looks across the disk.
-    std::array<Spectrum, 16> looks(const KeptEarth& kept, Vec3d camera_m) const {
+    static std::array<Spectrum, 16> looks(const EarthPicture& picture, Vec3d camera_m) {
         const Vec3d ahead = -normalized(camera_m), right = normalized(cross(ahead, Vec3d{0, 0, 1})),
                     down = cross(ahead, right);
         std::array<Vec3d, 9> dirs;
@@ -37,7 +38,7 @@ struct KeptEarthTest : testing::Test {
         EarthPicture::Floats x, y;
         for (std::size_t i = 0; i < 16; ++i) x[i] = static_cast<float>(i) / 15, y[i] = 0.45f;
         std::array<Spectrum, 16> out;
-        kept.picture().look(kept.picture().tile(camera_m, dirs), x, y, 16, 1, out);
+        picture.look(picture.tile(camera_m, dirs), x, y, 16, 1, out);
         return out;
     }
 };
@@ -46,7 +47,7 @@ TEST_F(KeptEarthTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
     const Vec3d here = on_equator(42164e3, 0.5), sun_dir = on_equator(1, 1.1);
     KeptEarth fresh(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
     ASSERT_TRUE(fresh.place(here, sun_dir));
-    const std::array<Spectrum, 16> wanted = looks(fresh, here);
+    const std::array<Spectrum, 16> wanted = looks(fresh.picture(), here);
     EXPECT_GT(wanted[8][0], 10);
     EXPECT_EQ(wanted[0][0], 0);
     KeptEarth moved(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
@@ -54,8 +55,25 @@ TEST_F(KeptEarthTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
     for (int i = 0; i < 80; ++i)
         ASSERT_TRUE(moved.place(on_equator(42164e3, 0.45 + 1e-5 * i), on_equator(1, 0.9 + 3e-4 * i)));
     ASSERT_TRUE(moved.place(here, sun_dir));
-    const std::array<Spectrum, 16> seen = looks(moved, here);
+    const std::array<Spectrum, 16> seen = looks(moved.picture(), here);
     for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(seen[i].bin, wanted[i].bin) << i;
+}
+
+// A frame that needs a picture which is being made ahead makes the rest of it.
+TEST_F(KeptEarthTest, SeveralThreadsMakeOnePicture) {
+    const Vec3d here = on_equator(42164e3, 0.5), sun_dir = on_equator(1, 1.1);
+    const auto lights = [&](int threads) {
+        EarthPicture picture(kKeptPixel_rad, EarthModel::kHighest_m);
+        picture.begin(EarthPicture::key_of(here, sun_dir));
+        std::vector<std::thread> team;
+        for (int i = 0; i < threads; ++i) team.emplace_back([&] { picture.make_rest(earth, sun); });
+        for (std::thread& one : team) one.join();
+        picture.make_rest(earth, sun);  // nothing is left
+        return looks(picture, here);
+    };
+    const std::array<Spectrum, 16> alone = lights(1), together = lights(3);
+    EXPECT_GT(alone[8][0], 10);
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(together[i].bin, alone[i].bin) << i;
 }
 
 // Page faults of this process [pages].

@@ -1,6 +1,10 @@
 #include "render/vocabulary/ahead_thread.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
 
 namespace hilcam {
 namespace {
@@ -30,9 +34,43 @@ TEST(AheadThread, EndsWhenItIsDoneAndIsBusyFromThenOn) {
     ahead.stop();
 }
 
+// Eight pieces, of which the thread is kept in the one that it begins with until it is to give up; the others are the frame's.
+TEST(AheadThread, AFrameMakesWhatTheThreadHasNotBegun) {
+    constexpr int kPieces = 8;
+    std::vector<std::thread::id> made_by(kPieces);
+    std::atomic<bool> is_begun{false}, is_whole{true}, gives_up{true};
+    const auto make = [&](int piece) {
+        made_by[static_cast<std::size_t>(piece)] = std::this_thread::get_id();
+        is_begun.store(true), is_begun.notify_one();
+        while (gives_up.load() && !AheadThread::was_given_up()) std::this_thread::yield();
+    };
+    AheadThread ahead;
+    ahead.start([&] {
+        tbb::parallel_for(0, kPieces, make, tbb::simple_partitioner{});
+        is_whole.store(!AheadThread::was_given_up());
+    });
+    ahead.ask();
+    is_begun.wait(false);
+    ahead.give_up();
+    ahead.wait();
+    EXPECT_FALSE(ahead.is_busy());
+    EXPECT_FALSE(is_whole.load());
+    EXPECT_FALSE(AheadThread::was_given_up()) << "the frame makes the rest";
+    EXPECT_EQ(std::ranges::count(made_by, std::thread::id{}), kPieces - 1);
+
+    // The next time it does all of it.
+    gives_up.store(false);
+    ahead.give_up();  // what is done cannot be
+    ahead.ask();
+    ahead.wait();
+    EXPECT_TRUE(is_whole.load());
+    EXPECT_EQ(std::ranges::count(made_by, std::thread::id{}), 0);
+}
+
 TEST(AheadThread, NeedsNoStart) {
     AheadThread ahead;
     EXPECT_FALSE(ahead.is_busy());
+    ahead.give_up();
     ahead.wait();
     ahead.stop();
 }
