@@ -21,7 +21,7 @@ DetailStream::DetailStream(std::shared_ptr<EarthDetail> detail, const EarthMap& 
       need_(detail_->shape(), tiles_in(bytes)),
       next_(detail_->shape(), tiles_in(bytes)) {
     loads_.reserve(tiles_.most());
-    // A tile is a millisecond's work, which one thread at a time can do, and not the loop's, as it allocates.
+    // Reading a tile is little work, which one thread at a time can do, and not the loop's, as it allocates.
     thread_.start([this] { load(); }, AheadThread::Rank::kEqual);
 }
 
