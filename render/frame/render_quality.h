@@ -28,7 +28,7 @@ struct RenderQuality {
     bool kept_earth = false;             // the Earth by its model from a kept picture, from afar
     double facets_behind_diffuse = 0.4;  // least GGX alpha there; 0: as they are
     bool watertight = true;              // no ray slips through between two triangles
-    double lod_error_px = 0.25;          // error of a coarser level of detail; 0: the mesh itself, always
+    double lod_error_px = 0.15;          // error of a coarser level of detail; 0: the mesh itself, always
     std::int64_t rays_across =
         128;  // rays across a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
     std::int64_t point_samples = 96;  // rays along one axis of the little picture of an object of few pixels
