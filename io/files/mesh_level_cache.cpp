@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 // Raised when coarser_levels() makes other levels of the same mesh.
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 9;
 
 struct Header {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'L', 'D'};
@@ -24,10 +24,10 @@ bool read_level(CacheReader& in, const Mesh& mesh, MeshLevel& level) {
     Mesh& m = level.mesh;
     m.surfaces = mesh.surfaces;
     in(level.error_m), in(level.flattened_alpha), in(m.vertices_m), in(m.normals), in(m.uvs), in(m.triangles),
-        in(m.surface_of_triangle), in(level.facets.whole), in(level.facets.divisions), in(level.facets.cells);
+        in(m.surface_of_triangle), in(level.facets);
     if (!in.good()) return false;
     if (level.flattened_alpha.size() != mesh.surfaces.size() ||
-        m.surface_of_triangle.size() != m.triangles.size() || !level.facets.is_whole(m.triangles.size()) ||
+        m.surface_of_triangle.size() != m.triangles.size() || level.facets.size() != m.triangles.size() ||
         (!m.normals.empty() && m.normals.size() != m.vertices_m.size()) ||
         (!m.uvs.empty() && m.uvs.size() != m.vertices_m.size()))
         return false;
@@ -65,8 +65,7 @@ void write_levels(const std::filesystem::path& file, std::uint64_t hash,
         for (const MeshLevel& level : levels) {
             const Mesh& m = level.mesh;
             out(level.error_m), out(level.flattened_alpha), out(m.vertices_m), out(m.normals), out(m.uvs),
-                out(m.triangles), out(m.surface_of_triangle), out(level.facets.whole),
-                out(level.facets.divisions), out(level.facets.cells);
+                out(m.triangles), out(m.surface_of_triangle), out(level.facets);
         }
     });
 }

@@ -1,16 +1,56 @@
 #include "render/levels/level_facets.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
+
+#include "render/levels/closest_triangle.h"
 
 namespace hilcam {
 namespace {
 
-using Part = LevelFacets::Part;
-
 // Normals that lean less apart than this are one facet: a sixth of the narrowest lobe that is kept
 // (kept_light.h).
 constexpr double kApart = 0.02;
+
+// The shading normal at a place in a triangle; `geometric` where it has none.
+Vec3f normal_at(const Mesh& mesh, std::uint32_t triangle, float u, float v, Vec3f geometric) {
+    if (mesh.normals.empty()) return geometric;
+    const auto& t = mesh.triangles[triangle];
+    for (const std::uint32_t corner : t)
+        if (!(dot(mesh.normals[corner], mesh.normals[corner]) > 0)) return geometric;
+    const Vec3f n = (1 - u - v) * mesh.normals[t[0]] + u * mesh.normals[t[1]] + v * mesh.normals[t[2]];
+    return dot(n, n) > 1e-6f ? normalized(n) : geometric;
+}
+
+// A triangle of the mesh beside the level's that stands for it.
+struct Part {
+    std::uint32_t owner = std::numeric_limits<std::uint32_t>::max();  // none
+    std::uint32_t number = 0;
+    float area = 0;
+    Vec3f lean;
+};
+
+Part part_of(const Mesh& mesh, const Mesh& level, const ClosestTriangle& near, std::uint32_t number,
+             float radius_m) {
+    const auto& corners = mesh.triangles[number];
+    const Vec3f area = to_float(area_vector(mesh, corners));
+    const float size = length(area);
+    if (!(size > 0 && std::isfinite(size))) return {};
+    const Vec3f middle_m =
+        (mesh.vertices_m[corners[0]] + mesh.vertices_m[corners[1]] + mesh.vertices_m[corners[2]]) / 3.0f;
+    const auto found = near.find({middle_m, area, mesh.surface_of_triangle[number], radius_m});
+    if (!found) return {};
+    const Vec3f flat = to_float(normalized(area_vector(level, level.triangles[found->triangle])));
+    const Vec3f lean = normal_at(mesh, number, 1.0f / 3, 1.0f / 3, area / size) -
+                       normal_at(level, found->triangle, found->u, found->v, flat);
+    return {found->triangle, number, size, lean};
+}
 
 // Parts together: area, and the moments of how they lean.
 struct Group {
@@ -65,16 +105,14 @@ std::size_t divide(const Group& group, std::span<Group> halves) {
     return 2;
 }
 
-}  // namespace
-
-LevelFacets LevelFacets::of(std::span<Part> parts) {
+LevelFacets facets_of_parts(std::span<Part> parts) {
     const Group all = group_of(parts);
     std::array<Group, 2> halves;
-    std::array<Group, kMax> groups;
+    std::array<Group, LevelFacets::kMax> groups;
     std::size_t count = 0;
     const std::size_t two = divide(all, halves);
     for (std::size_t i = 0; i < two; ++i) count += divide(halves[i], std::span(groups).subspan(count, 2));
-    std::array<Facet, kMax> facets{};
+    std::array<LevelFacets::Facet, LevelFacets::kMax> facets{};
     double variance = 0;  // within the groups, of both axes together: alpha squared (Beckmann's)
     for (std::size_t i = 0; i < count; ++i) {
         const Group& g = groups[i];
@@ -82,9 +120,12 @@ LevelFacets LevelFacets::of(std::span<Part> parts) {
         facets[i] = {to_float(g.mean), static_cast<float>(share)};
         variance += share * (g.scatter.x.x + g.scatter.y.y + g.scatter.z.z);
     }
-    if (count == 1 && variance < kApart * kApart && length(groups[0].mean) < kApart) return flat();
-    return of(facets, static_cast<float>(std::sqrt(variance)));
+    if (count == 1 && variance < kApart * kApart && length(groups[0].mean) < kApart)
+        return LevelFacets::flat();
+    return LevelFacets::of(facets, static_cast<float>(std::sqrt(variance)));
 }
+
+}  // namespace
 
 LevelFacets LevelFacets::of(const std::array<Facet, kMax>& facets, float alpha) {
     LevelFacets out;
@@ -99,6 +140,28 @@ LevelFacets LevelFacets::of(const std::array<Facet, kMax>& facets, float alpha) 
         out.share_[i] = facets[i].share > 0
                             ? static_cast<std::uint8_t>(std::max(1L, std::lround(facets[i].share * kAll)))
                             : std::uint8_t{0};
+    }
+    return out;
+}
+
+std::vector<LevelFacets> facets_of(const Mesh& mesh, const Mesh& level, double error_m) {
+    std::vector<LevelFacets> out(level.triangles.size(), LevelFacets::flat());
+    const ClosestTriangle near(level);
+    const auto radius_m = static_cast<float>(4 * error_m);
+    std::vector<Part> parts(mesh.triangles.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            parts[i] = part_of(mesh, level, near, static_cast<std::uint32_t>(i), radius_m);
+    });
+    // By owner; equal ones keep the mesh's order, whatever the thread count.
+    tbb::parallel_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+        return a.owner != b.owner ? a.owner < b.owner : a.number < b.number;
+    });
+    for (std::size_t first = 0; first < parts.size() && parts[first].owner < out.size();) {
+        std::size_t end = first + 1;
+        while (end < parts.size() && parts[end].owner == parts[first].owner) ++end;
+        out[parts[first].owner] = facets_of_parts({&parts[first], end - first});
+        first = end;
     }
     return out;
 }

@@ -4,15 +4,15 @@
 // level's triangle keeps up to four of their normals, each with its share of their area.
 //
 // The parts of the mesh belong to the triangle of the same surface that is nearest to them and faces as they
-// do (facet_map.h). Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
+// do. Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
 // are by Wu, ACM Trans. Graphics 10(4), 1991), which keeps their mean and most of their scatter; what is
 // left over within the four groups is kept as roughness. That parts shade each other is light/facet_list.h's.
 
 #include <array>
 #include <cstdint>
-#include <span>
+#include <vector>
 
-#include "render/vocabulary/vec.h"
+#include "render/vocabulary/mesh.h"
 
 namespace hilcam {
 
@@ -23,13 +23,6 @@ class LevelFacets {
         Vec3f lean;   // added to the level's own normal there, before it is made a unit vector; body axes
         float share;  // share of the area of all; 0: there are no more
     };
-    // A part of the mesh for which a triangle stands: its area, and how its normal leans.
-    struct Part {
-        float area;
-        Vec3f lean;
-    };
-    // Brings the parts into another order. Owner thread.
-    static LevelFacets of(std::span<Part> parts);
     // alpha: GGX's, of how normals scatter about the facets' own.
     static LevelFacets of(const std::array<Facet, kMax>& facets, float alpha);
     // Leans nowhere.
@@ -64,5 +57,9 @@ class LevelFacets {
     float alpha_ = 0;
 };
 static_assert(sizeof(LevelFacets) == 32);
+
+// One for each triangle of the level. error_m: how far the level is from the mesh, about. Owner thread; some
+// seconds per million triangles of the mesh.
+std::vector<LevelFacets> facets_of(const Mesh& mesh, const Mesh& level, double error_m);
 
 }  // namespace hilcam

@@ -4,12 +4,12 @@
 //
 // Surfaces are simplified one by one and their borders stay, so that materials keep their areas: a level
 // never loses a solar cell, it only has no needless triangles in it. How the wrinkles leaned that a level has
-// flattened is kept triangle by triangle, for what the camera sees (facet_map.h), and as roughness of a
+// flattened is kept triangle by triangle, for what the camera sees (level_facets.h), and as roughness of a
 // whole surface, for everything else.
 
 #include <vector>
 
-#include "render/levels/facet_map.h"
+#include "render/levels/level_facets.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
@@ -19,7 +19,7 @@ struct MeshLevel {
     double error_m = 0;  // no point of the mesh is farther from the level, about
     // Per surface: GGX alpha of the facets that the level has flattened; adds to a material's by squares.
     std::vector<float> flattened_alpha;
-    FacetMap facets;
+    std::vector<LevelFacets> facets;  // by triangle
 };
 
 // Makes the levels from fine to coarse, error growing twofold; a level is kept where it saves two fifths of

@@ -175,14 +175,14 @@ void FacetList::push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float 
     vertex.facets = &added;
 }
 
-void FacetList::add(const FrameView& frame, const Facet& part, const FacetMap::Place& place, bool first,
+void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t triangle, bool first,
                     Vertex& vertex) {
     const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
     float flattened = 0;
     const LevelFacets* wrinkles = nullptr;
     if (!object.facets.empty()) {
         flattened = object.flattened_alpha[vertex.surface_number];
-        if (!object.facets.is_flat(place.triangle)) wrinkles = &object.facets.at(place, vertex.footprint_m);
+        if (!object.facets[triangle].is_flat()) wrinkles = &object.facets[triangle];
         const float alpha = vertex.surface.alpha;
         if (first && flattened > 0)
             vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened));

@@ -1,7 +1,7 @@
 #pragma once
 // The parts of what the camera sees in a pixel that lean otherwise, for the Sun to be reflected by each of
 // them: what a vertex of many samples has joined, and what a level of detail has flattened
-// (levels/facet_map.h).
+// (levels/level_facets.h).
 
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
@@ -17,9 +17,8 @@ class FacetList {
     std::size_t room() const { return (kMax - count_) / 2; }
 
     // Adds a part to a vertex, whose own is the first. Facets are made where there is more than one, and of
-    // what a level has flattened: its own lobe is wider than theirs. place: where the part is seen. Loop, any thread.
-    void add(const FrameView& frame, const Facet& part, const FacetMap::Place& place, bool first,
-             Vertex& vertex);
+    // what a level has flattened: its own lobe is wider than theirs. Loop, any thread.
+    void add(const FrameView& frame, const Facet& part, std::uint32_t triangle, bool first, Vertex& vertex);
 
   private:
     static constexpr std::size_t kMax = 4096;

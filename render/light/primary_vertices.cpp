@@ -158,7 +158,7 @@ std::size_t PrimaryVertices::look_at_fragments() {
         packet_.triangle[n] = seen.triangle;
         __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
         __builtin_prefetch(&surfaces.triangles[seen.triangle]);
-        if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets.whole[seen.triangle]);
+        if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets[seen.triangle]);
         if (!surfaces.corner_uvs.empty()) {
             __builtin_prefetch(&surfaces.corner_uvs[seen.triangle]);
             __builtin_prefetch(&surfaces.uv_per_m[seen.triangle]);
@@ -217,7 +217,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
         finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
-                         {hits_.triangle[k], hits_.u[k], hits_.v[k]}, true, vertex);
+                         hits_.triangle[k], true, vertex);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
@@ -233,7 +233,7 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
     const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);
     tile_.facets.add(
         frame, {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal, samples},
-        {hits_.triangle[k], hits_.u[k], hits_.v[k]}, false, vertex);
+        hits_.triangle[k], false, vertex);
     // Rays begin at its samples, too, where it lies in the vertex' plane but for a little: at those twice as much above it.
     // All others begin where they did, as what is higher misses the shadow of what is near.
     const Vec3f way_m = point_m - vertex.point_m;

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/levels/facet_map.h"
+#include "render/levels/level_facets.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/ground_normals.h"
 #include "render/scene/packed_normal.h"
@@ -50,7 +50,7 @@ struct ObjectSurfaces {
     // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
     // have them, too. The mesh itself has flattened none: empty.
     std::vector<float> flattened_alpha;
-    FacetMap facets;  // of a level's triangles; empty for the mesh itself
+    std::vector<LevelFacets> facets;  // facets of a level's triangles; empty for the mesh itself
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
     std::vector<KnownSun> known_sun;                          // per triangle; empty: rays ask the Sun
