@@ -167,7 +167,7 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
 }
 
 TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
-    done_.take_all();  // of orders that were given up
+    done_.take_all();  // orders that were given up
     const TriggerResult result = trigger(order);
     ordered_ = result == TriggerResult::kTaken;
     return result;

@@ -84,7 +84,7 @@ class EarthPicture {
         int rows, columns;      // the first column is stored once more behind the last
         std::size_t offset;
 
-        int runs() const;  // of each ring
+        int runs() const;  // number of pieces of each ring
     };
 
     double pixel_rad_, top_m_;

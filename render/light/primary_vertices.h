@@ -49,7 +49,7 @@ class PrimaryVertices {
         std::uint32_t object = 0;
         Vec3f normal, across, down;  // world axes
         Vec3d corner_m;              // world axes, from the body's origin
-        Vec2f to_sun{};              // how far a ray to the Sun goes along the sides while it rises by one
+        Vec2f to_sun{};              // way of a ray to the Sun along the sides while it rises by one
 
         Vec2f slopes(Vec3f dir) const;
     };

@@ -15,7 +15,7 @@ namespace {
 
 // The largest triangles that are looked at as ground; not more mosaics than a byte tells apart (PackedTriangle::patch).
 constexpr std::size_t kMaxSeeds = 64;
-constexpr int kFinest = 1536, kCoarsest = 16;         // texels along the longer side: at most, and at least
+constexpr int kFinest = 1536, kCoarsest = 16;        // texels along the longer side: at most, and at least
 constexpr double kMinFilled = 0.2;                   // the share of its rectangle that the ground fills
 constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // the share of the ground beside what lies on it
 constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's

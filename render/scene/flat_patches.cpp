@@ -155,8 +155,8 @@ std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfac
 
 namespace {
 
-// Texels may be so much coarser than a level's error. Where an object is nearest that is four times lod_error_px at most, at real time a
-// pixel: it blurs gaps, but has their light, which samples that are lit from the middles of gaps have not (docs/decisions.md).
+// Texels may be so much coarser than a level's error. Where an object is nearest that is four times lod_error_px at most, at real time
+// six tenths of a pixel: it blurs gaps, but has their light, which samples that are lit from the middles of gaps have not (docs/decisions.md).
 constexpr double kTexelOverError = 4;
 
 // Places of a mosaic are found from its ground's triangle, by its edges.
