@@ -17,7 +17,7 @@ struct ShownObject {
     std::vector<double> error_m;                                // error of each level
     std::shared_ptr<const TransferTable> transfer;  // null: no light is kept on it; shared by its like
     double turn_rate_rad_s = 0;
-    // Least and greatest corners of boxes that hold the mesh, some hundred at most; body axes.
+    // Least and greatest corners of boxes that hold the mesh, 512 at most; body axes.
     std::vector<std::array<Vec3f, 2>> bounds_m;
 
     // Returns how far a place [m, body axes] is from the nearest of these boxes; 0 within one.
