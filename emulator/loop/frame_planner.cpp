@@ -1,6 +1,7 @@
 #include "emulator/loop/frame_planner.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "emulator/loop/image_faults.h"
 #include "io/contract/frame_flags.h"
@@ -66,7 +67,8 @@ void FramePlanner::place_in_time(const FrameStarter::Start& start, FrameSlot& sl
     const std::int64_t length_ns = to_ns(timing_.end_s(use.exposure_s));
     slot.middle_camera_ns = start.camera_ns + middle_ns;
     slot.end_camera_ns = start.camera_ns + length_ns;
-    slot.until_end = start.until_end;
+    slot.leaves_camera_ns = start.until_end ? std::max(slot.end_camera_ns, start.ready_camera_ns)
+                                            : std::numeric_limits<std::int64_t>::min();
     const TimeTai begin = clock_.simulated_of_camera(start.camera_ns);
     const std::int64_t moved_ns = clock_.simulated_of_camera(slot.end_camera_ns) - begin;
     use.moving = moved_ns == length_ns ? 1 : static_cast<double>(moved_ns) / static_cast<double>(length_ns);

@@ -3,6 +3,7 @@
 // the start and serves one frame after the other.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "emulator/loop/frame_script.h"
@@ -25,7 +26,8 @@ struct FrameSlot {
     std::vector<std::uint64_t> shown_numbers;  // for a recorder: the newest command of each thing
     std::int64_t not_before_ns = 0;  // earliest time at which a script's frame may be published; 0: any
     std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // instants of the exposure, camera's time
-    bool until_end = false;                                // is not to be published before that end
+    // Earliest instant of that time at which it may be published.
+    std::int64_t leaves_camera_ns = std::numeric_limits<std::int64_t>::min();
     bool automatic = false;                                // the camera sets the next exposure itself
     std::int64_t render_ns = 0;                            // time that rendering took; 0: nothing was
 

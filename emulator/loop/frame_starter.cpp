@@ -31,13 +31,7 @@ FrameStarter::FrameStarter(const CameraModel& camera, LiveSettings& settings, Si
       paced_(limits.paced),
       prefers_newest_(limits.prefer == LoopPreference::kLatency),
       schedule_(0) {
-    for (const SettingsStep& step : camera.sequence)
-        longest_step_s_ = std::max(longest_step_s_, step.exposure_s);
     settings.follow(clock, lockstep_ ? nullptr : poses);
-}
-
-double FrameStarter::period_s(const CameraSettings& s, double exposure_s) const {
-    return timing_.period_s(s.frame_rate_hz, std::max(exposure_s, longest_step_s_));
 }
 
 bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping, Start& start) {
@@ -121,8 +115,8 @@ FrameSchedule::Slot FrameStarter::take_slot(std::int64_t arrived_ns) {
 FrameSchedule::Slot FrameStarter::take_slot_by(const CameraSettings& settings, std::int64_t arrived_ns,
                                                FrameSchedule& schedule) const {
     const double exposure_s = exposure_of(settings);
-    const std::int64_t period_ns = to_ns(period_s(settings, exposure_s));
-    const std::int64_t length_ns = to_ns(timing_.end_s(std::max(exposure_s, longest_step_s_)));
+    const std::int64_t period_ns = to_ns(timing_.period_s(settings.frame_rate_hz, exposure_s));
+    const std::int64_t length_ns = to_ns(timing_.end_s(timing_.longest_exposure_s(exposure_s)));
     return schedule.take(arrived_ns, period_ns,
                          prefers_newest_ ? std::max(period_ns - length_ns, std::int64_t{0}) : 0);
 }
@@ -138,13 +132,14 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     start.settings = lockstep_ ? history.newest() : history.at(next_ns_);
     start.exposure_s = exposure_of(start.settings);
     start.camera_ns = next_ns_;
-    const std::int64_t period_ns = to_ns(period_s(start.settings, start.exposure_s));
+    const std::int64_t period_ns = to_ns(timing_.period_s(start.settings.frame_rate_hz, start.exposure_s));
     if (lockstep_) {
         last_mid_ = clock_.simulated_of_camera(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
         clock_.step_to(last_mid_);
         settings_.report_middle(last_mid_);
     } else {
         start.late = camera_now() > next_ns_ + period_ns;
+        start.ready_camera_ns = next_ns_ + settings_.shortest_period_ns(start.exposure_s);
     }
     next_ns_ += period_ns;
     start.trigger_sequence = order_.sequence;
@@ -162,7 +157,7 @@ bool FrameStarter::take_order(const CameraSettings& settings, double exposure_s)
     if (order_.at_simulated.ns != 0)
         next_ns_ = order_.at_simulated.ns - to_middle_ns;
     else if (last_mid_.ns != 0)
-        next_ns_ = last_mid_.ns + to_ns(period_s(settings, exposure_s)) - to_middle_ns;
+        next_ns_ = last_mid_.ns + to_ns(timing_.period_s(settings.frame_rate_hz, exposure_s)) - to_middle_ns;
     else
         next_ns_ = clock_.start().ns;
     return true;

@@ -19,6 +19,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 
 #include "emulator/loop/frame_schedule.h"
 #include "emulator/loop/live_settings.h"
@@ -43,6 +44,9 @@ class FrameStarter {
         std::int64_t begin_ns = 0;
         std::int64_t camera_ns = 0;  // the same in the camera's time
         bool until_end = false;      // it may not be published before the exposure's end
+        // Nor, if it was triggered, before the camera is ready again, camera's time: who triggers the next frame
+        // when this one has come shall not be too early.
+        std::int64_t ready_camera_ns = std::numeric_limits<std::int64_t>::min();
         std::uint64_t skipped = 0;   // exposures that could not be taken before it
         bool late = false;           // a triggered frame began more than a period after its time
         std::uint32_t trigger_sequence = 0;
@@ -66,7 +70,6 @@ class FrameStarter {
     bool waits_for_poses() const { return poses_ && !lockstep_ && poses_->stops(clock_.now()); }
     bool sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const;
     std::int64_t camera_now() const { return clock_.camera_at(monotonic_ns()); }
-    double period_s(const CameraSettings& settings, double exposure_s) const;
     double exposure_of(const CameraSettings& settings) const;
 
     LiveSettings& settings_;
@@ -75,7 +78,6 @@ class FrameStarter {
     ShutterTiming timing_;
     bool lockstep_, paced_;
     bool prefers_newest_;        // late exposures begin when they can, not where the raster has them
-    double longest_step_s_ = 0;  // longest step of the camera's sequence
     double own_exposure_s_ = 0;
     FrameSchedule schedule_;
     bool idle_ = true;

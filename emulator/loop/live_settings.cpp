@@ -79,10 +79,15 @@ LiveSettings::LiveSettings(const CameraModel& c, const Mode& mode)
 CameraSettings LiveSettings::settings() const {
     const std::lock_guard lock(mutex_);
     CameraSettings now = settings_;
-    if (limits_.exposure_is_own || now.automatic_exposure)
-        now.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
+    now.exposure_s = exposure_now_s();
     if (limits_.gain_is_own) now.gain_db = own_gain_db_.load(std::memory_order_relaxed);
     return now;
+}
+
+// Is called under the lock.
+double LiveSettings::exposure_now_s() const {
+    const bool own = limits_.exposure_is_own || settings_.automatic_exposure;
+    return own ? own_exposure_s_.load(std::memory_order_relaxed) : settings_.exposure_s;
 }
 
 bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const {
@@ -153,10 +158,9 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
         if (missed) {
             if (missed_) missed_(now_ns);
         } else {
-            const double rate_hz = order.frames > 1 ? settings_.frame_rate_hz : limits_.max_frame_rate_hz;
-            const double busy_s =
-                static_cast<double>(order.frames) * timing_.period_s(rate_hz, settings_.exposure_s);
-            ready_ns_ = due_ns + static_cast<std::int64_t>(busy_s * 1e9);
+            const double exposure_s = exposure_now_s();
+            const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
+            ready_ns_ = due_ns + (order.frames - 1) * period_ns + shortest_period_ns(exposure_s);
         }
     }
     if (missed) return TriggerResult::kMissed;

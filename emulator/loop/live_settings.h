@@ -16,6 +16,7 @@
 #include "io/contract/camera_control.h"
 #include "io/system/timed_semaphore.h"
 #include "render/vocabulary/latest.h"
+#include "render/vocabulary/time.h"
 #include "sensor/camera_model.h"
 
 namespace hilcam {
@@ -40,8 +41,8 @@ class LiveSettings : public CameraControl {
     bool change(const SettingsChange& change) override;
     bool change(const SettingsChange& change, std::int64_t from_camera_ns);
     // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
-    // highest frame rate, as the camera's time goes now (clock.h); or, in lockstep, when kMaxWaiting are
-    // waiting. Not armed: also where frames wait for poses (pose_watch.h).
+    // highest frame rate, as the camera's time goes now (clock.h): never when that frame has left the camera
+    // (FrameStarter::Start). Or, in lockstep, when kMaxWaiting are waiting. Not armed: also where frames wait for poses (pose_watch.h).
     TriggerResult trigger(const TriggerOrder& order) override;
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
@@ -87,6 +88,11 @@ class LiveSettings : public CameraControl {
         own_gain_db_.store(gain_db, std::memory_order_relaxed);
     }
 
+    // How long the camera is busy with a frame at the least, its own time.
+    std::int64_t shortest_period_ns(double exposure_s) const {
+        return to_ns(timing_.period_s(limits_.max_frame_rate_hz, exposure_s));
+    }
+
     // Lockstep: the middle of the newest frame; none is ordered for an instant that is not after it.
     void report_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
 
@@ -95,6 +101,7 @@ class LiveSettings : public CameraControl {
   private:
     static constexpr std::int64_t kLongestWait_ns = 50'000'000;
 
+    double exposure_now_s() const;
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
     std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;

@@ -85,14 +85,15 @@ void SenseStage::finish_picture(const FrameSlot& slot) {
                              frame_.row(frame_.height() - 1 - y).begin());
 }
 
-// A frame is not published before its exposure is over, nor before a replay wants it.
+// A frame is not published before the camera is over with it, nor before a replay wants it.
 void SenseStage::wait_for_end(const FrameSlot& slot, const std::atomic<bool>& stopping) const {
     const auto go_on = [&] { return !stopping.load(std::memory_order_relaxed); };
     while (monotonic_ns() < slot.not_before_ns && go_on())
         sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_ns() + kLongestSleep_ns));
-    for (std::int64_t now_ns = monotonic_ns();
-         slot.until_end && clock_.camera_at(now_ns) < slot.end_camera_ns && go_on(); now_ns = monotonic_ns())
-        sleep_until_monotonic_ns(std::min(clock_.when_due(slot.end_camera_ns), now_ns + kLongestSleep_ns));
+    const std::int64_t leaves_ns = slot.leaves_camera_ns;
+    for (std::int64_t now_ns = monotonic_ns(); clock_.camera_at(now_ns) < leaves_ns && go_on();
+         now_ns = monotonic_ns())
+        sleep_until_monotonic_ns(std::min(clock_.when_due(leaves_ns), now_ns + kLongestSleep_ns));
 }
 
 // In lockstep and in a replay every output has to have room, as no frame may be lost, the last ones of a run

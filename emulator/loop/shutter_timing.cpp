@@ -8,7 +8,10 @@ ShutterTiming::ShutterTiming(const CameraModel& camera)
     : kind_(camera.shutter.kind),
       rows_(window_of(camera).height),
       line_time_s_(camera.shutter.line_time_s),
-      stages_(static_cast<double>(camera.shutter.tdi_stages)) {}
+      stages_(static_cast<double>(camera.shutter.tdi_stages)) {
+    for (const SettingsStep& step : camera.sequence)
+        longest_step_s_ = std::max(longest_step_s_, step.exposure_s);
+}
 
 double ShutterTiming::end_s(double exposure_s) const {
     switch (kind_) {
@@ -25,10 +28,14 @@ double ShutterTiming::end_s(double exposure_s) const {
 
 double ShutterTiming::middle_s(double exposure_s) const { return 0.5 * end_s(exposure_s); }
 
+double ShutterTiming::longest_exposure_s(double exposure_s) const {
+    return std::max(exposure_s, longest_step_s_);
+}
+
 double ShutterTiming::period_s(double frame_rate_hz, double exposure_s) const {
     if (is_fixed()) return rows_ * line_time_s_;
     const double rows_s = kind_ == ShutterKind::kRolling ? rows_ * line_time_s_ : 0;
-    return std::max({1 / frame_rate_hz, exposure_s, rows_s});
+    return std::max({1 / frame_rate_hz, longest_exposure_s(exposure_s), rows_s});
 }
 
 }  // namespace hilcam

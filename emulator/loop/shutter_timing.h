@@ -26,12 +26,16 @@ class ShutterTiming {
     double exposure_s(double asked_s) const { return is_fixed() ? stages_ * line_time_s_ : asked_s; }
     double middle_s(double exposure_s) const;
     double end_s(double exposure_s) const;
+    // Returns the exposure that frames leave time for: a camera with a sequence of settings has that of its longest
+    // step [s].
+    double longest_exposure_s(double exposure_s) const;
     // Returns the time from frame to frame at a frame rate that is asked for [s].
     double period_s(double frame_rate_hz, double exposure_s) const;
 
   private:
     ShutterKind kind_;
     double rows_, line_time_s_, stages_;
+    double longest_step_s_ = 0;  // of the camera's sequence
 };
 
 }  // namespace hilcam

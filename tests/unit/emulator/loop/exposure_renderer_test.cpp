@@ -272,6 +272,9 @@ TEST(ShutterTiming, FollowsItsTable) {
     EXPECT_DOUBLE_EQ(line.exposure_s(1), 320e-6);
     EXPECT_DOUBLE_EQ(line.period_s(1, 1), 0.02);
     EXPECT_DOUBLE_EQ(line.middle_s(320e-6), 0.01);
+    c.shutter.kind = ShutterKind::kGlobal;
+    c.sequence = {{.exposure_s = 1e-3}, {.exposure_s = 0.05}};
+    EXPECT_DOUBLE_EQ(ShutterTiming(c).period_s(100, 1e-3), 0.05);
 }
 
 TEST(LiveSettings, RefusesWhatTheCameraSetsItself) {

@@ -222,6 +222,21 @@ TEST_F(FrameLoopTest, EveryTriggerGivesItsFramesAndEarlyOnesAreMissed) {
     }
 }
 
+// The picture is there long before the camera could take another one.
+TEST_F(FrameLoopTest, WhoTriggersAtAFramesArrivalIsNeverTooEarly) {
+    LoopRig rig(scenario(", frame_rate_hz: 100, frame_rate_range_hz: [1, 100]"), {0, true},
+                {"mode=triggered", "camera.exposure_ms=1"});
+    rig.loop.start();
+    std::size_t frames = 0;
+    const std::uint16_t bursts[] = {1, 1, 3, 1, 2, 1, 1, 1};
+    for (const std::uint16_t burst : bursts) {
+        EXPECT_EQ(rig.send(expose({}, burst)), CommandStatus::kAccepted) << "after " << frames;
+        frames += burst;
+        ASSERT_TRUE(rig.collector.wait_for(frames));
+    }
+    rig.loop.stop();
+}
+
 TEST_F(FrameLoopTest, ATriggeredCameraListensToItsSourceOnly) {
     LoopRig rig(scenario(), {0, true});
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // free-run
