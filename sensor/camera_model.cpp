@@ -144,7 +144,8 @@ Fields electronics_fields(CameraModel& c) {
                 "least and greatest exposure time"),
         numbers("gain_range_db", c.gain_range_db, 1, {-60, 60}, {2, 2}, "least and greatest gain"),
         numbers("frame_rate_range_hz", c.frame_rate_range_hz, 1, {1e-3, 10000}, {2, 2},
-                "least and greatest frame rate; a triggered frame leaves the camera, and the next trigger is taken, "
+                "least and greatest frame rate; a triggered frame leaves the camera, and the next trigger is "
+                "taken, "
                 "no sooner than a period of the greatest after its exposure began"),
         section("auto_exposure", c.auto_exposure, "automatic exposure by the camera itself"),
         sections("sequence", c.sequence, "settings of successive frames, repeated over and over"),

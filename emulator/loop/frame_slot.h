@@ -28,8 +28,8 @@ struct FrameSlot {
     std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // instants of the exposure, camera's time
     // Earliest instant of that time at which it may be published.
     std::int64_t leaves_camera_ns = std::numeric_limits<std::int64_t>::min();
-    bool automatic = false;                                // the camera sets the next exposure itself
-    std::int64_t render_ns = 0;                            // time that rendering took; 0: nothing was
+    bool automatic = false;      // the camera sets the next exposure itself
+    std::int64_t render_ns = 0;  // time that rendering took; 0: nothing was
 
     // --- The sense stage's, for the frame that takes the slot over.
     std::int64_t sense_ns = 0;   // time that it took, publishing in it

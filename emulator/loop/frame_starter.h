@@ -47,8 +47,8 @@ class FrameStarter {
         // Nor, if it was triggered, before the camera is ready again, camera's time: who triggers the next frame
         // when this one has come shall not be too early.
         std::int64_t ready_camera_ns = std::numeric_limits<std::int64_t>::min();
-        std::uint64_t skipped = 0;   // exposures that could not be taken before it
-        bool late = false;           // a triggered frame began more than a period after its time
+        std::uint64_t skipped = 0;  // exposures that could not be taken before it
+        bool late = false;          // a triggered frame began more than a period after its time
         std::uint32_t trigger_sequence = 0;
         bool ends_order = false;
         PoseWatch::Silence silence;  // when it begins
@@ -77,7 +77,7 @@ class FrameStarter {
     const PoseWatch* poses_;
     ShutterTiming timing_;
     bool lockstep_, paced_;
-    bool prefers_newest_;        // late exposures begin when they can, not where the raster has them
+    bool prefers_newest_;  // late exposures begin when they can, not where the raster has them
     double own_exposure_s_ = 0;
     FrameSchedule schedule_;
     bool idle_ = true;

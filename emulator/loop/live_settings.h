@@ -88,7 +88,7 @@ class LiveSettings : public CameraControl {
         own_gain_db_.store(gain_db, std::memory_order_relaxed);
     }
 
-    // How long the camera is busy with a frame at the least, its own time.
+    // Returns how long the camera is busy with a frame at the least, in its own time.
     std::int64_t shortest_period_ns(double exposure_s) const {
         return to_ns(timing_.period_s(limits_.max_frame_rate_hz, exposure_s));
     }

@@ -35,7 +35,7 @@ class ShutterTiming {
   private:
     ShutterKind kind_;
     double rows_, line_time_s_, stages_;
-    double longest_step_s_ = 0;  // of the camera's sequence
+    double longest_step_s_ = 0;  // Exposure of the longest step of the camera's sequence.
 };
 
 }  // namespace hilcam
