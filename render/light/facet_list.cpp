@@ -145,7 +145,7 @@ class Reflection {
             float lit = 0;
             for (std::size_t i = group.first; i < group.first + group.count; ++i)
                 lit += weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
-            light_.add_start(group.facet->start_m, lit);
+            light_.add(*group.facet, lit);
         }
         sum_.add(weight, lanes_.no, lanes_.ni, lanes_.rougher, count);
         lanes_.count = group_count_ = 0;
@@ -154,22 +154,23 @@ class Reflection {
 
 }  // namespace
 
-void FacetLight::add_start(Vec3f at_m, float light) {
+void FacetLight::add(const Facet& facet, float light) {
     if (!(light > lit.back())) return;
     std::size_t place = lit.size() - 1;
     for (; place > 0 && light > lit[place - 1]; --place)
-        lit[place] = lit[place - 1], start_m[place] = start_m[place - 1];
-    lit[place] = light, start_m[place] = at_m;
+        lit[place] = lit[place - 1], brightest[place] = brightest[place - 1];
+    lit[place] = light, brightest[place] = &facet;
 }
 
 // Member by member: a Facet that is made first and copied then waits for its own stores.
-void FacetList::push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples,
+void FacetList::push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples, SampleMask seen_by,
                      const LevelFacets* flattened, Vertex& vertex) {
     Facet& added = facets_[count_++];
     added.geometric_normal = geometric_normal;
     added.normal = normal;
     added.start_m = start_m;
     added.samples = samples;
+    added.seen_by = seen_by;
     added.flattened = flattened;
     added.next = vertex.facets;
     vertex.facets = &added;
@@ -190,8 +191,9 @@ void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t tri
     const bool alike = first || dot(vertex.normal, part.normal) > kSame;
     if (alike && !wrinkles && flattened == 0 && !vertex.facets) return;
     if (!first && !vertex.facets)
-        push(vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, nullptr, vertex);
-    push(part.geometric_normal, part.normal, part.start_m, part.samples, wrinkles, vertex);
+        push(vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, vertex.samples,
+             nullptr, vertex);
+    push(part.geometric_normal, part.normal, part.start_m, part.samples, part.seen_by, wrinkles, vertex);
 }
 
 FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir) {

@@ -25,7 +25,7 @@ class FacetList {
     std::array<Facet, kMax> facets_;
     std::size_t count_ = 0;
 
-    void push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples,
+    void push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples, SampleMask seen_by,
               const LevelFacets* flattened, Vertex& vertex);
 };
 
@@ -33,12 +33,12 @@ class FacetList {
 struct FacetLight {
     static constexpr std::size_t kStarts = 4;
     Spectrum reflected;
-    // Where rays begin that leave the facets with the most light, most first, and how much light falls on each.
-    std::array<Vec3f, kStarts> start_m{};
+    // The facets with the most light, most first, and how much falls on each.
+    std::array<const Facet*, kStarts> brightest{};
     std::array<float, kStarts> lit{};
 
     bool none() const { return !(lit[0] > 0); }
-    void add_start(Vec3f at_m, float light);
+    void add(const Facet& facet, float light);
 };
 // dir: towards the light, unit. surface: with the facets' own alpha. Loop, any thread.
 FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir);

@@ -58,7 +58,8 @@ Scattered scatter(const FrameView& frame, const Vertex& at, Vec3f dir, float alp
     if (at.facets && !(facets && surface.alpha == 0)) {
         if (facets) surface.alpha = std::min(1.0f, std::hypot(at.facet_alpha, alpha));
         const FacetLight sum = lit_facets(frame, at, surface, dir);
-        return {sum.reflected, sum.start_m[0], sum.none()};
+        if (sum.none()) return {};
+        return {sum.reflected, sum.brightest[0]->start_m, false};
     }
     const float ni = dot(at.normal, dir);
     if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) return {};

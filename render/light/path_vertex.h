@@ -20,6 +20,7 @@ struct Facet {
     Vec3f geometric_normal, normal;          // the two normals of a vertex
     Vec3f start_m;                           // where rays that leave it begin, ray space
     float samples = 0;                       // samples of sixteen a pixel that see it
+    SampleMask seen_by = 0;                  // those of the visibility buffer; 0: it is not of that
     const LevelFacets* flattened = nullptr;  // the facets of the mesh for which it stands; null: itself
     const Facet* next = nullptr;
 };

@@ -216,7 +216,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         // Seen from its edge, what lies on the ground hides it.
         if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
         finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], vertex);
-        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
+        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples, fragment.samples},
                          hits_.triangle[k], true, vertex);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
@@ -231,9 +231,10 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
     const SampleMask seen_by = fragments_[k].samples;
     const float samples = frame.samples.weight(seen_by);
     const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);
-    tile_.facets.add(
-        frame, {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal, samples},
-        hits_.triangle[k], false, vertex);
+    tile_.facets.add(frame,
+                     {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal,
+                      samples, seen_by},
+                     hits_.triangle[k], false, vertex);
     // Rays begin at its samples, too, where it lies in the vertex' plane but for a little: at those twice as much above it.
     // All others begin where they did, as what is higher misses the shadow of what is near.
     const Vec3f way_m = point_m - vertex.point_m;
@@ -382,6 +383,9 @@ Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px
                                        {at.x - static_cast<float>(right), at.y - static_cast<float>(down)});
 }
 
+// The least cosine to the viewer of a plane that is seen, not its edge.
+constexpr float kLeastFacingOfWay = 0.02f;
+
 WayToSample::WayToSample(const Tile& tile, const Vertex& at)
     : frame_(tile.frame),
       at_(at),
@@ -399,8 +403,16 @@ Vec3d WayToSample::through(Vec2f place_px) const {
                  : direction_seen(frame_, x_px_, y_px_, place_px);
 }
 
+Vec3f WayToSample::on(const Facet& facet, int sample) const {
+    const Vec3d dir = through(frame_.samples.place(sample)), normal = to_double(facet.geometric_normal);
+    const double along = dot(dir, normal);
+    if (std::abs(along) < static_cast<double>(kLeastFacingOfWay) * length(dir)) return facet.start_m;
+    const double way = dot(to_double(facet.start_m) - frame_.camera_m, normal) / along;
+    return to_float(frame_.camera_m + way * dir);
+}
+
 Vec3f WayToSample::to(int sample) const {
-    if (facing_ < 0.02f) return {};
+    if (facing_ < kLeastFacingOfWay) return {};
     const Vec3f across = to_float(per_dir_m_ * (through(frame_.samples.place(sample)) - dir_));
     return across - (dot(across, at_.geometric_normal) / facing_) * at_.view_dir +
            at_.lift_m * at_.geometric_normal;

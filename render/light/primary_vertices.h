@@ -99,6 +99,9 @@ class WayToSample {
     WayToSample(const Tile& tile, const Vertex& at);
     // sample: one of Vertex::samples.
     Vec3f to(int sample) const;
+    // Returns where a sample meets the plane in which rays from a facet of the vertex begin [ray space]; where that is seen
+    // from its edge, the facet's own start.
+    Vec3f on(const Facet& facet, int sample) const;
 
   private:
     const FrameView& frame_;

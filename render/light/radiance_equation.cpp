@@ -92,7 +92,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
             if (finds_edges)
                 tile.edges->add(at, weight, sum);
             else
-                shadow.add(sum.start_m[0], dir, {&at, weight, dir});
+                shadow.add(sum.brightest[0]->start_m, dir, {&at, weight, dir});
             continue;
         }
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <optional>
+#include <numeric>
 #include <span>
 
 #include "render/light/primary_vertices.h"
@@ -18,7 +18,7 @@ void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
     ask_again(tile, sun);
     for (const Asked& a : std::span(asked_).first(count_))
         if (a.lit > 0)
-            tile.add(a.at->pixel, a.by_sample ? (1 / a.lit) * a.halves : a.at->halves,
+            tile.add(a.at->pixel, a.lit < a.of ? (1 / a.lit) * a.halves : a.at->halves,
                      (a.lit / a.of) * a.light);
     count_ = 0;
 }
@@ -28,7 +28,7 @@ void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
     {
         ShadowRays<Asked*, decltype(lit)> shadow(tile.frame, tile.stats.shadow_rays, lit);
         for (Asked& a : std::span(asked_).first(count_))
-            if (!a.like) shadow.add(a.starts.at_m[0], sun_dir, &a);
+            if (!a.like) shadow.add(a.first_m, sun_dir, &a);
     }
     for (Asked& a : std::span(asked_).first(count_))
         if (a.like) a.lit = a.like->lit;
@@ -49,41 +49,53 @@ const SunEdges::Asked* SunEdges::layer_below(const Asked& a) const {
 void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     const Answers near = within_reach(width);
-
-    struct Use {
-        Asked* asked;
-        float share;
-        Vec2f at_px;  // the sample's place in its pixel from which it asks
+    const auto at_edge = [&](const Asked& a) {
+        const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
+        return ((a.lit > 0 ? near.dark : near.lit)[a.kind][y] >> x & 1u) != 0;
     };
     const auto gets_through = [](const Use& use, const Spectrum*) {
-        use.asked->lit += use.share;
-        use.asked->halves += use.share * half_shares_at(use.at_px.x, use.at_px.y);
+        use.asked->lit += 1;
+        use.asked->halves += use.halves;
     };
-    ShadowRays<Use, decltype(gets_through)> shadow(tile.frame, tile.stats.shadow_rays, gets_through);
-    for (Asked& a : std::span(asked_).first(count_)) {
-        const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
-        if (!((a.lit > 0 ? near.dark : near.lit)[a.kind][y] >> x & 1u)) continue;
-        a.lit = a.of = 0;
-        a.by_sample = !a.at->facets && a.at->samples != 0;
-        std::optional<WayToSample> way;
-        if (a.by_sample) way.emplace(tile, *a.at);
-        SampleMask rest = a.at->samples;
-        for (std::uint32_t i = 0; i < kAgain; ++i) {
-            // Facets each ask for themselves; what is flat asks from where its samples are.
-            const std::size_t facet = a.starts.share[i] > 0 ? i : 0;
-            Vec3f start_m = a.starts.at_m[facet];
-            Vec2f at_px{};
-            if (way) {
-                const int sample = next_sample(tile.frame.samples, rest, a.at->samples);
-                at_px = tile.frame.samples.place(sample);
-                start_m = start_m + way->to(sample);
-            }
-            const float share = a.starts.share[facet];
-            a.of += share;
-            // The four pixels of a square ask for other places of the disk.
-            shadow.add(start_m, sun.on_disk(kAgain * i + x % 2 + 2 * (y % 2), 4 * kAgain),
-                       {&a, share, at_px});
+    using Rays = ShadowRays<Use, decltype(gets_through)>;
+    {
+        Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
+        for (Asked& a : std::span(asked_).first(count_))
+            if (at_edge(a)) ask(kAgain, tile, sun, a, rays);
+    }
+    Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
+    for (Asked& a : std::span(asked_).first(count_))
+        if (a.of > 1 && a.lit > 0 && a.lit < a.of) ask(kMost, tile, sun, a, rays);
+}
+
+// Sends so many rays for a vertex, each for as much of its light, from places that its samples see (of facets by systematic
+// sampling: the ray's place in the sum of their light).
+template <class Rays>
+void SunEdges::ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays) {
+    const Vertex& at = *a.at;
+    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
+    // The four pixels of a square ask for other places of the disk.
+    const std::uint32_t in_square = at.pixel % width % 2 + 2 * (at.pixel / width % 2);
+    const WayToSample way(tile, at);
+    std::array<SampleMask, FacetLight::kStarts> left{};  // samples that no ray has begun from
+    const float light = std::accumulate(a.shares.begin(), a.shares.end(), 0.0f);
+    std::size_t k = 0;
+    float until = a.shares[0];  // sum of shares with the facet's
+    a.lit = 0, a.of = count, a.halves = {};
+    for (std::uint32_t i = 0; static_cast<float>(i) < count; ++i) {
+        while ((static_cast<float>(i) + 0.5f) * light > until * count && k + 1 < a.shares.size())
+            until += a.shares[++k];
+        const Facet* const facet = a.facets[k];
+        Vec3f start_m = a.first_m;
+        HalfShares halves = at.halves;
+        if (const SampleMask seen_by = facet ? facet->seen_by : at.samples; seen_by != 0) {
+            const int sample = next_sample_across(tile.frame.samples, left[k], seen_by);
+            const Vec2f at_px = tile.frame.samples.place(sample);
+            halves = half_shares_at(at_px.x, at_px.y);
+            start_m = facet ? way.on(*facet, sample) : start_m + way.to(sample);
         }
+        rays.add(start_m, sun.on_disk(4 * i + in_square, 4 * static_cast<std::uint32_t>(count)),
+                 {&a, halves});
     }
 }
 

@@ -55,5 +55,8 @@ class PixelSamples {
 // Takes one of the samples that are left of some, far from those before, and leaves out those beside it; all of them once
 // more after the last. At least one sample.
 int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all);
+// The same in another order: of all samples of a pixel each four have one in every quarter of its rows and of its columns, so that
+// an edge passes between two of them wherever it is.
+int next_sample_across(const PixelSamples& grid, SampleMask& rest, SampleMask all);
 
 }  // namespace hilcam

@@ -43,5 +43,22 @@ TEST(PixelSamples, TheMiddleIsTheSampleNearestToIt) {
     }
 }
 
+TEST(PixelSamples, EachFourAcrossHaveOneInEveryRowAndColumn) {
+    for (const int across : {4, 8}) {
+        const PixelSamples grid(across);
+        SampleMask rest = 0;
+        for (int round = 0; round < 5; ++round) {  // the last begins anew
+            unsigned rows = 0, columns = 0;
+            for (int i = 0; i < 4; ++i) {
+                const Vec2f at = grid.place(next_sample_across(grid, rest, grid.all()));
+                columns |= 1u << static_cast<unsigned>(4 * at.x),
+                    rows |= 1u << static_cast<unsigned>(4 * at.y);
+            }
+            EXPECT_EQ(rows, 15u) << across << ' ' << round;
+            EXPECT_EQ(columns, 15u) << across << ' ' << round;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hilcam
