@@ -9,7 +9,7 @@ namespace hilcam {
 namespace {
 
 // Raised when TransferTable makes another table of the same mesh.
-constexpr std::uint32_t kTableVersion = 18;
+constexpr std::uint32_t kTableVersion = 19;
 
 struct TableHeader {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'T', 'T'};

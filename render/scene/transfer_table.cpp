@@ -16,6 +16,10 @@ namespace hilcam {
 namespace {
 
 constexpr float kGolden = 0.61803399f;
+// From node to node, of a whole turn: the root of a half. How many directions of two to nine nodes side by side lie in a small disk
+// then scatters by a third of what it does by the golden section, which would turn the spiral, being one by it itself, into its
+// own next directions (docs/decisions.md).
+constexpr float kTurn = 0.70710678f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
 // The state of a direction while it is being traced: the node that it meets, whether it is nearer than half a
@@ -229,7 +233,7 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
         [&](Vec3f from_m, Vec3f to_m) { return wall_between(glass, mesh, scene, from_m, to_m); });
     for (std::size_t n = 0; n < size(); ++n) {
         // Turns that are far from those of the nodes beside.
-        const float part = std::fmod(static_cast<float>(n % 4096) * kGolden, 1.0f);
+        const float part = std::fmod(static_cast<float>(n % 4096) * kTurn, 1.0f);
         turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
     }
     std::vector<Block> blocks = trace(mesh, glass, scene, watcher);

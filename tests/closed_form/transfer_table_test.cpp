@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,58 @@ TEST(TransferTable, ParallelSquaresMeetTheirViewFactor) {
             static_cast<double>(table.entries()) / (0.5 * static_cast<double>(table.size()) * directions);
         EXPECT_NEAR(factor / 0.1998, 1, directions == 16 ? 0.06 : 0.04) << directions;
     }
+}
+
+// Returns the share of a half sphere's irradiance that a square of 0.3 m, 1 m above the origin, fills at a place on
+// the plane below it: the sum of cos^2 / (pi r^2) over it.
+double share_of_square(double x_m, double y_m) {
+    constexpr int kParts = 8;
+    constexpr double kSide_m = 0.3, kPart_m = kSide_m / kParts;
+    double sum = 0;
+    for (int i = 0; i < kParts; ++i)
+        for (int k = 0; k < kParts; ++k) {
+            const double dx = (i + 0.5) * kPart_m - 0.5 * kSide_m - x_m;
+            const double dy = (k + 0.5) * kPart_m - 0.5 * kSide_m - y_m;
+            const double square = 1 + dx * dx + dy * dy;
+            sum += kPart_m * kPart_m / (kPi * square * square);
+        }
+    return sum;
+}
+
+// Places side by side see a small thing each by its own chance, so that their mean is right: over squares of
+// 0.2 m of a floor, some 25 places each, the number of directions that meet a square above scatters as chance has
+// it, or less. (It scattered by 4 times as much when places side by side had nearly the same directions.)
+TEST(TransferTable, PlacesSideBySideLookElsewhere) {
+    const SpectralGrid grid{{0.5, 0.6}};
+    const SceneObject room = object_of({{-2, -2, 0},
+                                        {2, -2, 0},
+                                        {2, 2, 0},
+                                        {-2, 2, 0},
+                                        {-0.15f, -0.15f, 1},
+                                        {0.15f, -0.15f, 1},
+                                        {0.15f, 0.15f, 1},
+                                        {-0.15f, 0.15f, 1}},
+                                       {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}}, lambert(0.5), grid);
+    const TransferTable table(room.mesh, std::vector<std::uint8_t>(1), {60, 20'000, false});
+    constexpr int kAcross = 20;
+    std::vector<double> met(kAcross * kAcross), expected(kAcross * kAcross);
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        const LightNode& node = table.nodes().nodes()[n];
+        const Vec3f place_m = node.point_m[0];
+        if (place_m.z > 0.5f || unpack_normal(node.mean_normal).z < 0.5f) continue;
+        const auto column = static_cast<std::size_t>((place_m.x + 2) * 5),
+                   row = static_cast<std::size_t>((place_m.y + 2) * 5);
+        const std::size_t at =
+            std::min<std::size_t>(row, kAcross - 1) * kAcross + std::min<std::size_t>(column, kAcross - 1);
+        met[at] += static_cast<double>(table.entries(n).size());
+        expected[at] += 60 * share_of_square(place_m.x, place_m.y);
+    }
+    double sum = 0;
+    int squares = 0;
+    for (std::size_t i = 0; i < met.size(); ++i)
+        if (expected[i] > 5) sum += (met[i] - expected[i]) * (met[i] - expected[i]) / expected[i], ++squares;
+    EXPECT_GT(squares, 100);
+    EXPECT_LT(sum / squares, 1.2);
 }
 
 // Meshes that no one would draw: without area, with holes, with the normals inwards, with a sliver.
