@@ -154,16 +154,11 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
         if (order.at_monotonic_ns == 0) order.at_monotonic_ns = now_ns;
         order.delay_ns = static_cast<std::int64_t>(settings_.trigger_delay_s * 1e9);
         const std::int64_t due_ns = camera_time_of(order, now_ns) + order.delay_ns;
-        missed = missed || due_ns < ready_ns_;
-        if (missed) {
-            if (missed_) missed_(now_ns);
-        } else {
-            const double exposure_s = exposure_now_s();
-            const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
-            ready_ns_ = due_ns + (order.frames - 1) * period_ns + shortest_period_ns(exposure_s);
-        }
+        missed = missed || due_ns < ready_ns(in, now_ns);
+        if (missed && missed_) missed_(now_ns);
     }
     if (missed) return TriggerResult::kMissed;
+    newest_order_ = order;
     triggers_[in % kMaxWaiting] = order;
     triggers_in_.store(in + 1, std::memory_order_release);
     wake();
@@ -193,6 +188,17 @@ bool LiveSettings::wait_for_order(double patience_s) {
 std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const {
     if (order.at_simulated.ns == 0) return clock_->camera_at(order.at_monotonic_ns);
     return clock_->camera_at(now_ns) + (order.at_simulated - clock_->at(now_ns));
+}
+
+// Returns when the camera is over with the orders that it has taken, its time. Is called under the lock, so that none is
+// added meanwhile.
+std::int64_t LiveSettings::ready_ns(std::uint64_t orders, std::int64_t now_ns) const {
+    if (orders_begun_.load(std::memory_order_acquire) == orders)
+        return loop_ready_ns_.load(std::memory_order_relaxed);
+    const double exposure_s = exposure_now_s();
+    const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
+    return camera_time_of(newest_order_, now_ns) + newest_order_.delay_ns +
+           (newest_order_.frames - 1) * period_ns + shortest_period_ns(exposure_s);
 }
 
 bool LiveSettings::take_trigger(WaitingOrder& order) {

@@ -41,8 +41,10 @@ class LiveSettings : public CameraControl {
     bool change(const SettingsChange& change) override;
     bool change(const SettingsChange& change, std::int64_t from_camera_ns);
     // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
-    // highest frame rate, as the camera's time goes now (clock.h): never when that frame has left the camera
-    // (FrameStarter::Start). Or, in lockstep, when kMaxWaiting are waiting. Not armed: also where frames wait for poses (pose_watch.h).
+    // highest frame rate: never when that frame has left the camera (FrameStarter::Start). When a burst that
+    // has begun is over says the loop; one that waits goes by what holds when the trigger comes, settings and
+    // clock. Or, in lockstep, when kMaxWaiting are waiting. Not armed: also where frames wait for poses
+    // (pose_watch.h).
     TriggerResult trigger(const TriggerOrder& order) override;
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
@@ -93,6 +95,13 @@ class LiveSettings : public CameraControl {
         return to_ns(timing_.period_s(limits_.max_frame_rate_hz, exposure_s));
     }
 
+    // No order waits: all that were taken have begun, or are dropped. The camera is over with them at that
+    // instant of its time.
+    void report_ready(std::int64_t camera_ns) {
+        loop_ready_ns_.store(camera_ns, std::memory_order_relaxed);
+        orders_begun_.store(triggers_out_.load(std::memory_order_relaxed), std::memory_order_release);
+    }
+
     // Lockstep: the middle of the newest frame; none is ordered for an instant that is not after it.
     void report_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
 
@@ -105,6 +114,7 @@ class LiveSettings : public CameraControl {
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
     std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;
+    std::int64_t ready_ns(std::uint64_t orders, std::int64_t now_ns) const;
 
     CameraLimits limits_;
     ShutterTiming timing_;
@@ -118,7 +128,10 @@ class LiveSettings : public CameraControl {
     // Writers under the mutex, one reader.
     std::array<WaitingOrder, kMaxWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
-    std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();  // for the next trigger; camera's time
+    WaitingOrder newest_order_;
+    // The loop's: how many of triggers_in_ no longer wait, and when the camera is over with them, in its time.
+    std::atomic<std::uint64_t> orders_begun_{0};
+    std::atomic<std::int64_t> loop_ready_ns_{std::numeric_limits<std::int64_t>::min()};
     TimedSemaphore news_, done_;
     std::atomic<bool> closed_{false};
     bool ordered_ = false;
