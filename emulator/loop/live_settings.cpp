@@ -109,6 +109,13 @@ bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const 
            w.burst_frames <= l.max_burst_frames && binning_fits(c.binning_x) && binning_fits(c.binning_y);
 }
 
+bool LiveSettings::takes(const SettingsChange& c) const {
+    const std::lock_guard lock(mutex_);
+    CameraSettings wanted = settings_;
+    apply(c, wanted);
+    return fits(wanted, c);
+}
+
 bool LiveSettings::change(const SettingsChange& c) { return change(c, clock_->camera_at(monotonic_ns())); }
 
 bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) {

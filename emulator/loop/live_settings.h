@@ -40,6 +40,8 @@ class LiveSettings : public CameraControl {
     // From now on; or from an instant of the camera's time (clock.h) on that may have passed, or be about to come.
     bool change(const SettingsChange& change) override;
     bool change(const SettingsChange& change, std::int64_t from_camera_ns);
+    // True where change() would make it now.
+    bool takes(const SettingsChange& change) const;
     // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
     // highest frame rate: never when that frame has left the camera (FrameStarter::Start). When a burst that
     // has begun is over says the loop; one that waits goes by what holds when the trigger comes, settings and
