@@ -38,8 +38,9 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
     own_exposure_s_ = own_exposure_s;
     while (!stopping.load(std::memory_order_relaxed)) {
         const CameraSettings& now = settings_.read_in_loop();
-        const bool takes_none = !now.running || waits_for_poses();
-        if (takes_none || !now.triggered) forget_orders();
+        const bool waits = waits_for_poses(), takes_none = !now.running || waits;
+        if (waits || (lockstep_ && (takes_none || !now.triggered))) forget_orders();
+        forget_dropped();
         if (takes_none) {
             idle_ = true;
             settings_.wait_for_news();
@@ -146,7 +147,7 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     } else {
         start.late = camera_now() > next_ns_ + period_ns;
         ready_ns_ = start.ready_camera_ns = next_ns_ + settings_.shortest_period_ns(start.exposure_s);
-        settings_.report_ready(ready_ns_ + (left_ - 1) * period_ns);
+        settings_.report_ready(ready_ns_, ready_ns_ + (left_ - 1) * period_ns);
     }
     next_ns_ += period_ns;
     start.trigger_sequence = order_.sequence;
@@ -192,7 +193,14 @@ void FrameStarter::forget_orders() {
     if (left_ > 0) settings_.order_done();
     left_ = 0;
     while (settings_.take_trigger(order_)) settings_.order_done();
-    if (!lockstep_) settings_.report_ready(ready_ns_);
+    if (!lockstep_) settings_.report_ready(ready_ns_, ready_ns_);
+}
+
+void FrameStarter::forget_dropped() {
+    bool any = left_ > 0 && settings_.is_dropped(order_);
+    if (any) settings_.order_done(), left_ = 0;
+    for (; settings_.take_dropped(); any = true) settings_.order_done();
+    if (any) settings_.report_ready(ready_ns_, ready_ns_);
 }
 
 // False when it is to stop, or the camera does not get there as the clock goes now.

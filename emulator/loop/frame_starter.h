@@ -15,7 +15,7 @@
 // All of it is in the camera's time (clock.h), which goes with the simulated one: slower, faster, or, where a
 // camera waits while time stands, not at all. A scheduled trigger waits for its instant on the machine's
 // clock or in simulated time, whichever it names. Where frames stop without poses (pose_watch.h), none begins
-// and orders that wait are dropped.
+// and orders that wait are dropped, as are those that came before a stop, or before a change to free-run.
 //
 // Settings are those of the instant the exposure begins, also of one that is late: what came after that instant is for
 // the next (settings_history.h). In lockstep they are the newest.
@@ -70,6 +70,7 @@ class FrameStarter {
     std::int64_t begin_of_order() const;
     bool wait_for_order(const std::atomic<bool>& stopping);
     void forget_orders();
+    void forget_dropped();
     bool waits_for_poses() const { return poses_ && !lockstep_ && poses_->stops(clock_.now()); }
     bool sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const;
     std::int64_t camera_now() const { return clock_.camera_at(monotonic_ns()); }

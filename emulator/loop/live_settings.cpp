@@ -127,6 +127,8 @@ bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) 
     if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)
         wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
     settings_ = wanted;
+    if (!limits_.lockstep && (!wanted.running || !wanted.triggered))
+        dropped_below_.store(triggers_in_.load(std::memory_order_relaxed), std::memory_order_release);
     history_.add(settings_, from_camera_ns);
     latest_.write(history_);
     if (changed_) changed_(c);
@@ -165,6 +167,7 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
         if (missed && missed_) missed_(now_ns);
     }
     if (missed) return TriggerResult::kMissed;
+    order.number = in;
     newest_order_ = order;
     triggers_[in % kMaxWaiting] = order;
     triggers_in_.store(in + 1, std::memory_order_release);
@@ -200,8 +203,10 @@ std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_
 // Returns when the camera is over with the orders that it has taken, its time. Is called under the lock, so that none is
 // added meanwhile.
 std::int64_t LiveSettings::ready_ns(std::uint64_t orders, std::int64_t now_ns) const {
-    if (orders_begun_.load(std::memory_order_acquire) == orders)
-        return loop_ready_ns_.load(std::memory_order_relaxed);
+    const bool none_waits = orders_begun_.load(std::memory_order_acquire) == orders;
+    if (dropped_below_.load(std::memory_order_relaxed) == orders)
+        return frame_ready_ns_.load(std::memory_order_relaxed);
+    if (none_waits) return order_ready_ns_.load(std::memory_order_relaxed);
     const double exposure_s = exposure_now_s();
     const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
     return camera_time_of(newest_order_, now_ns) + newest_order_.delay_ns +
@@ -212,6 +217,13 @@ bool LiveSettings::take_trigger(WaitingOrder& order) {
     const std::uint64_t out = triggers_out_.load(std::memory_order_relaxed);
     if (out == triggers_in_.load(std::memory_order_acquire)) return false;
     order = triggers_[out % kMaxWaiting];
+    triggers_out_.store(out + 1, std::memory_order_release);
+    return true;
+}
+
+bool LiveSettings::take_dropped() {
+    const std::uint64_t out = triggers_out_.load(std::memory_order_relaxed);
+    if (out >= dropped_below_.load(std::memory_order_acquire)) return false;
     triggers_out_.store(out + 1, std::memory_order_release);
     return true;
 }

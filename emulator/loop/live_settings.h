@@ -71,8 +71,16 @@ class LiveSettings : public CameraControl {
     // The next trigger in its order of arrival; false when there is none.
     struct WaitingOrder : TriggerOrder {
         std::int64_t delay_ns = 0;  // after its time, of the camera's time
+        std::uint64_t number = 0;   // its place among those that were taken, from 0
     };
     bool take_trigger(WaitingOrder& order);
+    // True for an order that came before the camera was last stopped, or switched to free-run: it is dropped, also where
+    // the loop was busy until all was as before. Not in lockstep.
+    bool is_dropped(const WaitingOrder& order) const {
+        return order.number < dropped_below_.load(std::memory_order_acquire);
+    }
+    // As take_trigger(), for what is dropped alone.
+    bool take_dropped();
     // Returns after a change or a trigger, or after 50 ms.
     void wait_for_news() {
         static_cast<void>(news_.try_acquire_for(kLongestWait_ns));
@@ -97,10 +105,11 @@ class LiveSettings : public CameraControl {
         return to_ns(timing_.period_s(limits_.max_frame_rate_hz, exposure_s));
     }
 
-    // No order waits: all that were taken have begun, or are dropped. The camera is over with them at that
-    // instant of its time.
-    void report_ready(std::int64_t camera_ns) {
-        loop_ready_ns_.store(camera_ns, std::memory_order_relaxed);
+    // No order waits: all that were taken have begun, or are dropped. The camera is over with the newest frame, and with
+    // what is left of its order, at those instants of its time.
+    void report_ready(std::int64_t frame_ns, std::int64_t order_ns) {
+        frame_ready_ns_.store(frame_ns, std::memory_order_relaxed);
+        order_ready_ns_.store(order_ns, std::memory_order_relaxed);
         orders_begun_.store(triggers_out_.load(std::memory_order_relaxed), std::memory_order_release);
     }
 
@@ -131,9 +140,11 @@ class LiveSettings : public CameraControl {
     std::array<WaitingOrder, kMaxWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
     WaitingOrder newest_order_;
+    std::atomic<std::uint64_t> dropped_below_{0};
     // The loop's: how many of triggers_in_ no longer wait, and when the camera is over with them, in its time.
     std::atomic<std::uint64_t> orders_begun_{0};
-    std::atomic<std::int64_t> loop_ready_ns_{std::numeric_limits<std::int64_t>::min()};
+    std::atomic<std::int64_t> frame_ready_ns_{std::numeric_limits<std::int64_t>::min()};
+    std::atomic<std::int64_t> order_ready_ns_{std::numeric_limits<std::int64_t>::min()};
     TimedSemaphore news_, done_;
     std::atomic<bool> closed_{false};
     bool ordered_ = false;

@@ -212,5 +212,24 @@ TEST_F(FrameStarterTest, TheCameraIsReadyWhenTheFramesThatItTookAreOver) {
     EXPECT_EQ(trigger(20), CommandStatus::kAccepted);
 }
 
+// The loop is busy with a frame from the stop to the next trigger.
+TEST_F(FrameStarterTest, AStopDropsABurstThoughNobodyLooks) {
+    StarterRig bench(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]"), {"mode=triggered"});
+    LoopRig& rig = bench.rig;
+    const auto at_ms = [&](std::int64_t ms) { return rig.start + ms * kMillisecond_ns; };
+    ASSERT_EQ(rig.send(ExposeCommand{at_ms(20), 5}), CommandStatus::kAccepted);
+    bench.go_to(at_ms(30).ns);
+    EXPECT_EQ(bench.next().camera_ns, at_ms(20).ns);
+    ASSERT_EQ(rig.send(ExposeCommand{at_ms(120), 5}), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(StopCommand{}), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(StartCommand{}), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(ExposeCommand{at_ms(35), 1}), CommandStatus::kBusy);  // of the frame, until 40
+    ASSERT_EQ(rig.send(ExposeCommand{at_ms(50), 1}), CommandStatus::kAccepted);
+    bench.go_to(at_ms(150).ns);
+    const FrameStarter::Start frame = bench.next();
+    EXPECT_EQ(frame.camera_ns, at_ms(50).ns);
+    EXPECT_TRUE(frame.ends_order);
+}
+
 }  // namespace
 }  // namespace hilcam
