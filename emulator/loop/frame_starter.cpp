@@ -38,8 +38,9 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
     own_exposure_s_ = own_exposure_s;
     while (!stopping.load(std::memory_order_relaxed)) {
         const CameraSettings& now = settings_.read_in_loop();
-        const bool takes_none = !now.running || waits_for_poses();
-        if (takes_none || !now.triggered) forget_orders();
+        const bool waits = waits_for_poses(), takes_none = !now.running || waits;
+        if (waits || (lockstep_ && (takes_none || !now.triggered))) forget_orders();
+        forget_dropped();
         if (takes_none) {
             idle_ = true;
             settings_.wait_for_news();
@@ -49,6 +50,7 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
         start.settings = now;
         const bool begun = now.triggered ? begin_ordered(stopping, start) : begin_free_run(stopping, start);
         if (!begun) continue;
+        if (!lockstep_) over_ns_ = start.camera_ns + to_ns(timing_.busy_s(start.exposure_s));
         start.until_end = paced_ && !lockstep_;
         start.begin_ns = clock_.monotonic_of_camera(start.camera_ns);
         if (poses_) start.silence = poses_->at(clock_.simulated_of_camera(start.camera_ns));
@@ -111,14 +113,19 @@ FrameSchedule::Slot FrameStarter::take_slot(std::int64_t arrived_ns) {
     return take_slot_by(held.settings, arrived_ns, schedule_);
 }
 
-// An exposure that begins late shows what is newest, where that is wanted and it is over before the next one.
+// An exposure that begins late shows what is newest, where that is wanted and it is over before the next one. The raster
+// begins anew where the detector is over with an exposure only after the next one was due: it was longer, or of an order.
 FrameSchedule::Slot FrameStarter::take_slot_by(const CameraSettings& settings, std::int64_t arrived_ns,
                                                FrameSchedule& schedule) const {
     const double exposure_s = exposure_of(settings);
     const std::int64_t period_ns = to_ns(timing_.period_s(settings.frame_rate_hz, exposure_s));
-    const std::int64_t length_ns = to_ns(timing_.end_s(timing_.longest_exposure_s(exposure_s)));
-    return schedule.take(arrived_ns, period_ns,
-                         prefers_newest_ ? std::max(period_ns - length_ns, std::int64_t{0}) : 0);
+    const std::int64_t length_ns =
+        to_ns(std::max(timing_.end_s(timing_.longest_exposure_s(exposure_s)), timing_.busy_s(exposure_s)));
+    const std::int64_t may_move_ns = prefers_newest_ ? std::max(period_ns - length_ns, std::int64_t{0}) : 0;
+    const FrameSchedule::Slot slot = schedule.take(arrived_ns, period_ns, may_move_ns);
+    if (slot.start_ns >= over_ns_) return slot;
+    schedule.restart(over_ns_);
+    return schedule.take(arrived_ns, period_ns, may_move_ns);
 }
 
 bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start) {
@@ -139,7 +146,8 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
         settings_.report_middle(last_mid_);
     } else {
         start.late = camera_now() > next_ns_ + period_ns;
-        start.ready_camera_ns = next_ns_ + settings_.shortest_period_ns(start.exposure_s);
+        ready_ns_ = start.ready_camera_ns = next_ns_ + settings_.shortest_period_ns(start.exposure_s);
+        settings_.report_ready(ready_ns_, ready_ns_ + (left_ - 1) * period_ns);
     }
     next_ns_ += period_ns;
     start.trigger_sequence = order_.sequence;
@@ -172,7 +180,7 @@ std::int64_t FrameStarter::begin_of_order() const {
 
 // False when something else came first: the order goes on waiting, if it is not dropped for that.
 bool FrameStarter::wait_for_order(const std::atomic<bool>& stopping) {
-    if (!order_begun_) next_ns_ = begin_of_order();
+    if (!order_begun_) next_ns_ = std::max(begin_of_order(), over_ns_);
     const std::int64_t not_before_ns = order_begun_ ? 0 : order_.at_monotonic_ns;
     const std::int64_t due_ns = std::max(when_begins(clock_, next_ns_), not_before_ns);
     if (settings_.wait_for_news_until(due_ns - kLastStretch_ns)) return false;
@@ -185,6 +193,14 @@ void FrameStarter::forget_orders() {
     if (left_ > 0) settings_.order_done();
     left_ = 0;
     while (settings_.take_trigger(order_)) settings_.order_done();
+    if (!lockstep_) settings_.report_ready(ready_ns_, ready_ns_);
+}
+
+void FrameStarter::forget_dropped() {
+    bool any = left_ > 0 && settings_.is_dropped(order_);
+    if (any) settings_.order_done(), left_ = 0;
+    for (; settings_.take_dropped(); any = true) settings_.order_done();
+    if (any) settings_.report_ready(ready_ns_, ready_ns_);
 }
 
 // False when it is to stop, or the camera does not get there as the clock goes now.

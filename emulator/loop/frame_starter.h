@@ -9,10 +9,13 @@
 //   lockstep    as soon as an `expose` has come, at the simulated time it names: no clock is waited for, so
 //               the same commands give the same frames on any machine
 //
+// No exposure begins before the detector is over with the one before, whatever has changed meanwhile: settings, mode, or
+// whether it runs at all.
+//
 // All of it is in the camera's time (clock.h), which goes with the simulated one: slower, faster, or, where a
 // camera waits while time stands, not at all. A scheduled trigger waits for its instant on the machine's
 // clock or in simulated time, whichever it names. Where frames stop without poses (pose_watch.h), none begins
-// and orders that wait are dropped.
+// and orders that wait are dropped, as are those that came before a stop, or before a change to free-run.
 //
 // Settings are those of the instant the exposure begins, also of one that is late: what came after that instant is for
 // the next (settings_history.h). In lockstep they are the newest.
@@ -67,6 +70,7 @@ class FrameStarter {
     std::int64_t begin_of_order() const;
     bool wait_for_order(const std::atomic<bool>& stopping);
     void forget_orders();
+    void forget_dropped();
     bool waits_for_poses() const { return poses_ && !lockstep_ && poses_->stops(clock_.now()); }
     bool sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const;
     std::int64_t camera_now() const { return clock_.camera_at(monotonic_ns()); }
@@ -85,7 +89,10 @@ class FrameStarter {
     std::int64_t left_ = 0;     // frames of the order
     bool order_begun_ = false;  // the first of them has
     std::int64_t next_ns_ = 0;  // begin of the order's next frame, camera's time
-    TimeTai last_mid_;          // lockstep
+    // When the detector is over with the newest frame, and the camera with the newest one of an order: its time.
+    std::int64_t over_ns_ = std::numeric_limits<std::int64_t>::min();
+    std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();
+    TimeTai last_mid_;  // lockstep
 };
 
 }  // namespace hilcam

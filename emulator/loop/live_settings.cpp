@@ -109,6 +109,13 @@ bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const 
            w.burst_frames <= l.max_burst_frames && binning_fits(c.binning_x) && binning_fits(c.binning_y);
 }
 
+bool LiveSettings::takes(const SettingsChange& c) const {
+    const std::lock_guard lock(mutex_);
+    CameraSettings wanted = settings_;
+    apply(c, wanted);
+    return fits(wanted, c);
+}
+
 bool LiveSettings::change(const SettingsChange& c) { return change(c, clock_->camera_at(monotonic_ns())); }
 
 bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) {
@@ -120,6 +127,8 @@ bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) 
     if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)
         wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
     settings_ = wanted;
+    if (!limits_.lockstep && (!wanted.running || !wanted.triggered))
+        dropped_below_.store(triggers_in_.load(std::memory_order_relaxed), std::memory_order_release);
     history_.add(settings_, from_camera_ns);
     latest_.write(history_);
     if (changed_) changed_(c);
@@ -154,16 +163,12 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
         if (order.at_monotonic_ns == 0) order.at_monotonic_ns = now_ns;
         order.delay_ns = static_cast<std::int64_t>(settings_.trigger_delay_s * 1e9);
         const std::int64_t due_ns = camera_time_of(order, now_ns) + order.delay_ns;
-        missed = missed || due_ns < ready_ns_;
-        if (missed) {
-            if (missed_) missed_(now_ns);
-        } else {
-            const double exposure_s = exposure_now_s();
-            const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
-            ready_ns_ = due_ns + (order.frames - 1) * period_ns + shortest_period_ns(exposure_s);
-        }
+        missed = missed || due_ns < ready_ns(in, now_ns);
+        if (missed && missed_) missed_(now_ns);
     }
     if (missed) return TriggerResult::kMissed;
+    order.number = in;
+    newest_order_ = order;
     triggers_[in % kMaxWaiting] = order;
     triggers_in_.store(in + 1, std::memory_order_release);
     wake();
@@ -195,10 +200,30 @@ std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_
     return clock_->camera_at(now_ns) + (order.at_simulated - clock_->at(now_ns));
 }
 
+// Returns when the camera is over with the orders that it has taken, its time. Is called under the lock, so that none is
+// added meanwhile.
+std::int64_t LiveSettings::ready_ns(std::uint64_t orders, std::int64_t now_ns) const {
+    const bool none_waits = orders_begun_.load(std::memory_order_acquire) == orders;
+    if (dropped_below_.load(std::memory_order_relaxed) == orders)
+        return frame_ready_ns_.load(std::memory_order_relaxed);
+    if (none_waits) return order_ready_ns_.load(std::memory_order_relaxed);
+    const double exposure_s = exposure_now_s();
+    const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
+    return camera_time_of(newest_order_, now_ns) + newest_order_.delay_ns +
+           (newest_order_.frames - 1) * period_ns + shortest_period_ns(exposure_s);
+}
+
 bool LiveSettings::take_trigger(WaitingOrder& order) {
     const std::uint64_t out = triggers_out_.load(std::memory_order_relaxed);
     if (out == triggers_in_.load(std::memory_order_acquire)) return false;
     order = triggers_[out % kMaxWaiting];
+    triggers_out_.store(out + 1, std::memory_order_release);
+    return true;
+}
+
+bool LiveSettings::take_dropped() {
+    const std::uint64_t out = triggers_out_.load(std::memory_order_relaxed);
+    if (out >= dropped_below_.load(std::memory_order_acquire)) return false;
     triggers_out_.store(out + 1, std::memory_order_release);
     return true;
 }

@@ -40,9 +40,13 @@ class LiveSettings : public CameraControl {
     // From now on; or from an instant of the camera's time (clock.h) on that may have passed, or be about to come.
     bool change(const SettingsChange& change) override;
     bool change(const SettingsChange& change, std::int64_t from_camera_ns);
+    // True where change() would make it now.
+    bool takes(const SettingsChange& change) const;
     // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
-    // highest frame rate, as the camera's time goes now (clock.h): never when that frame has left the camera
-    // (FrameStarter::Start). Or, in lockstep, when kMaxWaiting are waiting. Not armed: also where frames wait for poses (pose_watch.h).
+    // highest frame rate: never when that frame has left the camera (FrameStarter::Start). When a burst that
+    // has begun is over says the loop; one that waits goes by what holds when the trigger comes, settings and
+    // clock. Or, in lockstep, when kMaxWaiting are waiting. Not armed: also where frames wait for poses
+    // (pose_watch.h).
     TriggerResult trigger(const TriggerOrder& order) override;
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
@@ -67,8 +71,16 @@ class LiveSettings : public CameraControl {
     // The next trigger in its order of arrival; false when there is none.
     struct WaitingOrder : TriggerOrder {
         std::int64_t delay_ns = 0;  // after its time, of the camera's time
+        std::uint64_t number = 0;   // its place among those that were taken, from 0
     };
     bool take_trigger(WaitingOrder& order);
+    // True for an order that came before the camera was last stopped, or switched to free-run: it is dropped, also where
+    // the loop was busy until all was as before. Not in lockstep.
+    bool is_dropped(const WaitingOrder& order) const {
+        return order.number < dropped_below_.load(std::memory_order_acquire);
+    }
+    // As take_trigger(), for what is dropped alone.
+    bool take_dropped();
     // Returns after a change or a trigger, or after 50 ms.
     void wait_for_news() {
         static_cast<void>(news_.try_acquire_for(kLongestWait_ns));
@@ -93,6 +105,14 @@ class LiveSettings : public CameraControl {
         return to_ns(timing_.period_s(limits_.max_frame_rate_hz, exposure_s));
     }
 
+    // No order waits: all that were taken have begun, or are dropped. The camera is over with the newest frame, and with
+    // what is left of its order, at those instants of its time.
+    void report_ready(std::int64_t frame_ns, std::int64_t order_ns) {
+        frame_ready_ns_.store(frame_ns, std::memory_order_relaxed);
+        order_ready_ns_.store(order_ns, std::memory_order_relaxed);
+        orders_begun_.store(triggers_out_.load(std::memory_order_relaxed), std::memory_order_release);
+    }
+
     // Lockstep: the middle of the newest frame; none is ordered for an instant that is not after it.
     void report_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
 
@@ -105,6 +125,7 @@ class LiveSettings : public CameraControl {
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
     std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;
+    std::int64_t ready_ns(std::uint64_t orders, std::int64_t now_ns) const;
 
     CameraLimits limits_;
     ShutterTiming timing_;
@@ -118,7 +139,12 @@ class LiveSettings : public CameraControl {
     // Writers under the mutex, one reader.
     std::array<WaitingOrder, kMaxWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
-    std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();  // for the next trigger; camera's time
+    WaitingOrder newest_order_;
+    std::atomic<std::uint64_t> dropped_below_{0};
+    // The loop's: how many of triggers_in_ no longer wait, and when the camera is over with them, in its time.
+    std::atomic<std::uint64_t> orders_begun_{0};
+    std::atomic<std::int64_t> frame_ready_ns_{std::numeric_limits<std::int64_t>::min()};
+    std::atomic<std::int64_t> order_ready_ns_{std::numeric_limits<std::int64_t>::min()};
     TimedSemaphore news_, done_;
     std::atomic<bool> closed_{false};
     bool ordered_ = false;

@@ -32,10 +32,14 @@ double ShutterTiming::longest_exposure_s(double exposure_s) const {
     return std::max(exposure_s, longest_step_s_);
 }
 
-double ShutterTiming::period_s(double frame_rate_hz, double exposure_s) const {
+double ShutterTiming::busy_s(double exposure_s) const {
     if (is_fixed()) return rows_ * line_time_s_;
     const double rows_s = kind_ == ShutterKind::kRolling ? rows_ * line_time_s_ : 0;
-    return std::max({1 / frame_rate_hz, longest_exposure_s(exposure_s), rows_s});
+    return std::max(longest_exposure_s(exposure_s), rows_s);
+}
+
+double ShutterTiming::period_s(double frame_rate_hz, double exposure_s) const {
+    return is_fixed() ? busy_s(exposure_s) : std::max(1 / frame_rate_hz, busy_s(exposure_s));
 }
 
 }  // namespace hilcam

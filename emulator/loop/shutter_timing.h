@@ -29,6 +29,8 @@ class ShutterTiming {
     // Returns the exposure that frames leave time for: a camera with a sequence of settings has that of its longest
     // step [s].
     double longest_exposure_s(double exposure_s) const;
+    // Returns how long a frame keeps the detector: none begins before that is over, at any frame rate [s].
+    double busy_s(double exposure_s) const;
     // Returns the time from frame to frame at a frame rate that is asked for [s].
     double period_s(double frame_rate_hz, double exposure_s) const;
 

@@ -208,12 +208,18 @@ std::int64_t CommandDispatch::settings_hold_from(const CommandSource& source) co
     return due_ns == SimulatedClock::kNever_ns ? clock_.camera_at(source.arrival_monotonic_ns) : due_ns;
 }
 
+// Changes all cameras that are meant, or none.
 CommandStatus CommandDispatch::change(const SettingsChange& change, const CommandSource& source,
                                       CommandStatus refused) {
     const std::int64_t from_ns = settings_hold_from(source);
-    return for_cameras(source.camera, [&](const CommandedCamera& c) {
-        return c.settings->change(change, from_ns) ? CommandStatus::kAccepted : refused;
-    });
+    const auto change_all = [&](const auto& is_done) {
+        return for_cameras(source.camera, [&](const CommandedCamera& c) {
+            return is_done(*c.settings) ? CommandStatus::kAccepted : refused;
+        });
+    };
+    const CommandStatus status = change_all([&](const LiveSettings& s) { return s.takes(change); });
+    if (status != CommandStatus::kAccepted) return status;
+    return change_all([&](LiveSettings& s) { return s.change(change, from_ns); });
 }
 
 CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSource& source) {

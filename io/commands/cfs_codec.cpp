@@ -67,6 +67,7 @@ Refusal read_packet(std::span<const std::uint8_t> packet, bool checksum_required
     if (h.apid != kCommandApid) return {CommandStatus::kUnknownApid, "APID is not 0x100"};
     if (checksum_required && cfs_checksum(packet) != 0)
         return {CommandStatus::kBadChecksum, "checksum does not match"};
+    out.is_intact = true;
     const std::optional<std::size_t> expected = payload_bytes(out.function);
     if (!expected) return {CommandStatus::kUnknownFunction, "function code is not 1 to 12"};
     if (in.left() != *expected)

@@ -29,6 +29,7 @@ Refusal read_packet(std::span<const std::uint8_t> packet, DecodedCommand& out) {
         return r;
     if (crc16(packet) != 0) return {CommandStatus::kBadChecksum, "CRC-16 does not match"};
     if (version != kProtocolVersion) return {CommandStatus::kBadHeader, "protocol version is not 1"};
+    out.is_intact = true;
     const std::optional<std::size_t> expected = payload_bytes(out.function);
     if (!expected) return {CommandStatus::kUnknownFunction, "function code is not 1 to 12"};
     if (in.left() != *expected + kCrcBytes)

@@ -25,6 +25,7 @@ struct DecodedCommand {
     std::uint8_t function = 0;
     std::uint16_t camera = 0;  // 0: every one
     std::uint32_t sequence = 0;
+    bool is_intact = false;  // the number has come as it was sent, also with what is refused
 };
 
 // Exactly one packet (its length already taken from the header).

@@ -102,8 +102,10 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
     out.status = decoded.status;
     out.reason = decoded.reason;
     CommandNotes notes;
+    const bool known = decoded.is_intact && count(decoded.sequence, sender);
     if (decoded.status == CommandStatus::kAccepted) {
-        out.status = perform(decoded, packet, arrival_ns, sender, notes);
+        const bool is_retry = known && sender.repeats(packet, arrival_ns);
+        out.status = is_retry ? sender.once_status : perform(decoded, packet, arrival_ns, sender, notes);
         if (out.status != CommandStatus::kAccepted || notes.tell_sender)
             out.reason = notes.tell_sender ? name_of(CommandStatus::kTimeBackwards)
                                            : meaning_of(out.status, decoded.command);
@@ -128,8 +130,6 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
 
 CommandStatus CommandStation::perform(const DecodedCommand& decoded, std::span<const std::uint8_t> packet,
                                       std::int64_t arrival_ns, Sender& sender, CommandNotes& notes) {
-    const bool known = count(decoded.sequence, sender);
-    if (known && sender.repeats(packet, arrival_ns)) return sender.once_status;
     if (const auto* subscription = std::get_if<SubscribeCommand>(&decoded.command))
         sender.report.subscription = *subscription;
     const CommandStatus status =

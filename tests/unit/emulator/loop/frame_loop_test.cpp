@@ -237,6 +237,28 @@ TEST_F(FrameLoopTest, WhoTriggersAtAFramesArrivalIsNeverTooEarly) {
     rig.loop.stop();
 }
 
+TEST_F(FrameLoopTest, WhatIsDroppedKeepsNoTriggerOut) {
+    LoopRig rig(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]"), {0, true}, {"mode=triggered"});
+    rig.loop.start();
+    const auto in_ten_minutes = [&] { return rig.clock.at(monotonic_ns() + 600'000'000'000); };
+    const auto is_taken = [&] {
+        const std::int64_t until_ns = monotonic_ns() + 60'000'000'000;
+        while (monotonic_ns() < until_ns) {
+            if (rig.send(expose()) == CommandStatus::kAccepted) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    };
+    ASSERT_EQ(rig.send(expose(in_ten_minutes())), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(expose()), CommandStatus::kBusy);
+    ASSERT_TRUE(rig.settings.change({.running = false}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ASSERT_TRUE(rig.settings.change({.running = true}));
+    EXPECT_TRUE(is_taken());
+    ASSERT_TRUE(rig.collector.wait_for(1));
+    rig.loop.stop();
+}
+
 TEST_F(FrameLoopTest, ATriggeredCameraListensToItsSourceOnly) {
     LoopRig rig(scenario(), {0, true});
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // free-run

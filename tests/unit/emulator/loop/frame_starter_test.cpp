@@ -33,11 +33,10 @@ class StarterRig {
         while (rig.clock.camera_at(monotonic_ns()) < camera_ns)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    // The first frame; the camera's time has hardly gone on.
-    FrameStarter::Start first() {
+    // A frame that is not due yet, and the first one in any case; the camera's time goes on in such steps until it begins.
+    FrameStarter::Start first(std::int64_t step_ns = 1000) {
         auto frame = next_frame();
-        while (frame.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready)
-            step(kSecond_ns / 1'000'000);
+        while (frame.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready) step(step_ns);
         return frame.get();
     }
     // The next frame, which has been due when time stands.
@@ -149,6 +148,87 @@ TEST_F(FrameStarterTest, NoExposureBeginsByARateThatCameAfterIt) {
     const FrameStarter::Start frame = bench.next();
     EXPECT_EQ(frame.camera_ns, first_ns + 110 * kMillisecond_ns);
     EXPECT_EQ(frame.settings.gain_db, 6);
+}
+
+TEST_F(FrameStarterTest, NoExposureBeginsWhileTheOneBeforeLasts) {
+    StarterRig bench(scenario(", frame_rate_hz: 50"), {"camera.exposure_ms=210"});
+    const std::int64_t first_ns = bench.first().camera_ns;
+    bench.go_to(first_ns + 30 * kMillisecond_ns);
+    ASSERT_EQ(bench.rig.send(SettingsCommand{0.001, {}, {}}), CommandStatus::kAccepted);
+    bench.go_to(first_ns + 215 * kMillisecond_ns);
+    const FrameStarter::Start shorter = bench.next();
+    EXPECT_EQ(shorter.camera_ns, first_ns + 210 * kMillisecond_ns);
+    EXPECT_EQ(shorter.exposure_s, 0.001);
+    EXPECT_EQ(shorter.skipped, 0u);
+    bench.go_to(first_ns + 235 * kMillisecond_ns);
+    EXPECT_EQ(bench.next().camera_ns, first_ns + 230 * kMillisecond_ns);
+}
+
+TEST_F(FrameStarterTest, NorDoesATriggeredOneOrOneAfterIt) {
+    StarterRig bench(scenario(", frame_rate_hz: 50"), {"camera.exposure_ms=200"});
+    LiveSettings& settings = bench.rig.settings;
+    const std::int64_t first_ns = bench.first().camera_ns;
+    bench.go_to(first_ns + 30 * kMillisecond_ns);
+    ASSERT_TRUE(settings.change({.triggered = true, .trigger_source = TriggerSource::kLine0}));
+    ASSERT_EQ(bench.rig.send(ExposeCommand{}), CommandStatus::kAccepted);
+    bench.go_to(first_ns + 205 * kMillisecond_ns);
+    EXPECT_EQ(bench.next().camera_ns, first_ns + 200 * kMillisecond_ns);
+    ASSERT_TRUE(settings.change({.triggered = false}));
+    bench.go_to(first_ns + 300 * kMillisecond_ns);
+    EXPECT_EQ(bench.first(5 * kMillisecond_ns).camera_ns, first_ns + 400 * kMillisecond_ns);
+}
+
+// Exposure and rate change between the trigger and the frame, or within a burst.
+TEST_F(FrameStarterTest, TheCameraIsReadyWhenTheFramesThatItTookAreOver) {
+    StarterRig bench(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]"),
+                     {"mode=triggered", "camera.exposure_ms=200"});
+    LoopRig& rig = bench.rig;
+    std::int64_t now_ms = 0;
+    const auto go_to_ms = [&](std::int64_t ms) {
+        bench.go_to(rig.start.ns + ms * kMillisecond_ns);
+        now_ms = ms;
+    };
+    const auto trigger = [&](std::int64_t after_ms, std::uint16_t frames = 1) {
+        return rig.send(ExposeCommand{rig.start + (now_ms + after_ms) * kMillisecond_ns, frames});
+    };
+    ASSERT_EQ(trigger(20), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(SettingsCommand{0.001, {}, {}}), CommandStatus::kAccepted);
+    go_to_ms(45);  // over at 40
+    EXPECT_EQ(bench.next().exposure_s, 0.001);
+    ASSERT_EQ(trigger(5), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(SettingsCommand{0.2, {}, {}}), CommandStatus::kAccepted);
+    go_to_ms(55);
+    EXPECT_EQ(bench.next().exposure_s, 0.2);
+    EXPECT_EQ(trigger(190), CommandStatus::kBusy);  // over at 250
+    ASSERT_EQ(rig.send(SettingsCommand{0.001, {}, 1}), CommandStatus::kAccepted);
+    ASSERT_EQ(trigger(200, 3), CommandStatus::kAccepted);  // 255, 1255, 2255 ms
+    go_to_ms(260);
+    ASSERT_EQ(bench.next().exposure_s, 0.001);
+    ASSERT_EQ(rig.send(SettingsCommand{{}, {}, 50}), CommandStatus::kAccepted);
+    go_to_ms(1280);  // 1255, 1275
+    ASSERT_FALSE(bench.next().ends_order);
+    ASSERT_TRUE(bench.next().ends_order);
+    EXPECT_EQ(trigger(10), CommandStatus::kBusy);  // over at 1295
+    EXPECT_EQ(trigger(20), CommandStatus::kAccepted);
+}
+
+// The loop is busy with a frame from the stop to the next trigger.
+TEST_F(FrameStarterTest, AStopDropsABurstThoughNobodyLooks) {
+    StarterRig bench(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]"), {"mode=triggered"});
+    LoopRig& rig = bench.rig;
+    const auto at_ms = [&](std::int64_t ms) { return rig.start + ms * kMillisecond_ns; };
+    ASSERT_EQ(rig.send(ExposeCommand{at_ms(20), 5}), CommandStatus::kAccepted);
+    bench.go_to(at_ms(30).ns);
+    EXPECT_EQ(bench.next().camera_ns, at_ms(20).ns);
+    ASSERT_EQ(rig.send(ExposeCommand{at_ms(120), 5}), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(StopCommand{}), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(StartCommand{}), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(ExposeCommand{at_ms(35), 1}), CommandStatus::kBusy);  // of the frame, until 40
+    ASSERT_EQ(rig.send(ExposeCommand{at_ms(50), 1}), CommandStatus::kAccepted);
+    bench.go_to(at_ms(150).ns);
+    const FrameStarter::Start frame = bench.next();
+    EXPECT_EQ(frame.camera_ns, at_ms(50).ns);
+    EXPECT_TRUE(frame.ends_order);
 }
 
 }  // namespace

@@ -51,6 +51,12 @@ TEST(CommandDispatch, ACommandIsForTheCameraItNamesAndAPoseForAll) {
     EXPECT_EQ(left.settings().gain_db, 6);
     EXPECT_EQ(right.settings().gain_db, 6);
     EXPECT_EQ(dispatch.handle(settings, {3, 0, 3}), CommandStatus::kUnknownObject);
+    ASSERT_TRUE(right.change({.automatic_exposure = true}));
+    settings.gain_db = 9;
+    settings.exposure_s = 0.002;
+    EXPECT_EQ(dispatch.handle(settings, {3, 0, 0}), CommandStatus::kBadArgument);  // none, as one cannot
+    EXPECT_EQ(left.settings().gain_db, 6);
+    EXPECT_EQ(right.settings().gain_db, 6);
     EXPECT_EQ(dispatch.handle(FaultCommand{{FaultKind::kFrameDrop, 1, 0, 0, 0, 0}, false}, {4, 0, 1}),
               CommandStatus::kAccepted);
     EXPECT_TRUE(left_faults.order_of(FaultKind::kFrameDrop));

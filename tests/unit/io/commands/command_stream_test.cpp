@@ -222,6 +222,24 @@ TEST_F(StationTest, CountsBySenderAndAnswersBrokenBytesOnce) {
     EXPECT_EQ(station.report().clients, 1u);
 }
 
+TEST_F(StationTest, WhatIsRefusedIsNotLost) {
+    Bytes odd = encoded(PingCommand{1}, 6);
+    odd[7] = 200;  // no such function
+    odd.resize(odd.size() - 2);
+    const std::uint16_t crc = crc16(odd);
+    odd.push_back(static_cast<std::uint8_t>(crc >> 8)), odd.push_back(static_cast<std::uint8_t>(crc));
+    const auto out = answers(encoded(PingCommand{1}, 5) + odd + encoded(PingCommand{1}, 7), 0);
+    ASSERT_EQ(out.size(), 3u);
+    EXPECT_EQ(out[1].status, CommandStatus::kUnknownFunction);
+    EXPECT_EQ(out[1].sequence, 6u);
+    EXPECT_EQ(station.report().refused, 1u);
+    EXPECT_EQ(station.report().lost, 0u);
+    Bytes damaged = encoded(PingCommand{1}, 8);
+    damaged.back() ^= 1;  // nobody knows what its number was
+    answers(damaged + encoded(PingCommand{1}, 9), 0);
+    EXPECT_EQ(station.report().lost, 1u);
+}
+
 TEST_F(StationTest, TelemetryGoesToSubscribersOfItsKindAlone) {
     answers(encoded(SubscribeCommand{true, false}, 0), 0);
     station.open("b");
