@@ -33,6 +33,13 @@ std::string longest_advice(const SeenObject& o) {
     return "; the file is probably in millimetres: scale: 0.001";
 }
 
+// Poses and angles are of the origin of a mesh, which may lie far beside it.
+std::string origin_advice(const SeenObject& o) {
+    const double off_m = length(0.5 * (o.loaded.least_m + o.loaded.most_m));
+    if (!(off_m > length(o.loaded.most_m - o.loaded.least_m))) return "";
+    return fmt::format("; that is its origin, and the middle of its mesh is {:.4g} m from there", off_m);
+}
+
 void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<std::string>& out) {
     const std::string name = "object '" + harmless(o.loaded.name) + "'";
     if (o.holds_camera) {
@@ -42,14 +49,15 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
     }
     switch (o.place) {
         case SeenObject::Place::kBehind:
-            out.push_back(fmt::format("{} is behind the camera, {:.1f} deg off its boresight", name,
-                                      degrees(o.off_boresight_rad)));
+            out.push_back(fmt::format("{} is behind the camera, {:.1f} deg off its boresight{}", name,
+                                      degrees(o.off_boresight_rad), origin_advice(o)));
             return;
         case SeenObject::Place::kOutside:
             out.push_back(fmt::format(
                 "{} is outside the field: {:.2f} deg off the boresight, where the field ends {:.2f} deg "
-                "off it at its corners",
-                name, degrees(o.off_boresight_rad), degrees(0.5 * camera.sheet.field_diagonal_rad)));
+                "off it at its corners{}",
+                name, degrees(o.off_boresight_rad), degrees(0.5 * camera.sheet.field_diagonal_rad),
+                origin_advice(o)));
             return;
         case SeenObject::Place::kHidden:
             out.push_back(name + " is hidden: something stands before it");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "render/levels/joined_sets.h"
@@ -133,6 +134,17 @@ void survey_triangles(const Mesh& mesh, MeshSurvey& out) {
 
 }  // namespace
 
+namespace {
+
+// Coordinates are kept in single precision, as files have them.
+double coarse_step_m(Vec3d least_m, Vec3d most_m) {
+    const double farthest_m = std::max({-least_m.x, -least_m.y, -least_m.z, most_m.x, most_m.y, most_m.z});
+    const double step_m = farthest_m * static_cast<double>(std::numeric_limits<float>::epsilon());
+    return step_m > 1e-4 * length(most_m - least_m) ? step_m : 0;
+}
+
+}  // namespace
+
 MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file) {
     const Mesh& mesh = contents.mesh;
     MeshSurvey out;
@@ -146,6 +158,8 @@ MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file) {
     survey_topology(mesh, out);
     const Vec3d size_m = out.most_m - out.least_m;
     out.probably_mm = std::max({size_m.x, size_m.y, size_m.z}) > kLongest_m;
+    out.coarse_step_m = coarse_step_m(out.least_m, out.most_m);
+    out.missing_materials = contents.missing_materials;
     return out;
 }
 
@@ -157,6 +171,15 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
     if (s.probably_mm)
         out.push_back(
             "it is very large: probably in millimetres; in the scenario 'scale: 0.001' makes metres of them");
+    if (s.coarse_step_m > 0)
+        out.push_back(
+            fmt::format("it is so far from its origin that single precision moves its corners by up to "
+                        "{:.2g} m: subtract "
+                        "the place of its middle from the coordinates",
+                        s.coarse_step_m));
+    for (const std::string& file : s.missing_materials)
+        out.push_back(
+            fmt::format("no file {}: surfaces whose materials it would have are grey", in_quotes(file)));
     tell(s.open_edges, "open edges", "the mesh is not closed there, and shows its other side");
     tell(s.inconsistent_edges, "inconsistent edges", "the triangles on both sides look to different sides");
     tell(s.inverted_shells, "inverted shells", "closed surfaces whose triangles look inwards");

@@ -39,6 +39,10 @@ struct MeshSurvey {
     std::uint64_t opposed_normals = 0;      // triangles whose normals in the file look to their other side
     bool has_normals = false;
     bool probably_mm = false;
+    // The step of single precision at the farthest coordinate, where it is more than a ten-thousandth of the
+    // mesh's size; else 0.
+    double coarse_step_m = 0;
+    std::vector<std::string> missing_materials;
 };
 
 // file: for messages.

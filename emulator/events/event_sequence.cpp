@@ -11,9 +11,9 @@
 namespace hilcam {
 namespace {
 
-std::string place_of(std::size_t index, const EventConfig& config) {
-    return "events." + std::to_string(index) + (config.name.empty() ? "" : " " + in_quotes(config.name)) +
-           ": ";
+[[noreturn]] void fail(std::size_t index, const EventConfig& config, const std::string& what) {
+    throw KeyError("events." + std::to_string(index),
+                   (config.name.empty() ? "" : in_quotes(config.name) + ": ") + what);
 }
 
 }  // namespace
@@ -29,21 +29,19 @@ EventSequence::EventSequence(std::span<const EventConfig> events, const EventWor
         Event event;
         event.config = config;
         const auto first = static_cast<std::size_t>(named(config.name) - events.begin());
-        if (!config.name.empty() && first != i)
-            throw InputError(place_of(i, config) + "another event has that name");
+        if (!config.name.empty() && first != i) fail(i, config, "another event has that name");
         try {
             event.actions = actions_of(config);
             if (config.has_when) event.condition.emplace(config.when, world);
         } catch (const InputError& error) {
-            throw InputError(place_of(i, config) + error.what());
+            fail(i, config, error.what());
         }
         if (config.has_after) {
             const auto other = named(config.after);
             if (config.after.empty() || other == events.end())
-                throw InputError(place_of(i, config) + "after: there is no event " + in_quotes(config.after));
+                fail(i, config, "after: there is no event " + in_quotes(config.after));
             event.after = static_cast<std::size_t>(other - events.begin());
-            if (*event.after == i)
-                throw InputError(place_of(i, config) + "after: itself, so it would never happen");
+            if (*event.after == i) fail(i, config, "after: itself, so it would never happen");
         }
         if (config.has_at_s) event.due = {start + to_ns(config.at_s)};
         if (config.has_at_utc) event.due = {parse_utc(config.at_utc)};

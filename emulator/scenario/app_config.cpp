@@ -221,7 +221,7 @@ RenderModels models_of(const ScenarioConfig& s) {
 
 void validate(const ScenarioConfig& s) {
     at_key("time_utc", [&] { parse_utc(s.time_utc); });
-    SpectralGrid grid(s.spectrum_edges_um);
+    at_key("spectrum_edges_um", [&] { SpectralGrid grid(s.spectrum_edges_um); });
     if (s.has_camera_pose && s.camera_motion)
         throw KeyError("camera_motion", "a scenario has either 'camera_pose' or 'camera_motion'; found both");
     check_site(s);

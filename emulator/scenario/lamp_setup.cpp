@@ -14,11 +14,19 @@ namespace {
     throw InputError("lamp " + in_quotes(lamp.name) + ": " + what);
 }
 
+// Fails where the file has the lamp's key.
+[[noreturn]] void fail(const ScenarioConfig& s, std::size_t index, const std::string& key,
+                       const std::string& what) {
+    throw KeyError("lamps." + std::to_string(index) + "." + key,
+                   "lamp " + in_quotes(s.lamps[index].name) + ": " + key + ": " + what);
+}
+
 // Counts as WorldState places things: the camera's body, objects, then all their turning parts.
-std::size_t thing_of(const LampConfig& lamp, const ScenarioConfig& s) {
+std::size_t thing_of(std::size_t index, const ScenarioConfig& s) {
+    const LampConfig& lamp = s.lamps[index];
     if (lamp.on == "camera") {
         if (lamp.joint != 0)
-            fail(lamp, "joint: found " + std::to_string(lamp.joint) + "; the camera has none");
+            fail(s, index, "joint", "found " + std::to_string(lamp.joint) + "; the camera has none");
         return 0;
     }
     std::size_t joints_before = 0;
@@ -28,14 +36,15 @@ std::size_t thing_of(const LampConfig& lamp, const ScenarioConfig& s) {
         const auto joint = static_cast<std::size_t>(lamp.joint);
         if (object.name == lamp.on) {
             if (joint > object.joints.size())
-                fail(lamp, "joint: found " + std::to_string(joint) + "; " + in_quotes(object.name) + " has " +
-                               std::to_string(object.joints.size()));
+                fail(s, index, "joint",
+                     "found " + std::to_string(joint) + "; " + in_quotes(object.name) + " has " +
+                         std::to_string(object.joints.size()));
             return joint == 0 ? 1 + i : s.objects.size() + joints_before + joint;
         }
         joints_before += object.joints.size();
         all += ", " + object.name;
     }
-    fail(lamp, "on: found " + in_quotes(lamp.on) + "; accepted: " + all);
+    fail(s, index, "on", "found " + in_quotes(lamp.on) + "; accepted: " + all);
 }
 
 // The mean over each bin of a curve that is dark beyond its ends: a data sheet shows all that there is. One
@@ -75,16 +84,19 @@ std::vector<LampMount> lamp_mounts(const ScenarioConfig& s) {
     if (s.lamps.size() > kMaxLamps)
         throw refused("lamps", std::to_string(s.lamps.size()), "at most " + std::to_string(kMaxLamps));
     std::vector<LampMount> mounts;
-    for (const LampConfig& lamp : s.lamps)
-        mounts.push_back(
-            {thing_of(lamp, s), lamp.position_m, normalized(lamp.axis), lamp.lit ? lamp.level : 0});
+    for (std::size_t i = 0; i < s.lamps.size(); ++i) {
+        const LampConfig& lamp = s.lamps[i];
+        mounts.push_back({thing_of(i, s), lamp.position_m, normalized(lamp.axis), lamp.lit ? lamp.level : 0});
+    }
     return mounts;
 }
 
 std::vector<SceneLamp> scene_lamps(const ScenarioConfig& s, const SpectralGrid& grid) {
     std::vector<SceneLamp> lamps;
-    for (const LampConfig& lamp : s.lamps)
-        lamps.push_back({lamp.name, thing_of(lamp, s), intensity_w_sr_um(lamp, grid), beam_of(lamp)});
+    for (std::size_t i = 0; i < s.lamps.size(); ++i) {
+        const LampConfig& lamp = s.lamps[i];
+        lamps.push_back({lamp.name, thing_of(i, s), intensity_w_sr_um(lamp, grid), beam_of(lamp)});
+    }
     return lamps;
 }
 

@@ -19,20 +19,71 @@ bool any_camera(const ScenarioConfig& s, const std::function<bool(const OutputsC
                                          [&](const CameraConfig& c) { return has(c.outputs); });
 }
 
-// Frames are asked for by commands, the preview's button and events; GigE Vision's software trigger is
-// refused in lockstep.
-void look_at_lockstep(const ScenarioConfig& s, Lines& out) {
-    if (s.mode != CameraMode::kLockstep) return;
+bool frees_camera(const EventConfig& event) {
+    const EventActions actions = actions_of(event);
+    return std::any_of(actions.commands.begin(), actions.commands.end(), [](const Command& c) {
+        const auto* mode = std::get_if<TriggerModeCommand>(&c);
+        return mode && !mode->triggered;
+    });
+}
+
+// Frames are asked for by commands, the preview's button and events; in triggered mode by GigE Vision's
+// software trigger and action commands, too, which are refused in lockstep.
+void look_at_askers(const ScenarioConfig& s, Lines& out) {
+    if (s.mode == CameraMode::kFreeRun) return;
+    const bool lockstep = s.mode == CameraMode::kLockstep;
     const CommandsConfig& c = s.commands;
-    const bool port =
-        c.has_udp || c.has_tcp || c.has_unix || c.has_usb || c.has_functionfs || c.has_vizard ||
-        any_camera(s, [](const OutputsConfig& o) { return o.find<PreviewConfig>() != nullptr; });
-    const bool event = std::any_of(s.events.begin(), s.events.end(),
-                                   [](const EventConfig& e) { return actions_of(e).takes_picture(); });
-    if (!port && !event)
+    const bool port = c.has_udp || c.has_tcp || c.has_unix || c.has_usb || c.has_functionfs || c.has_vizard ||
+                      any_camera(s, [&](const OutputsConfig& o) {
+                          return o.find<PreviewConfig>() || (!lockstep && o.find<GigeConfig>());
+                      });
+    const bool event = std::any_of(s.events.begin(), s.events.end(), [&](const EventConfig& e) {
+        return actions_of(e).takes_picture() || (!lockstep && frees_camera(e));
+    });
+    if (port || event) return;
+    if (lockstep)
         out.push_back(
             "mode: lockstep, and nobody can ask for a frame: give commands.udp (or tcp, unix, usb, vizard), "
             "outputs.preview, or an event that exposes; 'hilcam send expose' then takes one");
+    else
+        out.push_back(
+            "mode: triggered, and nobody can trigger a frame: give commands.udp (or tcp, unix, usb), "
+            "outputs.gige, outputs.preview, or an event that exposes; 'hilcam send expose' then takes one");
+}
+
+// Says what thing a command is for that the scenario does not have, or empty.
+std::string missing_thing(const Command& command, const ScenarioConfig& s) {
+    if (const auto* pose = std::get_if<PoseCommand>(&command); pose && pose->object > s.objects.size())
+        return fmt::format("object {}, and there are {}", pose->object, s.objects.size());
+    if (const auto* lamp = std::get_if<LampCommand>(&command);
+        lamp && (lamp->lamp < 1 || lamp->lamp > s.lamps.size()))
+        return fmt::format("lamp {}, and there are {}", lamp->lamp, s.lamps.size());
+    const auto* joint = std::get_if<JointCommand>(&command);
+    if (!joint) return {};
+    if (joint->object < 1 || joint->object > s.objects.size())
+        return fmt::format("object {}, and there are {}", joint->object, s.objects.size());
+    const ObjectConfig& object = s.objects[joint->object - 1u];
+    if (joint->joint >= 1 && joint->joint <= object.joints.size()) return {};
+    return fmt::format("joint {} of '{}', which has {}", joint->joint, object.name, object.joints.size());
+}
+
+// The log has a line when such an event is refused, which may be hours after the start.
+void look_at_actions(const ScenarioConfig& s, Lines& out) {
+    for (std::size_t i = 0; i < s.events.size(); ++i)
+        for (const Command& command : actions_of(s.events[i]).commands)
+            if (const std::string what = missing_thing(command, s); !what.empty())
+                out.push_back(fmt::format("events.{}: will be refused: its 'do' is for {}", i, what));
+}
+
+// Lamps, motions and events name the first of several objects of one name.
+void look_at_names(const ScenarioConfig& s, Lines& out) {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < s.objects.size(); ++i)
+        if (const std::string& name = s.objects[i].name; !names.insert(name).second)
+            out.push_back(fmt::format(
+                "objects.{}.name: another object is named '{}', too, and is the one that lamps, motions and "
+                "events mean by it",
+                i, name));
 }
 
 void look_at_faults(const ScenarioConfig& s, Lines& out) {
@@ -145,7 +196,9 @@ std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, con
 
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
     Lines out;
-    look_at_lockstep(scenario, out);
+    look_at_askers(scenario, out);
+    look_at_actions(scenario, out);
+    look_at_names(scenario, out);
     look_at_faults(scenario, out);
     look_at_outputs(scenario, out);
     look_at_shutters(scenario, out);

@@ -168,11 +168,15 @@ MeshContents load_mesh_contents(const std::filesystem::path& file, std::optional
         write_mesh(contents.mesh, out);
         write_nodes(contents.nodes, out);
         out.value(contents.collapsed_triangles);
+        out.value(contents.missing_materials.size());
+        for (const std::string& name : contents.missing_materials) out.text(name);
     });
     MeshContents contents;
     contents.mesh = read_mesh(result);
     contents.nodes = read_nodes(result);
     contents.collapsed_triangles = result.value<std::uint64_t>();
+    for (auto left = result.value<std::size_t>(); left > 0; --left)
+        contents.missing_materials.push_back(result.text());
     return contents;
 }
 

@@ -254,7 +254,10 @@ class MeshFiles final : public Assimp::IOSystem {
     char getOsSeparator() const override { return '/'; }
     Assimp::IOStream* Open(const char* file, const char*) override {
         if (file == path_) return stream_of(bytes_);
-        if (!Exists(file)) return nullptr;
+        if (!Exists(file)) {
+            missing_.push_back(std::filesystem::path(file).filename().string());
+            return nullptr;
+        }
         try {
             beside_.push_back(read_input_file(file, mesh_kind()));
             const std::string& text = beside_.back();
@@ -268,7 +271,20 @@ class MeshFiles final : public Assimp::IOSystem {
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
 
+    // What an OBJ names that is not there. assimp looks for each in several ways, and then for a file of the
+    // mesh's own name: one that was read stands for all.
+    std::vector<std::string> missing_materials() const {
+        std::vector<std::string> out;
+        if (!path_.ends_with(".obj") || !beside_.empty()) return out;
+        for (const std::string& name : missing_)
+            if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+        const std::string own = std::filesystem::path(path_).stem().string() + ".mtl";
+        if (out.size() > 1) std::erase(out, own);
+        return out;
+    }
+
   private:
+    std::vector<std::string> missing_;
     std::string path_;
     std::string_view bytes_;
     std::optional<InputError> refused_;
@@ -354,14 +370,15 @@ void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     }
 }
 
-const aiScene& read_scene(Assimp::Importer& importer, const Source& source,
-                          const std::filesystem::path& file) {
+const aiScene& read_scene(Assimp::Importer& importer, const Source& source, const std::filesystem::path& file,
+                          std::vector<std::string>* missing_materials = nullptr) {
     keep_importer_of(std::filesystem::path(source.path).extension().string(), importer);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     auto* const files = new MeshFiles(source.path, source.bytes);  // the importer's from the next line on
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(source.path, 0);
     if (files->refused()) throw InputError(*files->refused());
+    if (missing_materials) *missing_materials = files->missing_materials();
     if (scene) {
         require_few(*scene, file);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
@@ -382,8 +399,8 @@ const InputKind& mesh_kind() {
 MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind) {
     const Source source = source_of(file, kind);
     Assimp::Importer importer;
-    Loader loader(file, read_scene(importer, source, file), {}, -1);
     MeshContents out;
+    Loader loader(file, read_scene(importer, source, file, &out.missing_materials), {}, -1);
     out.mesh = loader.load();
     out.nodes = std::move(loader.nodes());
     out.collapsed_triangles = loader.collapsed_triangles();

@@ -32,6 +32,8 @@ struct MeshContents {
     std::vector<MeshNode> nodes;
     // Triangles with two corners at one place; the mesh is without them.
     std::uint64_t collapsed_triangles = 0;
+    // Files of materials that an OBJ names and that are not there.
+    std::vector<std::string> missing_materials = {};
 };
 // Does what load_mesh_contents() of mesh_file.h does; `kind` as below.
 MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind);

@@ -101,6 +101,23 @@ TEST_F(CheckScenario, WhatIsNotInThePictureIsSaid) {
                 Contains(HasSubstr("object 'plate' is behind the camera, 180.0 deg off its boresight")));
 }
 
+TEST_F(CheckScenario, AMeshBesideItsOriginIsSaid) {
+    write("beside.obj", "v 99 0 0\nv 101 0 0\nv 99 2 0\nf 1 3 2\n");
+    EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "beside.obj").string()}),
+                Contains(HasSubstr("that is its origin, and the middle of its mesh is 100 m from there")));
+}
+
+TEST_F(CheckScenario, ActionsForThingsThatAreNotThereAreSaid) {
+    EXPECT_THAT(warnings({"events=[{at_s: 1, do: lamp on}, {at_s: 1, do: joint --object 9 --joint 1 "
+                          "--angle-deg 3}, {at_s: 1, do: joint --object 1 --joint 2 --angle-deg 3}]"}),
+                ElementsAre("events.0: will be refused: its 'do' is for lamp 1, and there are 0",
+                            "events.1: will be refused: its 'do' is for object 9, and there are 1",
+                            "events.2: will be refused: its 'do' is for joint 2 of 'plate', which has 0"));
+    EXPECT_THAT(warnings({"events=[{at_s: 1, do: lamp on}]",
+                          "lamps=[{name: flash, intensity_w_sr_um: 1, lit: false}]"}),
+                IsEmpty());
+}
+
 TEST_F(CheckScenario, WhatIsHiddenIsSaid) {
     EXPECT_THAT(warnings({"objects=[{name: near, mesh: " + (folder_ / "plate.obj").string() +
                           ", pose: {position_m: [0, 0, 2]}}, {name: far, mesh: " +
@@ -146,6 +163,10 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
     EXPECT_THAT(warnings({"mode=lockstep", "commands.udp.port=15999"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=lockstep", "outputs.preview.port=15999"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=lockstep", "events=[{at_s: 1, do: [expose]}]"}), IsEmpty());
+    EXPECT_THAT(warnings({"mode=triggered"}),
+                ElementsAre(HasSubstr("mode: triggered, and nobody can trigger a frame")));
+    EXPECT_THAT(warnings({"mode=triggered", "commands.tcp.port=15999"}), IsEmpty());
+    EXPECT_THAT(warnings({"mode=triggered", "events=[{at_s: 1, do: mode free-run}]"}), IsEmpty());
     EXPECT_THAT(warnings({"faults=[{kind: packet_drop}, {kind: packet_drop, from_frame: 9}]"}),
                 ElementsAre("faults: nothing can show the fault 'packet_drop' (stream packets are not sent): "
                             "that takes outputs.gige"));

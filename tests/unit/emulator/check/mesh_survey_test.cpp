@@ -30,8 +30,9 @@ class MeshSurveyTest : public FilesTest {
 };
 
 TEST_F(MeshSurveyTest, ACubeIsWhatItIs) {
-    const MeshSurvey s = survey(std::string("mtllib none.mtl\n") + kCorners + "o box\nusemtl gold\n" +
-                                kFaces + "usemtl white\n" + kLast);
+    write("box.mtl", "newmtl gold\n");
+    const MeshSurvey s = survey(std::string("mtllib box.mtl\n") + kCorners + "o box\nusemtl gold\n" + kFaces +
+                                "usemtl white\n" + kLast);
     EXPECT_EQ(s.triangles, 12u);
     EXPECT_EQ(s.places, 8u);
     EXPECT_EQ(s.shells, 1u);
@@ -85,6 +86,27 @@ TEST_F(MeshSurveyTest, MillimetresAreTold) {
     EXPECT_EQ(json["size_m"].dump(), "[3000.0,2000.0,0.0]");
     EXPECT_EQ(json["open_edges"].get<int>(), 3);
     EXPECT_EQ(json["problems"].size(), 2u);
+}
+
+TEST_F(MeshSurveyTest, AMissingFileOfMaterialsIsTold) {
+    const std::string cube = std::string(kCorners) + "usemtl gold\n" + kFaces + kLast;
+    EXPECT_THAT(problems("mtllib none.mtl\n" + cube),
+                ElementsAre("no file 'none.mtl': surfaces whose materials it would have are grey"));
+    EXPECT_THAT(problems("mtllib none.mtl\no box\n" + cube + "o other\nusemtl white\nf 1 2 3\n"),
+                Contains("no file 'none.mtl': surfaces whose materials it would have are grey").Times(1));
+    EXPECT_THAT(problems(cube), IsEmpty());
+    // As other programs do, assimp takes the file of the mesh's own name then.
+    write("mesh.mtl", "newmtl gold\n");
+    EXPECT_THAT(problems("mtllib none.mtl\n" + cube), IsEmpty());
+}
+
+// Single precision has steps of 0.5 m there: of a plate of ten metres little is left.
+TEST_F(MeshSurveyTest, AMeshFarFromItsOriginIsTold) {
+    EXPECT_THAT(
+        problems("v 4200000 0 0\nv 4200010 0 0\nv 4200000 10 0\nf 1 2 3\n"),
+        Contains(HasSubstr("so far from its origin that single precision moves its corners by up to 0.5 m")));
+    EXPECT_THAT(problems("v 1000 0 0\nv 1010 0 0\nv 1000 10 0\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("open edges")));
 }
 
 TEST_F(MeshSurveyTest, AFileThatIsNoMeshIsRefused) {
