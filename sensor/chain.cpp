@@ -184,8 +184,10 @@ struct SensorChain::Implementation {
         } else {
             read_digitally_binned(y, mean_e, reading, key, s, frame.row(y));
         }
+        read_out.compand(frame.row(y));
     }
-    // Charges meet before they are read: one reading's noise and the first pixel's offset for all of them.
+    // Charges meet before they are read: one reading's noise, and the first pixel's offset and telegraph noise for all
+    // of them.
     void read_charge_binned(int y, const ElectronImage& mean_e, const Reading& r, RandomKey key, Scratch& s,
                             std::span<std::uint16_t> dn) const {
         const int bx = r.binning_x, by = r.binning_y;
@@ -208,8 +210,8 @@ struct SensorChain::Implementation {
             for (std::size_t x = 0; x < dn.size(); ++x)
                 offset[x] = pattern.offset_e.row(y * by)[x * static_cast<std::size_t>(bx)];
         }
-        read_out.read({y, row, binned, deviates, offset, r.gain_dn_e, r.black_level_dn, bx * by}, {}, key,
-                      dn);
+        read_out.read({y, row, binned, deviates, offset, r.gain_dn_e, r.black_level_dn, bx * by, bx},
+                      telegraph_of(y * by), key, dn);
     }
     void read_digitally_binned(int y, const ElectronImage& mean_e, const Reading& r, RandomKey key,
                                Scratch& s, std::span<std::uint16_t> dn) const {
@@ -223,11 +225,10 @@ struct SensorChain::Implementation {
                 for (std::size_t i = 0; i < bx; ++i) s.sums[x] += s.dn[x * bx + i];
         }
         const auto count = static_cast<std::uint32_t>(bx) * static_cast<std::uint32_t>(by);
-        const std::uint32_t most_dn = (1u << camera.frame_bits()) - 1;
         for (std::size_t x = 0; x < dn.size(); ++x)
             dn[x] = static_cast<std::uint16_t>(camera.binning == BinningKind::kMean
                                                    ? (s.sums[x] + count / 2) / count
-                                                   : std::min(s.sums[x], most_dn));
+                                                   : std::min(s.sums[x], read_out.most_dn()));
     }
 };
 

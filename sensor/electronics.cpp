@@ -101,6 +101,9 @@ void Converter::convert(std::span<const float> value_dn, std::span<std::uint16_t
         round_all(value_dn.data(), value_dn.size(), most_dn_, dn.data());
     else
         std::transform(value_dn.begin(), value_dn.end(), dn.begin(), [&](float v) { return step_of(v); });
+}
+
+void Converter::compand(std::span<std::uint16_t> dn) const {
     if (!companding_.empty())
         for (std::uint16_t& value : dn) value = companding_[value];
 }

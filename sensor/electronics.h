@@ -53,8 +53,10 @@ class Converter {
   public:
     // seed: of the steps' own errors. Owner thread.
     Converter(const ConverterConfig& config, int bits, std::uint64_t seed);
-    // `value` in DN before rounding. Loop, any thread.
+    // `value` in DN before rounding; numbers are not companded. Loop, any thread, as is what follows.
     void convert(std::span<const float> value_dn, std::span<std::uint16_t> dn) const;
+    // Compands numbers of the converter, where the camera does.
+    void compand(std::span<std::uint16_t> dn) const;
 
   private:
     std::uint16_t step_of(float value_dn) const;

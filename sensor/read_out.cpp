@@ -47,7 +47,8 @@ ReadOut::ReadOut(const CameraModel& c)
       telegraph_e_(static_cast<float>(c.defects.telegraph_e)),
       telegraph_frames_(static_cast<std::uint64_t>(c.defects.telegraph_frames)),
       filter_(c.filters),
-      converter_(c.converter, static_cast<int>(c.bits), static_cast<std::uint64_t>(c.fixed_pattern.seed)) {
+      converter_(c.converter, static_cast<int>(c.bits), static_cast<std::uint64_t>(c.fixed_pattern.seed)),
+      most_dn_((1u << c.bits) - 1) {
     if (c.flicker_noise_e > 0) {
         const auto [width, height] = array_size(c);
         flicker_octaves_ = static_cast<int>(std::ceil(std::log2(static_cast<double>(width) * height))) + 1;
@@ -67,7 +68,7 @@ void ReadOut::read(const ReadOutRow& row, std::span<const TelegraphPixel> telegr
     amplify(value.data(), row.deviates.data(), value.size(), amplifier);
     if (!row.offset_e.empty()) add_row(value.data(), row.offset_e.data(), value.size());
     if (flicker_octaves_ > 0) add_flicker(row.y, key, value);
-    if (!telegraph.empty()) add_telegraph(telegraph, key, value);
+    if (!telegraph.empty()) add_telegraph(telegraph, row.charges_across, key, value);
     if (!filter_.none()) filter_.apply(value);
     scale_row(value.data(), value.size(), static_cast<float>(row.gain_dn_e),
               static_cast<float>(row.black_level_dn));
@@ -99,14 +100,17 @@ void ReadOut::add_flicker(int y, RandomKey key, std::span<float> charge_e) const
     }
 }
 
-void ReadOut::add_telegraph(std::span<const TelegraphPixel> pixels, RandomKey key,
+// Charges that have met are read by the first one's amplifier.
+void ReadOut::add_telegraph(std::span<const TelegraphPixel> pixels, int charges_across, RandomKey key,
                             std::span<float> charge_e) const {
     for (const TelegraphPixel& p : pixels) {
+        const auto x = static_cast<std::size_t>(p.x / charges_across);
+        if (p.x % charges_across != 0 || x >= charge_e.size()) continue;
         // Pixels change at frames of their own.
         const std::uint64_t shifted = key.frame + p.pixel % telegraph_frames_;
         const auto words =
             random_words({key.seed, shifted / telegraph_frames_}, RandomPurpose::kTelegraph, p.pixel);
-        charge_e[static_cast<std::size_t>(p.x)] += (words[0] & 1u ? 0.5f : -0.5f) * telegraph_e_;
+        charge_e[x] += (words[0] & 1u ? 0.5f : -0.5f) * telegraph_e_;
     }
 }
 

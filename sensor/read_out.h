@@ -29,20 +29,25 @@ struct ReadOutRow {
     std::span<const float> offset_e;  // fixed; may be empty
     double gain_dn_e = 1;
     double black_level_dn = 0;
-    int charges = 1;  // pixels of the detector whose charge has met in one
+    int charges = 1;         // pixels of the detector whose charge has met in one
+    int charges_across = 1;  // and how many of them side by side
 };
 
 class ReadOut {
   public:
     explicit ReadOut(const CameraModel& camera);
-    // Loop, any thread.
+    // telegraph: pixels of the array's row that is read; where charge has met, of the first of its rows. Numbers are not
+    // companded: cameras that bin numbers do so first. Loop, any thread, as is what follows.
     void read(const ReadOutRow& row, std::span<const TelegraphPixel> telegraph, RandomKey key,
               std::span<std::uint16_t> dn) const;
+    void compand(std::span<std::uint16_t> dn) const { converter_.compand(dn); }
+    // Returns the greatest number of the converter.
+    std::uint32_t most_dn() const { return most_dn_; }
     const RowFilter& filter() const { return filter_; }
 
   private:
     void add_flicker(int y, RandomKey key, std::span<float> charge_e) const;
-    void add_telegraph(std::span<const TelegraphPixel> pixels, RandomKey key,
+    void add_telegraph(std::span<const TelegraphPixel> pixels, int charges_across, RandomKey key,
                        std::span<float> charge_e) const;
 
     float full_well_e_, a2_, a3_;
@@ -53,6 +58,7 @@ class ReadOut {
     float flicker_octave_e_ = 0;
     RowFilter filter_;
     Converter converter_;
+    std::uint32_t most_dn_;
 };
 
 }  // namespace hilcam

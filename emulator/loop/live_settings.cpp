@@ -22,7 +22,7 @@ CameraLimits limits_of(const CameraModel& c, const LiveSettings::Mode& mode) {
     CameraLimits limits;
     limits.width = width, limits.height = height;
     limits.bits = c.frame_bits();
-    limits.color_pattern = bayer_pattern_of(c.color_filter.pattern);
+    limits.color_pattern = bayer_pattern_of(c);
     limits.min_exposure_s = c.exposure_range_s[0], limits.max_exposure_s = c.exposure_range_s[1];
     limits.min_gain_db = c.gain_range_db[0], limits.max_gain_db = c.gain_range_db[1];
     limits.min_frame_rate_hz = c.frame_rate_range_hz[0];

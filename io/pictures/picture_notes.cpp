@@ -1,10 +1,12 @@
 #include "io/pictures/picture_notes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/contract/frame_flags.h"
 #include "render/vocabulary/quoted.h"
+#include "sensor/auto_exposure.h"
 
 namespace hilcam {
 namespace {
@@ -65,6 +67,19 @@ void add_pose(const Pose& camera, PictureNotes& notes) {
                      "turns camera axes (x right, y down) into world"});
 }
 
+// Returns the number of a pixel without light: summed numbers have as many black levels.
+double black_dn(const CameraModel& model, const FrameRecord& record) {
+    const DnScale scale = dn_scale_of(model, {record.exposure_s,
+                                              record.gain_db,
+                                              record.black_level_dn,
+                                              record.binning_x,
+                                              record.binning_y,
+                                              {},
+                                              {},
+                                              {}});
+    return scale.square_root ? std::round(255 * std::sqrt(scale.black_dn / scale.most_dn)) : scale.black_dn;
+}
+
 }  // namespace
 
 PictureLayout layout_of(const FrameRecord& record) {
@@ -92,7 +107,8 @@ PictureNotes notes_of(const PictureRun& run, const FrameRecord& record, const Pi
         {"time_tai_ns", "TAI_NS", record.exposure_mid.ns, "ns, mid-exposure: TAI since 1970"},
         {"exposure_s", "EXPTIME", record.exposure_s, "s"},
         {"gain_db", "GAIN_DB", record.gain_db, "dB over the camera file's gain"},
-        {"black_level_dn", "BLACK_DN", record.black_level_dn, "DN"},
+        {"black_level_dn", "BLACK_DN", unit == "DN" ? black_dn(run.model, record) : record.black_level_dn,
+         "DN"},
     };
     if (unit == "DN") notes.push_back({"bits", "BITS", std::int64_t{record.bits}, "of a DN, right-aligned"});
     add_lens(run.model, layout, notes);

@@ -58,8 +58,7 @@ std::array<double, 3> balance_of(const PictureRun& run) {
 
 }  // namespace
 
-PictureView::PictureView(const PictureRun& run)
-    : model_(run.model), pattern_(bayer_pattern_of(run.model.color_filter.pattern)) {
+PictureView::PictureView(const PictureRun& run) : model_(run.model), pattern_(bayer_pattern_of(run.model)) {
     if (!pattern_.empty()) balance_ = balance_of(run);
 }
 

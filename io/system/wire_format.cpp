@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/vocabulary/check.h"
+#include "sensor/camera_model.h"
 #include "sensor/packing.h"
 
 namespace hilcam {
@@ -253,6 +254,15 @@ BayerPattern shifted(BayerPattern pattern, int offset_x, int offset_y) {
     const std::uint32_t moved =
         place_of(pattern) ^ (offset_x % 2 != 0 ? 1u : 0u) ^ (offset_y % 2 != 0 ? 3u : 0u);
     return kPatterns[moved];
+}
+
+// Only whether an offset is odd counts.
+std::string bayer_pattern_of(const CameraModel& camera) {
+    if (camera.binning_x > 1 || camera.binning_y > 1) return {};
+    const PixelRectangle window = window_of(camera);
+    return std::string(shifted(bayer_pattern_of(camera.color_filter.pattern),
+                               window.left + static_cast<int>(camera.black_columns),
+                               window.top + static_cast<int>(camera.black_rows)));
 }
 
 std::string pfnc_name(WireFormat format, BayerPattern pattern) {

@@ -18,6 +18,8 @@
 
 namespace hilcam {
 
+struct CameraModel;
+
 enum class WireFormat : std::uint8_t {
     kMono8,
     kMono10,
@@ -42,6 +44,9 @@ enum class WireFormat : std::uint8_t {
 using BayerPattern = std::string_view;
 // Returns the pattern of a colour filter array's rows, "RG GB"; empty when it is none of the four.
 std::string bayer_pattern_of(std::string_view rows);
+// Returns the pattern of a camera's frames, as it is at their first pixel: the window may begin at any of the sensor's
+// pixels, and black columns and rows come before it. Empty, too, where pixels of several colours are binned.
+std::string bayer_pattern_of(const CameraModel& camera);
 // The pattern as seen from an offset.
 BayerPattern shifted(BayerPattern pattern, int offset_x, int offset_y);
 

@@ -98,6 +98,8 @@ void find_side_light(const FrameView& frame, const WorldSnapshot& world, std::ve
                 weight.bin.fill(static_cast<float>(each_sr));
                 Spectrum radiance;
                 sky.add_bodies_seen(dir, weight, radiance);
+                // A body of few pixels is dark to such rays; what they leave is dimmed by the air before it.
+                if (body.in_points) radiance += weight * sky.ground_radiance(body, dir);
                 if (!(largest(radiance) > 0) || !passes_objects(frame, dir, radiance)) continue;
                 light = {to_float(camera_from_world * dir), radiance};
             }

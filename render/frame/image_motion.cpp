@@ -196,8 +196,11 @@ void set_drifts(const MovingFrame& moving, const Instants& instants, double per_
     const Follower follower(moving, instants);
     for (PointSource& point : points) {
         if (point.object == PointSource::kSky) continue;
-        const Vec3d middle_m = instants.middle.objects[point.object].position_world_m;
-        const Seen object{Seen::Thing::kObject, point.object, middle_m};
+        const bool is_body = point.object >= PointSource::kFirstBody;
+        const std::size_t i = point.object - (is_body ? PointSource::kFirstBody : 0);
+        const Vec3d middle_m =
+            is_body ? instants.middle.bodies.body[i].world_m : instants.middle.objects[i].position_world_m;
+        const Seen object{is_body ? Seen::Thing::kBody : Seen::Thing::kObject, i, middle_m};
         const Seen sky{Seen::Thing::kSky, 0, middle_m - instants.middle.camera.position_world_m};
         Vec2d way_px, sky_way_px;
         if (follower.displacement_px(object, way_px) && follower.displacement_px(sky, sky_way_px))

@@ -76,6 +76,7 @@ std::string body_line(const FrameView& f, std::size_t i, std::span<const double>
     line << f.background->name_of(body.id) << ", " << body.distance_m * 1e-3 << " km away, "
          << 2 * std::acos(body.disk_cosine) / kDegree_rad << " deg wide: "
          << (f.body_boxes[i].empty() ? "not drawn (outside the field)" : "may be in the field, then drawn")
+         << (body.in_points ? " as points of its own little picture (below 8 pixels)" : "")
          << "; lights and is reflected where that reaches the threshold";
     if (body.may_be_eclipsed) line << "; another body may shadow it";
     const std::string look = f.background->describe(body);

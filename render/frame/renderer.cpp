@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "render/frame/body_points.h"
 #include "render/frame/find_side_light.h"
 #include "render/frame/finite_light.h"
 #include "render/frame/frame_placer.h"
@@ -53,8 +54,7 @@ struct Renderer::Implementation {
     TileStats add_points(std::vector<PointSource>& points) {
         const PointField field(placer.frame(), placer.world());
         field.add_stars(placer.stars(), points);
-        for (const PlacedBody& body : placer.background().points())
-            field.add(body.world_dir, body.distance_m, placer.background().point_irradiance(body), points);
+        add_body_points(placer.frame(), field, points);
         add_lamps_seen(placer.frame(), field, points);
         TileStats stats = probes.add_points(placer, tracer, field, points);
         stats.not_finite += std::erase_if(
@@ -102,7 +102,8 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 std::size_t Renderer::max_points() const {
     const FramePlacer& placer = implementation_->placer;
     const std::size_t cells = ObjectProbe::kMaxCells * ObjectProbe::kMaxCells;
-    return placer.max_stars() + placer.objects() * cells + kMaxBodies + placer.lamps().all().size();
+    return placer.max_stars() + placer.objects() * cells + kMaxBodies * kMostBodyPoints +
+           placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {

@@ -76,7 +76,8 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
             points_[point_count_++] = body;
             continue;
         }
-        disks_[disk_count_++] = body;
+        disks_[disk_count_] = body;
+        disks_[disk_count_++].in_points = is_seen_in_points(body, pixel_rad);
         const bool reaches = !(*scene_)[i].relief.empty() || has_rings(body.id);
         const double reach_m = reaches ? outer_radius_m(body.id) : radius_m;
         nearest_m_ = std::min(nearest_m_, std::max(0.0, body.distance_m - reach_m));
@@ -107,7 +108,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     if (disk_count_ > 0 && !air_) {
         const PlacedBody& body = disks_[0];
         const SceneBody& scene = (*scene_)[index_of(body.id)];
-        if (scene.look.plain_lambert() && scene.map.empty() && !body.may_be_eclipsed &&
+        if (scene.look.plain_lambert() && scene.map.empty() && !body.may_be_eclipsed && !body.in_points &&
             !is_modelled(body.id)) {
             plain_ = &disks_[0];
             plain_radiance_ = static_cast<float>(1 / kPi) * (scene.look.albedo() * body.irradiance_w_m2_um);
@@ -202,10 +203,18 @@ bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Sp
         }
         if (has_rings(body.id)) add_rings(body, origin, d, hit ? distance : kInfinity, weight, radiance);
         if (!hit) continue;
-        radiance += weight * surface_radiance(body, origin + distance * d, -normalized(d));
+        if (!(body.in_points && cone.of_pixel))
+            radiance += weight * surface_radiance(body, origin + distance * d, -normalized(d));
         return true;
     }
     return false;
+}
+
+Spectrum Background::ground_radiance(const PlacedBody& body, Vec3d dir) const {
+    const Vec3d d = body.fixed_from_world * dir;
+    const double distance = met(body, body.camera_m, d);
+    if (distance < 0) return {};
+    return surface_radiance(body, body.camera_m + distance * d, -normalized(d));
 }
 
 Atmosphere::Sight Background::air_before(Vec3d dir, double distance_m) const {

@@ -19,6 +19,10 @@ namespace hilcam {
 
 class EarthPatch;
 
+// A body this small is drawn as points, as an object is (plan.h): a grid of rays would meet too much of it or too little, and
+// otherwise from frame to frame. Those with rings or air are not, nor is the Earth by its model.
+inline constexpr double kBodyPoints_px = 8.0;
+
 // A body that shines on the objects: the cone that holds it.
 struct BodyLight {
     Vec3d world_dir;          // from the objects
@@ -48,6 +52,7 @@ struct PlacedBody {
     std::array<Shine, 2> shine{};
     std::size_t shine_count = 0;
     bool may_be_eclipsed = false;  // another body can stand between it and the Sun
+    bool in_points = false;        // a disk whose light comes by points: rays of the camera find it dark
 };
 
 class Background {
@@ -79,6 +84,9 @@ class Background {
     std::span<const BodyLight> body_lights() const { return {body_lights_.data(), body_light_count_}; }
     // Irradiance of a point body at the camera [W m^-2 um^-1].
     Spectrum point_irradiance(const PlacedBody& body) const;
+    // Returns the radiance of a body's ground in a direction of any length from the camera, whatever stands before it; 0
+    // beside it [W m^-2 sr^-1 um^-1]. Loop.
+    Spectrum ground_radiance(const PlacedBody& body, Vec3d dir) const;
     const Atmosphere* air() const { return air_; }
     const EarthModel* earth() const { return earth_; }
     // Returns where this frame lies between the Earth's maps.
@@ -210,6 +218,7 @@ class Background {
     void add_planetshine(const WorldSnapshot& world, PlacedBody& body) const;
     // Radius with air or mountains.
     double outer_radius_m(BodyId id) const;
+    bool is_seen_in_points(const PlacedBody& body, double pixel_rad) const;
     double met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
     bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*scene_)[index_of(id)].rings; }
     void add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,

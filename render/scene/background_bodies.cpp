@@ -75,6 +75,13 @@ double Background::outer_radius_m(BodyId id) const {
     return this->figure(index_of(id)).equatorial_radius_m + std::max(top_m(id), mountains_m);
 }
 
+bool Background::is_seen_in_points(const PlacedBody& body, double pixel_rad) const {
+    constexpr double kFar = 8;  // in radii: nearer, a few pixels are a large part of the sky
+    const double radius_m = outer_radius_m(body.id);
+    return !is_modelled(body.id) && !has_air(body.id) && !has_rings(body.id) &&
+           body.distance_m > kFar * radius_m && 2 * radius_m < kBodyPoints_px * pixel_rad * body.distance_m;
+}
+
 // Each of the others as a disk of the phase at which this body sees it, its air apart.
 void Background::add_planetshine(const WorldSnapshot& world, PlacedBody& out) const {
     const Vec3d here_m = world.bodies[out.id].world_m;

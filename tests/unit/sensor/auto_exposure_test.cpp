@@ -98,6 +98,8 @@ TEST(AutoExposure, FullScaleIsWhereTheCameraSaturates) {
     c.binning = BinningKind::kMean;
     EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 2060);
     EXPECT_EQ(dn_scale_of(c, at_gain(0)).black_dn, 60);
+    c.nonlinearity = {-0.1, 0.05};
+    EXPECT_DOUBLE_EQ(dn_scale_of(c, at_gain(0)).full_dn, 1960) << "read as less than it is";
 }
 
 }  // namespace

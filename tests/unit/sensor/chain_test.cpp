@@ -221,6 +221,33 @@ TEST(Chain, BinnedChargeHasOneReadNoiseAndBinnedNumbersHaveManyOfThem) {
     EXPECT_NEAR(mean.variance, 50 + 1.0 / 12, 0.05 * 50);
 }
 
+// The first pixel's amplifier reads them all.
+TEST(Chain, BinnedChargeHasItsFirstPixelsTelegraphNoise) {
+    CameraModel c = camera_64();
+    c.offset_dn = 200, c.binning_x = 3, c.binning_y = 2;
+    c.defects.telegraph_fraction = 0.3, c.defects.telegraph_e = 60, c.defects.telegraph_frames = 1;
+    CameraModel single = c;
+    single.binning_x = single.binning_y = 1;
+    Bench binned(c), bench(single);
+    const DnImage& all = bench.digitise_flat(0);
+    const DnImage& frame = binned.digitise_flat(0);
+    for (int y = 0; y < frame.height(); ++y)
+        for (std::size_t x = 0; x < static_cast<std::size_t>(frame.width()); ++x)
+            ASSERT_EQ(frame.row(y)[x], all.row(2 * y)[3 * x]);
+    EXPECT_GT(moments_of(frame.all()).variance, 0.2 * 900);
+}
+
+// 255 sqrt(DN / 4095) of 2 x 2 pixels of 250 DN: of the sum, 1000, and of the mean.
+TEST(Chain, BinnedNumbersAreCompandedAfterwards) {
+    CameraModel c = camera_64();
+    c.offset_dn = 250, c.binning_x = c.binning_y = 2, c.converter.companding = Companding::kSquareRoot;
+    for (const auto& [kind, dn] : {std::pair{BinningKind::kSum, 126}, std::pair{BinningKind::kMean, 63}}) {
+        c.binning = kind;
+        Bench bench(c);
+        EXPECT_EQ(bench.digitise_flat(0).row(3)[5], dn);
+    }
+}
+
 TEST(Chain, ALargeImageAndAWindowOfOnePixelWork) {
     CameraModel c = noisy_camera();
     c.width_px = c.height_px = 5000;

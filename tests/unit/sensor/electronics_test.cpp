@@ -80,6 +80,7 @@ TEST(Converter, SquareRootCompandingKeepsShotNoiseEven) {
     const std::vector<float> in = {0, 16, 1024, 4095};
     std::vector<std::uint16_t> out(in.size());
     converter.convert(in, out);
+    converter.compand(out);
     EXPECT_THAT(out, testing::ElementsAre(0, 16, 128, 255));  // 255 sqrt(DN / 4095), rounded
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/contract/frame_flags.h"
@@ -64,6 +65,23 @@ TEST(PictureNotes, SayWhenHowAndFromWhereItWasTaken) {
     EXPECT_EQ(v["projection"], "rectilinear");
     EXPECT_FALSE(v.contains("distortion"));
     EXPECT_FALSE(v.contains("faults"));
+}
+
+TEST(PictureNotes, SayTheNumberOfAPixelWithoutLight) {
+    PictureRun run = run_of_camera();
+    run.model.bits = 12;
+    FrameRecord record = record_of_frame();
+    record.black_level_dn = 60, record.binning_x = 2, record.binning_y = 3;
+    const auto black = [&] {
+        return json::parse(json_of(notes_of(run, record, layout_of(record), "DN")))["black_level_dn"];
+    };
+    EXPECT_EQ(black(), 60) << "charge meets before it is read";
+    run.model.binning = BinningKind::kMean;
+    EXPECT_EQ(black(), 60);
+    run.model.binning = BinningKind::kSum;
+    EXPECT_EQ(black(), 360);
+    run.model.converter.companding = Companding::kSquareRoot;
+    EXPECT_EQ(black(), std::round(255 * std::sqrt(360 / 4095.0)));
 }
 
 // Terms are those of places in units of the focal length, here of 1/64 m.

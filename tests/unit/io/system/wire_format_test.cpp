@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "sensor/camera_model.h"
+
 namespace hilcam {
 namespace {
 
@@ -77,6 +79,23 @@ TEST(WireFormat, AWindowsMosaicDependsOnWhereItBegins) {
     EXPECT_EQ(shifted("BGGR", 2, 4), "BGGR");
     EXPECT_EQ(shifted("GRBG", 0, 5), "BGGR");
     EXPECT_EQ(shifted("", 1, 1), "");
+}
+
+TEST(WireFormat, ACamerasFramesBeginWhereItsWindowAndBlackPixelsSay) {
+    CameraModel c;
+    c.width_px = c.height_px = 64;
+    c.color_filter.pattern = "RG GB";
+    EXPECT_EQ(bayer_pattern_of(c), "RGGB");
+    c.window_px = {1, 0, 20, 20};
+    EXPECT_EQ(bayer_pattern_of(c), "GRBG");
+    c.window_px = {7, 3, 20, 20};
+    EXPECT_EQ(bayer_pattern_of(c), "BGGR");
+    c.black_columns = 1;
+    EXPECT_EQ(bayer_pattern_of(c), "GBRG");
+    c.black_rows = 3;
+    EXPECT_EQ(bayer_pattern_of(c), "RGGB");
+    c.binning_x = 2;
+    EXPECT_EQ(bayer_pattern_of(c), "") << "colours are mixed";
 }
 
 TEST(WireFormat, TheCamerasOwnFormatKeepsEveryBit) {

@@ -124,6 +124,21 @@ TEST(ImageMotion, APointThatTheCameraFollowsDriftsAgainstTheStars) {
     }
 }
 
+TEST(ImageMotion, ABodyOfAFewPixelsThatTheCameraFollowsDriftsAgainstTheStars) {
+    MotionStage s;
+    s.scene.body(BodyId::kMoon) = {true, BodyLook(BodyId::kMoon, default_body(BodyId::kMoon), s.grid), {}};
+    s.world.bodies[BodyId::kMoon].world_m = {0, 0, 4e7};
+    s.render();
+    ASSERT_GT(s.points.size(), 1u);
+    WorldSnapshot before = later(s.world, -0.5, {}, {0, 0.01, 0}),
+                  after = later(s.world, 0.5, {}, {0, 0.01, 0});
+    before.bodies[BodyId::kMoon].world_m.x -= 2e5;
+    after.bodies[BodyId::kMoon].world_m.x += 2e5;
+    s.renderer->set_drifts(before, after, 1, s.points);
+    for (const PointSource& point : s.points)
+        EXPECT_NEAR(point.drift_px_s.x, s.geometry.focal_length_px * 0.01, 1e-3);
+}
+
 Star star_at(Vec3d dir) {
     Star star;
     star.world_dir = normalized(dir);

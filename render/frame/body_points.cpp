@@ -1,0 +1,92 @@
+#include "render/frame/body_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hilcam {
+namespace {
+
+// The plane at distance 1 that a body is seen on, in squares that hold it.
+class LittlePicture {
+  public:
+    LittlePicture(const FrameView& frame, const PlacedBody& body)
+        : background_(*frame.background),
+          body_(body),
+          right_(normalized(
+              cross(body.world_dir, std::abs(body.world_dir.z) < 0.7 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}))),
+          down_(cross(body.world_dir, right_)),
+          reach_(std::sqrt(1 - body.cone_cosine * body.cone_cosine) / body.cone_cosine) {
+        const double size_px = 2 * reach_ * frame.geometry.focal_length_px;
+        cells_ = std::clamp(static_cast<int>(std::ceil(2 * size_px)), 1, kMostCells);
+        rays_ = (kLeastRays + cells_ - 1) / cells_;
+        step_ = 2 * reach_ / (cells_ * rays_);
+    }
+    int cells() const { return cells_; }
+
+    struct Cell {
+        Vec3d middle;      // the mean direction of its light, times that light
+        double light = 0;  // sum over the bins
+        Spectrum irradiance_w_m2_um;
+    };
+    Cell cell(int i, int j) const {
+        Cell out;
+        for (int y = j * rays_; y < (j + 1) * rays_; ++y)
+            for (int x = i * rays_; x < (i + 1) * rays_; ++x) {
+                const Vec3d dir = body_.world_dir + ((x + kAsideX) * step_ - reach_) * right_ +
+                                  ((y + kAsideY) * step_ - reach_) * down_;
+                const double distance = length(dir);
+                const auto angle_sr = static_cast<float>(step_ * step_ / (distance * distance * distance));
+                const Spectrum light = angle_sr * background_.ground_radiance(body_, dir);
+                const auto all =
+                    static_cast<double>(std::accumulate(light.bin.begin(), light.bin.end(), 0.0f));
+                out.irradiance_w_m2_um += light;
+                out.middle = out.middle + all * dir;
+                out.light += all;
+            }
+        return out;
+    }
+
+  private:
+    static constexpr int kMostCells = 16;
+    static_assert(kMostCells * kMostCells == kMostBodyPoints);
+    // Across the body: the light of a Lambertian sphere at half phase is right to 0.2 %.
+    static constexpr int kLeastRays = 64;
+    // The rays' places in their squares: a grid that lay evenly about the disk's middle would have each error at its rim
+    // four or eight times.
+    static constexpr double kAsideX = 0.29, kAsideY = 0.11;
+
+    const Background& background_;
+    const PlacedBody& body_;
+    Vec3d right_, down_;
+    double reach_;
+    int cells_, rays_;  // along an axis; of a cell
+    double step_;
+};
+
+void add_cells(const FrameView& frame, const PlacedBody& body, const PointField& field,
+               std::vector<PointSource>& points) {
+    const LittlePicture picture(frame, body);
+    const std::uint32_t thing = PointSource::kFirstBody + static_cast<std::uint32_t>(index_of(body.id));
+    // It does not hide itself.
+    const double before_m = body.distance_m * (1 - 1.01 * std::sqrt(1 - body.cone_cosine * body.cone_cosine));
+    for (int j = 0; j < picture.cells(); ++j)
+        for (int i = 0; i < picture.cells(); ++i) {
+            const LittlePicture::Cell cell = picture.cell(i, j);
+            if (cell.light > 0)
+                field.add(normalized(cell.middle), before_m, cell.irradiance_w_m2_um, points, thing);
+        }
+}
+
+}  // namespace
+
+void add_body_points(const FrameView& frame, const PointField& field, std::vector<PointSource>& points) {
+    const Background& background = *frame.background;
+    for (const PlacedBody& body : background.points())
+        field.add(body.world_dir, body.distance_m, background.point_irradiance(body), points);
+    for (std::size_t i = 0; i < frame.body_box_count; ++i)
+        if (background.disks()[i].in_points && !frame.body_boxes[i].empty())
+            add_cells(frame, background.disks()[i], field, points);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,18 @@
+#pragma once
+// The light of bodies that are a few pixels wide or less, as points: of a body below a pixel one, of a larger one its own
+// little picture in cells of half a pixel, each a point at the middle of its light. So the light is the body's at its phase,
+// and its place does not jump from pixel to pixel.
+
+#include <vector>
+
+#include "render/light/point_field.h"
+
+namespace hilcam {
+
+// Greatest number of points of a body.
+inline constexpr std::size_t kMostBodyPoints = 16 * 16;
+
+// Adds the points of the placed frame's bodies. Loop; no allocation while the vector has room.
+void add_body_points(const FrameView& frame, const PointField& field, std::vector<PointSource>& points);
+
+}  // namespace hilcam
