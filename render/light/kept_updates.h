@@ -55,7 +55,9 @@ class KeptUpdates {
 
     void prepare(const KeptTarget& target);
     void prepare_links(const KeptTarget& target);
-    void prepare_group(const KeptTarget& target, std::size_t term, std::span<const std::size_t> group);
+    bool is_regrouped(const KeptTarget& target, std::size_t member) const;
+    void prepare_group(const KeptTarget& target, std::size_t term, std::span<const std::size_t> group,
+                       bool regrouped);
     void adopt();
 };
 

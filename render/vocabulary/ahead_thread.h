@@ -19,7 +19,8 @@ namespace hilcam {
 class AheadThread {
   public:
     AheadThread() = default;
-    ~AheadThread() { stop(); }
+    // Who lets go of it wants nothing of its work any more.
+    ~AheadThread() { give_up(), stop(); }
     AheadThread(const AheadThread&) = delete;
     AheadThread& operator=(const AheadThread&) = delete;
 
