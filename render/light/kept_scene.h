@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "render/kept/kept_updates.h"
 #include "render/light/alike_lobes.h"
-#include "render/light/kept_updates.h"
 #include "render/light/mirrored_suns.h"
 #include "render/light/tile.h"
 #include "render/scene/shown_object.h"

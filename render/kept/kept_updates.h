@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "render/light/kept_solver.h"
-#include "render/light/kept_target.h"
+#include "render/kept/kept_solver.h"
+#include "render/kept/kept_target.h"
 #include "render/vocabulary/ahead_thread.h"
 
 namespace hilcam {

@@ -1,4 +1,4 @@
-#include "render/light/kept_updates.h"
+#include "render/kept/kept_updates.h"
 
 #include <algorithm>
 #include <utility>
