@@ -19,7 +19,7 @@ namespace hilcam {
 class AheadThread {
   public:
     AheadThread() = default;
-    // Who lets go of it wants nothing of its work any more.
+    // The rest of the work is given up: who lets go of the thread wants nothing of it any more.
     ~AheadThread() { give_up(), stop(); }
     AheadThread(const AheadThread&) = delete;
     AheadThread& operator=(const AheadThread&) = delete;
