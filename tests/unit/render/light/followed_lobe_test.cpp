@@ -1,4 +1,4 @@
-#include "render/light/path_vertex.h"
+#include "render/light/followed_lobe.h"
 
 #include <gtest/gtest.h>
 
