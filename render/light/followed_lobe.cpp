@@ -11,7 +11,8 @@ float FollowedLobe::believed() const {
     if (!(found > kept)) return found;
     float squares = 0;
     for (const float ray : by_ray) squares += ray * ray;
-    const float rays = found * found / squares;
+    // Light so faint that its square is nothing is believed as one ray's.
+    const float rays = squares > 0 ? found * found / squares : 1.0f;
     return kept + rays / (rays + kept_directions) * (found - kept);
 }
 
