@@ -32,7 +32,7 @@ double LightMaker::share() const {
 
 void LightMaker::run() {
     // Frames come first; and one core of those that they leave is enough (as in
-    // render/light/kept_updates.cpp).
+    // render/vocabulary/ahead_thread.cpp).
     pthread_setname_np(pthread_self(), kLightThreadName);
     constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
     setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);

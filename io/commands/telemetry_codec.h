@@ -12,7 +12,6 @@ namespace hilcam {
 
 inline constexpr std::uint16_t kFrameReportApid = 0x102;
 inline constexpr std::uint16_t kHousekeepingApid = 0x103;
-inline constexpr std::size_t kMaxTelemetryBytes = 160;
 
 std::uint16_t apid_of(const Telemetry& telemetry);
 // The simulated time that it is about.

@@ -73,7 +73,8 @@ const DetailTiles& DetailStream::place(const DetailView& view) {
         settle();
         choose_all();
     }
-    if (!thread_.is_busy()) look_ahead(view);
+    // What the thread has ended with meanwhile is the next frame's to settle.
+    if (!thread_.is_busy() && loads_.empty()) look_ahead(view);
     before_ = view, ++frames_;
     return tiles_;
 }

@@ -126,11 +126,10 @@ bool KeptScene::prepare(const FrameView& frame, const WorldSnapshot& world) {
 // Has made what the next frames will need first, if everything moves on as it did.
 void KeptScene::look_ahead() {
     if (frames_++ % kStride == 0) std::swap(long_before_, before_), before_ = now_;
-    const int past = kStride + (frames_ - 1) % kStride;  // frames since long_before_
+    const auto past = static_cast<double>(kStride + (frames_ - 1) % kStride);  // frames since long_before_
     if (frames_ <= 2 * kStride || updates_->is_busy()) return;
     const auto differs = [&](int ahead) {
-        if (!KeptInputs::extrapolate(long_before_, now_, static_cast<double>(ahead) / past, ahead_))
-            return false;
+        if (!KeptInputs::extrapolate(long_before_, now_, ahead / past, ahead_)) return false;
         ahead_target_.set(ahead_, lights_, terms_);
         return !(ahead_target_ == target_);
     };

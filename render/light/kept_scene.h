@@ -7,13 +7,14 @@
 // ever, and by way of flat mirrors (mirrored_suns.h). Not kept: light of terrain, between objects far apart.
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "render/kept/kept_updates.h"
 #include "render/light/alike_lobes.h"
-#include "render/light/kept_updates.h"
 #include "render/light/mirrored_suns.h"
 #include "render/light/tile.h"
 #include "render/scene/shown_object.h"
@@ -105,10 +106,10 @@ class KeptScene {
     SkyLight sky_;
     MirroredSuns mirrored_suns_;
     // The inputs now, some frames ago, and as far ahead, and the targets that they ask for.
-    static constexpr int kStride = 16;  // frames
+    static constexpr std::uint64_t kStride = 16;  // frames
     KeptInputs now_, before_, long_before_, ahead_;
     KeptTarget target_, ahead_target_;
-    int frames_ = 0;
+    std::uint64_t frames_ = 0;
     bool is_asked_ = false;  // prepare() has been called
 
     void set_target(const FrameView& frame, const WorldSnapshot& world);

@@ -10,7 +10,7 @@
 // light. Not modelled: bodies between, dimming by air, light on bodies, lamps in mirrors.
 //
 // A lamp must be outside of closed meshes, its own thing's too. It may sit on a surface: what is nearer to it
-// than kLampClearance_m casts no shadow.
+// than kLampClearance_m (lamp.h) casts no shadow.
 
 #include <array>
 #include <cstddef>
@@ -22,8 +22,6 @@
 #include "render/scene/scene.h"
 
 namespace hilcam {
-
-inline constexpr double kLampClearance_m = 1e-3;
 
 // The light that comes from a lamp to a place.
 struct LampRay {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/kept/kept_light.h"
 #include "render/light/facet_list.h"
-#include "render/light/kept_light.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/shadow_rays.h"
 

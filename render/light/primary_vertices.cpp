@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/light/kept_light.h"
+#include "render/kept/kept_light.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 

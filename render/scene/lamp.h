@@ -19,6 +19,9 @@
 
 namespace hilcam {
 
+// A lamp may sit on a surface: what is nearer to it than that casts no shadow.
+inline constexpr double kLampClearance_m = 1e-3;
+
 // b(theta): intensity over that on the axis. Immutable; any thread.
 class LampBeam {
   public:

@@ -1,5 +1,5 @@
 #pragma once
-// Places on an object's surface where light is kept from frame to frame (light/kept_light.h).
+// Places on an object's surface where light is kept from frame to frame (kept/kept_light.h).
 //
 // Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same
 // side of its triangles (so that the inside of a body thinner than a cube is no part of its outside), faces one

@@ -1,6 +1,6 @@
 #pragma once
 // The table of what each place on an object meets along fixed directions of its half sphere: traced once,
-// kept for good, since it is knowledge of the mesh and not of a frame (light/kept_light.h makes light of it).
+// kept for good, since it is knowledge of the mesh and not of a frame (kept/kept_light.h makes light of it).
 //
 // The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance
 // instead of solid angle: a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179) projected up from the

@@ -10,7 +10,6 @@ namespace hilcam {
 inline constexpr int kVisibilityTile_px = 16;       // edge
 inline constexpr int kVisibilitySamplesAcross = 4;  // a pixel, and down it
 inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibilitySamplesAcross;
-inline constexpr std::uint32_t kAllSamples = 0xFFFF;  // a bit each
 
 // The samples of a pixel of the picture, a bit each: those of one pixel of the buffer, or of four (pixel_samples.h).
 using SampleMask = std::uint64_t;

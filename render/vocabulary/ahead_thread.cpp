@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <utility>
 
@@ -22,7 +23,9 @@ void AheadThread::stop() {
 void AheadThread::run(Rank rank) {
     // Frames come first; and one core of those that they leave is enough.
     constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
-    if (rank == Rank::kNice) setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
+    // Linux: the process's number is that of its first thread. Who has started this one may be nicer (light_maker.h).
+    if (rank == Rank::kNice)
+        setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, static_cast<id_t>(getpid())) + kNicer);
     tbb::task_arena alone(1, 1);
     while (true) {
         state_.wait(State::kIdle);

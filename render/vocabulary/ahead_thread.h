@@ -19,7 +19,8 @@ namespace hilcam {
 class AheadThread {
   public:
     AheadThread() = default;
-    ~AheadThread() { stop(); }
+    // The rest of the work is given up: who lets go of the thread wants nothing of it any more.
+    ~AheadThread() { give_up(), stop(); }
     AheadThread(const AheadThread&) = delete;
     AheadThread& operator=(const AheadThread&) = delete;
 

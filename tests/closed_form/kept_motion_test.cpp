@@ -62,6 +62,27 @@ TEST(KeptMotion, AFrameIsAFunctionOfWhereTheObjectsStand) {
     EXPECT_EQ(picture(s), first);
 }
 
+// A small thing that looks at floor and wall, and is too small for them to look at, leaves. What those have of each other
+// is solved with it while it is there, and afterwards as if it had never been.
+TEST(KeptMotion, AFrameIsAFunctionOfWhoStandsNear) {
+    const auto stage = [](Vec3d third_m) {
+        Stage s = two_objects("kept");
+        s.add(cube(lambert(0.9), s.grid, 0.1f), third_m);
+        return s;
+    };
+    const Vec3d near_m{-1.5, 1, 0.5}, far_m{-900, 1, 0.5};
+    Stage s = stage(near_m), fresh = stage(far_m);
+    s.render();
+    const std::vector<float> with = picture(s);
+    s.world.objects[2].position_world_m = far_m;
+    s.render_again();
+    fresh.render();
+    EXPECT_EQ(picture(s), picture(fresh));
+    s.world.objects[2].position_world_m = near_m;
+    s.render_again();
+    EXPECT_EQ(picture(s), with);
+}
+
 // While it turns, light is made ahead of time on a thread; a renderer that starts there has the same.
 TEST(KeptMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
     Stage s = two_objects("kept");

@@ -23,7 +23,7 @@ ROOMS = (
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/shm", "io/truth", "io/commands",
     "io/spice", "io/maps", "io/files", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
-    "render/frame", "render/sunlit_ground", "render/light", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/levels", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
+    "render/frame", "render/sunlit_ground", "render/light", "render/kept", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/levels", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
 )
 MOST_FILES = 50
 # The sections of the data sheet name each other, so the sensor's stages stay side by side.

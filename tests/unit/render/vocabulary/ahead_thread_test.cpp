@@ -1,9 +1,12 @@
 #include "render/vocabulary/ahead_thread.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <tbb/parallel_for.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <vector>
 
 namespace hilcam {
@@ -32,6 +35,45 @@ TEST(AheadThread, EndsWhenItIsDoneAndIsBusyFromThenOn) {
     EXPECT_FALSE(ahead.is_at_work());
     ahead.wait();  // does not wait
     ahead.stop();
+}
+
+// A second's work, of which nobody wants the rest.
+TEST(AheadThread, WhoLetsGoOfItDoesNotWaitForAllOfTheWork) {
+    constexpr int kPieces = 1000;
+    std::atomic<int> made{0};
+    {
+        AheadThread ahead;
+        ahead.start([&] {
+            const auto make = [&](int) {
+                made.fetch_add(1), made.notify_one();
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            };
+            tbb::parallel_for(0, kPieces, make, tbb::simple_partitioner{});
+        });
+        ahead.ask();
+        made.wait(0);
+    }
+    EXPECT_LT(made.load(), kPieces);
+}
+
+// Tables that come late are given by a thread which is nice itself (emulator/run/light_maker.h).
+TEST(AheadThread, IsAsNiceWhoeverStartsIt) {
+    const int program = getpriority(PRIO_PROCESS, static_cast<id_t>(getpid()));
+    constexpr int kNice = 7;
+    int of_plain = -1, of_nice = -1;
+    const auto ask = [](int& niceness) {
+        AheadThread ahead;
+        ahead.start([&] { niceness = getpriority(PRIO_PROCESS, 0); });
+        ahead.ask();
+        ahead.wait();
+    };
+    ask(of_plain);
+    std::thread([&] {
+        setpriority(PRIO_PROCESS, 0, program + kNice);
+        ask(of_nice);
+    }).join();
+    EXPECT_EQ(of_plain, std::min(program + 10, 19));
+    EXPECT_EQ(of_nice, of_plain);
 }
 
 // Eight pieces, of which the thread is kept in the one that it begins with until it is to give up; the others are the frame's.

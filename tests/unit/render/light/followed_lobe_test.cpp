@@ -1,4 +1,4 @@
-#include "render/light/path_vertex.h"
+#include "render/light/followed_lobe.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +44,15 @@ TEST(FollowedLobe, LightOfTheSkyIsAsItIs) {
 }
 
 // A ray's light comes in parts, from all that it meets.
+// The tail of a lamp's beam may be so faint that its square is nothing.
+TEST(FollowedLobe, FaintLightIsANumber) {
+    for (const float light : {1e-18f, 1e-24f, 1e-40f}) {
+        const FollowedLobe lobe = lobe_of(0.1f * light, 4, light, 3);
+        EXPECT_GT(found(lobe), 0.1f * light) << light;
+        EXPECT_LE(found(lobe), light) << light;
+    }
+}
+
 TEST(FollowedLobe, PartsOfOneRayAreOne) {
     FollowedLobe lobe = lobe_of(10, 1, 20, 1);
     lobe.add(0, gray(10));

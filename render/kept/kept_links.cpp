@@ -1,4 +1,4 @@
-#include "render/light/kept_links.h"
+#include "render/kept/kept_links.h"
 
 #include <tbb/parallel_for.h>
 

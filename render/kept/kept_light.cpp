@@ -1,4 +1,4 @@
-#include "render/light/kept_light.h"
+#include "render/kept/kept_light.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "render/light/kept_links.h"
+#include "render/kept/kept_links.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {

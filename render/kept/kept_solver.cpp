@@ -1,4 +1,4 @@
-#include "render/light/kept_solver.h"
+#include "render/kept/kept_solver.h"
 
 #include <tbb/parallel_reduce.h>
 

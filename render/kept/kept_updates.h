@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "render/light/kept_solver.h"
-#include "render/light/kept_target.h"
+#include "render/kept/kept_solver.h"
+#include "render/kept/kept_target.h"
 #include "render/vocabulary/ahead_thread.h"
 
 namespace hilcam {
@@ -55,7 +55,9 @@ class KeptUpdates {
 
     void prepare(const KeptTarget& target);
     void prepare_links(const KeptTarget& target);
-    void prepare_group(const KeptTarget& target, std::size_t term, std::span<const std::size_t> group);
+    bool is_regrouped(const KeptTarget& target, std::size_t member) const;
+    void prepare_group(const KeptTarget& target, std::size_t term, std::span<const std::size_t> group,
+                       bool regrouped);
     void adopt();
 };
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "render/brdf/microfacet.h"
-#include "render/light/kept_source.h"
+#include "render/kept/kept_source.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/flat_mirrors.h"

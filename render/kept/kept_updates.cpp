@@ -1,4 +1,4 @@
-#include "render/light/kept_updates.h"
+#include "render/kept/kept_updates.h"
 
 #include <algorithm>
 #include <utility>
@@ -50,8 +50,9 @@ void KeptUpdates::prepare(const KeptTarget& target) {
     });
     for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
         while (last < order_.size() && target.group[order_[last]] == target.group[order_[first]]) ++last;
+        const bool regrouped = is_regrouped(target, order_[first]);
         for (std::size_t t = 0; t < terms_.count(); ++t) {
-            prepare_group(target, t, {order_.data() + first, last - first});
+            prepare_group(target, t, {order_.data() + first, last - first}, regrouped);
             if (AheadThread::was_given_up()) return;
         }
     }
@@ -76,10 +77,19 @@ void KeptUpdates::prepare_links(const KeptTarget& target) {
     }
 }
 
+// True when the group of an object has other members than it is shown with. A group is solved until all of it has enough, so what one
+// of them has depends on the others, also on those that it does not see itself.
+bool KeptUpdates::is_regrouped(const KeptTarget& target, std::size_t member) const {
+    if (target.group == shown_.group) return false;
+    return std::any_of(order_.begin(), order_.end(), [&](std::size_t i) {
+        return (target.group[i] == target.group[member]) != (shown_.group[i] == shown_.group[member]);
+    });
+}
+
 void KeptUpdates::prepare_group(const KeptTarget& target, std::size_t term,
-                                std::span<const std::size_t> group) {
+                                std::span<const std::size_t> group, bool regrouped) {
     members_.clear();
-    bool differs = false, staged = true, shines = false;
+    bool differs = regrouped, staged = true, shines = false;
     for (const std::size_t i : group) {
         const KeptSource& source = target.sources[i][term];
         members_.push_back(

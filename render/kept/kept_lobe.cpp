@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "render/light/kept_light.h"
-#include "render/light/kept_links.h"
+#include "render/kept/kept_light.h"
+#include "render/kept/kept_links.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/lane_sum.h"
 

@@ -24,8 +24,8 @@
 #include <span>
 #include <vector>
 
-#include "render/light/kept_light.h"
-#include "render/light/kept_links.h"
+#include "render/kept/kept_light.h"
+#include "render/kept/kept_links.h"
 
 namespace hilcam {
 

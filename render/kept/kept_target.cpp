@@ -1,4 +1,4 @@
-#include "render/light/kept_target.h"
+#include "render/kept/kept_target.h"
 
 #include <algorithm>
 #include <cmath>

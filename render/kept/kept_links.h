@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "render/light/kept_light.h"
+#include "render/kept/kept_light.h"
 #include "render/vocabulary/pose.h"
 
 namespace hilcam {

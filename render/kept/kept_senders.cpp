@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "render/light/kept_solver.h"
-#include "render/light/lamp_light.h"
+#include "render/kept/kept_solver.h"
+#include "render/scene/lamp.h"
 #include "render/scene/surface.h"
 #include "render/vocabulary/random.h"
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "render/light/kept_links.h"
-#include "render/light/lamp_light.h"
+#include "render/kept/kept_links.h"
+#include "render/scene/lamp.h"
 #include "render/skylight/sky_light.h"
 
 namespace hilcam {

@@ -1,0 +1,45 @@
+#pragma once
+// The light that rays along one vertex's facet lobe find, where kept light hangs on few directions (kept_scene.h), and how far
+// that is believed.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "render/vocabulary/half_light.h"
+#include "render/vocabulary/spectrum.h"
+
+namespace hilcam {
+
+// A pixel that has part of the light of one lobe's rays.
+struct PixelShare {
+    std::uint32_t pixel;  // in the tile
+    HalfShares halves;    // where in the pixel it is
+    Spectrum share;       // part of the light as the vertex sends it, with the pixel's own colour
+};
+
+// The light that rays find which follow one vertex's lobe, until all have come back.
+struct FollowedLobe {
+    static constexpr std::size_t kMostRays = 32;
+    std::span<const PixelShare> pixels;     // that have it
+    float kept = 0;                         // kept light in the lobe, as the sum of by_ray
+    float kept_directions = 0;              // that bring that (KeptLight::Lobe)
+    Spectrum sky, light;                    // light of rays that meet nothing, and of all others
+    std::array<float, kMostRays> by_ray{};  // the latter's greatest bin
+    float found = 0;                        // sum of these
+
+    void add(std::size_t ray, const Spectrum& more) {
+        const float brightest = largest(more);
+        light += more, by_ray[ray] += brightest, found += brightest;
+    }
+    // Returns as much of what is found as is believed at this one vertex.
+    float believed() const;
+    // Returns what the vertex sends where so much is believed.
+    Spectrum sum(float light_believed) const;
+};
+// Returns the factor on what is believed of each by which all together send what their rays have found: what one vertex does not
+// have, those about it have. At least 1.
+float found_over_believed(std::span<const FollowedLobe> lobes);
+
+}  // namespace hilcam
