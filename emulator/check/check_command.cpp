@@ -184,10 +184,7 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
             (stray->ms < stray->told_ms ? " at most" : ""));
     report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
-    idle_rules.clear();
-    for (const LoadedObject& object : station->objects())
-        if (std::string warning = warning_of(object); !warning.empty())
-            idle_rules.push_back(std::move(warning));
+    idle_rules = warnings_of(station->objects());
     memory_mb = ResidentMemory().megabytes();
     return report;
 }

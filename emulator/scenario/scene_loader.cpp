@@ -313,6 +313,26 @@ std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const Spectr
     return terrain;
 }
 
+// Says which rules of an object have no effect, and the surfaces that there are; empty: all have one.
+std::string meaning_of_idle_rules(const LoadedObject& object) {
+    if (object.idle_rules.empty()) return {};
+    std::vector<std::string> names;
+    std::string surfaces, rules;
+    for (const LoadedSurface& surface : object.surfaces) {
+        if (surface.triangles == 0) continue;
+        names.push_back(surface.name);
+        if (surfaces.size() < 400) surfaces += (surfaces.empty() ? "" : ", ") + in_quotes(surface.name);
+    }
+    for (const std::string& rule : object.idle_rules) {
+        rules += (rules.empty() ? "" : ", ") + in_quotes(rule);
+        if (std::find(names.begin(), names.end(), rule) != names.end())
+            rules += " (a rule before it takes that surface)";
+        else if (const std::string nearest = nearest_of(rule, names); !nearest.empty())
+            rules += " (the nearest is " + in_quotes(nearest) + ")";
+    }
+    return "no surface takes its material rules for " + rules + "; the mesh's surfaces: " + surfaces;
+}
+
 }  // namespace
 
 Mesh load_whole_mesh(const ObjectConfig& config) {
@@ -336,24 +356,27 @@ double LoadedObject::mean_reflectance() const {
     return area_m2 > 0 ? sum_m2 / area_m2 : 0;
 }
 
-std::string warning_of(const LoadedObject& object) {
-    if (object.idle_rules.empty()) return {};
-    std::vector<std::string> names;
-    std::string surfaces, rules;
-    for (const LoadedSurface& surface : object.surfaces) {
-        if (surface.triangles == 0) continue;
-        names.push_back(surface.name);
-        if (surfaces.size() < 400) surfaces += (surfaces.empty() ? "" : ", ") + in_quotes(surface.name);
+std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects) {
+    struct Warning {
+        std::string object, meaning;
+        std::size_t others = 0;
+    };
+    std::vector<Warning> warnings;
+    for (const LoadedObject& object : objects) {
+        std::string meaning = meaning_of_idle_rules(object);
+        if (meaning.empty()) continue;
+        const auto same = std::find_if(warnings.begin(), warnings.end(),
+                                       [&](const Warning& w) { return w.meaning == meaning; });
+        if (same != warnings.end())
+            ++same->others;
+        else
+            warnings.push_back({object.name, std::move(meaning)});
     }
-    for (const std::string& rule : object.idle_rules) {
-        rules += (rules.empty() ? "" : ", ") + in_quotes(rule);
-        if (std::find(names.begin(), names.end(), rule) != names.end())
-            rules += " (a rule before it takes that surface)";
-        else if (const std::string nearest = nearest_of(rule, names); !nearest.empty())
-            rules += " (the nearest is " + in_quotes(nearest) + ")";
-    }
-    return "object '" + object.name + "': no surface takes its material rules for " + rules +
-           "; the mesh's surfaces: " + surfaces;
+    std::vector<std::string> out;
+    for (const Warning& w : warnings)
+        out.push_back("object '" + w.object + "'" +
+                      (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") + ": " + w.meaning);
+    return out;
 }
 
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,

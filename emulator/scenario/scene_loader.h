@@ -27,8 +27,8 @@ struct LoadedObject {
 
     double mean_reflectance() const;  // by area
 };
-// Says which of its rules have no effect, and the surfaces that there are; empty: all have one.
-std::string warning_of(const LoadedObject& object);
+// Says which rules of objects have no effect, and the surfaces that there are; once for those that are alike in that.
+std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects);
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
 // found: gets the objects in their order; light: how the scene is to get its tables of directions, and what

@@ -75,7 +75,7 @@ class SunEdges {
     const Asked* layer_below(const Asked& a) const;
     void ask_once(Tile& tile, Vec3f sun_dir);
     void ask_again(Tile& tile, const SunSampler& sun);
-    // What comes of a ray that gets through.
+    // Is told of a ray that gets through.
     struct Use {
         Asked* asked;
         HalfShares halves;  // where in the pixel it begins

@@ -188,6 +188,12 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
         warnings({"objects.0.materials={surfaces: [{name: \"*\", material: {}}, {name: DefaultMaterial, "
                   "material: {}}]}"}),
         ElementsAre(HasSubstr("'DefaultMaterial' (a rule before it takes that surface)")));
+    // A thousand satellites of one make have one mistake.
+    const std::string rules = "materials: {surfaces: [{name: zz, material: {}}]}";
+    EXPECT_THAT(warnings({"objects=[{name: a, mesh: plate.obj, pose: {position_m: [0, 0, 4]}, " + rules +
+                          "}, {name: b, mesh: plate.obj, pose: {position_m: [0.1, 0, 4]}, " + rules + "}]"}),
+                ElementsAre("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
+                            "surfaces: 'DefaultMaterial'"));
 }
 
 TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {
