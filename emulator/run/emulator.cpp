@@ -87,8 +87,7 @@ void Emulator::load_stations() {
             std::make_unique<CameraStation>(scenario_of_camera(scenario_, i), i + 1, limits_));
     for (const auto& station : stations_) station->load(grid_);
     if (!limits_.outputs) return;
-    for (const LoadedObject& object : first().objects())
-        if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
+    for (const std::string& warning : warnings_of(first().objects())) spdlog::warn("{}", warning);
 }
 
 std::vector<CommandedCamera> Emulator::commanded_cameras() const {

@@ -108,8 +108,7 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
     StillCamera camera(
         scenario, time_offset_s,
         stage == PictureStage::kRadiance ? StillCamera::Light::kRadiance : StillCamera::Light::kCharge);
-    for (const LoadedObject& object : camera.objects())
-        if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
+    for (const std::string& warning : warnings_of(camera.objects())) spdlog::warn("{}", warning);
     PictureWriter writer(picture_run_of(scenario, number));
     const RandomKey key{seed_of_camera(scenario, number - 1), 1};
     std::optional<FrameTruth> truth;

@@ -189,11 +189,13 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
                   "material: {}}]}"}),
         ElementsAre(HasSubstr("'DefaultMaterial' (a rule before it takes that surface)")));
     // A thousand satellites of one make have one mistake.
+    const std::string mesh = (folder_ / "plate.obj").string();
     const std::string rules = "materials: {surfaces: [{name: zz, material: {}}]}";
-    EXPECT_THAT(warnings({"objects=[{name: a, mesh: plate.obj, pose: {position_m: [0, 0, 4]}, " + rules +
-                          "}, {name: b, mesh: plate.obj, pose: {position_m: [0.1, 0, 4]}, " + rules + "}]"}),
-                ElementsAre("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
-                            "surfaces: 'DefaultMaterial'"));
+    EXPECT_THAT(
+        warnings({"objects=[{name: a, mesh: " + mesh + ", pose: {position_m: [0, 0, 4]}, " + rules +
+                  "}, {name: b, mesh: " + mesh + ", pose: {position_m: [0.1, 0, 4]}, " + rules + "}]"}),
+        ElementsAre("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
+                    "surfaces: 'DefaultMaterial'"));
 }
 
 TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {

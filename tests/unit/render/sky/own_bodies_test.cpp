@@ -77,7 +77,8 @@ TEST(OwnBodies, TheyAreSeenAndTheirShadowLiesOnTheirPlanet) {
     s.world.bodies[BodyId::kJupiter].world_m = {0, 0, 1e9};
     s.world.bodies[BodyId::kJupiter].fixed_from_world = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const Vec3d moon_m = Vec3d{0, 0, 1e9 - 71492e3} + 3e8 * sun;
-    s.world.bodies[moon] = {moon_m, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, {8e6, 8e6}};
+    s.world.bodies[moon] = {
+        moon_m, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, {1.6e7, 1.6e7}};  // 10 px: no points
     const auto at = [&](double x, double y) {
         return static_cast<double>(s.radiance.row(static_cast<int>(y))[static_cast<std::size_t>(x)]);
     };
