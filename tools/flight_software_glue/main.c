@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
 
     uint8_t bytes[HILCAM_MOST_PACKET_BYTES];
     send_packet(fd, bytes, camera_link_subscribe(&link, bytes));
-    send_packet(fd, bytes, camera_link_exposure(&link, 1e6, bytes));  // 11 days: "bad argument"
+    send_packet(fd, bytes, camera_link_exposure(&link, 1e6, bytes));  // 11 days: refused
     for (int i = 0; i < poses; ++i) {
         const double position_m[3] = {-40 + 0.04 * i, 0, 0};
         send_packet(fd, bytes, camera_link_pose(&link, 0, position_m, towards_x_wxyz, bytes));
