@@ -79,7 +79,7 @@ class LiveSettings : public CameraControl {
     bool is_dropped(const WaitingOrder& order) const {
         return order.number < dropped_below_.load(std::memory_order_acquire);
     }
-    // As take_trigger(), for what is dropped alone.
+    // Takes the next trigger if it is dropped; false when there is none or it is not.
     bool take_dropped();
     // Returns after a change or a trigger, or after 50 ms.
     void wait_for_news() {

@@ -98,8 +98,8 @@ class EarthPicture {
     using Coded = std::array<std::uint16_t, kMaxBins>;
     std::vector<Coded> light_;
     std::size_t used_ = 0;
-    // Pieces are a run of columns of a ring each: half a millisecond's work or less, so that who waits for one does not
-    // wait long. They are taken in order.
+    // Pieces are a run of columns of a ring each, so that who waits for one does not wait for a whole ring. They are taken
+    // in order.
     int pieces_ = 0;
     std::atomic<int> next_piece_{0};
 

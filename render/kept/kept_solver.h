@@ -110,7 +110,7 @@ class KeptSolver {
     // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
     std::vector<Spectrum> mirrored_;
 
-    // Has nodes seen to in blocks: a millisecond's work or less, so that one who waits for a block does not wait long. No
+    // Has nodes seen to in blocks, so that one who waits for a block does not wait for all of them. No
     // result depends on them.
     using Nodes = tbb::blocked_range<std::size_t>;
     static constexpr std::size_t kBlock = 256;  // nodes

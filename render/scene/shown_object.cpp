@@ -27,10 +27,7 @@ std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
     std::vector<std::array<Vec3f, 2>> out;
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         if (i % together == 0) out.push_back(clusters[i]);
-        auto& [least, most] = out.back();
-        const auto& [low, high] = clusters[i];
-        least = {std::min(least.x, low.x), std::min(least.y, low.y), std::min(least.z, low.z)};
-        most = {std::max(most.x, high.x), std::max(most.y, high.y), std::max(most.z, high.z)};
+        for (const Vec3f corner : clusters[i]) grow(out.back(), corner);
     }
     return out;
 }

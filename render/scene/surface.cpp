@@ -18,11 +18,6 @@ using Box = std::array<Vec3f, 2>;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr Box kNothing{Vec3f{kFar, kFar, kFar}, Vec3f{-kFar, -kFar, -kFar}};
 
-void grow(Box& box, Vec3f p) {
-    box[0] = {std::min(box[0].x, p.x), std::min(box[0].y, p.y), std::min(box[0].z, p.z)};
-    box[1] = {std::max(box[1].x, p.x), std::max(box[1].y, p.y), std::max(box[1].z, p.z)};
-}
-
 std::vector<Box> clusters_of(const Mesh& mesh) {
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -54,6 +49,12 @@ float density_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
 }
 
 }  // namespace
+
+void grow(std::array<Vec3f, 2>& box_m, Vec3f to_m) {
+    auto& [least, most] = box_m;
+    least = {std::min(least.x, to_m.x), std::min(least.y, to_m.y), std::min(least.z, to_m.z)};
+    most = {std::max(most.x, to_m.x), std::max(most.y, to_m.y), std::max(most.z, to_m.z)};
+}
 
 std::uint32_t pack_normal(Vec3f n) {
     const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);

@@ -34,6 +34,9 @@ inline constexpr float kColorSteps = 65535.0f / 4;
 
 inline constexpr std::size_t kClusterTriangles = 256;
 
+// Makes a box (least and greatest corner) hold a point.
+void grow(std::array<Vec3f, 2>& box_m, Vec3f to_m);
+
 // An object as rays see it.
 struct ObjectSurfaces {
     // materials: one per surface of the mesh; texture of a material indexes the textures.

@@ -78,31 +78,35 @@ HalfShares PixelSamples::halves(SampleMask samples) const {
     return {share(kRightFine), share(kLowerFine), share(kCrossedFine)};
 }
 
-int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all) {
-    // Places of a 4 x 4 grid: the first four are a square's corners.
-    constexpr std::array<std::uint8_t, kVisibilitySamples> kOrder{0, 10, 2, 8, 5, 15, 7, 13,
-                                                                  1, 11, 3, 9, 4, 14, 6, 12};
+namespace {
+
+using PlaceOrder = std::array<std::uint8_t, kVisibilitySamples>;  // Places of a 4 x 4 grid, by rows.
+
+// in_turns: another one of the samples about each place, or all would lie at the same side of theirs.
+int next_in(const PlaceOrder& order, bool in_turns, const PixelSamples& grid, SampleMask& rest,
+            SampleMask all) {
     if (rest == 0) rest = all;
-    for (const std::uint8_t place : kOrder)
-        if (const SampleMask here = rest & grid.about(place)) {
+    for (std::size_t i = 0; i < order.size(); ++i)
+        if (SampleMask here = rest & grid.about(order[i])) {
             rest &= ~here;
+            for (int left = in_turns ? static_cast<int>(i) % std::popcount(here) : 0; left > 0; --left)
+                here &= here - 1;
             return std::countr_zero(here);
         }
     return 0;
 }
 
+}  // namespace
+
+int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all) {
+    // The first four are a square's corners.
+    constexpr PlaceOrder kOrder{0, 10, 2, 8, 5, 15, 7, 13, 1, 11, 3, 9, 4, 14, 6, 12};
+    return next_in(kOrder, false, grid, rest, all);
+}
+
 int next_sample_across(const PixelSamples& grid, SampleMask& rest, SampleMask all) {
-    constexpr std::array<std::uint8_t, kVisibilitySamples> kOrder{4, 11, 2, 13, 7, 8,  1, 14,
-                                                                  0, 15, 6, 9,  3, 12, 5, 10};
-    if (rest == 0) rest = all;
-    for (std::size_t i = 0; i < kOrder.size(); ++i)
-        if (SampleMask here = rest & grid.about(kOrder[i])) {
-            rest &= ~here;
-            // Another one of those about each place, or all would lie at the same side of theirs.
-            for (int left = static_cast<int>(i) % std::popcount(here); left > 0; --left) here &= here - 1;
-            return std::countr_zero(here);
-        }
-    return 0;
+    constexpr PlaceOrder kOrder{4, 11, 2, 13, 7, 8, 1, 14, 0, 15, 6, 9, 3, 12, 5, 10};
+    return next_in(kOrder, true, grid, rest, all);
 }
 
 }  // namespace hilcam

@@ -95,7 +95,7 @@ TEST_F(MeshSurveyTest, AMissingFileOfMaterialsIsTold) {
     EXPECT_THAT(problems("mtllib none.mtl\no box\n" + cube + "o other\nusemtl white\nf 1 2 3\n"),
                 Contains("no file 'none.mtl': surfaces whose materials it would have are grey").Times(1));
     EXPECT_THAT(problems(cube), IsEmpty());
-    // As other programs do, assimp takes the file of the mesh's own name then.
+    // Assimp takes the file of the mesh's own name then, as other programs do.
     write("mesh.mtl", "newmtl gold\n");
     EXPECT_THAT(problems("mtllib none.mtl\n" + cube), IsEmpty());
 }

@@ -65,7 +65,7 @@ TEST(LevelFacets, AWrinkledPlateKeepsItsLightAsTwoTriangles) {
             EXPECT_NEAR(light_of(flat, facets, look) / light_of(wrinkled, look), 1, 0.01)
                 << zenith << " " << azimuth;
         }
-    // With the Sun below the plate's own horizon only what leans towards it is lit.
+    // The Sun below the plate's own horizon lights only what leans towards it.
     const Look behind{towards(60, 180), towards(93, 0)};
     EXPECT_EQ(light_of(flat, std::vector(2, LevelFacets::flat()), behind), 0);
     EXPECT_NEAR(light_of(flat, facets, behind) / light_of(wrinkled, behind), 1, 0.15);
