@@ -63,7 +63,8 @@ HILCAM_CLONES void look_at(Lanes& lanes, std::size_t count, const Mat3f& world_f
 class Reflection {
   public:
     Reflection(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir)
-        : world_from_body_(frame.world_from_body[at.object]),
+        : frame_(frame),
+          world_from_body_(frame.world_from_body[at.object]),
           at_(at),
           dir_(dir),
           sum_(surface, dot(at.view_dir, dir)) {}
@@ -75,10 +76,12 @@ class Reflection {
         }
         reflect();
         light_.reflected = (1 / samples_) * (at_.weight * sum_.value());
+        light_.halves = all_ > 0 ? (1 / all_) * halves_ : at_.halves;
         return light_;
     }
 
   private:
+    const FrameView& frame_;
     const Mat3f& world_from_body_;
     const Vertex& at_;
     Vec3f dir_;
@@ -90,7 +93,8 @@ class Reflection {
     };
     std::array<Group, BrdfSum::kLanes> groups_;
     std::size_t group_count_ = 0;
-    float samples_ = 0;
+    float samples_ = 0, all_ = 0;
+    HalfShares halves_;  // times the light
     FacetLight light_;
 
     void put(const Facet& facet) {
@@ -142,12 +146,17 @@ class Reflection {
             // A facet that leans away from the viewer as a whole is seen as it lies itself.
             const bool hidden = !(seen > 0);
             const float each = in_light * group.facet->samples / (hidden ? 1 : seen);
-            float lit = 0;
             for (std::size_t i = group.first; i < group.first + group.count; ++i)
-                lit += weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
-            light_.add(*group.facet, lit);
+                weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
         }
         sum_.add(weight, lanes_.no, lanes_.ni, lanes_.rougher, count);
+        for (const Group& group : std::span(groups_).first(group_count_)) {
+            const float light = sum_of(sum_.reflected(), group);
+            const SampleMask seen_by = group.facet->seen_by;
+            light_.add(*group.facet, light);
+            all_ += light;
+            halves_ += light * (seen_by != 0 ? frame_.samples.halves(seen_by) : at_.halves);
+        }
         lanes_.count = group_count_ = 0;
     }
 };
@@ -155,11 +164,11 @@ class Reflection {
 }  // namespace
 
 void FacetLight::add(const Facet& facet, float light) {
-    if (!(light > lit.back())) return;
-    std::size_t place = lit.size() - 1;
-    for (; place > 0 && light > lit[place - 1]; --place)
-        lit[place] = lit[place - 1], brightest[place] = brightest[place - 1];
-    lit[place] = light, brightest[place] = &facet;
+    if (!(light > share.back())) return;
+    std::size_t place = share.size() - 1;
+    for (; place > 0 && light > share[place - 1]; --place)
+        share[place] = share[place - 1], brightest[place] = brightest[place - 1];
+    share[place] = light, brightest[place] = &facet;
 }
 
 // Member by member: a Facet that is made first and copied then waits for its own stores.

@@ -33,11 +33,12 @@ class FacetList {
 struct FacetLight {
     static constexpr std::size_t kStarts = 4;
     Spectrum reflected;
-    // The facets with the most light, most first, and how much falls on each.
+    // The facets that reflect most, most first, and how much, over all bins together.
     std::array<const Facet*, kStarts> brightest{};
-    std::array<float, kStarts> lit{};
+    std::array<float, kStarts> share{};
+    HalfShares halves;  // of the light of all facets
 
-    bool none() const { return !(lit[0] > 0); }
+    bool none() const { return !(share[0] > 0); }
     void add(const Facet& facet, float light);
 };
 // dir: towards the light, unit. surface: with the facets' own alpha. Loop, any thread.

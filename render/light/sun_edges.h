@@ -27,12 +27,14 @@ class SunEdges {
     void add(const Vertex& at, const Spectrum& light) {
         Asked& asked = next(at, light);
         asked.facets[0] = nullptr, asked.shares = {1};
+        asked.halves_of_all = at.halves;
         asked.first_m = at.start();
     }
     // The same of a vertex with facets: its rays begin at these.
     void add(const Vertex& at, const Spectrum& light, const FacetLight& facets) {
         Asked& asked = next(at, light);
-        asked.facets = facets.brightest, asked.shares = facets.lit;
+        asked.facets = facets.brightest, asked.shares = facets.share;
+        asked.halves_of_all = facets.halves;
         asked.first_m = facets.brightest[0]->start_m;
     }
     // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
@@ -52,9 +54,10 @@ class SunEdges {
         // Those that have the most of the light, and how much; null: it has none.
         std::array<const Facet*, FacetLight::kStarts> facets;
         std::array<float, FacetLight::kStarts> shares;
-        float lit, of;      // rays that have got through, and that were asked
-        HalfShares halves;  // sum of those that have got through, one by one
-        std::uint8_t kind;  // below kKinds
+        float lit, of;             // rays that have got through, and that were asked
+        HalfShares halves_of_all;  // of the light if no ray is held up
+        HalfShares halves;         // sum of those that have got through, one by one
+        std::uint8_t kind;         // below kKinds
     };
     using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
     // Pixels with a vertex of a kind that is lit, or dark.

@@ -53,39 +53,45 @@ const LobeAlbedo* facets_of(const Material& material) {
 
 }  // namespace
 
+BrdfSum::BrdfSum(const Scatterer& at, float io)
+    : at_(at),
+      io_(io),
+      mirrored_(std::visit(
+          [&](const auto& model) {
+              return model.mirrored(at, half_vector({1, 1, io}).ih);
+          },
+          at.material->brdf)),
+      all_mirrored_(lane_sum(mirrored_.bin)),
+      all_base_(lane_sum(at.base.bin)) {}
+
 void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher,
                   std::size_t count) {
     const Material& m = *at_.material;
     if (std::holds_alternative<brdf::Lambert>(m.brdf)) {
         below_ += lane_sum(weight) / kPiF;
+        for (std::size_t i = 0; i < kLanes; ++i) reflected_[i] = all_base_ / kPiF * weight[i];
         return;
     }
     const LobeAlbedo* const facets = facets_of(m);
     if (!facets) {
-        for (std::size_t i = 0; i < count; ++i)
-            if (weight[i] > 0) other_ += weight[i] * brdf_value(at_, {no[i], ni[i], io_});
+        for (std::size_t i = 0; i < count; ++i) {
+            reflected_[i] = 0;
+            if (!(weight[i] > 0)) continue;
+            const Spectrum light = weight[i] * brdf_value(at_, {no[i], ni[i], io_});
+            other_ += light;
+            reflected_[i] = lane_sum(light.bin);
+        }
         return;
     }
-    Lanes part{};
+    Lanes below{}, lobe{};
     const std::size_t filled = (count + kEach - 1) / kEach * kEach;
-    reflect_below(weight, no, ni, *facets, filled, part);
-    below_ += lane_sum(part);
-    if (!(at_.alpha > 0)) return;
-    reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), filled,
-                 part);
-    lobe_ += lane_sum(part);
-}
-
-Spectrum BrdfSum::value() const {
-    Spectrum f = other_ + below_ * at_.base;
-    // The facets' reflection depends on the angle between viewer and light alone.
-    if (lobe_ > 0)
-        std::visit(
-            [&](const auto& model) {
-                f += lobe_ * model.mirrored(at_, half_vector({1, 1, io_}).ih);
-            },
-            at_.material->brdf);
-    return f;
+    reflect_below(weight, no, ni, *facets, filled, below);
+    below_ += lane_sum(below);
+    if (at_.alpha > 0)
+        reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), filled,
+                     lobe);
+    lobe_ += lane_sum(lobe);
+    for (std::size_t i = 0; i < kLanes; ++i) reflected_[i] = all_base_ * below[i] + all_mirrored_ * lobe[i];
 }
 
 namespace {

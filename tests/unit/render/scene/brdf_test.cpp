@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -319,6 +320,14 @@ TEST(Brdf, ASumIsTheSumOfItsFacets) {
             BrdfSum sum(at, kBetween);
             sum.add(weight, no, ni, rougher, count);
             EXPECT_NEAR(sum.value()[0], expected[0], 1e-5f * expected[0]) << named.name << ' ' << count;
+            const auto all_bins = [](const Spectrum& of) {
+                return std::accumulate(of.bin.begin(), of.bin.end(), 0.0f);
+            };
+            const auto& each = sum.reflected();
+            EXPECT_NEAR(
+                std::accumulate(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(count), 0.0f),
+                all_bins(expected), 2e-5f * all_bins(expected))
+                << named.name << ' ' << count;
         }
     }
 }
