@@ -50,8 +50,10 @@ class LevelFacets {
     // It leans as its own normals do.
     bool is_flat() const { return share_[1] == 0 && alpha_ == 0 && x_[0] == 0 && y_[0] == 0 && z_[0] == 0; }
 
-  private:
     static constexpr float kLean = 16383, kAll = 255;  // units of a lean (2 at most), and of a share
+
+  private:
+    // In this order for light/facet_packet.cpp, which reads them as eight words.
     std::array<std::int16_t, kMax> x_{}, y_{}, z_{};
     std::array<std::uint8_t, kMax> share_{};
     float alpha_ = 0;

@@ -2,162 +2,125 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "render/vocabulary/clones.h"
+#include "render/light/facet_packet.h"
+#include "render/vocabulary/lane_sum.h"
 
 namespace hilcam {
 namespace {
 
 constexpr float kSame = 0.999998f;  // cosine
+// The only part of a facet that stands for none.
+const LevelFacets kItself = LevelFacets::flat();
 
-// Facets side by side, those that one flattened facet stands for next to each other.
-struct Lanes {
-    using Floats = BrdfSum::Lanes;
-    // A normal, how the lane leans against it (body axes), and its share of the area.
-    Floats x, y, z, lean_x, lean_y, lean_z, share;
-    Floats rougher;                 // square of the alpha that its normals scatter by
-    Floats no, ni;                  // cosines, above zero
-    Floats seen, lit;               // the share as the viewer and the light see it
-    Floats area_x, area_y, area_z;  // the share along its normal
-    std::size_t count = 0;
-
-    // Puts the next kPart lanes, all of one normal.
-    template <std::size_t kPart>
-    void put(Vec3f normal, const std::array<float, kPart>& leans_x, const std::array<float, kPart>& leans_y,
-             const std::array<float, kPart>& leans_z, const std::array<float, kPart>& part, float alpha) {
-        const std::size_t first = count;
-        const auto write = [first](Floats& to, const std::array<float, kPart>& of) {
-            std::copy_n(of.data(), kPart, to.data() + first);
-        };
-        const auto fill = [first](Floats& to, float of) { std::fill_n(to.data() + first, kPart, of); };
-        fill(x, normal.x), fill(y, normal.y), fill(z, normal.z);
-        write(lean_x, leans_x), write(lean_y, leans_y), write(lean_z, leans_z);
-        fill(rougher, alpha * alpha), write(share, part);
-        count = first + kPart;
-    }
-    // A facet that does not lean.
-    void put(Vec3f normal, float part) { put<1>(normal, {0}, {0}, {0}, {part}, 0); }
-};
-
-// count: a multiple of BrdfSum::kEach.
-HILCAM_CLONES void look_at(Lanes& lanes, std::size_t count, const Mat3f& world_from_body, Vec3f view,
-                           Vec3f dir) {
-    const Mat3f m = world_from_body;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float lx = lanes.lean_x[i], ly = lanes.lean_y[i], lz = lanes.lean_z[i];
-        const float x = lanes.x[i] + (m.x.x * lx + m.x.y * ly + m.x.z * lz);
-        const float y = lanes.y[i] + (m.y.x * lx + m.y.y * ly + m.y.z * lz);
-        const float z = lanes.z[i] + (m.z.x * lx + m.z.y * ly + m.z.z * lz);
-        const float inverse = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-12f));
-        const float no = inverse * (x * view.x + y * view.y + z * view.z);
-        const float area = lanes.share[i] * inverse;
-        lanes.seen[i] = lanes.share[i] * std::max(no, 0.0f);
-        lanes.no[i] = std::max(no, 1e-4f);
-        lanes.ni[i] = std::max(inverse * (x * dir.x + y * dir.y + z * dir.z), 0.0f);
-        lanes.lit[i] = lanes.share[i] * lanes.ni[i];
-        lanes.area_x[i] = area * x, lanes.area_y[i] = area * y, lanes.area_z[i] = area * z;
-    }
-}
-
-// The facets of a vertex on their way through the lanes.
+// Facets of vertices on their way through packets, those of one material of an object at a time.
 class Reflection {
   public:
-    Reflection(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir)
-        : frame_(frame),
-          world_from_body_(frame.world_from_body[at.object]),
-          at_(at),
-          dir_(dir),
-          sum_(surface, dot(at.view_dir, dir)) {}
+    Reflection(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out)
+        : frame_(frame), vertices_(vertices), out_(out) {}
 
-    FacetLight of_all() {
-        for (const Facet* facet = at_.facets; facet; facet = facet->next) {
-            if (lanes_.count + LevelFacets::kMax > lanes_.x.size()) reflect();
-            put(*facet);
-        }
+    void of_all() {
+        std::array<std::uint16_t, SunnyVertex::kMost> order;
+        const std::span<std::uint16_t> in_order = std::span(order).first(vertices_.size());
+        std::iota(in_order.begin(), in_order.end(), std::uint16_t{0});
+        const auto key = [&](std::uint16_t v) {
+            const Vertex& at = *vertices_[v].at;
+            return std::uint64_t{at.object} << 32 | std::uint64_t{at.surface_number} << 16 | v;
+        };
+        std::sort(in_order.begin(), in_order.end(),
+                  [&](std::uint16_t a, std::uint16_t b) { return key(a) < key(b); });
+        for (const std::uint16_t v : in_order) put(v);
         reflect();
-        light_.reflected = (1 / samples_) * (at_.weight * sum_.value());
-        light_.halves = all_ > 0 ? (1 / all_) * halves_ : at_.halves;
-        return light_;
+        for (const std::uint16_t v : in_order) finish(v);
     }
 
   private:
     const FrameView& frame_;
-    const Mat3f& world_from_body_;
-    const Vertex& at_;
-    Vec3f dir_;
-    BrdfSum sum_;
-    Lanes lanes_;
-    struct Group {
-        const Facet* facet;
-        std::size_t first, count;
+    std::span<const SunnyVertex> vertices_;
+    std::span<FacetLight> out_;
+    FacetPacket packet_;
+    std::array<const Facet*, FacetPacket::kSize> facets_;
+    std::array<std::uint16_t, FacetPacket::kSize> owners_;  // vertices
+    const Vertex* kind_ = nullptr;                          // one of those in the packet
+    struct Sum {
+        float samples;
+        // By a facet's lobe alone: depends on the angle between viewer and light, and on nothing else.
+        Spectrum mirrored;
+        float light;        // over all bins together
+        HalfShares halves;  // times the light
     };
-    std::array<Group, BrdfSum::kLanes> groups_;
-    std::size_t group_count_ = 0;
-    float samples_ = 0, all_ = 0;
-    HalfShares halves_;  // times the light
-    FacetLight light_;
+    std::array<Sum, SunnyVertex::kMost> sums_;
 
-    void put(const Facet& facet) {
-        samples_ += facet.samples;
-        const std::size_t first = lanes_.count;
-        if (facet.flattened) {
-            LevelFacets::Leans lean = facet.flattened->leans();
-            const float side = at_.back ? -1.0f : 1.0f;
-            for (std::size_t i = 0; i < LevelFacets::kMax; ++i)
-                lean.x[i] *= side, lean.y[i] *= side, lean.z[i] *= side;
-            lanes_.put(facet.normal, lean.x, lean.y, lean.z, facet.flattened->shares(),
-                       facet.flattened->alpha());
-        } else {
-            if (dot(facet.geometric_normal, dir_) <= 0) return;
-            lanes_.put(facet.normal, 1);
+    void put(std::uint16_t v) {
+        const auto& [at, dir, alpha] = vertices_[v];
+        if (kind_ && (kind_->object != at->object || kind_->surface.material != at->surface.material))
+            reflect();
+        kind_ = at;
+        sums_[v] = {};
+        const float io = dot(at->view_dir, dir), over_half = 1 / std::sqrt(std::max(2 + 2 * io, 1e-8f));
+        if (alpha > 0) sums_[v].mirrored = brdf_mirrored(at->surface, half_vector({1, 1, io}).ih);
+        const float side = at->back ? -1.0f : 1.0f;
+        for (const Facet* facet = at->facets; facet; facet = facet->next) {
+            sums_[v].samples += facet->samples;
+            const float flat = dot(facet->geometric_normal, dir);
+            if (!facet->flattened && flat <= 0) continue;
+            if (packet_.count == FacetPacket::kSize) reflect();
+            const std::size_t i = packet_.count++;
+            facets_[i] = facet, owners_[i] = v;
+            packet_.normal.set(i, facet->normal);
+            packet_.view.set(i, at->view_dir), packet_.light.set(i, dir);
+            packet_.samples[i] = facet->samples;
+            packet_.flat[i] = facet->flattened ? flat : 0.0f;
+            packet_.side[i] = side;
+            packet_.over_half[i] = over_half, packet_.alpha_squared[i] = alpha * alpha;
+            packet_.parts[i] = facet->flattened ? *facet->flattened : kItself;
         }
-        groups_[group_count_++] = {&facet, first, lanes_.count - first};
-    }
-
-    static float sum_of(const Lanes::Floats& floats, const Group& group) {
-        float sum = 0;
-        for (std::size_t i = group.first; i < group.first + group.count; ++i) sum += floats[i];
-        return sum;
-    }
-
-    // Wrinkles shade each other, most where the light comes along them: as much of it falls on all of them together
-    // as on the flat triangle, whatever their sides face (the condition that Smith's shadowing is made of: Heitz,
-    // JCGT 3(2), 2014, section 2). More than 1 where they lean away from the light; so much only, as the triangle
-    // has an error of its own.
-    float share_in_light(const Group& group) const {
-        constexpr float kMost = 2;
-        if (!group.facet->flattened) return 1;
-        const float lit = sum_of(lanes_.lit, group);
-        const float flat = dot(group.facet->geometric_normal, dir_);
-        if (!(lit > 0 && flat > 0)) return 1;
-        const Vec3f area{sum_of(lanes_.area_x, group), sum_of(lanes_.area_y, group),
-                         sum_of(lanes_.area_z, group)};
-        return std::min(flat * length(area) / lit, kMost);
     }
 
     void reflect() {
-        if (lanes_.count == 0) return;
-        const std::size_t count = lanes_.count;
-        while (lanes_.count % BrdfSum::kEach != 0) lanes_.put(at_.normal, 0);
-        look_at(lanes_, lanes_.count, world_from_body_, at_.view_dir, dir_);
-        Lanes::Floats weight{};
-        for (const Group& group : std::span(groups_).first(group_count_)) {
-            const float seen = sum_of(lanes_.seen, group), in_light = share_in_light(group);
-            // A facet that leans away from the viewer as a whole is seen as it lies itself.
-            const bool hidden = !(seen > 0);
-            const float each = in_light * group.facet->samples / (hidden ? 1 : seen);
-            for (std::size_t i = group.first; i < group.first + group.count; ++i)
-                weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
+        if (packet_.count == 0) return;
+        const Scatterer& surface = kind_->surface;
+        const LobeAlbedo* const facets = facets_of(*surface.material);
+        reflect_facets(frame_.world_from_body[kind_->object], facets, packet_);
+        const bool diffuse = std::holds_alternative<brdf::Lambert>(surface.material->brdf);
+        for (std::size_t i = 0; i < packet_.count; ++i) {
+            if (!(packet_.lit[i] > 0)) continue;
+            const std::uint16_t v = owners_[i];
+            const Spectrum& base = vertices_[v].at->surface.base;
+            if (facets)
+                take(v, *facets_[i], packet_.below[i] * base + packet_.lobe[i] * sums_[v].mirrored);
+            else
+                take(v, *facets_[i], diffuse ? packet_.lit[i] / kPiF * base : part_by_part(i));
         }
-        sum_.add(weight, lanes_.no, lanes_.ni, lanes_.rougher, count);
-        for (const Group& group : std::span(groups_).first(group_count_)) {
-            const float light = sum_of(sum_.reflected(), group);
-            const SampleMask seen_by = group.facet->seen_by;
-            light_.add(*group.facet, light);
-            all_ += light;
-            halves_ += light * (seen_by != 0 ? frame_.samples.halves(seen_by) : at_.halves);
-        }
-        lanes_.count = group_count_ = 0;
+        packet_.count = 0;
+    }
+
+    void take(std::uint16_t v, const Facet& facet, const Spectrum& reflected) {
+        const float light = lane_sum(reflected.bin);
+        const HalfShares halves =
+            facet.seen_by != 0 ? frame_.samples.halves(facet.seen_by) : vertices_[v].at->halves;
+        out_[v].reflected += reflected;
+        out_[v].add(facet, light);
+        sums_[v].light += light;
+        sums_[v].halves += light * halves;
+    }
+
+    Spectrum part_by_part(std::size_t i) const {
+        const SunnyVertex& from = vertices_[owners_[i]];
+        const float io = dot(from.at->view_dir, from.dir);
+        Spectrum sum;
+        for (std::size_t j = 0; j < FacetPacket::kParts; ++j)
+            if (const float weight = packet_.weight[j][i]; weight > 0)
+                sum += weight * brdf_value(from.at->surface, {packet_.no[j][i], packet_.ni[j][i], io});
+        return sum;
+    }
+
+    void finish(std::uint16_t v) {
+        const Vertex& at = *vertices_[v].at;
+        const Sum& sum = sums_[v];
+        out_[v].reflected = (1 / sum.samples) * (at.weight * out_[v].reflected);
+        out_[v].halves = sum.light > 0 ? (1 / sum.light) * sum.halves : at.halves;
     }
 };
 
@@ -205,8 +168,8 @@ void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t tri
     push(part.geometric_normal, part.normal, part.start_m, part.samples, part.seen_by, wrinkles, vertex);
 }
 
-FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir) {
-    return Reflection(frame, at, surface, dir).of_all();
+void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out) {
+    Reflection(frame, vertices, out).of_all();
 }
 
 }  // namespace hilcam

@@ -3,6 +3,8 @@
 // them: what a vertex of many samples has joined, and what a level of detail has flattened
 // (levels/level_facets.h).
 
+#include <span>
+
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
 
@@ -41,7 +43,14 @@ struct FacetLight {
     bool none() const { return !(share[0] > 0); }
     void add(const Facet& facet, float light);
 };
-// dir: towards the light, unit. surface: with the facets' own alpha. Loop, any thread.
-FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir);
+// A vertex with facets, for light from one direction.
+struct SunnyVertex {
+    static constexpr std::size_t kMost = 128;  // together
+    const Vertex* at;
+    Vec3f dir;    // towards the light, unit
+    float alpha;  // of the facets' own lobes
+};
+// Finds what the facets of vertices reflect, SunnyVertex::kMost at most. out: one for each, as they are made. Loop, any thread.
+void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out);
 
 }  // namespace hilcam

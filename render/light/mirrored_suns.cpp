@@ -56,8 +56,9 @@ Scattered scatter(const FrameView& frame, const Vertex& at, Vec3f dir, float alp
     if (facets)
         surface.alpha = surface.alpha < kNarrowestKept ? 0 : std::min(1.0f, std::hypot(surface.alpha, alpha));
     if (at.facets && !(facets && surface.alpha == 0)) {
-        if (facets) surface.alpha = std::min(1.0f, std::hypot(at.facet_alpha, alpha));
-        const FacetLight sum = lit_facets(frame, at, surface, dir);
+        const SunnyVertex sunny{&at, dir, facets ? std::min(1.0f, std::hypot(at.facet_alpha, alpha)) : 0.0f};
+        FacetLight sum;
+        lit_facets(frame, {&sunny, 1}, {&sum, 1});
         if (sum.none()) return {};
         return {sum.reflected, sum.brightest[0]->start_m, false};
     }

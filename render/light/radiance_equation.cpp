@@ -58,6 +58,31 @@ struct LitBy {
     Vec3f dir;
 };
 
+// The light of vertices with facets among some, in their order.
+class FacetLights {
+  public:
+    static constexpr std::size_t kMost = SunnyVertex::kMost;
+
+    // vertices: kMost at most.
+    void find(const FrameView& frame, const SunSampler& sun, std::span<const Vertex> vertices) {
+        std::size_t count = 0;
+        for (const Vertex& at : vertices) {
+            if (!at.facets || !at.surface.has_lobes()) continue;
+            const bool widened = !frame.sun_is_disk && at.facet_alpha > 0;
+            lights_[count] = {};
+            sunny_[count++] = {&at, sun.of(at).dir, widened ? sun_widened(at.facet_alpha) : at.facet_alpha};
+        }
+        lit_facets(frame, std::span(sunny_).first(count), lights_);
+        next_ = lights_.data();
+    }
+    const FacetLight& next() { return *next_++; }
+
+  private:
+    std::array<SunnyVertex, kMost> sunny_;
+    std::array<FacetLight, kMost> lights_;
+    const FacetLight* next_ = nullptr;
+};
+
 void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
@@ -72,7 +97,12 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     TileStats& stats = tile.stats;
     std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
     ShadowRays<LitBy, decltype(lit)> shadow(frame, counter, lit);
-    for (const Vertex& at : vertices) {
+    FacetLights of_facets;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (i % FacetLights::kMost == 0)
+            of_facets.find(frame, sun,
+                           vertices.subspan(i, std::min(FacetLights::kMost, vertices.size() - i)));
+        const Vertex& at = vertices[i];
         if (!at.surface.has_lobes()) continue;
         const auto [dir, light] = sun.of(at);
         float share = at.sunlit;
@@ -83,10 +113,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
         if (frame.sun_is_disk && is_weighed(frame, at))
             share *= sun.disk_density() / (sun.disk_density() + brdf_density(at.surface, c));
         if (at.facets) {
-            Scatterer surface = at.surface;
-            surface.alpha = at.facet_alpha;
-            if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
-            const FacetLight sum = lit_facets(frame, at, surface, dir);
+            const FacetLight& sum = of_facets.next();
             if (sum.none()) continue;
             const Spectrum weight = share * (light * sum.reflected);
             if (finds_edges)

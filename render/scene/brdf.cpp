@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/vocabulary/clones.h"
-#include "render/vocabulary/lane_sum.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -14,32 +12,6 @@ Spectrum brdf_value(const Scatterer& at, Cosines c) {
     return std::visit([&](const auto& model) { return model.value(at, c); }, at.material->brdf);
 }
 
-namespace {
-
-// weight times below_facets(), and times D V of a lobe. count: a multiple of BrdfSum::kEach.
-HILCAM_CLONES void reflect_below(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
-                                 const BrdfSum::Lanes& ni, const LobeAlbedo& e, std::size_t count,
-                                 BrdfSum::Lanes& out) {
-    for (std::size_t i = 0; i < count; ++i) out[i] = weight[i] * below_facets(e, no[i], ni[i]);
-}
-HILCAM_CLONES void reflect_lobe(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
-                                const BrdfSum::Lanes& ni, const BrdfSum::Lanes& rougher, float alpha,
-                                float over_half, std::size_t count, BrdfSum::Lanes& out) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const float nh = std::min((no[i] + ni[i]) * over_half, 1.0f);
-        // Slopes s of density a^2 / (pi (a^2 + s^2)^2) (GGX's: Heitz, JCGT 3(2), 2014) that are scattered by
-        // r: to the first order the density changes by r (4 s^2 - 2 a^2) / (a^2 + s^2)^2 of itself. A lobe
-        // whose a^2 grows by 4 r a^2 / (2 a^2 + s^2) does so at its middle and in its tails, which hardly
-        // change.
-        const float both = alpha * alpha + rougher[i], slope = (1 - nh * nh) / (nh * nh);
-        const float wider =
-            std::min(std::sqrt(alpha * alpha + rougher[i] * 4 * both / (2 * both + slope)), 1.0f);
-        const float lobe = ggx_distribution(wider, nh) * ggx_visibility(wider, no[i], std::max(ni[i], 1e-6f));
-        out[i] = weight[i] * lobe;
-    }
-}
-
-// Null for a model without facets.
 const LobeAlbedo* facets_of(const Material& material) {
     return std::visit(
         []<class Model>(const Model& model) -> const LobeAlbedo* {
@@ -49,49 +21,6 @@ const LobeAlbedo* facets_of(const Material& material) {
                 return nullptr;
         },
         material.brdf);
-}
-
-}  // namespace
-
-BrdfSum::BrdfSum(const Scatterer& at, float io)
-    : at_(at),
-      io_(io),
-      mirrored_(std::visit(
-          [&](const auto& model) {
-              return model.mirrored(at, half_vector({1, 1, io}).ih);
-          },
-          at.material->brdf)),
-      all_mirrored_(lane_sum(mirrored_.bin)),
-      all_base_(lane_sum(at.base.bin)) {}
-
-void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher,
-                  std::size_t count) {
-    const Material& m = *at_.material;
-    if (std::holds_alternative<brdf::Lambert>(m.brdf)) {
-        below_ += lane_sum(weight) / kPiF;
-        for (std::size_t i = 0; i < kLanes; ++i) reflected_[i] = all_base_ / kPiF * weight[i];
-        return;
-    }
-    const LobeAlbedo* const facets = facets_of(m);
-    if (!facets) {
-        for (std::size_t i = 0; i < count; ++i) {
-            reflected_[i] = 0;
-            if (!(weight[i] > 0)) continue;
-            const Spectrum light = weight[i] * brdf_value(at_, {no[i], ni[i], io_});
-            other_ += light;
-            reflected_[i] = lane_sum(light.bin);
-        }
-        return;
-    }
-    Lanes below{}, lobe{};
-    const std::size_t filled = (count + kEach - 1) / kEach * kEach;
-    reflect_below(weight, no, ni, *facets, filled, below);
-    below_ += lane_sum(below);
-    if (at_.alpha > 0)
-        reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), filled,
-                     lobe);
-    lobe_ += lane_sum(lobe);
-    for (std::size_t i = 0; i < kLanes; ++i) reflected_[i] = all_base_ * below[i] + all_mirrored_ * lobe[i];
 }
 
 namespace {

@@ -43,29 +43,8 @@ struct BrdfSample {
 
 // f for light from above the surface (no, ni > 0); zero otherwise.
 Spectrum brdf_value(const Scatterer& at, Cosines c);
-// The light that facets of one material reflect from one direction to one viewer, together: sums of
-// weight * f, where facets differ in how they lean. io: between viewer and light, the same for all.
-class BrdfSum {
-  public:
-    BrdfSum(const Scatterer& at, float io);
-    static constexpr std::size_t kLanes = 16;
-    using Lanes = std::array<float, kLanes>;
-    static constexpr std::size_t kEach = 8;  // that are made together
-    // The first `count` facets, sixteen at most. no > 0; of a facet that adds nothing, and of those that fill the lanes to a
-    // multiple of kEach, the weight is zero, else ni > 0. rougher: square of a GGX alpha that a facet's lobe is wider by.
-    void add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher, std::size_t count);
-    // What each of the facets that were added last reflects, over all bins together.
-    const Lanes& reflected() const { return reflected_; }
-    Spectrum value() const { return other_ + below_ * at_.base + lobe_ * mirrored_; }
-
-  private:
-    const Scatterer& at_;
-    float io_, lobe_ = 0, below_ = 0;
-    Spectrum mirrored_;              // by facets: depends on the angle between viewer and light alone
-    float all_mirrored_, all_base_;  // over all bins
-    Spectrum other_;
-    Lanes reflected_{};
-};
+// Returns how much a material's facets reflect; null: it has none.
+const LobeAlbedo* facets_of(const Material& material);
 
 // Density of sample() for a direction, exact parts left out.
 float brdf_density(const Scatterer& at, Cosines c);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -301,34 +300,6 @@ TEST(Brdf, APlacesHapkeParametersCount) {
     for (const Cosines c : {Cosines{0.9f, 0.8f, 0.7f}, {0.3f, 0.6f, 0.1f}, {0.5f, 0.5f, 1}}) {
         EXPECT_EQ(brdf_value(placed, c)[0], brdf_value(scatterer(other), c)[0]);
         EXPECT_NE(brdf_value(placed, c)[0], brdf_value(scatterer(own), c)[0]);
-    }
-}
-
-// However many facets there are, those that only fill lanes add nothing.
-TEST(Brdf, ASumIsTheSumOfItsFacets) {
-    for (const NamedMaterial& named : white_materials()) {
-        const Material material = make_material(named.config, kGrid);
-        const Scatterer at = scatterer(material);
-        constexpr float kBetween = 0.3f;
-        BrdfSum::Lanes weight{}, no, ni, rougher{};
-        no.fill(1e-4f), ni.fill(0);
-        Spectrum expected;
-        for (std::size_t count = 1; count <= BrdfSum::kLanes; ++count) {
-            const auto i = static_cast<float>(count);
-            weight[count - 1] = 0.1f * i, no[count - 1] = 1 - 0.04f * i, ni[count - 1] = 0.2f + 0.03f * i;
-            expected += weight[count - 1] * brdf_value(at, {no[count - 1], ni[count - 1], kBetween});
-            BrdfSum sum(at, kBetween);
-            sum.add(weight, no, ni, rougher, count);
-            EXPECT_NEAR(sum.value()[0], expected[0], 1e-5f * expected[0]) << named.name << ' ' << count;
-            const auto all_bins = [](const Spectrum& of) {
-                return std::accumulate(of.bin.begin(), of.bin.end(), 0.0f);
-            };
-            const auto& each = sum.reflected();
-            EXPECT_NEAR(
-                std::accumulate(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(count), 0.0f),
-                all_bins(expected), 2e-5f * all_bins(expected))
-                << named.name << ' ' << count;
-        }
     }
 }
 
