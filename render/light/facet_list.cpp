@@ -169,7 +169,7 @@ void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t tri
 }
 
 void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out) {
-    Reflection(frame, vertices, out).of_all();
+    if (!vertices.empty()) Reflection(frame, vertices, out).of_all();
 }
 
 }  // namespace hilcam

@@ -48,7 +48,7 @@ struct SunnyVertex {
     static constexpr std::size_t kMost = 128;  // together
     const Vertex* at;
     Vec3f dir;    // towards the light, unit
-    float alpha;  // of the facets' own lobes
+    float alpha;  // alpha of the facets' own lobes
 };
 // Finds what the facets of vertices reflect, SunnyVertex::kMost at most. out: one for each, as they are made. Loop, any thread.
 void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out);

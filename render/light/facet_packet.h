@@ -25,7 +25,7 @@ struct alignas(64) FacetPacket {
     Floats flat{};           // cosine of its plane to the light, where it stands for others; else zero
     Floats side{};           // 1; -1: seen from behind
     Floats over_half{};      // one over the length of view + light
-    Floats alpha_squared{};  // of the facets' own lobe
+    Floats alpha_squared{};  // square of its own lobe's alpha
     std::array<LevelFacets, kSize> parts{};  // that it stands for
     // Out: the weight that each part has with its cosines to both, and for the facet sums of them: the light that falls on it, and
     // what leaves below facets and by their lobe.
