@@ -121,7 +121,7 @@ struct FocalPlane::Implementation {
         for (int y = 0; y < image.padded_height(); ++y)
             for (int x = 0; x < image.padded_width(); ++x)
                 illumination.push_back(
-                    static_cast<float>(view.lens.at(view.detector_px(x), view.detector_px(y))));
+                    static_cast<float>(view.light_at(view.detector_px(x), view.detector_px(y))));
         const std::size_t zones = channels.front().mtfs.size();
         zone_weights.resize(zones > 1 ? zones : 0);
         for (std::size_t z = 0; z < zone_weights.size(); ++z)
@@ -261,7 +261,7 @@ struct FocalPlane::Implementation {
                 const double x = static_cast<double>(point.position_px.x) / m;
                 const double y = static_cast<double>(point.position_px.y) / m;
                 channel.ghost->collect(x, y,
-                                       view.camera.fill_factor * view.lens.of_point(x, y) *
+                                       view.camera.fill_factor * view.light_of_point(x, y) *
                                            channel.electrons_of(point.irradiance_w_m2_um, bins, exposure_s));
             }
             channel.ghost->spread();

@@ -28,6 +28,10 @@ struct DetectorView {
     RelativeIllumination lens;
     Mosaic mosaic;
 
+    // The factors by which the image of an extended source, and of a point, is lit: what the lens leaves and no ghost has.
+    double light_at(double x_px, double y_px) const { return in_image() * lens.at(x_px, y_px); }
+    double light_of_point(double x_px, double y_px) const { return in_image() * lens.of_point(x_px, y_px); }
+    double in_image() const { return 1 - camera.stray_light.ghost_fraction; }
     // Middle of a radiance pixel (padded px) [px of the detector's frame].
     double detector_px(int padded) const {
         return (padded + 0.5) / sampling.oversampling - sampling.guard_px;

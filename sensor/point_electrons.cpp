@@ -26,7 +26,8 @@ PointElectrons::PointElectrons(const CameraModel& camera, const SpectralGrid& gr
       bins_(grid.size()) {
     const StrayLightConfig& stray = camera.stray_light;
     const double kept = stray.glare_radius_px <= 0 ? 1 - stray.veiling_glare_fraction : 1.0;
-    per_irradiance_ = static_cast<float>(camera.fill_factor * kept) * per_irradiance_;
+    per_irradiance_ =
+        static_cast<float>(camera.fill_factor * kept * (1 - stray.ghost_fraction)) * per_irradiance_;
 }
 
 double PointElectrons::of(const Spectrum& irradiance, Vec2d detector_px, double exposure_s) const {

@@ -183,7 +183,7 @@ PointLight::Part PointLight::part_of(const Source& source, int number) const {
     const Vec2d place_px = trails_.place(source.trail, number);
     const bool near = std::abs(place_px.x) <= 1e6 && std::abs(place_px.y) <= 1e6;
     const double electrons = source.electrons * (1.0 / source.trail.parts);
-    return {place_px, near ? electrons * view_.lens.of_point(place_px.x, place_px.y) : 0, source.channel};
+    return {place_px, near ? electrons * view_.light_of_point(place_px.x, place_px.y) : 0, source.channel};
 }
 
 PointLight::Spot PointLight::spot_of(const Part& part, std::size_t i) const {

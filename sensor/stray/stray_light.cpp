@@ -37,7 +37,7 @@ int cells_of(int padded_px, double radius_px, int cell_px) {
 }  // namespace
 
 Ghost::Ghost(const StrayLightConfig& config, const ImageGeometry& geometry)
-    : fraction_(config.ghost_fraction),
+    : over_image_(config.ghost_fraction / (1 - config.ghost_fraction)),
       scale_(config.ghost_scale),
       geometry_(geometry),
       cells_(cells_of(geometry.padded_width(), config.ghost_radius_px, kCell_px),
@@ -59,7 +59,7 @@ void Ghost::collect(double x_px, double y_px, double electrons) {
     const auto i = static_cast<std::size_t>(x);
     const int j = static_cast<int>(y);
     const double u = x - static_cast<double>(i), v = y - j;
-    const double share = fraction_ * electrons;
+    const double share = over_image_ * electrons;
     cells_.row(j)[i] += static_cast<float>(share * (1 - u) * (1 - v));
     cells_.row(j)[i + 1] += static_cast<float>(share * u * (1 - v));
     cells_.row(j + 1)[i] += static_cast<float>(share * (1 - u) * v);

@@ -6,6 +6,9 @@
 // scatter from polished glass (Peterson, "Analytic expression for in-field scattered light distribution",
 // SPIE 5178, 2004, for surfaces with an inverse-square scatter law). Ghost: one out-of-focus image by two
 // reflections between glass faces, mirrored about the principal point and scaled, a disk of the given radius.
+// A data sheet's transmission is that of all light on its way to the detector, so a ghost has a share of it and the image
+// the rest: two faces of reflectance R send (1 - R)^2 into the image and (1 - R)^2 R^2 into the ghost (Born & Wolf,
+// Principles of Optics, chapter 7.6, with intensities added), whose share is R^2 / (1 + R^2).
 
 #include <vector>
 
@@ -19,7 +22,7 @@ namespace hilcam {
 struct StrayLightConfig {
     double veiling_glare_fraction = 0;
     double glare_radius_px = 0;  // 0: even
-    double ghost_fraction = 0;   // share of a source's light
+    double ghost_fraction = 0;   // share of a source's light, which its image lacks
     double ghost_scale = -1;     // image height of the ghost over that of its source; negative: mirrored
     double ghost_radius_px = 32;
 };
@@ -35,13 +38,15 @@ class Ghost {
 
     // These functions are called in this order each frame; loop, one thread.
     void clear();
-    void collect(double x_px, double y_px, double electrons);  // px of the sensor frame
+    // electrons: of the image at that place, px of the sensor frame.
+    void collect(double x_px, double y_px, double electrons);
     void spread();
     // Electrons that the ghost puts into a pixel. Any thread.
     float at(int x_px, int y_px) const;
 
   private:
-    double fraction_, scale_;
+    double over_image_;  // the ghost's light over its image's
+    double scale_;
     ImageGeometry geometry_;
     Convolver cells_;
 };

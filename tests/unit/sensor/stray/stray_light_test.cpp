@@ -84,6 +84,34 @@ TEST(StrayLight, AGhostIsMirroredAndHasItsShare) {
     }
 }
 
+// Two faces do not make light: what the ghost has, the image lacks, and a picture in which nothing leaves the field has
+// the light that came in.
+TEST(StrayLight, AGhostHasItsLightFromTheImage) {
+    CameraModel c = gaussian_camera(0.5);
+    c.width_px = c.height_px = 256;
+    c.stray_light.ghost_fraction = 0.2, c.stray_light.ghost_scale = -0.5;
+    c.stray_light.ghost_radius_px = 20;
+    for (const bool as_point : {false, true}) {
+        Bench bench(c);
+        std::vector<PointSource> points;
+        double all = 0;
+        if (as_point) {
+            points.push_back(point_at(208, 80, 1e-5));
+            all = static_cast<double>(electrons_per_s_per_irradiance(c, bench.grid)[0]) * 1e-5;
+        } else {
+            for (int y = 88 - 2; y < 88 + 2; ++y)
+                for (std::size_t x = 216 - 2; x < 216 + 2; ++x) bench.radiance.row(y)[x] = 1000;
+            all = 16 * 1000 * per_radiance(c, bench.grid);
+        }
+        const ElectronImage& e = bench.expose({.exposure_s = 1}, points);
+        EXPECT_NEAR(sum(e) / all, 1, 2e-3) << as_point;
+        double image = 0;
+        for (int y = 60; y < 100; ++y)
+            for (int x = 188; x < 228; ++x) image += at(e, x, y);
+        EXPECT_NEAR(image / all, 0.8, 2e-3) << as_point;
+    }
+}
+
 // The Sun near an edge: a disk of 8 px at 10^5 full wells. Its wings reach over the picture as lambda N /
 // (pi^3 r^3), nothing rings along its rows, nothing comes back at the other edge.
 TEST(StrayLight, TheSunsWingsReachOverThePicture) {
