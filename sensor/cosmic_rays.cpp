@@ -35,10 +35,13 @@ Track draw_track(const CosmicRayConfig& c, double pitch_m, RandomKey key, std::u
     const double cosine = std::sqrt(uniform(place[2]));
     const double azimuth = 2 * kPi * uniform(place[3]);
     const double sideways_px = c.depth_um * 1e-6 / pitch_m * std::sqrt(1 - cosine * cosine) / cosine;
-    const double spread = static_cast<double>(normal_quantile(uniform01(kind[0]))) * c.spread_fraction;
+    // ln(x) has the variance ln(1 + spread^2) where x has the mean 1: Aitchison & Brown, The Lognormal Distribution, 1957, 2.3.
+    const double log_variance = std::log1p(c.spread_fraction * c.spread_fraction);
+    const double deviate = static_cast<double>(normal_quantile(uniform01(kind[0])));
+    const double over_mean = std::exp(std::sqrt(log_variance) * deviate - 0.5 * log_variance);
     return {uniform(place[0]) * image.width(), uniform(place[1]) * image.height(),
             sideways_px * std::cos(azimuth), sideways_px * std::sin(azimuth),
-            c.electrons_per_um * c.depth_um / cosine * std::max(0.0, 1 + spread)};
+            c.electrons_per_um * c.depth_um / cosine * over_mean};
 }
 
 // Charge along a straight line, in equal parts a quarter of a pixel apart or closer; what leaves the image is

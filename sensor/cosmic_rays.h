@@ -1,6 +1,8 @@
 #pragma once
 // Tracks of charged particles through the detector: a Poisson number per exposure, isotropic directions, a
-// straight line through the depleted depth, electrons per um with a spread.
+// straight line through the depleted depth, electrons per um with a spread. That is log-normal: mean and standard deviation
+// are those asked for, whatever they are, no track takes charge away, and great losses are the rarer ones, as in thin
+// layers (Landau, J. Phys. USSR 8, 201, 1944).
 //
 // A minimum ionising particle leaves about 80 e-/um in silicon (Particle Data Group, Review of Particle
 // Physics, 2022, section 34); protons of 10-100 MeV some hundreds.

@@ -80,5 +80,20 @@ TEST(CosmicRays, TracksHaveTheirRateAndCharge) {
     EXPECT_GT(sum(q), 0);
 }
 
+// The same 1e5 tracks with and without a spread s have the same light within four times s sqrt(sum w^2) / sum w, where w are
+// their lengths: 1 / cos with cos^2 uniform, of which <w>^2 = 4 and <w^2> is about ln(1e5) = 11.5, so s / 186.
+TEST(CosmicRays, AWideSpreadIsNoBrighter) {
+    for (const double spread : {0.3, 1.0, 2.0}) {
+        CosmicRayConfig c;
+        // As thin as that no track leaves the detector but those that are nearly level.
+        c.rate_cm2_s = 1e6, c.depth_um = 0.1, c.electrons_per_um = 80, c.spread_fraction = spread;
+        ElectronImage narrow(100, 100), wide(100, 100);
+        add_tracks(c, 100e-6, 0.1, {1, 1}, wide);
+        c.spread_fraction = 0;
+        add_tracks(c, 100e-6, 0.1, {1, 1}, narrow);
+        EXPECT_NEAR(sum(wide) / sum(narrow), 1, 4 * spread / 186) << spread;
+    }
+}
+
 }  // namespace
 }  // namespace hilcam
