@@ -36,10 +36,7 @@ double next_exposure_s(const AutoExposureConfig& c, Brightness seen, double pres
 DnScale dn_scale_of(const CameraModel& c, const Exposure& exposure) {
     const auto [binning_x, binning_y] = binning_of(c, exposure);
     const auto pixels = static_cast<double>(binning_x * binning_y);
-    // A full well is read as the amplifier bends it.
-    double bend = 1;
-    for (const double coefficient : c.nonlinearity) bend += coefficient;
-    const double well_e = bend * c.full_well_e * (c.binning == BinningKind::kCharge ? pixels : 1);
+    const double well_e = c.read_e(c.full_well_e) * (c.binning == BinningKind::kCharge ? pixels : 1);
     DnScale scale;
     scale.most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     scale.black_dn = exposure.black_level_dn.value_or(c.offset_dn);

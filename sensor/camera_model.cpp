@@ -317,6 +317,24 @@ double CameraModel::system_gain_dn_e(double at_gain_db) const {
     return at_0_db * std::pow(10.0, at_gain_db / 20);
 }
 
+double CameraModel::read_e(double charge_e) const {
+    const double a2 = nonlinearity.empty() ? 0 : nonlinearity[0];
+    const double a3 = nonlinearity.size() < 2 ? 0 : nonlinearity[1];
+    const double q = std::min(charge_e, full_well_e), x = q / full_well_e;
+    return q * (1 + x * (a2 + x * a3));
+}
+
+double CameraModel::charge_of_read_e(double read) const {
+    if (const double well_e = read_e(full_well_e); read >= well_e) return full_well_e + (read - well_e);
+    // What is read rises with charge (validate()).
+    double least_e = 0, most_e = full_well_e;
+    for (int step = 0; step < 60; ++step) {
+        const double middle_e = 0.5 * (least_e + most_e);
+        (read_e(middle_e) < read ? least_e : most_e) = middle_e;
+    }
+    return most_e;
+}
+
 double CameraModel::dark_current_now_e_s() const {
     return dark_current_e_s * std::exp2((temperature_c - dark_reference_c) / dark_doubling_k);
 }

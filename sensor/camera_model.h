@@ -143,6 +143,10 @@ struct CameraModel {
     double aperture_diameter_m() const { return focal_length_m / f_number; }
     // DN per electron at a gain setting.
     double system_gain_dn_e(double at_gain_db) const;
+    // The charge as the amplifier reads it, which ends at the full well [e-].
+    double read_e(double charge_e) const;
+    // The charge that is read as so much; beyond the full well, where there is none, in steps of that size.
+    double charge_of_read_e(double read_e) const;
     // Mean dark current at the operating temperature [e-/s]: doubles every dark_doubling_k.
     double dark_current_now_e_s() const;
     // All the temporal noise of a dark pixel before the converter [e-], dark current apart.

@@ -259,10 +259,7 @@ double configured_quantum_efficiency(const LabSetup& s) {
 }
 
 double configured_signal_dn(const CameraModel& c, double charge_e, double gain_db) {
-    const double a2 = c.nonlinearity.empty() ? 0 : c.nonlinearity[0];
-    const double a3 = c.nonlinearity.size() > 1 ? c.nonlinearity[1] : 0;
-    const double q = std::min(charge_e, c.full_well_e), x = q / c.full_well_e;
-    const double linear = c.system_gain_dn_e(gain_db) * q * (1 + x * (a2 + x * a3)) + c.offset_dn;
+    const double linear = c.system_gain_dn_e(gain_db) * c.read_e(charge_e) + c.offset_dn;
     const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     const auto bent = [&](double dn) {
         const double z = dn / most_dn;

@@ -82,8 +82,9 @@ void add_radiometry(const CameraSheet& s, std::string& out) {
     line(out, "", "full well {:.4g} e- is {:.1f} DN, the converter ends at {:.0f} DN or {:.4g} e-: {} first",
          s.well_e, s.well_dn, s.most_dn, s.converter_e,
          s.well_e <= s.converter_e ? "the well saturates" : "the converter saturates");
-    line(out, "gain", "{:.4g} DN/e- ({:.4g} e-/DN), black at {:.1f} DN", s.gain_dn_e, 1 / s.gain_dn_e,
-         c.offset_dn);
+    line(out, "gain", "{:.4g} DN/e- ({:.4g} e-/DN), black at {:.1f} DN{}", s.gain_dn_e, 1 / s.gain_dn_e,
+         c.offset_dn,
+         c.converter.companding == Companding::kNone ? "" : "; DN are the converter's, before companding");
     for (const CameraSheet::Scene& scene : s.scenes)
         line(out, &scene == &s.scenes.front() ? "SNR" : "", "{:.1f} ({:.1f} dB) {}: {:.4g} e-{}", scene.snr,
              20 * std::log10(scene.snr), scene.name, scene.signal_e,

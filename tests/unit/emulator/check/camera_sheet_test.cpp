@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "emulator/check/check_command.h"
+#include "emulator/check/expected_signal.h"
 #include "io/config/config_yaml.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
@@ -109,6 +110,25 @@ TEST(CameraSheet, NoiseOfTheInspectorIsItsSumOfSquares) {
     // The faintest star has an SNR of 5 in its nine pixels.
     const double n = s.stars[0].total_e * s.core_share * std::pow(10, -0.4 * s.faintest_magnitude);
     EXPECT_NEAR(n / std::sqrt(n + 9 * dark_e * dark_e), 5, 1e-6);
+}
+
+// By hand: a full well is read as 13500 (1 - 0.1) = 12150 e-; half of one as 6750 (1 - 0.05) = 6412.5 e-.
+TEST(CameraSheet, AFullWellIsTheNumberThatTheAmplifierMakesOfIt) {
+    const CameraModel bent = camera("inspector_1k", {"nonlinearity=[-0.1]"});
+    const CameraSheet s = camera_sheet(bent);
+    EXPECT_NEAR(s.well_dn, 64 + 0.29 * 12150, 1e-9);
+    EXPECT_EQ(s.full_scale_e, 13500);
+    EXPECT_NEAR(read_out(s, 6750 - 125 * 0.15e-3).dn, 64 + 0.29 * 6412.5, 1e-9);
+    // The converter ends where that is read: at half of the well.
+    const double half = camera_sheet(camera("inspector_1k", {"nonlinearity=[-0.1]",
+                                                             "gain_dn_e=" + std::to_string(4031 / 6412.5)}))
+                            .converter_e;
+    EXPECT_NEAR(half, 6750, 0.01);
+    // Numbers that are companded after that are not these.
+    EXPECT_EQ(to_text(s).find("companding"), std::string::npos);
+    CameraModel companded = bent;
+    companded.converter.companding = Companding::kSquareRoot;
+    EXPECT_NE(to_text(camera_sheet(companded)).find("before companding"), std::string::npos);
 }
 
 TEST(CameraSheet, GainAndTemperatureCount) {
