@@ -177,6 +177,7 @@ class Reader {
                       const std::string& path, int depth) {
         count_node(place, map, path, depth);
         refuse_unknown_keys(map, place, section.fields, path);
+        std::vector<const Field*> given_fields;
         for (const Field& field : section.fields) {
             const std::string field_path = join(path, field.key);
             const Override* override = override_at(field_path);
@@ -189,15 +190,18 @@ class Reader {
                     fail(place, map, field_path, "the key is missing; it is " + field.meaning);
                 continue;
             }
+            given_fields.push_back(&field);
             if (field.present) *field.present = true;
             const Place value_place =
                 override ? Place{"--set " + field_path, std::filesystem::current_path(), true} : place;
             read_value(opened ? YAML::Node(YAML::NodeType::Map) : given, value_place, field, field_path,
                        depth);
         }
-        if (!section.validate) return;
         try {
-            section.validate();
+            for (const Field* field : given_fields)
+                if (const std::string why = field->why_idle ? field->why_idle() : ""; !why.empty())
+                    throw KeyError(field->key, why);
+            if (section.validate) section.validate();
         } catch (const KeyError& error) {
             fail_at_key(place, map, path, error);
         } catch (const InputError& error) {

@@ -9,6 +9,7 @@
 // is made by Model(const Keys&, BrdfMaking&); brdf_models.h lists it. docs/extending.md adds one.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -92,6 +93,8 @@ struct BrdfModel {
     static constexpr bool kTakesTable = false;     // key `table` goes with it
     static constexpr bool kAlbedoIsBound = false;  // albedo() is far above what it reflects
 
+    // The keys that it takes of those that models share.
+    static constexpr std::array<std::string_view, 1> kSharedKeys{"reflectance"};
     // Keys of its own; check() throws InputError for what would create light.
     struct Keys {};
     static Fields fields(Keys&) { return {}; }

@@ -9,6 +9,8 @@ namespace hilcam::brdf {
 
 struct Dielectric : FacetModel<Dielectric> {
     static constexpr std::string_view kName = "dielectric";
+    static constexpr std::array<std::string_view, 3> kSharedKeys{"reflectance", "roughness",
+                                                                 "refractive_index"};
 
     float refractive_index;
 

@@ -9,6 +9,7 @@ namespace hilcam::brdf {
 
 struct Glass : BrdfModel<Glass> {
     static constexpr std::string_view kName = "glass";
+    static constexpr std::array<std::string_view, 1> kSharedKeys{"refractive_index"};
     static constexpr bool kTransmits = true;
 
     struct Keys {

@@ -8,6 +8,7 @@ namespace hilcam::brdf {
 
 struct Metal : FacetModel<Metal> {
     static constexpr std::string_view kName = "metal";
+    static constexpr std::array<std::string_view, 2> kSharedKeys{"reflectance", "roughness"};
     static constexpr bool kHasBody = false;
 
     explicit Metal(float alpha) { facets = ggx_albedo(alpha, 0); }

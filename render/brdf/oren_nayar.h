@@ -10,6 +10,7 @@ namespace hilcam::brdf {
 
 struct OrenNayar : BrdfModel<OrenNayar> {
     static constexpr std::string_view kName = "oren_nayar";
+    static constexpr std::array<std::string_view, 2> kSharedKeys{"reflectance", "roughness"};
 
     float roughness;
     float a;        // factor of Fujii's model: 1 / (1 + (1/2 - 2/3pi) r)

@@ -8,6 +8,39 @@
 
 namespace hilcam {
 
+namespace {
+
+// The keys of a model, which change what its material looks like.
+template <class Model>
+std::vector<std::string> keys_of() {
+    std::vector<std::string> keys(Model::kSharedKeys.begin(), Model::kSharedKeys.end());
+    typename Model::Keys own;
+    for (const Field& field : Model::fields(own)) keys.push_back(field.key);
+    if (Model::kTakesTable) keys.emplace_back("table");
+    return keys;
+}
+
+std::vector<std::string> keys_of(std::size_t model) {
+    std::vector<std::string> keys;
+    BrdfModels::for_each([&]<class Model>() {
+        if (model == kModel<Model>) keys = keys_of<Model>();
+    });
+    return keys;
+}
+
+std::string why_idle(const MaterialConfig& c, const std::string& key) {
+    std::vector<std::string> taken = keys_of(c.model);
+    taken.insert(taken.end(), {"temperature_k", "source", "model"});
+    if (std::find(taken.begin(), taken.end(), key) != taken.end()) return {};
+    // A surface emits what it does not reflect, whatever its model.
+    if (key == "reflectance" && c.temperature_k > 0) return {};
+    std::string all;
+    for (const std::string& own : taken) all += (all.empty() ? "" : ", ") + own;
+    return "has no effect with model " + std::string(BrdfModels::kNames[c.model]) + "; accepted: " + all;
+}
+
+}  // namespace
+
 Fields fields(MaterialConfig& c) {
     const Range fraction{0, 1};
     const std::vector<std::string> names(BrdfModels::kNames.begin(), BrdfModels::kNames.end());
@@ -35,6 +68,7 @@ Fields fields(MaterialConfig& c) {
                           "none"));
     list.push_back(
         path("table", c.table, "a measured BRDF: MERL .binary, or CSV as docs/materials.md describes"));
+    for (Field& field : list) field.why_idle = [&c, key = field.key] { return why_idle(c, key); };
     return list;
 }
 

@@ -155,6 +155,9 @@ struct Field {
     bool* present = nullptr;     // set when the key is given
     bool changes_frames = true;  // false: frames do not depend on it, so that a replay may have another value
     bool per_frame = false;      // true: it may have another value from one frame to the next (loop.levels)
+    // Says why the key, where it is given, has no effect beside the section's other keys, which are all read by then;
+    // empty: it has one. Null: it always has.
+    std::function<std::string()> why_idle{};
 };
 
 inline bool holds_section(const Field& field) {

@@ -142,6 +142,13 @@ constexpr Mistake kMistakes[] = {
     {"Millimetres", 22, "    mesh: plate.obj\n    scale: 10000", "", "the file is probably in millimetres"},
     {"LooksAway", 18, "  look_at_m: [8, 0, 0]", "", "object 'plate' is behind the camera"},
     {"Kilometres", 22, "    mesh: plate.obj\n    scale: 0.001", "", "is its scale too small?"},
+    {"WindowBesideTheSensor", 14, "  bits: 12\n  window_px: [60, 0, 10, 10]", "15:14",
+     "camera.window_px: reaches outside the sensor of 64 x 64"},
+    {"KeyOfAnotherModel", 22,
+     "    mesh: plate.obj\n    materials: {surfaces: [{name: a, material: {model: glass, roughness: 0.2}}]}",
+     "23:74",
+     "objects.0.materials.surfaces.0.material.roughness: has no effect with model glass; accepted: "
+     "refractive_index, transmittance, temperature_k, source, model"},
     {"LineTimeOfAGlobalShutter", 14, "  bits: 12\n  shutter: {line_time_us: 30}", "",
      "camera.shutter.line_time_us: has no effect with kind: global"},
     {"SecondCameraForNobody", 24,
