@@ -10,16 +10,17 @@ namespace {
 // The plane at distance 1 that a body is seen on, in squares that hold it.
 class LittlePicture {
   public:
-    LittlePicture(const FrameView& frame, const PlacedBody& body)
+    // rays_across: the least number of rays across the cone of that cosine about the body's middle.
+    LittlePicture(const FrameView& frame, const PlacedBody& body, double cone_cosine, int rays_across)
         : background_(*frame.background),
           body_(body),
           right_(normalized(
               cross(body.world_dir, std::abs(body.world_dir.z) < 0.7 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}))),
           down_(cross(body.world_dir, right_)),
-          reach_(std::sqrt(1 - body.cone_cosine * body.cone_cosine) / body.cone_cosine) {
+          reach_(std::sqrt(1 - cone_cosine * cone_cosine) / cone_cosine) {
         const double size_px = 2 * reach_ * frame.geometry.focal_length_px;
         cells_ = std::clamp(static_cast<int>(std::ceil(2 * size_px)), 1, kMostCells);
-        rays_ = (kLeastRays + cells_ - 1) / cells_;
+        rays_ = (rays_across + cells_ - 1) / cells_;
         step_ = 2 * reach_ / (cells_ * rays_);
     }
     int cells() const { return cells_; }
@@ -50,8 +51,6 @@ class LittlePicture {
   private:
     static constexpr int kMostCells = 16;
     static_assert(kMostCells * kMostCells == kMostBodyPoints);
-    // Across the body: the light of a Lambertian sphere at half phase is right to 0.2 %.
-    static constexpr int kLeastRays = 64;
     // The rays' places in their squares: a grid that lay evenly about the disk's middle would have each error at its rim
     // four or eight times.
     static constexpr double kAsideX = 0.29, kAsideY = 0.11;
@@ -64,9 +63,12 @@ class LittlePicture {
     double step_;
 };
 
+// Across the body: the light of a Lambertian sphere at half phase is right to 0.2 %.
+constexpr int kRaysAcross = 64;
+
 void add_cells(const FrameView& frame, const PlacedBody& body, const PointField& field,
                std::vector<PointSource>& points) {
-    const LittlePicture picture(frame, body);
+    const LittlePicture picture(frame, body, body.cone_cosine, kRaysAcross);
     const std::uint32_t thing = PointSource::kFirstBody + static_cast<std::uint32_t>(index_of(body.id));
     // It does not hide itself.
     const double before_m = body.distance_m * (1 - 1.01 * std::sqrt(1 - body.cone_cosine * body.cone_cosine));
@@ -78,12 +80,28 @@ void add_cells(const FrameView& frame, const PlacedBody& body, const PointField&
         }
 }
 
+// Returns the direction from which the light of a body below a pixel comes: of a crescent not that of the body's middle. Rays
+// lie as close as in a body of a pixel.
+Vec3d light_dir(const FrameView& frame, const PlacedBody& body, const PointField& field) {
+    const double sine = std::sqrt(1 - body.disk_cosine * body.disk_cosine);
+    const double size_px = 2 * sine / body.disk_cosine * frame.geometry.focal_length_px;
+    // The light of a smaller one is less than a hundredth of a pixel from its middle.
+    constexpr double kSeen_px = 0.02;
+    if (size_px < kSeen_px || !field.sees(body.world_dir, body.distance_m)) return body.world_dir;
+    const LittlePicture picture(frame, body, body.disk_cosine,
+                                std::max(4, static_cast<int>(std::ceil(kRaysAcross * size_px))));
+    Vec3d sum;
+    for (int j = 0; j < picture.cells(); ++j)
+        for (int i = 0; i < picture.cells(); ++i) sum = sum + picture.cell(i, j).middle;
+    return dot(sum, sum) > 0 ? normalized(sum) : body.world_dir;
+}
+
 }  // namespace
 
 void add_body_points(const FrameView& frame, const PointField& field, std::vector<PointSource>& points) {
     const Background& background = *frame.background;
     for (const PlacedBody& body : background.points())
-        field.add(body.world_dir, body.distance_m, background.point_irradiance(body), points);
+        field.add(light_dir(frame, body, field), body.distance_m, background.point_irradiance(body), points);
     for (std::size_t i = 0; i < frame.body_box_count; ++i)
         if (background.disks()[i].in_points && !frame.body_boxes[i].empty())
             add_cells(frame, background.disks()[i], field, points);

@@ -1,7 +1,7 @@
 #pragma once
 // The light of bodies that are a few pixels wide or less, as points: of a body below a pixel one, of a larger one its own
 // little picture in cells of half a pixel, each a point at the middle of its light. So the light is the body's at its phase,
-// and its place does not jump from pixel to pixel.
+// a crescent's lies where the crescent is, and its place does not jump from pixel to pixel.
 
 #include <vector>
 

@@ -64,6 +64,30 @@ TEST(Renderer, ABodyOfAFewPixelsHasItsLightWhereverItLies) {
     }
 }
 
+// A Lambertian sphere at half phase: the light of a place n goes with n_x, seen over n_z, so that its middle is at
+// R int n_x^2 n_z / int n_x n_z = R (pi / 8) / (2 / 3) over the lit half that is seen.
+TEST(Renderer, ABodyBelowAPixelStandsAtTheMiddleOfItsLight) {
+    constexpr double kDistance_m = 4e8;
+    const double radius_m = kFigures[index_of(BodyId::kMoon)].equatorial_radius_m;
+    for (const double size_px : {0.1, 0.5, 0.9, 1.1}) {
+        Stage s;
+        s.camera(32, 16 / (size_px * kDistance_m / (2 * radius_m)));
+        BodyConfig config = default_body(BodyId::kMoon);
+        config.law = SurfaceLaw::kLambert, config.measured_magnitude = false;
+        s.scene.body(BodyId::kMoon) = {true, BodyLook(BodyId::kMoon, config, s.grid), {}};
+        s.build();
+        s.world.bodies[BodyId::kMoon].world_m = {0, 0, kDistance_m};
+        for (const Vec3d sun_dir : {Vec3d{1, 0, 0}, {0, -1, 0}}) {
+            s.world.bodies.sun_world_m = kAstronomicalUnit_m * sun_dir + Vec3d{0, 0, kDistance_m};
+            s.render_again();
+            const Vec2d middle_px = s.light().centroid_px;
+            const double aside_px = 3 * kPi / 16 * size_px / 2;
+            EXPECT_NEAR(middle_px.x, s.geometry.center_px().x + aside_px * sun_dir.x, 0.01) << size_px;
+            EXPECT_NEAR(middle_px.y, s.geometry.center_px().y + aside_px * sun_dir.y, 0.01) << size_px;
+        }
+    }
+}
+
 TEST(Renderer, EmptySkyIsBlack) {
     Stage s;
     s.render();
