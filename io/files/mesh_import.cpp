@@ -305,6 +305,7 @@ Source source_of(const std::filesystem::path& file, const std::string& kind) {
     const std::string name = file.string();
     Source source{(file.parent_path() / file.stem()).string() + kind, read_input_file(file, mesh_kind())};
     if (kind == ".ply") require_ply_header(source.bytes, name);
+    if (kind == ".stl") require_whole_stl(source.bytes, name);
     if (kind == ".gltf") require_few_nodes(source.bytes, name);
     if (kind != ".glb") return source;
     const GlbChunks chunks = require_glb_chunks(source.bytes, name);

@@ -57,6 +57,32 @@ TEST_F(Files, PlyAndStlLoad) {
         1u);
 }
 
+// 84 bytes, then 50 for each triangle.
+TEST_F(Files, ABinaryStlIsAsLongAsItSays) {
+    const auto stl = [](const std::string& header, std::uint8_t triangles, std::size_t bytes) {
+        std::string out = header + std::string(80 - header.size(), ' ');
+        out += {static_cast<char>(triangles), 0, 0, 0};
+        for (int i = 0; i < triangles; ++i) {
+            for (const float number : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
+                out.append(reinterpret_cast<const char*>(&number), sizeof(number));
+            out.append(2, '\0');
+        }
+        out.resize(bytes, '\0');
+        return out;
+    };
+    for (const char* header : {"", "solid as some programs begin it"}) {
+        EXPECT_EQ(load_mesh(write("m.stl", stl(header, 1, 134))).triangles.size(), 1u);
+        EXPECT_THAT(
+            mesh_error(write("m.stl", stl(header, 10, 284))),
+            HasSubstr("m.stl: does not parse: its 10 triangles, as a binary STL, take 584 bytes, and the "
+                      "file has 284, room for 4"));
+        EXPECT_THAT(mesh_error(write("m.stl", stl(header, 4, 304))),
+                    HasSubstr("the file has 304, room for 4"));
+    }
+    EXPECT_THAT(mesh_error(write("m.stl", std::string(30, '\0'))),
+                HasSubstr("m.stl: does not parse: found 30 bytes"));
+}
+
 TEST_F(Files, BadMeshesSayWhatIsWrong) {
     EXPECT_THAT(mesh_error(folder_ / "none.glb"), HasSubstr("none.glb: no such mesh file"));
     EXPECT_THAT(mesh_error(write("m.txt", "x")), HasSubstr("found a file of kind '.txt'; accepted: .glb"));
