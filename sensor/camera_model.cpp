@@ -172,13 +172,12 @@ Fields fields(CameraModel& c) {
 
 namespace {
 
-void check_range(double value, const std::vector<double>& range, const char* key, const char* range_key) {
+void check_range(double value, const std::vector<double>& range, const std::string& key,
+                 const std::string& range_key) {
     if (range[0] > range[1])
-        throw InputError(std::string(range_key) +
-                         ": found a lower limit above the upper; accepted: [lower, upper]");
+        throw KeyError(range_key, "found a lower limit above the upper; accepted: [lower, upper]");
     if (value < range[0] || value > range[1])
-        throw InputError(std::string(key) + " at power-up lies outside " + range_key +
-                         "; accepted: a value inside");
+        throw KeyError(key, "lies outside " + range_key + " at power-up; accepted: a value inside");
 }
 
 void check_settings(const CameraModel& c) {
@@ -186,9 +185,10 @@ void check_settings(const CameraModel& c) {
         check_range(c.exposure_s, c.exposure_range_s, "exposure_ms", "exposure_range_ms");
     check_range(c.gain_db, c.gain_range_db, "gain_db", "gain_range_db");
     check_range(c.frame_rate_hz, c.frame_rate_range_hz, "frame_rate_hz", "frame_rate_range_hz");
-    for (const SettingsStep& step : c.sequence) {
-        check_range(step.exposure_s, c.exposure_range_s, "sequence: exposure_ms", "exposure_range_ms");
-        check_range(step.gain_db, c.gain_range_db, "sequence: gain_db", "gain_range_db");
+    for (std::size_t i = 0; i < c.sequence.size(); ++i) {
+        const std::string step = "sequence." + std::to_string(i) + ".";
+        check_range(c.sequence[i].exposure_s, c.exposure_range_s, step + "exposure_ms", "exposure_range_ms");
+        check_range(c.sequence[i].gain_db, c.gain_range_db, step + "gain_db", "gain_range_db");
     }
     if (c.auto_exposure.on && !c.sequence.empty())
         throw InputError("auto_exposure.on and sequence: a camera has one or the other; found both");
@@ -230,9 +230,9 @@ void check_lens(const CameraModel& c) {
     }
     for (std::size_t i = 1; i < c.field_zones.size(); ++i)
         if (c.field_zones[i].field_fraction <= c.field_zones[i - 1].field_fraction)
-            throw InputError("field_zones: found field_fraction " + plain(c.field_zones[i].field_fraction) +
-                             " after " + plain(c.field_zones[i - 1].field_fraction) +
-                             "; accepted: values that rise from zone to zone");
+            throw KeyError("field_zones", "found field_fraction " + plain(c.field_zones[i].field_fraction) +
+                                              " after " + plain(c.field_zones[i - 1].field_fraction) +
+                                              "; accepted: values that rise from zone to zone");
 }
 
 void check_detector(const CameraModel& c) {
@@ -240,17 +240,17 @@ void check_detector(const CameraModel& c) {
     if (c.pixel_aperture_m.size() == 2)
         for (const double side : c.pixel_aperture_m)
             if (side > c.pitch_m)
-                throw refused("pixel_aperture_um", plain(side * 1e6),
-                              "no more than pitch_um " + plain(c.pitch_m * 1e6));
+                throw refused_key("pixel_aperture_um", plain(side * 1e6),
+                                  "no more than pitch_um " + plain(c.pitch_m * 1e6));
     // The curve of charge read over charge must rise to the full well.
     const double a2 = c.nonlinearity.empty() ? 0 : c.nonlinearity[0];
     const double a3 = c.nonlinearity.size() > 1 ? c.nonlinearity[1] : 0;
     for (int i = 0; i <= 100; ++i) {
         const double x = i / 100.0;
         if (1 + 2 * a2 * x + 3 * a3 * x * x <= 0)
-            throw InputError("nonlinearity: found a response that falls while the charge rises, at " +
-                             plain(x) +
-                             " of the full well; accepted: coefficients with which it rises all the way");
+            throw KeyError("nonlinearity",
+                           "found a response that falls while the charge rises, at " + plain(x) +
+                               " of the full well; accepted: coefficients with which it rises all the way");
     }
     if (c.shutter.kind != ShutterKind::kLineScan &&
         (c.shutter.tdi_stages > 1 || c.shutter.tdi_mismatch_fraction != 0))
@@ -271,7 +271,7 @@ void check_electronics(const CameraModel& c) {
         throw InputError(std::string("a camera has either gain_dn_e or gain_e_dn; found ") +
                          (c.has_gain_dn_e ? "both" : "neither"));
     if (c.container_bits != 8 && c.container_bits != 16)
-        throw InputError("container_bits " + std::to_string(c.container_bits) + "; accepted: 8 or 16");
+        throw refused_key("container_bits", std::to_string(c.container_bits), "8 or 16");
     if (c.frame_bits() > c.container_bits)
         throw InputError("bits " + std::to_string(c.frame_bits()) + " do not fit into container_bits " +
                          std::to_string(c.container_bits) + "; accepted: no more bits than that");
@@ -279,19 +279,21 @@ void check_electronics(const CameraModel& c) {
         throw InputError("packing gige with " + std::to_string(c.frame_bits()) + " bits; accepted: 10 or 12");
     const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     if (c.offset_dn >= most_dn)
-        throw InputError("offset_dn " + plain(c.offset_dn) + " leaves nothing of the ADC's " +
-                         std::to_string(c.bits) + " bits; accepted: below " + plain(most_dn));
+        throw KeyError("offset_dn", plain(c.offset_dn) + " leaves nothing of the ADC's " +
+                                        std::to_string(c.bits) + " bits; accepted: below " + plain(most_dn));
     if (c.converter.companding != Companding::kNone && c.bits == 8)
         throw InputError("converter.companding to 8 bits; found bits 8");
 }
 
 void check_rectangles(const CameraModel& c) {
+    for (const double number : c.window_px)
+        if (number != std::floor(number)) throw refused_key("window_px", plain(number), "whole pixels");
     const PixelRectangle w = window_of(c);
     if (w.width < 1 || w.height < 1 || w.left + w.width > c.width_px || w.top + w.height > c.height_px)
-        throw InputError("window_px reaches outside the sensor of " + std::to_string(c.width_px) + " x " +
-                         std::to_string(c.height_px) + ": found left " + std::to_string(w.left) + ", top " +
-                         std::to_string(w.top) + ", " + std::to_string(w.width) + " x " +
-                         std::to_string(w.height));
+        throw KeyError("window_px", "reaches outside the sensor of " + std::to_string(c.width_px) + " x " +
+                                        std::to_string(c.height_px) + ": found left " +
+                                        std::to_string(w.left) + ", top " + std::to_string(w.top) + ", " +
+                                        std::to_string(w.width) + " x " + std::to_string(w.height));
     const auto [width, height] = array_size(c);
     if (width < c.binning_x || height < c.binning_y)
         throw InputError("binning_x, binning_y: found " + std::to_string(c.binning_x) + " and " +

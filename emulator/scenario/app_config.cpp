@@ -22,7 +22,8 @@ namespace hilcam {
 
 Fields fields(StarsConfig& s) {
     return {
-        path("catalogue", s.catalogue, "CSV in the form of configs/stars/hipparcos.csv; left out: no stars"),
+        path("catalogue", s.catalogue, s.catalogue_where,
+             "CSV in the form of configs/stars/hipparcos.csv; left out: no stars"),
         number("faintest_magnitude", s.faintest_magnitude, 1, {-2, 30},
                "magnitude of the faintest stars shown; fainter ones are left out"),
     };

@@ -37,6 +37,7 @@ namespace hilcam {
 
 struct StarsConfig {
     std::filesystem::path catalogue;  // empty: no stars
+    std::string catalogue_where;      // the key's place in the scenario
     double faintest_magnitude = 8;
 };
 Fields fields(StarsConfig& stars);

@@ -177,18 +177,25 @@ std::string make_of(const ObjectConfig& config, const std::filesystem::path& mes
     return make + section_listing(section_of(materials));
 }
 
-// Loads the meshes; an error in a mesh file stands where the scenario names it.
+// What is wrong with a file stands where the scenario names it.
+template <class Load>
+auto loaded_for(const std::string& key_where, const Load& load) {
+    try {
+        return load();
+    } catch (const InputError& error) {
+        if (key_where.empty()) throw;
+        throw InputError(key_where + ": " + error.what());
+    }
+}
+
 std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem::path& file,
                               const std::vector<std::string>& nodes) {
     const Progress progress("mesh " + file.filename().string());
-    try {
+    return loaded_for(config.mesh_where, [&] {
         return load_mesh_parts(
             file, nodes,
             config.has_mesh_surface ? std::optional(static_cast<int>(config.mesh_surface)) : std::nullopt);
-    } catch (const InputError& error) {
-        if (config.mesh_where.empty()) throw;
-        throw InputError(config.mesh_where + ": " + error.what());
-    }
+    });
 }
 
 // The objects in their order, then all their turning parts: as WorldState places them. The first of a make is
@@ -391,7 +398,9 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     scene.lamps = scene_lamps(scenario, grid);
     scene.stars_time = time;
     if (const auto& stars = scenario.stars; stars && !stars->catalogue.empty())
-        scene.stars = stars_at(load_catalogue(stars->catalogue), time, stars->faintest_magnitude, grid);
+        scene.stars =
+            stars_at(loaded_for(stars->catalogue_where, [&] { return load_catalogue(stars->catalogue); }),
+                     time, stars->faintest_magnitude, grid);
     for (std::size_t i = 0; i < kBodyCount; ++i)
         scene.bodies[i] = load_body(static_cast<BodyId>(i), std::string(kBodyNames[i]), kFigures[i],
                                     scenario.bodies[i], grid);

@@ -13,13 +13,13 @@ namespace {
 
 TEST(CameraModel, RefusesWhatCannotBeByName) {
     const std::vector<std::pair<const char*, std::function<void(CameraModel&)>>> wrong = {
-        {"exposure_ms at power-up lies outside exposure_range_ms",
+        {"exposure_ms: lies outside exposure_range_ms at power-up",
          [](CameraModel& c) { c.exposure_s = 100; }},
-        {"offset_dn 5000 leaves nothing of the ADC's 12 bits", [](CameraModel& c) { c.offset_dn = 5000; }},
+        {"offset_dn: 5000 leaves nothing of the ADC's 12 bits", [](CameraModel& c) { c.offset_dn = 5000; }},
         {"bits 12 do not fit into container_bits 8", [](CameraModel& c) { c.container_bits = 8; }},
         {"packing gige with 14 bits; accepted: 10 or 12",
          [](CameraModel& c) { c.bits = 14, c.packing = Packing::kGige; }},
-        {"container_bits 12; accepted: 8 or 16", [](CameraModel& c) { c.container_bits = 12; }},
+        {"container_bits: found 12; accepted: 8 or 16", [](CameraModel& c) { c.container_bits = 12; }},
         {"either gain_dn_e or gain_e_dn; found both", [](CameraModel& c) { c.has_gain_e_dn = true; }},
         {"either gain_dn_e or gain_e_dn; found neither",
          [](CameraModel& c) { c.has_gain_dn_e = false, c.gain_dn_e = 0; }},
@@ -46,9 +46,13 @@ TEST(CameraModel, RefusesWhatCannotBeByName) {
          [](CameraModel& c) {
              c.nonlinearity = {-0.5, -0.5};
          }},
-        {"window_px reaches outside the sensor of 64 x 64",
+        {"window_px: reaches outside the sensor of 64 x 64",
          [](CameraModel& c) {
              c.window_px = {60, 0, 10, 10};
+         }},
+        {"window_px: found 0.5; accepted: whole pixels",
+         [](CameraModel& c) {
+             c.window_px = {0.5, 0, 10, 10};
          }},
         {"binning_x, binning_y: found 2 and 1",
          [](CameraModel& c) {

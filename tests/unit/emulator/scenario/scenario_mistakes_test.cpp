@@ -155,6 +155,8 @@ constexpr Mistake kMistakes[] = {
      "more_cameras: [{camera: {width_px: 8, height_px: 8, pitch_um: 10, focal_length_mm: 6.4, f_number: 8, "
      "quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: 0.2, bits: 12}}]",
      "", "more_cameras.0.outputs: camera 2 has none"},
+    {"NoSuchCatalogue", 24, "stars: {catalogue: none.csv}", "24:20: stars.catalogue",
+     "none.csv: no such file; accepted: a star catalogue in CSV"},
     {"StarsWithoutACatalogue", 24, "stars: {faintest_magnitude: 6}", "", "stars: there are none without"},
     {"ExposureLongerThanThePeriod", 14, "  bits: 12\n  exposure_ms: 200", "",
      "camera.frame_rate_hz is 30, and camera.exposure_ms with the shutter's rows leaves 5"},
@@ -192,6 +194,21 @@ TEST_P(ScenarioMistakes, AreTold) {
 
 INSTANTIATE_TEST_SUITE_P(All, ScenarioMistakes, testing::ValuesIn(kMistakes),
                          [](const auto& mistake) { return std::string(mistake.param.name); });
+
+// A value that is right by itself and wrong in its place is the command line's, wherever the section's file is.
+TEST_F(FilesTest, AMistakeOfTheCommandLineIsNamedByIt) {
+    write("plate.obj", "v 0 -0.05 -0.05\nv 0 0.05 -0.05\nv 0 0.05 0.05\nf 1 2 3\n");
+    const auto file = write("scenario.yaml", kScenario);
+    const auto error = [&](const std::string& set) {
+        return error_of([&] { check_scenario(load_scenario(file, {{set}})); });
+    };
+    EXPECT_THAT(error("camera.window_px=[60, 0, 10, 10]"),
+                testing::StartsWith("--set camera.window_px: reaches outside the sensor of 64 x 64"));
+    EXPECT_THAT(error("camera.window_px=[0.5, 0, 10, 10]"),
+                testing::StartsWith("--set camera.window_px: found 0.5; accepted: whole pixels"));
+    EXPECT_THAT(error("camera.offset_dn=5000"), testing::StartsWith("--set camera.offset_dn: 5000 leaves"));
+    EXPECT_THAT(error("stars.catalogue=none.csv"), testing::StartsWith("--set stars.catalogue: "));
+}
 
 class ScenarioWithoutMistakes : public FilesTest {};
 TEST_F(ScenarioWithoutMistakes, NothingIsToldOfIt) {
