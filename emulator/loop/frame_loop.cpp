@@ -34,8 +34,6 @@ void FrameLoop::render_frames() {
         rendered_.release();
     }
     render_.close();
-    finished_.store(true);
-    stopping_.store(true);
     rendered_.release();
 }
 
@@ -43,12 +41,12 @@ void FrameLoop::sense_frames() {
     for (std::uint64_t turn = 0;; ++turn) {
         rendered_.acquire();
         FrameSlot& slot = slot_of(turn);
-        if (slot.record.id == 0) return;  // the last release comes without a frame
-        sense_.run(slot, stopping_);
-        count_frame();
+        if (slot.record.id == 0) break;  // the last release comes without a frame
+        if (sense_.run(slot, stopping_)) count_frame();
         slot.record.id = 0;
         free_.release();
     }
+    finished_.store(true);
 }
 
 // Times of frames that warm up are not kept.

@@ -36,6 +36,7 @@ class FrameLoop {
     void start();
     // Any thread, more than one at a time, too.
     void stop() noexcept;
+    // True when it has been stopped, or has published all the frames that it was to take.
     bool finished() const { return finished_.load(); }
 
     const SimulatedClock& clock() const { return clock_; }

@@ -33,13 +33,14 @@ SenseStage::SenseStage(const LoopParts& parts, LoopFigures& figures)
     if (parts.settings.limits().has_automatic_exposure) histogram_ = FrameHistogram(camera_.frame_bits());
 }
 
-void SenseStage::run(FrameSlot& slot, const std::atomic<bool>& stopping) {
+bool SenseStage::run(FrameSlot& slot, const std::atomic<bool>& stopping) {
     sense(slot);
-    wait_for_end(slot, stopping);
+    if (!wait_for_end(slot, stopping)) return false;
     if (loses_none_) wait_for_room();
     if (!replays_) know_machine_times(slot);
     if (recorder_) keep(slot);
     publish(slot);
+    return true;
 }
 
 void SenseStage::sense(FrameSlot& slot) {
@@ -85,15 +86,16 @@ void SenseStage::finish_picture(const FrameSlot& slot) {
                              frame_.row(frame_.height() - 1 - y).begin());
 }
 
-// A frame is not published before the camera is over with it, nor before a replay wants it.
-void SenseStage::wait_for_end(const FrameSlot& slot, const std::atomic<bool>& stopping) const {
-    const auto go_on = [&] { return !stopping.load(std::memory_order_relaxed); };
-    while (monotonic_ns() < slot.not_before_ns && go_on())
-        sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_ns() + kLongestSleep_ns));
-    const std::int64_t leaves_ns = slot.leaves_camera_ns;
-    for (std::int64_t now_ns = monotonic_ns(); clock_.camera_at(now_ns) < leaves_ns && go_on();
-         now_ns = monotonic_ns())
-        sleep_until_monotonic_ns(std::min(clock_.when_due(leaves_ns), now_ns + kLongestSleep_ns));
+// A frame is not published before the camera is over with it, nor before a replay wants it; who stops the run before that
+// gets no picture of an exposure that was to last longer.
+bool SenseStage::wait_for_end(const FrameSlot& slot, const std::atomic<bool>& stopping) const {
+    for (std::int64_t now_ns = monotonic_ns();; now_ns = monotonic_ns()) {
+        const bool over = clock_.camera_at(now_ns) >= slot.leaves_camera_ns;
+        if (over && now_ns >= slot.not_before_ns) return true;
+        if (stopping.load(std::memory_order_relaxed)) return false;
+        const std::int64_t due_ns = over ? slot.not_before_ns : clock_.when_due(slot.leaves_camera_ns);
+        sleep_until_monotonic_ns(std::min(due_ns, now_ns + kLongestSleep_ns));
+    }
 }
 
 // In lockstep and in a replay every output has to have room, as no frame may be lost, the last ones of a run

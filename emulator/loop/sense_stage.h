@@ -25,14 +25,15 @@ class SenseStage {
     // Allocates all that run() needs. figures: outlive the stage. Owner thread.
     SenseStage(const LoopParts& parts, LoopFigures& figures);
 
-    // Senses and publishes the slot's frame. Loop, one thread.
-    void run(FrameSlot& slot, const std::atomic<bool>& stopping);
+    // Senses and publishes the slot's frame; false when `stopping` before the camera was over with it: then there is none.
+    // Loop, one thread.
+    bool run(FrameSlot& slot, const std::atomic<bool>& stopping);
 
   private:
     void sense(FrameSlot& slot);
     void measure_exposure(FrameSlot& slot);
     void finish_picture(const FrameSlot& slot);
-    void wait_for_end(const FrameSlot& slot, const std::atomic<bool>& stopping) const;
+    bool wait_for_end(const FrameSlot& slot, const std::atomic<bool>& stopping) const;
     void wait_for_room() const;
     void know_machine_times(FrameSlot& slot) const;
     void keep(const FrameSlot& slot);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <latch>
+#include <limits>
 #include <numeric>
 #include <thread>
 
@@ -182,6 +183,39 @@ TEST_F(FrameLoopTest, LockstepGoesToAnyTimeForWhoAsksAndForgetsWhatWasThere) {
         EXPECT_EQ(rig.collector.frames[i].record.exposure_mid - rig.start, times_s[i] * 1'000'000'000) << i;
         // As above: with what was known before, the pose would be a mixture.
         EXPECT_NEAR(plate_x_px(rig.collector.frames[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
+    }
+}
+
+// --- the end of a run
+
+// The picture of an exposure is there when that is over: a run that ends before it has none.
+TEST_F(FrameLoopTest, NoFrameIsPublishedBeforeItsExposureIsOver) {
+    class Watch : public Collector {
+      public:
+        std::atomic<std::int64_t> least_late_ns{std::numeric_limits<std::int64_t>::max()};
+        void publish(const DnImage& frame, const FrameRecord& record) noexcept override {
+            const std::int64_t end_ns = record.exposure_mid_monotonic_ns + 200'000'000;
+            least_late_ns = std::min(least_late_ns.load(), monotonic_ns() - end_ns);
+            Collector::publish(frame, record);
+        }
+    };
+    for (const std::uint64_t limit : {0u, 2u}) {
+        LoopRig rig(scenario(", frame_rate_hz: 2"), {}, {"camera.exposure_ms=400"});
+        Watch watch;
+        LoopParts parts = rig.parts({limit, 0, true});
+        parts.sinks = {&watch};
+        FrameLoop loop(parts);
+        loop.start();
+        if (limit == 0) {
+            ASSERT_TRUE(watch.wait_for(1));
+            // Within the exposure of the second, which begins 500 ms after the first.
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        }
+        while (limit > 0 && !loop.finished()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        loop.stop();
+        EXPECT_EQ(watch.count(), limit == 0 ? 1u : limit);
+        EXPECT_EQ(loop.counters().frames.load(), watch.count());
+        EXPECT_GE(watch.least_late_ns.load(), -1000) << limit;
     }
 }
 
