@@ -111,6 +111,11 @@ void validate(const EventConfig& e) {
     actions_of(e);
 }
 
+bool EventActions::only_switches_lamps() const {
+    return !ends_run && std::all_of(commands.begin(), commands.end(),
+                                    [](const Command& c) { return std::holds_alternative<LampCommand>(c); });
+}
+
 bool EventActions::takes_picture() const {
     return std::any_of(commands.begin(), commands.end(),
                        [](const Command& c) { return std::holds_alternative<ExposeCommand>(c); });

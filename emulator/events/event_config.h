@@ -60,6 +60,7 @@ struct EventActions {
     std::vector<Command> commands;
     bool ends_run = false;
     bool takes_picture() const;
+    bool only_switches_lamps() const;
 };
 // Throws InputError.
 EventActions actions_of(const EventConfig& event);

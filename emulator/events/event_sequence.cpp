@@ -104,6 +104,14 @@ std::optional<TimeTai> EventSequence::next_time(bool pictures_only) const {
     return first;
 }
 
+std::optional<TimeTai> EventSequence::next_switch_time() const {
+    const std::optional<TimeTai> next = next_time();
+    const auto does_more = [&](const Event& e) {
+        return e.by_clock() && !e.due.empty() && e.due.front() == *next && !e.actions.only_switches_lamps();
+    };
+    return next && std::none_of(events_.begin(), events_.end(), does_more) ? next : std::nullopt;
+}
+
 bool EventSequence::comes_to_something() const {
     return std::any_of(events_.begin(), events_.end(), [](const Event& e) {
         const bool repeats = e.endless() && e.done > 0;

@@ -45,6 +45,8 @@ class EventSequence {
     // Returns when the earliest event is due that waits for its time; of those that take pictures only, if
     // wanted.
     std::optional<TimeTai> next_time(bool pictures_only = false) const;
+    // The same, where no event does anything then but switch lamps.
+    std::optional<TimeTai> next_switch_time() const;
     // True when, among the events that wait for their time, one takes a picture, ends the run, has never
     // happened or has an end of its own: not all of them repeat for ever and change no picture.
     bool comes_to_something() const;

@@ -68,6 +68,8 @@ void EventDirector::look() {
 void EventDirector::before_frame(const TriggerOrder& order) {
     look();
     happen_until(begin_of(order));
+    const double exposure_s = bench_.settings.settings().exposure_s;
+    switch_lamps_until(begin_of(order) + to_ns(bench_.timing.end_s(exposure_s)));
 }
 
 // Returns the begin as the frame starter has it, with the exposure of the frame before where the camera sets
@@ -149,6 +151,13 @@ bool EventDirector::happen_until(TimeTai until) {
         any = true;
     }
     return any;
+}
+
+// Up to the first that does something else then: events keep their order.
+void EventDirector::switch_lamps_until(TimeTai until) {
+    for (std::optional<TimeTai> next = sequence_.next_switch_time(); next && *next < until;
+         next = sequence_.next_switch_time())
+        if (!happen_until(*next)) return;
 }
 
 void EventDirector::happen(const EventSequence::Due& due) {

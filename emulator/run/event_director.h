@@ -59,7 +59,8 @@ class EventDirector : public FrameWatcher {
     bool asks_to_end() const { return asks_to_end_.load(); }
 
     void seen(const SeenFrame& frame, const WorldSnapshot& world) noexcept override;
-    // Lockstep: what is due before the frame of this order happens. By the dispatch, one call at a time but
+    // Lockstep: what is due before the frame of this order happens, and lamps are switched that are to be while the shutter is
+    // open, as switches hold from their own time. By the dispatch, one call at a time but
     // for those that it makes itself.
     void before_frame(const TriggerOrder& order);
 
@@ -81,6 +82,7 @@ class EventDirector : public FrameWatcher {
     std::int64_t wait_until_ns() const;
     TimeTai horizon() const;
     bool happen_until(TimeTai until);
+    void switch_lamps_until(TimeTai until);
     void happen(const EventSequence::Due& due);
     Command stamped(Command command, const EventSequence::Due& due) const;
 

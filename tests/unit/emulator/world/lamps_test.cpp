@@ -227,6 +227,30 @@ TEST_F(LampsTest, AnEventSwitchesAtItsTime) {
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(brightest(rig.collector.frames[i]) > 100, lit[i]) << i;
 }
 
+// Exposures of 20 ms about each second: a quarter of the second one comes after the event, which comes after its middle; a flash
+// of 5 ms lights the fourth for a quarter of its time.
+TEST_F(LampsTest, AnEventInLockstepSwitchesWhileTheShutterIsOpen) {
+    EventRig bench(
+        dark("events:\n"
+             "  - {at_s: 2.005, do: lamp on}\n"
+             "  - {at_s: 3.5, do: lamp off}\n"
+             "  - {name: flash, at_s: 4.002, do: lamp on}\n"
+             "  - {after: flash, delay_s: 0.005, do: lamp off}\n"));
+    LoopRig& rig = bench.rig;
+    for (int s = 1; s <= 5; ++s)
+        EXPECT_EQ(rig.send(ExposeCommand{rig.start + s * kSecond_ns, 1}), CommandStatus::kAccepted);
+    ASSERT_TRUE(rig.collector.wait_for(5));
+    bench.stop();
+    constexpr int kOffset_dn = 50, kNoise_dn = 8;  // eight deviations of 5 e-
+    const auto light = [&](std::size_t i) { return 1.0 * brightest(rig.collector.frames[i]) - kOffset_dn; };
+    const double full = light(2);
+    EXPECT_GT(full, 20 * kNoise_dn);
+    EXPECT_LT(light(0), kNoise_dn);
+    EXPECT_NEAR(light(1), 0.25 * full, 0.1 * full);  // the brightest of noisy pixels
+    EXPECT_NEAR(light(3), 0.25 * full, 0.1 * full);
+    EXPECT_LT(light(4), kNoise_dn);
+}
+
 // The radiance of the whole picture at the start, the lamp lit for the last quarter of 20 ms.
 TEST_F(LampsTest, ASwitchDuringTheExposureCountsForItsShareOfTheTime) {
     const auto light = [&](const std::string& motion, bool switched) {
