@@ -107,15 +107,18 @@ CommandStatus CommandDispatch::perform(const Command& command, const CommandSour
         command);
 }
 
-// Asks several cameras; the first refusal is the answer.
+// Asks several cameras; the first refusal is the answer, and the notes say whose it is.
 template <class F>
-CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act) {
+CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act, CommandNotes* notes) {
     if (camera > cameras_.size()) return CommandStatus::kUnknownObject;
     CommandStatus status = CommandStatus::kAccepted;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
         if (camera != 0 && camera != i + 1) continue;
         const CommandStatus own = act(cameras_[i]);
-        if (status == CommandStatus::kAccepted) status = own;
+        if (status != CommandStatus::kAccepted || own == status) continue;
+        status = own;
+        if (notes && camera == 0 && cameras_.size() > 1)
+            notes->refused_by = static_cast<std::uint16_t>(i + 1);
     }
     return status;
 }
@@ -213,9 +216,12 @@ CommandStatus CommandDispatch::change(const SettingsChange& change, const Comman
                                       CommandStatus refused) {
     const std::int64_t from_ns = settings_hold_from(source);
     const auto change_all = [&](const auto& is_done) {
-        return for_cameras(source.camera, [&](const CommandedCamera& c) {
-            return is_done(*c.settings) ? CommandStatus::kAccepted : refused;
-        });
+        return for_cameras(
+            source.camera,
+            [&](const CommandedCamera& c) {
+                return is_done(*c.settings) ? CommandStatus::kAccepted : refused;
+            },
+            source.notes);
     };
     const CommandStatus status = change_all([&](const LiveSettings& s) { return s.takes(change); });
     if (status != CommandStatus::kAccepted) return status;
@@ -236,8 +242,9 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
     if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
     order.at_monotonic_ns = source.arrival_monotonic_ns;
     if (e.time.ns != 0) order.at_simulated = tag;
-    return for_cameras(source.camera,
-                       [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
+    return for_cameras(
+        source.camera, [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); },
+        source.notes);
 }
 
 // Exposes in lockstep; with events each frame is an order of its own, so that they come between any two. A
@@ -264,9 +271,10 @@ CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, con
 // Answers when the loops have seen the world for the order's last frame: commands that come later do not
 // count for its frames, so the same commands give the same frames at any pace.
 CommandStatus CommandDispatch::run_order(const TriggerOrder& order, const CommandSource& source) {
-    const CommandStatus status = for_cameras(source.camera, [&](const CommandedCamera& c) {
-        return status_of(c.settings->order_in_lockstep(order));
-    });
+    const CommandStatus status = for_cameras(
+        source.camera,
+        [&](const CommandedCamera& c) { return status_of(c.settings->order_in_lockstep(order)); },
+        source.notes);
     const CommandStatus done = for_cameras(source.camera, [&](const CommandedCamera& c) {
         return c.settings->wait_for_order(kPatience_s) ? CommandStatus::kAccepted : CommandStatus::kBusy;
     });

@@ -48,7 +48,7 @@ class CommandDispatch : public CommandHandler {
   private:
     CommandStatus perform(const Command& command, const CommandSource& source);
     template <class F>
-    CommandStatus for_cameras(std::uint16_t camera, F&& act);
+    CommandStatus for_cameras(std::uint16_t camera, F&& act, CommandNotes* notes = nullptr);
     CommandStatus set_pose(const PoseCommand& pose, const CommandSource& source);
     CommandStatus turn(const JointCommand& joint, const CommandSource& source);
     CommandStatus switch_lamp(const LampCommand& lamp, const CommandSource& source);

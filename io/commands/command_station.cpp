@@ -106,9 +106,11 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
     if (decoded.status == CommandStatus::kAccepted) {
         const bool is_retry = known && sender.repeats(packet, arrival_ns);
         out.status = is_retry ? sender.once_status : perform(decoded, packet, arrival_ns, sender, notes);
-        if (out.status != CommandStatus::kAccepted || notes.tell_sender)
-            out.reason = notes.tell_sender ? name_of(CommandStatus::kTimeBackwards)
-                                           : meaning_of(out.status, decoded.command);
+        if (notes.tell_sender)
+            out.reason = name_of(CommandStatus::kTimeBackwards);
+        else if (out.status != CommandStatus::kAccepted)
+            out.reason = (notes.refused_by > 0 ? "camera " + std::to_string(notes.refused_by) + ": " : "") +
+                         std::string(meaning_of(out.status, decoded.command));
         if (const auto* ping = std::get_if<PingCommand>(&decoded.command)) out.token = ping->token;
     }
     const std::uint64_t went_back = notes.went_back ? 1 : 0;

@@ -120,10 +120,11 @@ enum class CommandStatus : std::uint8_t {
     kTimeBackwards = 11,  // a time tag before the newest of its thing, where that is to be refused
 };
 
-// The remarks about an accepted command.
+// The remarks about a command that was carried out, or refused.
 struct CommandNotes {
     bool went_back = false;    // its time tag lies before the newest of its thing: a sender's clock is wrong
     bool tell_sender = false;  // that, in the acknowledgement
+    std::uint16_t refused_by = 0;  // the first camera, from 1, to refuse what several were asked; 0: none
 };
 
 // The source of a command that has arrived.

@@ -68,5 +68,28 @@ TEST(CommandDispatch, ACommandIsForTheCameraItNamesAndAPoseForAll) {
     EXPECT_EQ(camera_x_m(right_world, 1'000'000'000'000'000), 7);
 }
 
+TEST(CommandDispatch, ARefusalOfManyCamerasSaysWhichOne) {
+    CameraModel camera;
+    LiveSettings left(camera, {.triggered = true}), right(camera, {.triggered = true});
+    const Motion initial = motion_at(0, 0);
+    WorldState left_world(std::span(&initial, 1), {}), right_world(std::span(&initial, 1), {});
+    FaultBoard left_faults, right_faults;
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
+    left.follow(clock, nullptr), right.follow(clock, nullptr);
+    CommandDispatch dispatch({{&left_world, &left, &left_faults}, {&right_world, &right, &right_faults}},
+                             clock);
+    const auto refused_by = [&](const Command& command, std::uint16_t for_camera, CommandStatus expected) {
+        CommandNotes notes;
+        EXPECT_EQ(dispatch.handle(command, {1, 0, for_camera, &notes}), expected);
+        return notes.refused_by;
+    };
+    const ExposeCommand picture{{1'000'000'000'000'000}, 1};
+    EXPECT_EQ(refused_by(picture, 2, CommandStatus::kAccepted), 0);
+    EXPECT_EQ(refused_by(picture, 0, CommandStatus::kBusy), 2);
+    EXPECT_EQ(refused_by(picture, 1, CommandStatus::kBusy), 0);  // there is no other that it could be
+    ASSERT_TRUE(right.change({.automatic_exposure = true}));
+    EXPECT_EQ(refused_by(SettingsCommand{0.002, {}, {}}, 0, CommandStatus::kBadArgument), 2);
+}
+
 }  // namespace
 }  // namespace hilcam
