@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
 
 #include "emulator/recording/recording_header.h"
@@ -15,10 +16,24 @@ namespace hilcam {
 namespace {
 
 volatile std::sig_atomic_t signalled = 0;
-void on_signal(int) { signalled = 1; }
+std::atomic<std::int64_t> signalled_ns{0};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);  // is used in a signal handler
+
+// The first signal stops the run. A terminal and who wraps the program may each send one, all at once: those are one. Later
+// ones are of somebody who does not want to wait for the end of outputs and report.
+void on_signal(int number) {
+    constexpr std::int64_t kAtOnce_ns = 1'000'000'000;
+    if (!signalled) {
+        signalled_ns.store(monotonic_ns());
+        signalled = 1;
+    } else if (monotonic_ns() - signalled_ns.load() > kAtOnce_ns) {
+        std::signal(number, SIG_DFL);
+        std::raise(number);
+    }
+}
 
 // Stops on SIGINT and SIGTERM while it lives, and on SIGHUP (the terminal closes) unless that is ignored, as
-// nohup does.
+// nohup does. Where one has come, the program is about to end and goes on listening to more of them.
 class SignalGuard {
   public:
     SignalGuard() {
@@ -29,6 +44,7 @@ class SignalGuard {
         if (before_[kHangUp].sa_handler == SIG_IGN) sigaction(SIGHUP, &before_[kHangUp], nullptr);
     }
     ~SignalGuard() {
+        if (signalled) return;
         for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
     }
 

@@ -232,6 +232,27 @@ class Signals(unittest.TestCase):
             self.assertTrue(json.loads(hilcam("recording", recording).stdout.splitlines()[-1])["whole"])
             self.assertFalse(path.exists())
 
+    def test_signals_that_come_at_once_are_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            report = pathlib.Path(folder) / "report.json"
+            process = subprocess.Popen([HILCAM, "run", str(SCENARIO), "--set", "commands.udp.port=15028", "--report", str(report)],
+                                       stderr=subprocess.PIPE, text=True)
+            try:
+                for _ in range(200):
+                    if hilcam("send", "--to", "127.0.0.1:15028", "--timeout-ms", 300, "ping").returncode == 0:
+                        break
+                    time.sleep(0.05)
+                # Less than a second, and up to the program's last moment.
+                for _ in range(180):
+                    process.send_signal(signal.SIGINT)
+                    time.sleep(0.005)
+                log = process.communicate(timeout=30)[1]
+            finally:
+                process.kill()
+                process.communicate()
+            self.assertEqual(process.returncode, 0, log)
+            self.assertGreater(json.loads(report.read_text())["frames"], 0)
+
     def test_a_terminal_that_closes_ends_a_run_in_order(self):
         self.run_and_hang_up(ignored=False)
 
