@@ -177,13 +177,15 @@ void GigeSink::Implementation::order_test_packet(const GigeStreamState& s, std::
     sender.order(order);
 }
 
-// New sockets are opened at once, so that the device can say whether it worked; they are used when the
+// New sockets are opened at once, the stream's too, so that the device can say whether it worked; they are used when the
 // message at hand is answered.
 bool GigeSink::Implementation::change_address(std::uint32_t ip) {
     if (ip == net.address) return true;
     try {
         const NetInterface next = find_interface(format_ipv4(ip));
-        next_sockets = std::make_unique<GigeSockets>(next);
+        auto fresh = std::make_unique<GigeSockets>(next);
+        sender.open(next.address);
+        next_sockets = std::move(fresh);
         net = next;
         return true;
     } catch (const std::runtime_error&) {
@@ -194,7 +196,6 @@ bool GigeSink::Implementation::change_address(std::uint32_t ip) {
 void GigeSink::Implementation::move_to_next_sockets() {
     sockets = std::move(next_sockets);
     sender.close();
-    sender.open(net.address);
     sender.start();
     device->set_ports(sender.port(), sockets->message_port());
     address.store(net.address);

@@ -54,14 +54,17 @@ void GigeSender::open(std::uint32_t address) {
     setsockopt(fresh.get(), IPPROTO_IP, IP_MULTICAST_TTL, &one, sizeof one);
     setsockopt(fresh.get(), IPPROTO_IP, IP_MULTICAST_LOOP, &one, sizeof one);
     setsockopt(fresh.get(), IPPROTO_IP, IP_MULTICAST_IF, &own, sizeof own);
-    socket_ = std::move(fresh);
-    socklen_t size = sizeof address_;
-    getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address_), &size);
-    do_not_fragment_ = true;
-    set_do_not_fragment(false);
+    next_socket_ = std::move(fresh);
+    socklen_t size = sizeof next_address_;
+    getsockname(next_socket_.get(), reinterpret_cast<sockaddr*>(&next_address_), &size);
 }
 
 void GigeSender::start() {
+    if (next_socket_) {
+        socket_ = std::move(next_socket_), address_ = next_address_;
+        do_not_fragment_ = true;
+        set_do_not_fragment(false);
+    }
     stopping_.store(false);
     thread_ = std::thread([this] { run(); });
 }

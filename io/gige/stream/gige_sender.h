@@ -70,9 +70,11 @@ class GigeSender {
                std::function<void(std::uint64_t)> finished);
     ~GigeSender() { close(); }
 
-    // Owner thread. open() throws DeviceError; start() after it. close() ends the thread and may come twice.
+    // Owner thread. open() throws DeviceError, also while the thread runs: its socket is the one that start() takes, after
+    // close(), which ends the thread and may come twice.
     void open(std::uint32_t address);
-    std::uint16_t port() const { return ntohs(address_.sin_port); }
+    // The port of the socket that was opened last.
+    std::uint16_t port() const { return ntohs((next_socket_ ? next_address_ : address_).sin_port); }
     void start();
     void close() noexcept;
 
@@ -127,8 +129,8 @@ class GigeSender {
     DeliveryListener* listener_;
     GigePaceConfig pace_config_;
     std::function<void(std::uint64_t)> finished_;
-    Fd socket_, wakeup_;
-    sockaddr_in address_{};
+    Fd socket_, next_socket_, wakeup_;
+    sockaddr_in address_{}, next_address_{};  // of the sockets
     bool do_not_fragment_ = false;
     std::thread thread_;
     std::atomic<bool> stopping_{false};

@@ -3,7 +3,9 @@
 #include "io/gige/stream/gige_sender.h"
 
 #include <gmock/gmock.h>
+#include <poll.h>
 
+#include <array>
 #include <chrono>
 #include <map>
 #include <thread>
@@ -251,6 +253,34 @@ TEST_P(Sender, TestPacketsHaveTheSizeAskedFor) {
     EXPECT_EQ(sender_.counts().test_packets, 3u);
     faults_.order({.kind = FaultKind::kLinkDown, .rate = 1});
     EXPECT_EQ(test(4004), 0u);
+}
+
+// A camera that is to move opens what it will send from, or learns that it cannot, while it still sends from where it is.
+TEST_P(Sender, AnotherAddressIsOpenedBesideTheOneInUse) {
+    constexpr std::uint32_t kThere = 0x7F530102, kNobodys = 0xC0000201;  // 127.83.1.2; 192.0.2.1 (RFC 5737)
+    const auto sent_from = [&] {
+        GigeOrder order;
+        order.kind = GigeOrder::Kind::kTestPacket;
+        order.to = now_.state.destination;
+        order.packet_bytes = 576;
+        sender_.order(order);
+        pollfd ready{client_.get(), POLLIN, 0};
+        EXPECT_EQ(poll(&ready, 1, kPatience_ms), 1);
+        std::array<std::uint8_t, 1000> bytes;
+        sockaddr_in from{};
+        socklen_t size = sizeof from;
+        recvfrom(client_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&from),
+                 &size);
+        return ntohl(from.sin_addr.s_addr);
+    };
+    EXPECT_EQ(sent_from(), kHere);
+    EXPECT_THROW(sender_.open(kNobodys), DeviceError);
+    EXPECT_EQ(sent_from(), kHere);
+    sender_.open(kThere);
+    EXPECT_EQ(sent_from(), kHere);
+    sender_.close();
+    sender_.start();
+    EXPECT_EQ(sent_from(), kThere);
 }
 
 // 6 kB a frame at 200 kB/s, 30 ms: there is time enough in a frame for requests to keep it from its end.
