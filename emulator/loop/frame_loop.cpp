@@ -1,5 +1,7 @@
 #include "emulator/loop/frame_loop.h"
 
+#include <pthread.h>
+
 #include "io/system/monotonic.h"
 
 namespace hilcam {
@@ -27,6 +29,7 @@ void FrameLoop::stop() noexcept {
 }
 
 void FrameLoop::render_frames() {
+    pthread_setname_np(pthread_self(), "render");
     for (std::uint64_t turn = 0;; ++turn) {
         free_.acquire();
         const bool enough = limits_.frames != 0 && turn >= limits_.frames;
@@ -38,6 +41,7 @@ void FrameLoop::render_frames() {
 }
 
 void FrameLoop::sense_frames() {
+    pthread_setname_np(pthread_self(), "sense");
     for (std::uint64_t turn = 0;; ++turn) {
         rendered_.acquire();
         FrameSlot& slot = slot_of(turn);

@@ -1,9 +1,17 @@
 #include "emulator/run/log_setup.h"
 
+#include <pthread.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
 
 #include "render/vocabulary/quoted.h"
 
@@ -22,9 +30,40 @@ class HarmlessMessage final : public spdlog::custom_flag_formatter {
     }
 };
 
+// Writes a line without allocating: memory may be what is missing.
+void write_last_line(const char* what) noexcept {
+    std::array<char, 16> thread{};
+    pthread_getname_np(pthread_self(), thread.data(), thread.size());
+    std::array<char, 512> line{};
+    const int length =
+        std::snprintf(line.data(), line.size() - 1,
+                      "hilcam: thread '%s' cannot go on, which ends the program: %s", thread.data(), what);
+    const auto end = line.begin() + std::clamp(length, 0, static_cast<int>(line.size()) - 2);
+    std::replace_if(
+        line.begin(), end, [](char c) { return c >= 0 && (c < ' ' || c == 127); }, '?');
+    *end = '\n';
+    static_cast<void>(!write(STDERR_FILENO, line.data(), static_cast<std::size_t>(end - line.begin()) + 1));
+}
+
+// Is called where an exception leaves a thread, or a function that may not throw.
+[[noreturn]] void end_with_last_words() {
+    try {
+        if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+        write_last_line("std::terminate");
+    } catch (const std::bad_alloc&) {
+        write_last_line("not enough memory");
+    } catch (const std::exception& error) {
+        write_last_line(error.what());
+    } catch (...) {
+        write_last_line("an exception of an unknown kind");
+    }
+    std::abort();
+}
+
 }  // namespace
 
 void set_up_log() {
+    std::set_terminate(end_with_last_words);
     spdlog::set_default_logger(spdlog::stderr_color_mt("hilcam"));
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
     // On a terminal the line may have a Progress's words in it.

@@ -177,7 +177,7 @@ std::string make_of(const ObjectConfig& config, const std::filesystem::path& mes
     return make + section_listing(section_of(materials));
 }
 
-// What is wrong with a file stands where the scenario names it.
+// An error in a file stands where the scenario names it.
 template <class Load>
 auto loaded_for(const std::string& key_where, const Load& load) {
     try {

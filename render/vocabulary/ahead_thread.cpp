@@ -1,5 +1,6 @@
 #include "render/vocabulary/ahead_thread.h"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
@@ -21,6 +22,7 @@ void AheadThread::stop() {
 }
 
 void AheadThread::run(Rank rank) {
+    pthread_setname_np(pthread_self(), "ahead");
     // Frames come first; and one core of those that they leave is enough.
     constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
     // Linux: the process's number is that of its first thread. Who has started this one may be nicer (light_maker.h).

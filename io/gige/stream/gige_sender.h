@@ -130,7 +130,7 @@ class GigeSender {
     GigePaceConfig pace_config_;
     std::function<void(std::uint64_t)> finished_;
     Fd socket_, next_socket_, wakeup_;
-    sockaddr_in address_{}, next_address_{};  // of the sockets
+    sockaddr_in address_{}, next_address_{};  // addresses of the sockets
     bool do_not_fragment_ = false;
     std::thread thread_;
     std::atomic<bool> stopping_{false};
