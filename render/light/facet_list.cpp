@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "render/light/facet_packet.h"
 #include "render/vocabulary/lane_sum.h"
@@ -48,6 +49,7 @@ class Reflection {
         // By a facet's lobe alone: depends on the angle between viewer and light, and on nothing else.
         Spectrum mirrored;
         float light;        // over all bins together
+        float going_on;     // of the facets so far that one triangle's normals make
         HalfShares halves;  // times the light
     };
     std::array<Sum, SunnyVertex::kMost> sums_;
@@ -85,7 +87,6 @@ class Reflection {
         reflect_facets(frame_.world_from_body[kind_->object], facets, packet_);
         const bool diffuse = std::holds_alternative<brdf::Lambert>(surface.material->brdf);
         for (std::size_t i = 0; i < packet_.count; ++i) {
-            if (!(packet_.lit[i] > 0)) continue;
             const std::uint16_t v = owners_[i];
             const Spectrum& base = vertices_[v].at->surface.base;
             if (facets)
@@ -101,9 +102,11 @@ class Reflection {
         const HalfShares halves =
             facet.seen_by != 0 ? frame_.samples.halves(facet.seen_by) : vertices_[v].at->halves;
         out_[v].reflected += reflected;
-        out_[v].add(facet, light);
-        sums_[v].light += light;
-        sums_[v].halves += light * halves;
+        Sum& sum = sums_[v];
+        sum.light += light, sum.going_on += light;
+        sum.halves += light * halves;
+        // For shadows these are one.
+        if (!facet.goes_on) out_[v].add(facet, std::exchange(sum.going_on, 0.0f));
     }
 
     Spectrum part_by_part(std::size_t i) const {
@@ -134,38 +137,41 @@ void FacetLight::add(const Facet& facet, float light) {
     share[place] = light, brightest[place] = &facet;
 }
 
-// Member by member: a Facet that is made first and copied then waits for its own stores.
-void FacetList::push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples, SampleMask seen_by,
-                     const LevelFacets* flattened, Vertex& vertex) {
+// Member by member: a Facet that is copied whole waits for its own stores.
+void FacetList::push(const Facet& part, Vertex& vertex) {
     Facet& added = facets_[count_++];
-    added.geometric_normal = geometric_normal;
-    added.normal = normal;
-    added.start_m = start_m;
-    added.samples = samples;
-    added.seen_by = seen_by;
-    added.flattened = flattened;
+    added.geometric_normal = part.geometric_normal;
+    added.normal = part.normal;
+    added.start_m = part.start_m;
+    added.samples = part.samples;
+    added.seen_by = part.seen_by;
+    added.flattened = part.flattened;
+    added.goes_on = part.goes_on;
     added.next = vertex.facets;
     vertex.facets = &added;
 }
 
-void FacetList::add(const FrameView& frame, const Facet& part, std::uint32_t triangle, bool first,
-                    Vertex& vertex) {
+void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first,
+                    std::span<const Vec3f> turns, Vertex& vertex) {
     const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
-    float flattened = 0;
-    const LevelFacets* wrinkles = nullptr;
+    bool has_flattened = false;
     if (!object.facets.empty()) {
-        flattened = object.flattened_alpha[vertex.surface_number];
-        if (!object.facets[triangle].is_flat()) wrinkles = &object.facets[triangle];
-        const float alpha = vertex.surface.alpha;
-        if (first && flattened > 0)
-            vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened));
+        has_flattened = object.flattened_alpha[vertex.surface_number] > 0;
+        if (!object.facets[triangle].is_flat()) part.flattened = &object.facets[triangle];
+        if (first) vertex.facet_alpha = object.unflattened(vertex.surface_number, vertex.surface.alpha);
     }
-    const bool alike = first || dot(vertex.normal, part.normal) > kSame;
-    if (alike && !wrinkles && flattened == 0 && !vertex.facets) return;
+    const bool alike = turns.empty() && (first || dot(vertex.normal, part.normal) > kSame);
+    if (alike && !part.flattened && !has_flattened && !vertex.facets) return;
     if (!first && !vertex.facets)
-        push(vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, vertex.samples,
-             nullptr, vertex);
-    push(part.geometric_normal, part.normal, part.start_m, part.samples, part.seen_by, wrinkles, vertex);
+        push({vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, vertex.samples},
+             vertex);
+    if (turns.empty()) return push(part, vertex);
+    part.samples /= static_cast<float>(turns.size());
+    for (const Vec3f normal : turns) {
+        part.normal = normal;
+        push(part, vertex);
+        part.goes_on = true;
+    }
 }
 
 void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out) {

@@ -1,7 +1,10 @@
 #pragma once
 // The parts of what the camera sees in a pixel that lean otherwise, for the Sun to be reflected by each of
 // them: what a vertex of many samples has joined, and what a level of detail has flattened
-// (levels/level_facets.h).
+// (levels/level_facets.h). What is curved, a tube as wide as the pixel, has several normals in one triangle: facets that
+// share its samples, and of which shadows ask as of one.
+
+#include <span>
 
 #include <span>
 
@@ -13,22 +16,24 @@ namespace hilcam {
 // Memory for the facets of a tile's vertices. One thread at a time.
 class FacetList {
   public:
+    static constexpr std::size_t kTurns = 4;  // normals of a part at most
+
     void clear() { count_ = 0; }
-    // Returns how many calls of add() have a place; each takes two at most, as a vertex's own part comes
-    // late.
-    std::size_t room() const { return (kMax - count_) / 2; }
+    // Returns how many calls of add() have a place; a vertex's own part comes late.
+    std::size_t room() const { return (kMax - count_) / (1 + kTurns); }
 
     // Adds a part to a vertex, whose own is the first. Facets are made where there is more than one, and of
-    // what a level has flattened: its own lobe is wider than theirs. Loop, any thread.
-    void add(const FrameView& frame, const Facet& part, std::uint32_t triangle, bool first, Vertex& vertex);
+    // what a level has flattened: its own lobe is wider than theirs. turns: normals of the part in place of
+    // its one, each of as many of its samples; empty: that one. Loop, any thread.
+    void add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first,
+             std::span<const Vec3f> turns, Vertex& vertex);
 
   private:
     static constexpr std::size_t kMax = 4096;
     std::array<Facet, kMax> facets_;
     std::size_t count_ = 0;
 
-    void push(Vec3f geometric_normal, Vec3f normal, Vec3f start_m, float samples, SampleMask seen_by,
-              const LevelFacets* flattened, Vertex& vertex);
+    void push(const Facet& part, Vertex& vertex);
 };
 
 // The light that the facets of a vertex reflect from a source of irradiance 1, with the vertex's weight.

@@ -21,6 +21,7 @@ struct Facet {
     float samples = 0;                       // samples of sixteen a pixel that see it
     SampleMask seen_by = 0;                  // those of the visibility buffer; 0: it is not of that
     const LevelFacets* flattened = nullptr;  // the facets of the mesh for which it stands; null: itself
+    bool goes_on = false;  // the next one is the same triangle there, and leans otherwise as its normals turn
     const Facet* next = nullptr;
 };
 

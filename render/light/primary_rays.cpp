@@ -374,7 +374,7 @@ class PrimaryRays {
         vertex.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         tile_.set_kind(pixel, HalfKind::kObject);
         tile_.facets.add(frame_, {vertex.geometric_normal, vertex.normal, vertex.start(), 1},
-                         hits_.triangle[k], true, vertex);
+                         hits_.triangle[k], true, {}, vertex);
         ++count_;
         add_air_before(tile_, exact_dir(k), vertex);
     }

@@ -18,6 +18,9 @@ namespace {
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
 constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that are taken for one
+// Normals that turn by this much of a lobe's alpha within a triangle are several: at the lobe's middle one of them is off by
+// 4 % (GGX's density, 1 / (1 + t^2)^2 with t = angle over alpha, over a quarter of alpha to both sides). Paint is a lobe of 1.
+constexpr float kLeastTurn = 0.5f;
 constexpr float kLeastFacing = 1e-4f;  // a vertex's normal against the viewer [cosine], as find_lie() has it
 // A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel: of sunlit paint a
 // quarter of the noise of a full well of 15,000 electrons.
@@ -134,27 +137,38 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
     return nullptr;
 }
 
+// The ray through a place in a fragment's pixel.
+PrimaryVertices::Aim PrimaryVertices::aim_at(const Fragment& fragment, Vec2f place_px) const {
+    const FrameView& frame = tile_.frame;
+    const LinearRays* rays = frame.rays->linear();
+    const int x = fragment.x, y = fragment.y;
+    Vec3d dir;
+    if (rays) {
+        const Vec3d corner = rays->corner + tile_.box.x0 * rays->right + tile_.box.y0 * rays->down;
+        dir = corner + static_cast<double>(static_cast<float>(x) + place_px.x) * rays->right +
+              static_cast<double>(static_cast<float>(y) + place_px.y) * rays->down;
+    } else {
+        dir = direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, place_px);
+    }
+    return {dir, frame.start_before_m > 0 ? frame.start_of(normalized(dir)) : to_float(frame.camera_m)};
+}
+
 // The first fragments, as many as are of one object.
 std::size_t PrimaryVertices::look_at_fragments() {
     const FrameView& frame = tile_.frame;
-    const LinearRays* rays = frame.rays->linear();
-    const Vec3d corner =
-        rays ? rays->corner + tile_.box.x0 * rays->right + tile_.box.y0 * rays->down : Vec3d{};
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
-    const Vec3f body_m = to_float(shown.pose.position_world_m - frame.rays_world_m);
     const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
+    body_m_ = to_float(shown.pose.position_world_m - frame.rays_world_m);
+    mesh_ = {shown.mesh.vertices_m.data(), shown.mesh.triangles.data(), surfaces.triangles.data(),
+             frame.world_from_body[shown.object]};
     std::size_t n = 0;
     for (; n < std::min<std::size_t>(kPacketSize, fragment_count_); ++n) {
         const Fragment& fragment = fragments_[n];
         const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
         if (seen.shown != &shown) break;
-        const Vec2f at = places_px_[n] = frame.samples.middle(fragment.samples);
-        const int x = fragment.x, y = fragment.y;
-        const Vec3d dir = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
-                                     static_cast<double>(static_cast<float>(y) + at.y) * rays->down
-                               : direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, at);
-        dirs_[n] = dir;
-        origins_[n] = frame.start_before_m > 0 ? frame.start_of(normalized(dir)) : to_float(frame.camera_m);
+        places_px_[n] = frame.samples.middle(fragment.samples);
+        const Aim aim = aim_at(fragment, places_px_[n]);
+        dirs_[n] = aim.dir, origins_[n] = aim.origin_m;
         packet_.triangle[n] = seen.triangle;
         __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
         __builtin_prefetch(&surfaces.triangles[seen.triangle]);
@@ -163,20 +177,48 @@ std::size_t PrimaryVertices::look_at_fragments() {
             __builtin_prefetch(&surfaces.corner_uvs[seen.triangle]);
             __builtin_prefetch(&surfaces.uv_per_m[seen.triangle]);
         }
-        packet_.dir.set(n, to_float(dir));
-        packet_.origin.set(n, origins_[n] - body_m);
+        packet_.dir.set(n, to_float(aim.dir));
+        packet_.origin.set(n, aim.origin_m - body_m_);
     }
     for (std::size_t k = n; k < kPacketSize; ++k) packet_.triangle[k] = packet_.triangle[0];
     packet_.count = n;
-    find_lies({shown.mesh.vertices_m.data(), shown.mesh.triangles.data(), surfaces.triangles.data(),
-               frame.world_from_body[shown.object]},
-              packet_);
+    find_lies(mesh_, packet_);
     hits_.object.fill(shown.object);
     hits_.triangle = packet_.triangle;
     hits_.distance = packet_.distance, hits_.u = packet_.u, hits_.v = packet_.v;
     hits_.normal_x = packet_.body_normal.x, hits_.normal_y = packet_.body_normal.y;
     hits_.normal_z = packet_.body_normal.z;
     return n;
+}
+
+// True where the normals of a fragment's triangle turn so far that one of them does not tell what its lobe reflects.
+bool PrimaryVertices::turns_much(std::size_t k) const {
+    if (packet_.turn[k] == 0) return false;
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
+    const std::uint16_t surface = object.triangles[hits_.triangle[k]].surface;
+    const float alpha = object.unflattened(surface, object.materials[surface].ggx_alpha);
+    const float least = kLeastTurn * (object.materials[surface].has_facets() && alpha > 0 ? alpha : 1);
+    return packet_.turn[k] > least * least;
+}
+
+// The normals of a fragment at some of its samples; none where one is enough.
+std::span<const Vec3f> PrimaryVertices::turns_of(std::size_t k) {
+    const Fragment& fragment = fragments_[k];
+    const PixelSamples& grid = tile_.frame.samples;
+    turned_.count = std::min(turns_.size(), static_cast<std::size_t>(std::popcount(fragment.samples)));
+    if (turned_.count < 2 || !turns_much(k)) return {};
+    turned_.triangle.fill(packet_.triangle[k]);
+    SampleMask left = fragment.samples, apart = left;
+    for (std::size_t i = 0; i < turned_.count; ++i) {
+        const int sample = next_sample_across(grid, apart, left);
+        left &= ~(SampleMask{1} << sample);
+        const Aim aim = aim_at(fragment, grid.place(sample));
+        turned_.dir.set(i, to_float(aim.dir));
+        turned_.origin.set(i, aim.origin_m - body_m_);
+    }
+    find_lies(mesh_, turned_);
+    for (std::size_t i = 0; i < turned_.count; ++i) turns_[i] = turned_.normal.at(i);
+    return std::span(turns_).first(turned_.count);
 }
 
 std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {
@@ -217,7 +259,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
         finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples, fragment.samples},
-                         hits_.triangle[k], true, vertex);
+                         hits_.triangle[k], true, turns_of(k), vertex);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
@@ -234,7 +276,7 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
     tile_.facets.add(frame,
                      {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal,
                       samples, seen_by},
-                     hits_.triangle[k], false, vertex);
+                     hits_.triangle[k], false, turns_of(k), vertex);
     // Rays begin at its samples, too, where it lies in the vertex' plane but for a little: at those twice as much above it.
     // All others begin where they did, as what is higher misses the shadow of what is near.
     const Vec3f way_m = point_m - vertex.point_m;

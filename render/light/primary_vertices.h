@@ -40,9 +40,14 @@ class PrimaryVertices {
     // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.
     FragmentPacket packet_;
     HitPacket hits_;
+    FragmentMesh mesh_{};  // the packet's object, and its place [ray space]
+    Vec3f body_m_;
     std::array<Vec2f, kPacketSize> places_px_;  // in their pixels
     std::array<Vec3d, kPacketSize> dirs_;
     std::array<Vec3f, kPacketSize> origins_;
+    // One of them from several of its samples, and how it turns there.
+    FragmentPacket turned_;
+    std::array<Vec3f, FacetList::kTurns> turns_;
     // The mosaic that was met last, as the frame shows it.
     struct ShownMosaic {
         const Mosaic* is = nullptr;
@@ -60,7 +65,14 @@ class PrimaryVertices {
     void take_next_pixel();
     void take_pixel(int x, int y);
     bool leave_to_body(std::size_t k);
+    struct Aim {
+        Vec3d dir;
+        Vec3f origin_m;
+    };
+    Aim aim_at(const Fragment& fragment, Vec2f place_px) const;
     std::size_t look_at_fragments();
+    bool turns_much(std::size_t k) const;
+    std::span<const Vec3f> turns_of(std::size_t k);
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
     struct PixelRays {
         Vec3d middle, right, down;

@@ -64,6 +64,11 @@ struct ObjectSurfaces {
     std::shared_ptr<const std::vector<Mosaic>> mosaics;  // those that triangles stand for; null: none does
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 
+    // Returns a lobe's alpha without the slopes that the level has flattened in a surface.
+    float unflattened(std::uint16_t surface, float alpha) const {
+        const float flattened = flattened_alpha.empty() ? 0.0f : flattened_alpha[surface];
+        return flattened > 0 ? std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened)) : alpha;
+    }
     // Returns the factor on the base at barycentric (u, v) of a triangle; only where there are corner_colors.
     Vec3f color_at(std::size_t triangle, float u, float v) const {
         const auto& c = corner_colors[triangle];

@@ -31,6 +31,15 @@ HWY_INLINE void store(const Vector& a, FragmentPacket::Vectors& to, std::size_t 
 // unpack_normal() (packed_normal.h).
 HWY_INLINE Vector unpacked(I packed) { return unit(unpacked_long(packed)); }
 
+// The greatest distance between two of three, squared.
+HWY_INLINE V turn_of(const Vector (&normals)[3]) {
+    const auto squared = [&](std::size_t i, std::size_t j) {
+        const Vector way = minus(normals[i], normals[j]);
+        return dotted(way, way);
+    };
+    return hn::Max(hn::Max(squared(0, 1), squared(1, 2)), squared(2, 0));
+}
+
 void lies(const FragmentMesh& mesh, FragmentPacket& p) {
     const Floats d;
     const Ints di;
@@ -70,11 +79,12 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
         store(raw, p.body_normal, k);
         const Vector geometric_body = unit(raw);
         const V w = hn::Sub(hn::Sub(number(1), u), v);
-        const Vector smooth = plus(plus(times(w, unpacked(normals[0])), times(u, unpacked(normals[1]))),
-                                   times(v, unpacked(normals[2])));
+        const Vector corners[3] = {unpacked(normals[0]), unpacked(normals[1]), unpacked(normals[2])};
+        const Vector smooth = plus(plus(times(w, corners[0]), times(u, corners[1])), times(v, corners[2]));
         const I flags = hn::And(kind, hn::Set(di, 0x00FF0000));
         const auto flat = hn::Or(hn::RebindMask(d, hn::Ne(flags, hn::Zero(di))),
                                  hn::Le(dotted(smooth, smooth), number(1e-6f)));
+        hn::Store(hn::IfThenZeroElse(flat, turn_of(corners)), d, p.turn.data() + k);
         const Vector body = chosen(flat, geometric_body, unit(smooth));
         const Vector view = times(number(-1), unit(world_dir));
         Vector geometric = turned(mesh.world_from_body, geometric_body),
