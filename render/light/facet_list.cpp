@@ -89,8 +89,9 @@ class Reflection {
         for (std::size_t i = 0; i < packet_.count; ++i) {
             const std::uint16_t v = owners_[i];
             const Spectrum& base = vertices_[v].at->surface.base;
+            const float lobe = vertices_[v].alpha > 0 ? packet_.lobe[i] : 0.0f;
             if (facets)
-                take(v, *facets_[i], packet_.below[i] * base + packet_.lobe[i] * sums_[v].mirrored);
+                take(v, *facets_[i], packet_.below[i] * base + lobe * sums_[v].mirrored);
             else
                 take(v, *facets_[i], diffuse ? packet_.lit[i] / kPiF * base : part_by_part(i));
         }

@@ -21,6 +21,8 @@ constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that 
 // Normals that turn by this much of a lobe's alpha within a triangle are several: at the lobe's middle one of them is off by
 // 4 % (GGX's density, 1 / (1 + t^2)^2 with t = angle over alpha, over a quarter of alpha to both sides). Paint is a lobe of 1.
 constexpr float kLeastTurn = 0.5f;
+// So many alphas beside all of them, what the lobe reflects of the Sun is a twenty-fifth, and hardly differs among them.
+constexpr float kFarFromLobe = 2;
 constexpr float kLeastFacing = 1e-4f;  // a vertex's normal against the viewer [cosine], as find_lie() has it
 // A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel: of sunlit paint a
 // quarter of the noise of a full well of 15,000 electrons.
@@ -191,14 +193,25 @@ std::size_t PrimaryVertices::look_at_fragments() {
     return n;
 }
 
-// True where the normals of a fragment's triangle turn so far that one of them does not tell what its lobe reflects.
+// True where normals turn so far within a fragment that one of them does not tell what its lobe reflects of the Sun.
 bool PrimaryVertices::turns_much(std::size_t k) const {
-    if (packet_.turn[k] == 0) return false;
-    const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
-    const std::uint16_t surface = object.triangles[hits_.triangle[k]].surface;
-    const float alpha = object.unflattened(surface, object.materials[surface].ggx_alpha);
-    const float least = kLeastTurn * (object.materials[surface].has_facets() && alpha > 0 ? alpha : 1);
-    return packet_.turn[k] > least * least;
+    const float turn = packet_.turn[k];  // within the triangle, squared
+    if (turn == 0) return false;
+    const FrameView& frame = tile_.frame;
+    const ObjectSurfaces& object = *(*frame.objects)[hits_.object[k]];
+    const Material& material = object.materials[object.triangles[hits_.triangle[k]].surface];
+    const float own = object.unflattened(object.triangles[hits_.triangle[k]].surface, material.ggx_alpha);
+    const float alpha = material.has_facets() && own > 0 ? own : 1, least = kLeastTurn * alpha;
+    if (turn <= least * least) return false;
+    const Vec3f view_dir = packet_.view_dir.at(k);
+    const Vec3f between = normalized(view_dir + to_float(frame.background->sun_world_dir()));
+    if (length(between - packet_.normal.at(k)) > std::sqrt(turn) + kFarFromLobe * alpha) return false;
+    // A pixel has a part of it, where the triangle is wider.
+    const auto from_m = static_cast<float>(frame.way_to_start_m());
+    const float pixel_m = (from_m + packet_.distance[k] * length(packet_.dir.at(k))) /
+                          static_cast<float>(frame.geometry.focal_length_px);
+    const float wide_m = pixel_m / std::max(std::abs(dot(packet_.geometric.at(k), view_dir)), kLeastFacing);
+    return turn * wide_m * wide_m > least * least * packet_.height[k];
 }
 
 // The normals of a fragment at some of its samples; none where one is enough.

@@ -77,6 +77,9 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
         // The normals, and the viewer's side of them.
         const Vector raw = crossed(m.e1, m.e2);
         store(raw, p.body_normal, k);
+        const Vector third = minus(m.e1, m.e2);
+        const V longest = hn::Max(hn::Max(dotted(m.e1, m.e1), dotted(m.e2, m.e2)), dotted(third, third));
+        hn::Store(hn::Div(dotted(raw, raw), hn::Max(longest, number(1e-30f))), d, p.height.data() + k);
         const Vector geometric_body = unit(raw);
         const V w = hn::Sub(hn::Sub(number(1), u), v);
         const Vector corners[3] = {unpacked(normals[0]), unpacked(normals[1]), unpacked(normals[2])};

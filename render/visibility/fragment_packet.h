@@ -28,6 +28,7 @@ struct alignas(64) FragmentPacket {
     Vectors body_normal;                  // geometric, body axes, not unit
     Vectors geometric, normal, view_dir;  // those of a vertex: world axes, unit, towards the viewer
     Floats turn;                          // greatest distance of two corners' normals, squared; 0: it is flat
+    Floats height;                        // the triangle's least, squared [m^2]
     std::array<std::uint32_t, kSize> back;  // nonzero: seen from behind, as the triangle's own normal has it
 
     std::size_t count = 0;  // last: everything else fills whole cache lines

@@ -161,7 +161,7 @@ TEST(FacetList, LightComesFromTheFacetThatReflectsIt) {
     const Vec3f up{0, 0, 1}, dir = normalized(Vec3f{-0.4f, 0, 1});
     // It leans aside, by as much to the light.
     const Vec3f aside = normalized(Vec3f{-0.19f, 0.6f, 1});
-    const Facet left{up, aside, {}, 8, kLeft}, right{up, up, {}, 8, kRight, nullptr, &left};
+    const Facet left{up, aside, {}, 8, kLeft}, right{up, up, {}, 8, kRight, nullptr, false, &left};
     Vertex at{};
     at.view_dir = normalized(Vec3f{0.4f, 0, 1});
     at.weight.bin.fill(1);
