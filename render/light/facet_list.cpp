@@ -49,7 +49,7 @@ class Reflection {
         // By a facet's lobe alone: depends on the angle between viewer and light, and on nothing else.
         Spectrum mirrored;
         float light;        // over all bins together
-        float going_on;     // of the facets so far that one triangle's normals make
+        float going_on;     // light of the facets so far that one triangle's normals make
         HalfShares halves;  // times the light
     };
     std::array<Sum, SunnyVertex::kMost> sums_;

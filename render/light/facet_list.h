@@ -43,7 +43,7 @@ struct FacetLight {
     // The facets that reflect most, most first, and how much, over all bins together.
     std::array<const Facet*, kStarts> brightest{};
     std::array<float, kStarts> share{};
-    HalfShares halves;  // of the light of all facets
+    HalfShares halves;  // the light of all facets is there
 
     bool none() const { return !(share[0] > 0); }
     void add(const Facet& facet, float light);

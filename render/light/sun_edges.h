@@ -55,7 +55,7 @@ class SunEdges {
         std::array<const Facet*, FacetLight::kStarts> facets;
         std::array<float, FacetLight::kStarts> shares;
         float lit, of;             // rays that have got through, and that were asked
-        HalfShares halves_of_all;  // of the light if no ray is held up
+        HalfShares halves_of_all;  // the light is there if no ray is held up
         HalfShares halves;         // sum of those that have got through, one by one
         std::uint8_t kind;         // below kKinds
     };
