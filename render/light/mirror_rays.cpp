@@ -8,7 +8,7 @@
 
 #include "render/brdf/microfacet.h"
 #include "render/light/lamp_light.h"
-#include "render/light/primary_vertices.h"
+#include "render/light/way_to_sample.h"
 #include "render/visibility/place_sequence.h"
 #include "render/vocabulary/clones.h"
 

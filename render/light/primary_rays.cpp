@@ -8,6 +8,7 @@
 #include "render/earth/earth_patch.h"
 #include "render/earth/pictured_earth.h"
 #include "render/light/earth_limbs.h"
+#include "render/light/way_to_sample.h"
 #include "render/visibility/place_sequence.h"
 #include "render/visibility/visibility_buffer.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/kept/kept_light.h"
+#include "render/light/way_to_sample.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 
@@ -142,16 +143,8 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
 // The ray through a place in a fragment's pixel.
 PrimaryVertices::Aim PrimaryVertices::aim_at(const Fragment& fragment, Vec2f place_px) const {
     const FrameView& frame = tile_.frame;
-    const LinearRays* rays = frame.rays->linear();
-    const int x = fragment.x, y = fragment.y;
-    Vec3d dir;
-    if (rays) {
-        const Vec3d corner = rays->corner + tile_.box.x0 * rays->right + tile_.box.y0 * rays->down;
-        dir = corner + static_cast<double>(static_cast<float>(x) + place_px.x) * rays->right +
-              static_cast<double>(static_cast<float>(y) + place_px.y) * rays->down;
-    } else {
-        dir = direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, place_px);
-    }
+    const Vec3d dir =
+        direction_through(frame, tile_.box.x0 + fragment.x, tile_.box.y0 + fragment.y, place_px);
     return {dir, frame.start_before_m > 0 ? frame.start_of(normalized(dir)) : to_float(frame.camera_m)};
 }
 
@@ -426,51 +419,6 @@ PrimaryVertices::PixelRays PrimaryVertices::rays_of(const Fragment& fragment) co
     const auto at = [&](float px, float py) { return direction_seen(frame, x, y, {px, py}); };
     return {at(0.5f, 0.5f), 2.0 * (at(0.75f, 0.5f) - at(0.25f, 0.5f)),
             2.0 * (at(0.5f, 0.75f) - at(0.5f, 0.25f))};
-}
-
-Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px) {
-    const int n = frame.samples.buffer_px();
-    const auto scale = static_cast<float>(n);
-    const Vec2f at{scale * within_px.x, scale * within_px.y};
-    const int right = at.x >= 1 ? 1 : 0, down = at.y >= 1 ? 1 : 0;
-    if (n == 1) return frame.visibility->direction(x_px, y_px, at);
-    return frame.visibility->direction(n * x_px + right, n * y_px + down,
-                                       {at.x - static_cast<float>(right), at.y - static_cast<float>(down)});
-}
-
-// The least cosine to the viewer of a plane that is seen, not its edge.
-constexpr float kLeastFacingOfWay = 0.02f;
-
-WayToSample::WayToSample(const Tile& tile, const Vertex& at)
-    : frame_(tile.frame),
-      at_(at),
-      rays_(frame_.rays->linear()),
-      facing_(dot(at.geometric_normal, at.view_dir)) {
-    const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
-    x_px_ = tile.box.x0 + pixel % width, y_px_ = tile.box.y0 + pixel / width;
-    dir_ = through(at.place_px);
-    per_dir_m_ = static_cast<double>(at.footprint_m) * frame_.geometry.focal_length_px / length(dir_);
-}
-
-Vec3d WayToSample::through(Vec2f place_px) const {
-    return rays_ ? rays_->corner + (x_px_ + static_cast<double>(place_px.x)) * rays_->right +
-                       (y_px_ + static_cast<double>(place_px.y)) * rays_->down
-                 : direction_seen(frame_, x_px_, y_px_, place_px);
-}
-
-Vec3f WayToSample::on(const Facet& facet, int sample) const {
-    const Vec3d dir = through(frame_.samples.place(sample)), normal = to_double(facet.geometric_normal);
-    const double along = dot(dir, normal);
-    if (std::abs(along) < static_cast<double>(kLeastFacingOfWay) * length(dir)) return facet.start_m;
-    const double way = dot(to_double(facet.start_m) - frame_.camera_m, normal) / along;
-    return to_float(frame_.camera_m + way * dir);
-}
-
-Vec3f WayToSample::to(int sample) const {
-    if (facing_ < kLeastFacingOfWay) return {};
-    const Vec3f across = to_float(per_dir_m_ * (through(frame_.samples.place(sample)) - dir_));
-    return across - (dot(across, at_.geometric_normal) / facing_) * at_.view_dir +
-           at_.lift_m * at_.geometric_normal;
 }
 
 }  // namespace hilcam

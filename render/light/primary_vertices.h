@@ -101,30 +101,4 @@ void add_backdrop(Tile& tile, const SampleMask* uncovered);
 // Adds the air between the camera and a vertex that it sees along dir, and dims the vertex by it.
 void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex);
 
-// Returns the direction through a place in a pixel, as the frame's visibility buffer has it; world axes, of any length.
-Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px);
-
-// The ways from a vertex that samples see to where each of them meets its plane, and up by Vertex::lift_m [m, ray space]; none
-// where the plane is seen from its edge. Loop, any thread.
-class WayToSample {
-  public:
-    WayToSample(const Tile& tile, const Vertex& at);
-    // sample: one of Vertex::samples.
-    Vec3f to(int sample) const;
-    // Returns where a sample meets the plane in which rays from a facet of the vertex begin [ray space]; where that is seen
-    // from its edge, the facet's own start.
-    Vec3f on(const Facet& facet, int sample) const;
-
-  private:
-    const FrameView& frame_;
-    const Vertex& at_;
-    const LinearRays* rays_;  // null: the camera has none
-    int x_px_, y_px_;
-    float facing_;  // cosine of the plane's normal to the viewer
-    Vec3d dir_;     // through the vertex
-    double per_dir_m_;
-
-    Vec3d through(Vec2f place_px) const;
-};
-
 }  // namespace hilcam

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <span>
 
-#include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/shadow_rays.h"
+#include "render/light/way_to_sample.h"
 #include "render/scene/light_cell_key.h"
 
 namespace hilcam {

@@ -203,6 +203,15 @@ class Words(unittest.TestCase):
 
 
 class Signals(unittest.TestCase):
+    PING = ("send", "--to", "127.0.0.1:15028", "--timeout-ms", 300, "ping")
+
+    def wait_for_answer(self):
+        for _ in range(200):
+            if hilcam(*self.PING).returncode == 0:
+                return
+            time.sleep(0.05)
+        self.fail("the program does not answer")
+
     def run_and_hang_up(self, *, ignored):
         with tempfile.TemporaryDirectory() as folder:
             report, recording, path = (pathlib.Path(folder) / name for name in ("report.json", "run.hcr", "commands"))
@@ -212,16 +221,12 @@ class Signals(unittest.TestCase):
                 stderr=subprocess.PIPE, text=True,
                 preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL))
             try:
-                ping = ("send", "--to", "127.0.0.1:15028", "--timeout-ms", 300, "ping")
-                for _ in range(200):
-                    if hilcam(*ping).returncode == 0:
-                        break
-                    time.sleep(0.05)
+                self.wait_for_answer()
                 self.assertTrue(path.exists())
                 process.send_signal(signal.SIGHUP)
                 if ignored:
                     time.sleep(0.3)
-                    self.assertEqual(hilcam(*ping).returncode, 0)
+                    self.assertEqual(hilcam(*self.PING).returncode, 0)
                     process.send_signal(signal.SIGTERM)
                 log = process.communicate(timeout=30)[1]
             finally:
@@ -238,10 +243,7 @@ class Signals(unittest.TestCase):
             process = subprocess.Popen([HILCAM, "run", str(SCENARIO), "--set", "commands.udp.port=15028", "--report", str(report)],
                                        stderr=subprocess.PIPE, text=True)
             try:
-                for _ in range(200):
-                    if hilcam("send", "--to", "127.0.0.1:15028", "--timeout-ms", 300, "ping").returncode == 0:
-                        break
-                    time.sleep(0.05)
+                self.wait_for_answer()
                 # Less than a second, and up to the program's last moment.
                 for _ in range(180):
                     process.send_signal(signal.SIGINT)

@@ -85,7 +85,7 @@ TEST(CosmicRays, TracksHaveTheirRateAndCharge) {
 TEST(CosmicRays, AWideSpreadIsNoBrighter) {
     for (const double spread : {0.3, 1.0, 2.0}) {
         CosmicRayConfig c;
-        // As thin as that no track leaves the detector but those that are nearly level.
+        // It is so thin that only tracks that are nearly level leave the detector at its sides.
         c.rate_cm2_s = 1e6, c.depth_um = 0.1, c.electrons_per_um = 80, c.spread_fraction = spread;
         ElectronImage narrow(100, 100), wide(100, 100);
         add_tracks(c, 100e-6, 0.1, {1, 1}, wide);

@@ -213,16 +213,22 @@ TEST_F(LampsTest, ACommandSwitchesAtItsTime) {
     EXPECT_LT(brightest(frames[4]), kOffset_dn + kNoise_dn);
 }
 
-TEST_F(LampsTest, AnEventSwitchesAtItsTime) {
-    EventRig bench(
-        dark("events:\n"
-             "  - {at_s: 2.5, do: lamp on --level 0.5}\n"
-             "  - {at_frame: 4, do: lamp off}\n"));
+// Five frames, a second apart.
+void expose_each_second(EventRig& bench) {
     LoopRig& rig = bench.rig;
     for (int s = 1; s <= 5; ++s)
         EXPECT_EQ(rig.send(ExposeCommand{rig.start + s * kSecond_ns, 1}), CommandStatus::kAccepted);
     ASSERT_TRUE(rig.collector.wait_for(5));
     bench.stop();
+}
+
+TEST_F(LampsTest, AnEventSwitchesAtItsTime) {
+    EventRig bench(
+        dark("events:\n"
+             "  - {at_s: 2.5, do: lamp on --level 0.5}\n"
+             "  - {at_frame: 4, do: lamp off}\n"));
+    ASSERT_NO_FATAL_FAILURE(expose_each_second(bench));
+    const LoopRig& rig = bench.rig;
     const bool lit[] = {false, false, true, false, false};
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(brightest(rig.collector.frames[i]) > 100, lit[i]) << i;
 }
@@ -236,11 +242,8 @@ TEST_F(LampsTest, AnEventInLockstepSwitchesWhileTheShutterIsOpen) {
              "  - {at_s: 3.5, do: lamp off}\n"
              "  - {name: flash, at_s: 4.002, do: lamp on}\n"
              "  - {after: flash, delay_s: 0.005, do: lamp off}\n"));
-    LoopRig& rig = bench.rig;
-    for (int s = 1; s <= 5; ++s)
-        EXPECT_EQ(rig.send(ExposeCommand{rig.start + s * kSecond_ns, 1}), CommandStatus::kAccepted);
-    ASSERT_TRUE(rig.collector.wait_for(5));
-    bench.stop();
+    ASSERT_NO_FATAL_FAILURE(expose_each_second(bench));
+    const LoopRig& rig = bench.rig;
     constexpr int kOffset_dn = 50, kNoise_dn = 8;  // eight deviations of 5 e-
     const auto light = [&](std::size_t i) { return 1.0 * brightest(rig.collector.frames[i]) - kOffset_dn; };
     const double full = light(2);

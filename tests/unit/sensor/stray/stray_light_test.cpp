@@ -53,62 +53,60 @@ TEST(StrayLight, AHaloFallsAsTheCubeOfTheDistance) {
     }
 }
 
-TEST(StrayLight, AGhostIsMirroredAndHasItsShare) {
-    CameraModel c = gaussian_camera(0.5);
-    c.width_px = c.height_px = 256;
-    c.stray_light.ghost_fraction = 0.01, c.stray_light.ghost_scale = -0.5;
-    c.stray_light.ghost_radius_px = 20;
-    for (const bool as_point : {false, true}) {
-        Bench bench(c);
-        std::vector<PointSource> points;
-        double all = 0;
+// A lens whose ghost is mirrored about (128, 128) and half as far, and a light at (208, 80) [px]: a point or a square.
+struct GhostScene {
+    Bench bench;
+    std::vector<PointSource> points;
+    double all = 0;  // electrons that come in
+
+    static CameraModel camera(double fraction) {
+        CameraModel c = gaussian_camera(0.5);
+        c.width_px = c.height_px = 256;
+        c.stray_light.ghost_fraction = fraction, c.stray_light.ghost_scale = -0.5;
+        c.stray_light.ghost_radius_px = 20;
+        return c;
+    }
+    GhostScene(double fraction, bool as_point, double irradiance) : bench(camera(fraction)) {
+        const CameraModel c = camera(fraction);
         if (as_point) {
-            points.push_back(point_at(208, 80, 1e-4));
-            all = static_cast<double>(electrons_per_s_per_irradiance(c, bench.grid)[0]) * 1e-4;
+            points.push_back(point_at(208, 80, irradiance));
+            all = static_cast<double>(electrons_per_s_per_irradiance(c, bench.grid)[0]) * irradiance;
         } else {
             for (int y = 88 - 2; y < 88 + 2; ++y)
                 for (std::size_t x = 216 - 2; x < 216 + 2; ++x) bench.radiance.row(y)[x] = 1000;
             all = 16 * 1000 * per_radiance(c, bench.grid);
         }
-        const ElectronImage& e = bench.expose({.exposure_s = 1}, points);
-        // Mirrored about (128, 128) and half as far: (88, 152).
+    }
+    const ElectronImage& expose() { return bench.expose({.exposure_s = 1}, points); }
+};
+
+TEST(StrayLight, AGhostIsMirroredAndHasItsShare) {
+    for (const bool as_point : {false, true}) {
+        GhostScene scene(0.01, as_point, 1e-4);
+        const ElectronImage& e = scene.expose();
         double ghost = 0, x_sum = 0, y_sum = 0;
         for (int y = 120; y < 184; ++y)
             for (int x = 56; x < 120; ++x)
                 ghost += at(e, x, y), x_sum += at(e, x, y) * (x + 0.5), y_sum += at(e, x, y) * (y + 0.5);
-        EXPECT_NEAR(ghost / all, 0.01, 3e-4) << as_point;
+        EXPECT_NEAR(ghost / scene.all, 0.01, 3e-4) << as_point;
         EXPECT_NEAR(x_sum / ghost, 88, 1) << as_point;
         EXPECT_NEAR(y_sum / ghost, 152, 1) << as_point;
-        EXPECT_NEAR(at(e, 88, 152), 0.01 * all / (kPi * 20 * 20), 0.1 * 0.01 * all / (kPi * 20 * 20))
-            << as_point;
+        const double even = 0.01 * scene.all / (kPi * 20 * 20);
+        EXPECT_NEAR(at(e, 88, 152), even, 0.1 * even) << as_point;
     }
 }
 
 // Two faces do not make light: what the ghost has, the image lacks, and a picture in which nothing leaves the field has
 // the light that came in.
 TEST(StrayLight, AGhostHasItsLightFromTheImage) {
-    CameraModel c = gaussian_camera(0.5);
-    c.width_px = c.height_px = 256;
-    c.stray_light.ghost_fraction = 0.2, c.stray_light.ghost_scale = -0.5;
-    c.stray_light.ghost_radius_px = 20;
     for (const bool as_point : {false, true}) {
-        Bench bench(c);
-        std::vector<PointSource> points;
-        double all = 0;
-        if (as_point) {
-            points.push_back(point_at(208, 80, 1e-5));
-            all = static_cast<double>(electrons_per_s_per_irradiance(c, bench.grid)[0]) * 1e-5;
-        } else {
-            for (int y = 88 - 2; y < 88 + 2; ++y)
-                for (std::size_t x = 216 - 2; x < 216 + 2; ++x) bench.radiance.row(y)[x] = 1000;
-            all = 16 * 1000 * per_radiance(c, bench.grid);
-        }
-        const ElectronImage& e = bench.expose({.exposure_s = 1}, points);
-        EXPECT_NEAR(sum(e) / all, 1, 2e-3) << as_point;
+        GhostScene scene(0.2, as_point, 1e-5);
+        const ElectronImage& e = scene.expose();
+        EXPECT_NEAR(sum(e) / scene.all, 1, 2e-3) << as_point;
         double image = 0;
         for (int y = 60; y < 100; ++y)
             for (int x = 188; x < 228; ++x) image += at(e, x, y);
-        EXPECT_NEAR(image / all, 0.8, 2e-3) << as_point;
+        EXPECT_NEAR(image / scene.all, 0.8, 2e-3) << as_point;
     }
 }
 
