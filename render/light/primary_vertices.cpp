@@ -183,6 +183,7 @@ std::size_t PrimaryVertices::look_at_fragments() {
     hits_.distance = packet_.distance, hits_.u = packet_.u, hits_.v = packet_.v;
     hits_.normal_x = packet_.body_normal.x, hits_.normal_y = packet_.body_normal.y;
     hits_.normal_z = packet_.body_normal.z;
+    look_at_turns();
     return n;
 }
 
@@ -207,24 +208,42 @@ bool PrimaryVertices::turns_much(std::size_t k) const {
     return turn * wide_m * wide_m > least * least * packet_.height[k];
 }
 
-// The normals of a fragment at some of its samples; none where one is enough.
-std::span<const Vec3f> PrimaryVertices::turns_of(std::size_t k) {
+// Puts a fragment among those that are looked at from several of their samples, as far from each other as may be. Returns how many;
+// none where one normal is enough.
+std::size_t PrimaryVertices::add_turned(std::size_t k) {
     const Fragment& fragment = fragments_[k];
     const PixelSamples& grid = tile_.frame.samples;
-    turned_.count = std::min(turns_.size(), static_cast<std::size_t>(std::popcount(fragment.samples)));
-    if (turned_.count < 2 || !turns_much(k)) return {};
-    turned_.triangle.fill(packet_.triangle[k]);
+    const std::size_t count =
+        std::min(FacetList::kTurns, static_cast<std::size_t>(std::popcount(fragment.samples)));
+    if (count < 2 || !turns_much(k)) return 0;
+    if (turned_.count + count > kPacketSize) find_turns(first_turn_[k] - turned_.count);
     SampleMask left = fragment.samples, apart = left;
-    for (std::size_t i = 0; i < turned_.count; ++i) {
+    for (std::size_t i = turned_.count; i < turned_.count + count; ++i) {
         const int sample = next_sample_across(grid, apart, left);
         left &= ~(SampleMask{1} << sample);
         const Aim aim = aim_at(fragment, grid.place(sample));
+        turned_.triangle[i] = packet_.triangle[k];
         turned_.dir.set(i, to_float(aim.dir));
         turned_.origin.set(i, aim.origin_m - body_m_);
     }
+    turned_.count += count;
+    return count;
+}
+
+// Finds the normals that were asked for, the first one of which has this place among all.
+void PrimaryVertices::find_turns(std::size_t first) {
+    if (turned_.count == 0) return;
+    for (std::size_t i = turned_.count; i < kPacketSize; ++i) turned_.triangle[i] = turned_.triangle[0];
     find_lies(mesh_, turned_);
-    for (std::size_t i = 0; i < turned_.count; ++i) turns_[i] = turned_.normal.at(i);
-    return std::span(turns_).first(turned_.count);
+    for (std::size_t i = 0; i < turned_.count; ++i) turns_[first + i] = turned_.normal.at(i);
+    turned_.count = 0;
+}
+
+// Finds how the packet's fragments turn, many at a time: each by itself would fill a quarter of the vectors.
+void PrimaryVertices::look_at_turns() {
+    first_turn_[0] = 0;
+    for (std::size_t k = 0; k < packet_.count; ++k) first_turn_[k + 1] = first_turn_[k] + add_turned(k);
+    find_turns(first_turn_[packet_.count] - turned_.count);
 }
 
 std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {

@@ -45,9 +45,11 @@ class PrimaryVertices {
     std::array<Vec2f, kPacketSize> places_px_;  // in their pixels
     std::array<Vec3d, kPacketSize> dirs_;
     std::array<Vec3f, kPacketSize> origins_;
-    // One of them from several of its samples, and how it turns there.
+    // Those of them that turn much, from several of their samples, and their normals there: fragment k has those from first_turn_[k]
+    // to first_turn_[k + 1].
     FragmentPacket turned_;
-    std::array<Vec3f, FacetList::kTurns> turns_;
+    std::array<Vec3f, kPacketSize * FacetList::kTurns> turns_;
+    std::array<std::size_t, kPacketSize + 1> first_turn_;
     // The mosaic that was met last, as the frame shows it.
     struct ShownMosaic {
         const Mosaic* is = nullptr;
@@ -72,7 +74,12 @@ class PrimaryVertices {
     Aim aim_at(const Fragment& fragment, Vec2f place_px) const;
     std::size_t look_at_fragments();
     bool turns_much(std::size_t k) const;
-    std::span<const Vec3f> turns_of(std::size_t k);
+    std::size_t add_turned(std::size_t k);
+    void find_turns(std::size_t first);
+    void look_at_turns();
+    std::span<const Vec3f> turns_of(std::size_t k) const {
+        return std::span(turns_).subspan(first_turn_[k], first_turn_[k + 1] - first_turn_[k]);
+    }
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
     struct PixelRays {
         Vec3d middle, right, down;
