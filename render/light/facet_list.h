@@ -6,8 +6,6 @@
 
 #include <span>
 
-#include <span>
-
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
 

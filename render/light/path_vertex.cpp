@@ -85,6 +85,9 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     Lie lie;
     if (!find_lie(frame, hits, lane, dir, lie)) return false;
     make_vertex(frame, hits, lane, lie, origin_m, dir, alpha_least, width, vertex);
+    const auto k = static_cast<std::size_t>(lane);
+    if (is_textured(vertex))
+        paint(texture_at(frame, vertex, hits.triangle[k], {hits.u[k], hits.v[k]}, 1), vertex);
     return true;
 }
 
@@ -130,20 +133,28 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
         vertex.surface.base =
             vertex.surface.base * frame.bands->spectrum(object.color_at(hits.triangle[k], u, v));
     if (!object.corner_hapke.empty()) vertex.surface.hapke = object.hapke_at(hits.triangle[k], u, v);
-    if (material.texture >= 0) {
-        const auto& uv = object.corner_uvs[hits.triangle[k]];
-        const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];
-        // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
-        // of four.
-        const float slant = 1 / std::max(0.25f, dot(vertex.geometric_normal, vertex.view_dir));
-        const float footprint = vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[hits.triangle[k]];
-        const Spectrum scale = frame.bands->spectrum(
-            texture.sample((1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
-                           (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y, footprint));
-        // The one colour of a file scales what the material mostly is.
-        vertex.surface.base = vertex.surface.base * scale;
-        if (material.is_bare()) vertex.surface.highlight = vertex.surface.highlight * scale;
-    }
+}
+
+Spectrum texture_at(const FrameView& frame, const Vertex& vertex, std::uint32_t triangle, Vec2f at,
+                    float share) {
+    const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
+    const auto& corner = object.corner_uvs[triangle];
+    const MipTexture& texture =
+        (*object.textures)[static_cast<std::size_t>(vertex.surface.material->texture)];
+    // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
+    // of four.
+    const float slant = 1 / std::max(0.25f, dot(vertex.geometric_normal, vertex.view_dir));
+    const float footprint = share * vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[triangle];
+    const float first = 1 - at.x - at.y;
+    return frame.bands->spectrum(texture.sample(first * corner[0].x + at.x * corner[1].x + at.y * corner[2].x,
+                                                first * corner[0].y + at.x * corner[1].y + at.y * corner[2].y,
+                                                footprint));
+}
+
+// The one colour of a file scales what the material mostly is.
+void paint(const Spectrum& colors, Vertex& vertex) {
+    vertex.surface.base = vertex.surface.base * colors;
+    if (vertex.surface.material->is_bare()) vertex.surface.highlight = vertex.surface.highlight * colors;
 }
 
 }  // namespace hilcam

@@ -90,7 +90,7 @@ struct RayWidth {
 };
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, RayWidth width, Vertex& vertex);
-// The same where it is known how the surface lies.
+// The same where it is known how the surface lies, but for textures (texture_at()).
 void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
                  Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex);
 // The same but for the surface, for set_surface().
@@ -98,6 +98,13 @@ void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const
                   Vec3f dir, RayWidth width, Vertex& vertex);
 // Gives a vertex one of its object's surfaces, without colours or textures of its own.
 void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex);
+// Returns the colours that a texture has about a place of a vertex' triangle, as a factor on those of its material. Loop, any
+// thread. share: how much of the vertex' width is looked at, 0..1.
+Spectrum texture_at(const FrameView& frame, const Vertex& vertex, std::uint32_t triangle, Vec2f uv,
+                    float share);
+inline bool is_textured(const Vertex& vertex) { return vertex.surface.material->texture >= 0; }
+// Gives a vertex such colours.
+void paint(const Spectrum& colors, Vertex& vertex);
 // Asks for the memory that make_vertex() reads, of all lanes that met an object.
 void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count);
 

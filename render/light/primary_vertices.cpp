@@ -24,6 +24,10 @@ constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that 
 constexpr float kLeastTurn = 0.5f;
 // So many alphas beside all of them, what the lobe reflects of the Sun is a twenty-fifth, and hardly differs among them.
 constexpr float kFarFromLobe = 2;
+// A look at a texture stands for so many samples of a pixel, and is so much narrower than what these see, as what lies between two
+// texels blurs it again.
+constexpr float kTextureWidth = 0.5f;
+constexpr float kPerLook = kVisibilitySamples / 4;
 constexpr float kLeastFacing = 1e-4f;  // a vertex's normal against the viewer [cosine], as find_lie() has it
 // A mosaic is seen as one from higher than this [sine], and a surface in it where it fills as much of a pixel: of sunlit paint a
 // quarter of the noise of a full well of 15,000 electrons.
@@ -183,7 +187,7 @@ std::size_t PrimaryVertices::look_at_fragments() {
     hits_.distance = packet_.distance, hits_.u = packet_.u, hits_.v = packet_.v;
     hits_.normal_x = packet_.body_normal.x, hits_.normal_y = packet_.body_normal.y;
     hits_.normal_z = packet_.body_normal.z;
-    look_at_turns();
+    look_at_samples();
     return n;
 }
 
@@ -208,42 +212,86 @@ bool PrimaryVertices::turns_much(std::size_t k) const {
     return turn * wide_m * wide_m > least * least * packet_.height[k];
 }
 
+bool PrimaryVertices::is_textured(std::size_t k) const {
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
+    return object.materials[object.triangles[hits_.triangle[k]].surface].texture >= 0;
+}
+
 // Puts a fragment among those that are looked at from several of their samples, as far from each other as may be. Returns how many;
-// none where one normal is enough.
-std::size_t PrimaryVertices::add_turned(std::size_t k) {
+// none where one look is enough.
+std::size_t PrimaryVertices::add_looks(std::size_t k) {
     const Fragment& fragment = fragments_[k];
     const PixelSamples& grid = tile_.frame.samples;
-    const std::size_t count =
-        std::min(FacetList::kTurns, static_cast<std::size_t>(std::popcount(fragment.samples)));
-    if (count < 2 || !turns_much(k)) return 0;
-    if (turned_.count + count > kPacketSize) find_turns(first_turn_[k] - turned_.count);
+    const float samples = grid.weight(fragment.samples);
+    const auto seen_by = static_cast<std::size_t>(std::popcount(fragment.samples));
+    turns_[k] = seen_by > 1 && turns_much(k);
+    const std::size_t wanted = turns_[k]        ? kLooks
+                               : is_textured(k) ? static_cast<std::size_t>(std::ceil(samples / kPerLook))
+                                                : 1;
+    const std::size_t count = std::min({kLooks, seen_by, wanted});
+    if (count < 2) return 0;
+    if (looked_at_.count + count > kPacketSize) find_looks(first_look_[k] - looked_at_.count);
     SampleMask left = fragment.samples, apart = left;
-    for (std::size_t i = turned_.count; i < turned_.count + count; ++i) {
+    for (std::size_t i = looked_at_.count; i < looked_at_.count + count; ++i) {
         const int sample = next_sample_across(grid, apart, left);
         left &= ~(SampleMask{1} << sample);
         const Aim aim = aim_at(fragment, grid.place(sample));
-        turned_.triangle[i] = packet_.triangle[k];
-        turned_.dir.set(i, to_float(aim.dir));
-        turned_.origin.set(i, aim.origin_m - body_m_);
+        looked_at_.triangle[i] = packet_.triangle[k];
+        looked_at_.dir.set(i, to_float(aim.dir));
+        looked_at_.origin.set(i, aim.origin_m - body_m_);
     }
-    turned_.count += count;
+    looked_at_.count += count;
     return count;
 }
 
-// Finds the normals that were asked for, the first one of which has this place among all.
-void PrimaryVertices::find_turns(std::size_t first) {
-    if (turned_.count == 0) return;
-    for (std::size_t i = turned_.count; i < kPacketSize; ++i) turned_.triangle[i] = turned_.triangle[0];
-    find_lies(mesh_, turned_);
-    for (std::size_t i = 0; i < turned_.count; ++i) turns_[first + i] = turned_.normal.at(i);
-    turned_.count = 0;
+// Finds what the looks that were asked for meet; the first of them has this place among all.
+void PrimaryVertices::find_looks(std::size_t first) {
+    if (looked_at_.count == 0) return;
+    for (std::size_t i = looked_at_.count; i < kPacketSize; ++i)
+        looked_at_.triangle[i] = looked_at_.triangle[0];
+    find_lies(mesh_, looked_at_);
+    for (std::size_t i = 0; i < looked_at_.count; ++i) {
+        look_normals_[first + i] = looked_at_.normal.at(i);
+        look_places_[first + i] = {looked_at_.u[i], looked_at_.v[i]};
+    }
+    looked_at_.count = 0;
 }
 
-// Finds how the packet's fragments turn, many at a time: each by itself would fill a quarter of the vectors.
-void PrimaryVertices::look_at_turns() {
-    first_turn_[0] = 0;
-    for (std::size_t k = 0; k < packet_.count; ++k) first_turn_[k + 1] = first_turn_[k] + add_turned(k);
-    find_turns(first_turn_[packet_.count] - turned_.count);
+// Looks at the packet's fragments that need it, many at a time: each by itself would fill a quarter of the vectors.
+void PrimaryVertices::look_at_samples() {
+    first_look_[0] = 0;
+    for (std::size_t k = 0; k < packet_.count; ++k) first_look_[k + 1] = first_look_[k] + add_looks(k);
+    find_looks(first_look_[packet_.count] - looked_at_.count);
+}
+
+// Returns the colours of a texture in fragment k. One look as wide as the pixel would blur it: what lies between two texels of such
+// a width has a third of its contrast at Nyquist's frequency, and a pixel two thirds.
+Spectrum PrimaryVertices::texture_of(std::size_t k, const Vertex& vertex) const {
+    const auto looks = looks_of(k, look_places_);
+    const std::uint32_t triangle = hits_.triangle[k];
+    const float of_pixel = tile_.frame.samples.weight(fragments_[k].samples) / kVisibilitySamples;
+    const float per_look = 1 / static_cast<float>(std::max<std::size_t>(looks.size(), 1));
+    const float share = kTextureWidth * std::sqrt(per_look * of_pixel);
+    if (looks.empty()) return texture_at(tile_.frame, vertex, triangle, {hits_.u[k], hits_.v[k]}, share);
+    Spectrum sum;
+    for (const Vec2f place : looks) sum += per_look * texture_at(tile_.frame, vertex, triangle, place, share);
+    return sum;
+}
+
+// Gives a vertex a share of the colours of fragment k, which it has taken in.
+void PrimaryVertices::mix_colors(std::size_t k, float share, Vertex& vertex) const {
+    const bool textured = is_textured(k);
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
+    if (!textured && object.corner_colors.empty()) return;
+    Scatterer& surface = vertex.surface;
+    const Spectrum base = surface.base, highlight = surface.highlight;
+    surface.base = surface.material->base, surface.highlight = surface.material->highlight;
+    if (!object.corner_colors.empty())
+        surface.base = surface.base * tile_.frame.bands->spectrum(
+                                          object.color_at(hits_.triangle[k], hits_.u[k], hits_.v[k]));
+    if (textured) paint(texture_of(k, vertex), vertex);
+    surface.base = (1 - share) * base + share * surface.base;
+    surface.highlight = (1 - share) * highlight + share * surface.highlight;
 }
 
 std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {
@@ -282,6 +330,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
                     {pixel_rad * from_m, pixel_rad}, vertex);
         // Seen from its edge, what lies on the ground hides it.
         if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
+        if (is_textured(k)) paint(texture_of(k, vertex), vertex);
         finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples, fragment.samples},
                          hits_.triangle[k], true, turns_of(k), vertex);
@@ -315,6 +364,7 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
     if (!has_narrow_lobe(vertex.surface) && dot(mean, vertex.view_dir) > kLeastFacing) vertex.normal = mean;
     // Alike in all bins, but for the air before it.
     const float all = vertex.weight_samples + samples;
+    mix_colors(k, samples / all, vertex);
     vertex.weight = (all / vertex.weight_samples) * vertex.weight;
     vertex.halves = (vertex.weight_samples / all) * vertex.halves;
     vertex.halves += (samples / all) * frame.samples.halves(seen_by);

@@ -45,11 +45,14 @@ class PrimaryVertices {
     std::array<Vec2f, kPacketSize> places_px_;  // in their pixels
     std::array<Vec3d, kPacketSize> dirs_;
     std::array<Vec3f, kPacketSize> origins_;
-    // Those of them that turn much, from several of their samples, and their normals there: fragment k has those from first_turn_[k]
-    // to first_turn_[k + 1].
-    FragmentPacket turned_;
-    std::array<Vec3f, kPacketSize * FacetList::kTurns> turns_;
-    std::array<std::size_t, kPacketSize + 1> first_turn_;
+    // Those of them that one look does not tell, as they turn much or a texture paints them, from several of their samples:
+    // fragment k has the looks from first_look_[k] to first_look_[k + 1].
+    static constexpr std::size_t kLooks = FacetList::kTurns;
+    FragmentPacket looked_at_;
+    std::array<Vec3f, kPacketSize * kLooks> look_normals_;
+    std::array<Vec2f, kPacketSize * kLooks> look_places_;  // in the triangle: u and v
+    std::array<std::size_t, kPacketSize + 1> first_look_;
+    std::array<bool, kPacketSize> turns_;
     // The mosaic that was met last, as the frame shows it.
     struct ShownMosaic {
         const Mosaic* is = nullptr;
@@ -74,12 +77,19 @@ class PrimaryVertices {
     Aim aim_at(const Fragment& fragment, Vec2f place_px) const;
     std::size_t look_at_fragments();
     bool turns_much(std::size_t k) const;
-    std::size_t add_turned(std::size_t k);
-    void find_turns(std::size_t first);
-    void look_at_turns();
-    std::span<const Vec3f> turns_of(std::size_t k) const {
-        return std::span(turns_).subspan(first_turn_[k], first_turn_[k + 1] - first_turn_[k]);
+    bool is_textured(std::size_t k) const;
+    std::size_t add_looks(std::size_t k);
+    void find_looks(std::size_t first);
+    void look_at_samples();
+    template <class T>
+    std::span<const T> looks_of(std::size_t k, const std::array<T, kPacketSize * kLooks>& looks) const {
+        return std::span(looks).subspan(first_look_[k], first_look_[k + 1] - first_look_[k]);
     }
+    std::span<const Vec3f> turns_of(std::size_t k) const {
+        return turns_[k] ? looks_of(k, look_normals_) : std::span<const Vec3f>{};
+    }
+    Spectrum texture_of(std::size_t k, const Vertex& vertex) const;
+    void mix_colors(std::size_t k, float share, Vertex& vertex) const;
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
     struct PixelRays {
         Vec3d middle, right, down;
