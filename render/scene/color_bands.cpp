@@ -35,17 +35,17 @@ Spectrum ColorBands::spectrum(Vec3f rgb) const {
 
 namespace {
 
-// u, v: 0..1. Whole parts by conversion, as floor() is a call on processors that have no more than x86-64 asks for.
 Vec3f bilinear(const Texture& texture, float u, float v) {
-    const float x = u * static_cast<float>(texture.width) - 0.5f;
-    const float y = v * static_cast<float>(texture.height) - 0.5f;
-    int x0 = static_cast<int>(x + 1) - 1, y0 = static_cast<int>(y + 1) - 1;
-    const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-    int x1 = x0 + 1, y1 = y0 + 1;
-    if (x0 < 0) x0 += texture.width;
-    if (y0 < 0) y0 += texture.height;
-    if (x1 >= texture.width) x1 -= texture.width;
-    if (y1 >= texture.height) y1 -= texture.height;
+    const float x = (u - std::floor(u)) * static_cast<float>(texture.width) - 0.5f;
+    const float y = (v - std::floor(v)) * static_cast<float>(texture.height) - 0.5f;
+    const float fx = x - std::floor(x);
+    const float fy = y - std::floor(y);
+    const auto wrap = [](float value, int size) {
+        const int i = static_cast<int>(value);
+        return i < 0 ? i + size : (i >= size ? i - size : i);
+    };
+    const int x0 = wrap(std::floor(x), texture.width), x1 = wrap(std::floor(x) + 1, texture.width);
+    const int y0 = wrap(std::floor(y), texture.height), y1 = wrap(std::floor(y) + 1, texture.height);
     const auto texel = [&](int column, int row) {
         const auto& t =
             texture.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) +
@@ -107,7 +107,6 @@ Vec3f MipTexture::sample(float u, float v, float footprint) const {
     const auto low = static_cast<std::size_t>(at);
     // The finer one alone for half of the way: it is sharper, and one look instead of two.
     const float share = std::max(0.0f, 2 * (at - static_cast<float>(low)) - 1);
-    u -= std::floor(u), v -= std::floor(v);
     const Vec3f fine = bilinear(levels_[low], u, v);
     return share > 0 ? (1 - share) * fine + share * bilinear(levels_[low + 1], u, v) : fine;
 }
