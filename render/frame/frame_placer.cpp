@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "render/light/point_field.h"
 #include "render/sunlit_ground/ground_light.h"
@@ -26,6 +27,10 @@ RayDensity density_of(const RenderQuality& quality) {
 
 // Frames that show more triangles than this are left to rays, which hardly cost more for more.
 constexpr std::size_t kMostTriangles = 8'000'000;
+
+// What may be seen from afar is found for objects of which there are so many, and for levels of so few triangles: it takes some
+// seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
+constexpr std::size_t kManyLike = 16, kMostInSets = 20'000;
 
 }  // namespace
 
@@ -104,6 +109,35 @@ void FramePlacer::make_visibility(const ImageGeometry& geometry, const RenderQua
     if (buffer) return;
     seen_.reserve(objects_.size());
     buffer = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), visibility_room());
+    if (visible_sets_.empty()) make_visible_sets();
+}
+
+void FramePlacer::make_visible_sets() {
+    std::map<const ObjectSurfaces*, std::vector<std::size_t>> makes;
+    for (std::size_t i = 0; i < objects_.size(); ++i) makes[objects_[i].levels.front().get()].push_back(i);
+    visible_sets_.resize(objects_.size());
+    for (const auto& [make, objects] : makes) {
+        if (objects.size() < kManyLike) continue;
+        const std::size_t first = objects.front();
+        LevelSets sets(objects_[first].levels.size());
+        for (std::size_t level = 0; level < sets.size(); ++level)
+            if (const MeshView mesh = embree_.mesh(first, level); mesh.triangles.size() <= kMostInSets)
+                sets[level] = std::make_unique<VisibleSets>(mesh, radii_m_[first],
+                                                            objects_[first].levels[level]->patches);
+        const auto shared = std::make_shared<const LevelSets>(std::move(sets));
+        for (const std::size_t i : objects) visible_sets_[i] = shared;
+    }
+}
+
+// Null: all of an object is looked at.
+const VisibleSet* FramePlacer::visible_set(std::size_t object) const {
+    if (!visible_sets_[object]) return nullptr;
+    const VisibleSets* const sets = (*visible_sets_[object])[levels_[object]].get();
+    const double sample_rad = 1 / (frame_.geometry.focal_length_px * frame_.samples.across());
+    if (!sets || !sets->serves(plans_[object].distance_m, sample_rad)) return nullptr;
+    const Pose& pose = world_.objects[object];
+    return &sets->from(transposed(to_matrix(pose.world_from_body)) *
+                       (world_.camera.position_world_m - pose.position_world_m));
 }
 
 void FramePlacer::make_ground_visibility(const ImageGeometry& geometry, const RenderQuality& level) {
@@ -311,7 +345,8 @@ void FramePlacer::place_visibility() {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh)
             seen_.push_back({static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i],
-                             embree_.mesh(i, levels_[i]), shown_[i]->cluster_bounds_m, shown_[i]->patches});
+                             embree_.mesh(i, levels_[i]), shown_[i]->cluster_bounds_m, shown_[i]->patches,
+                             visible_set(i)});
     if (buffer->place(world_.camera, seen_)) frame_.visibility = buffer;
 }
 

@@ -29,6 +29,7 @@
 #include "render/sky/star_sky.h"
 #include "render/visibility/screen_mask.h"
 #include "render/visibility/visibility_buffer.h"
+#include "render/visibility/visible_sets.h"
 
 namespace hilcam {
 
@@ -134,6 +135,9 @@ class FramePlacer {
     // Buffers of ground alone (ground_light.h), by the pixels between their places, from 1; null: rays.
     std::array<std::unique_ptr<VisibilityBuffer>, 2> ground_visibility_;
     std::vector<VisibilityBuffer::Shown> seen_;
+    // What may be seen of those objects from afar that are many of a make, by its levels; none: of all others.
+    using LevelSets = std::vector<std::unique_ptr<const VisibleSets>>;
+    std::vector<std::shared_ptr<const LevelSets>> visible_sets_;
     bool uses_visibility_ = false, sees_ground_ = false;
     int ground_step_px_ = 1;
     std::unique_ptr<RayGenerator> rays_;
@@ -158,6 +162,8 @@ class FramePlacer {
     }
     bool ground_is_alone() const;
     VisibilityBuffer::Room visibility_room() const;
+    void make_visible_sets();
+    const VisibleSet* visible_set(std::size_t object) const;
 };
 
 }  // namespace hilcam

@@ -7,7 +7,7 @@
 // each ray stands for as much of its light, and begins at what its samples see of the facet. A kind is a surface of an object, or more than one, where it faces the same way by and large:
 // what lies in shadow behind an edge of the body is no edge of a shadow on what stands before it. The
 // approximation: a vertex further off has its one ray, so penumbras wider than twice the reach keep a hard edge
-// inside.
+// inside; and what fills no more than a 64th of a pixel has one, a 16th four.
 
 #include <array>
 #include <cstdint>
@@ -46,6 +46,9 @@ class SunEdges {
     static constexpr std::size_t kKinds = 16;
     // Rays of who asks again, and of those whose rays differ.
     static constexpr float kAgain = 4, kMost = 16;
+    // Less of a pixel [samples of sixteen] has no more rays: half of it at most is in the wrong light, a 128th of the pixel, which
+    // is a noise of a full well of 15,000 electrons; of small objects with many parts most vertices are such.
+    static constexpr float kLeastAgain = 0.25f, kLeastMost = 1;
     struct Asked {
         const Vertex* at;
         const Asked* like;  // the one whose first ray tells for it, too; null: it has its own

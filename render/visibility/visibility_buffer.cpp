@@ -9,6 +9,7 @@
 
 #include "render/scene/flat_patches.h"
 #include "render/scene/surface.h"
+#include "render/visibility/visible_sets.h"
 
 namespace hilcam {
 namespace {
@@ -63,24 +64,30 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
     world_from_camera_ = to_matrix(camera.world_from_body);
     const Mat3d camera_from_world = transposed(world_from_camera_);
     placed_.clear();
-    triangle_count_ = 0;
-    std::size_t vertices = 0;
+    drawn_count_ = 0;
+    std::size_t vertices = 0, triangles = 0;
     depth_origin_m_ = 0;
     for (const Shown& object : shown) {
         if (placed_.size() == room_.objects) return false;
         const Vec3d offset_m = object.pose.position_world_m - camera.position_world_m;
         const Mat3d camera_from_body = camera_from_world * to_matrix(object.pose.world_from_body);
         const Vec3d origin_camera_m = camera_from_world * offset_m;
+        const VisibleSet* const set = object.visible;
+        const MeshView drawn = set ? MeshView{set->vertices_m, set->triangles} : object.mesh;
         placed_.push_back({object,
+                           drawn,
+                           set ? std::span<const std::uint32_t>(set->ids) : object.patches,
                            vertices,
-                           triangle_count_,
+                           drawn_count_,
+                           triangles,
                            camera_from_body,
                            origin_camera_m,
                            {},
                            planes_of(camera_from_body, origin_camera_m)});
-        vertices += object.mesh.vertices_m.size();
-        triangle_count_ += object.mesh.triangles.size();
-        if (vertices > room_.vertices || triangle_count_ > room_.triangles) return false;
+        vertices += drawn.vertices_m.size();
+        drawn_count_ += drawn.triangles.size();
+        triangles += object.mesh.triangles.size();
+        if (vertices > room_.vertices || triangles > room_.triangles) return false;
         const double near_m = std::max(length(offset_m), object.radius_m);
         if (depth_origin_m_ == 0 || near_m < depth_origin_m_) depth_origin_m_ = near_m;
     }
@@ -97,7 +104,7 @@ void VisibilityBuffer::project() {
             std::upper_bound(placed_.begin(), placed_.end(), begin,
                              [](std::size_t at, const Placed& placed) { return at < placed.first_vertex; });
         for (--object; object != placed_.end() && object->first_vertex < end; ++object) {
-            const std::span<const Vec3f> all = object->shown.mesh.vertices_m;
+            const std::span<const Vec3f> all = object->drawn.vertices_m;
             const std::size_t first = object->first_vertex;
             const std::size_t from = std::max(begin, first), to = std::min(end, first + all.size());
             if (from < to)
@@ -106,7 +113,7 @@ void VisibilityBuffer::project() {
         }
     };
     if (placed_.empty()) return;
-    const std::size_t count = placed_.back().first_vertex + placed_.back().shown.mesh.vertices_m.size();
+    const std::size_t count = placed_.back().first_vertex + placed_.back().drawn.vertices_m.size();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kVertexRun),
                       [&](const auto& part) { project_part(part.begin(), part.end()); });
 }
@@ -120,16 +127,17 @@ class VisibilityBuffer::Sorter {
     bool sort(std::size_t begin, std::size_t end) {
         auto object =
             std::upper_bound(my_.placed_.begin(), my_.placed_.end(), begin,
-                             [](std::size_t at, const Placed& placed) { return at < placed.first_triangle; });
-        for (--object; object != my_.placed_.end() && object->first_triangle < end; ++object) {
-            const std::size_t count = object->shown.mesh.triangles.size();
-            const std::size_t from = std::max(begin, object->first_triangle) - object->first_triangle;
-            const std::size_t to = std::min(end - object->first_triangle, count);
+                             [](std::size_t at, const Placed& placed) { return at < placed.first_drawn; });
+        for (--object; object != my_.placed_.end() && object->first_drawn < end; ++object) {
+            const std::size_t count = object->drawn.triangles.size();
+            const std::size_t from = std::max(begin, object->first_drawn) - object->first_drawn;
+            const std::size_t to = std::min(end - object->first_drawn, count);
             for (std::size_t first = from, next; first < to; first = next) {
                 const std::size_t cluster = first / kRun;
                 next = std::min(to, (cluster + 1) * kRun);
                 const auto boxes_m = object->shown.cluster_bounds_m;
-                if (!boxes_m.empty() && !may_show(*object, boxes_m[cluster])) continue;
+                if (!object->shown.visible && !boxes_m.empty() && !may_show(*object, boxes_m[cluster]))
+                    continue;
                 if (!sort_run(*object, first, next - first)) return false;
             }
         }
@@ -143,14 +151,14 @@ class VisibilityBuffer::Sorter {
     std::array<TileRange, kRun> ranges_;
 
     bool sort_run(const Placed& object, std::size_t first, std::size_t count) {
-        const std::span<const TriangleCorners> triangles = object.shown.mesh.triangles.subspan(first, count);
+        const std::span<const TriangleCorners> triangles = object.drawn.triangles.subspan(first, count);
         const std::size_t found = find_tiles(
             &my_.vertices_[object.first_vertex], triangles, static_cast<std::uint32_t>(first),
             my_.geometry_.padded_width(), my_.geometry_.padded_height(), my_.lens_.screen(), ranges_.data());
         const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
         for (std::size_t i = 0; i < found; ++i) {
             TileRange& range = ranges_[i];
-            if (!object.shown.patches.empty() && object.shown.patches[range.triangle] == kNotShown) continue;
+            if (!object.ids.empty() && object.ids[range.triangle] == kNotShown) continue;
             const bool cut = range.x1 < 0;
             if (cut && !my_.bounds_of_cut(my_.corners_camera_m(object, range.triangle), range)) continue;
             for (int y = range.y0; y <= range.y1; ++y)
@@ -188,8 +196,8 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
     project();
     std::atomic<bool> room = true;
     tbb::parallel_for(std::size_t{0}, kGroups, [&](std::size_t group) {
-        const std::size_t begin = triangle_count_ * group / kGroups;
-        const std::size_t end = triangle_count_ * (group + 1) / kGroups;
+        const std::size_t begin = drawn_count_ * group / kGroups;
+        const std::size_t end = drawn_count_ * (group + 1) / kGroups;
         if (begin < end && !Sorter(*this, group).sort(begin, end)) room = false;
     });
     // Whether there is room must not depend on chance, as what groups have taken and not used does.
@@ -221,10 +229,10 @@ bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>
 
 std::array<Vec3d, 3> VisibilityBuffer::corners_camera_m(const Placed& placed, std::uint32_t triangle) const {
     std::array<Vec3d, 3> out;
-    const TriangleCorners& corners = placed.shown.mesh.triangles[triangle];
+    const TriangleCorners& corners = placed.drawn.triangles[triangle];
     for (std::size_t i = 0; i < 3; ++i)
-        out[i] = placed.camera_from_body * to_double(placed.shown.mesh.vertices_m[corners[i]]) +
-                 placed.origin_camera_m;
+        out[i] =
+            placed.camera_from_body * to_double(placed.drawn.vertices_m[corners[i]]) + placed.origin_camera_m;
     return out;
 }
 
@@ -273,7 +281,7 @@ void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, 
     setup.x1[0] = volume == 0 ? -1 : kVisibilityTile_px - 1;
     setup.min_depth[0] = -1, setup.max_depth[0] = 1e30f;
     setup.id[0] = static_cast<std::uint32_t>(placed.first_triangle) +
-                  (placed.shown.patches.empty() ? triangle : placed.shown.patches[triangle]);
+                  (placed.ids.empty() ? triangle : placed.ids[triangle]);
     if (volume == 0) return;
     Vec3d sum;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -313,17 +321,17 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
 }
 
 void VisibilityBuffer::prefetch_corners(std::uint32_t block) const {
-    const Shown& shown = placed_[heads_[block].placed].shown;
+    const Placed& placed = placed_[heads_[block].placed];
     for (const std::uint32_t triangle : std::span(blocks_[block].triangles).first(heads_[block].count)) {
-        __builtin_prefetch(&shown.mesh.triangles[triangle]);
-        if (!shown.patches.empty()) __builtin_prefetch(&shown.patches[triangle]);
+        __builtin_prefetch(&placed.drawn.triangles[triangle]);
+        if (!placed.ids.empty()) __builtin_prefetch(&placed.ids[triangle]);
     }
 }
 
 void VisibilityBuffer::prefetch_vertices(std::uint32_t block) const {
     const Placed& placed = placed_[heads_[block].placed];
     for (const std::uint32_t triangle : std::span(blocks_[block].triangles).first(heads_[block].count))
-        for (const std::uint32_t corner : placed.shown.mesh.triangles[triangle])
+        for (const std::uint32_t corner : placed.drawn.triangles[triangle])
             __builtin_prefetch(&vertices_[placed.first_vertex + corner]);
 }
 
@@ -355,9 +363,9 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
         if (head.cut)
             set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);
         else
-            set_up_triangles({&vertices_[placed.first_vertex], placed.shown.mesh.triangles.data(),
+            set_up_triangles({&vertices_[placed.first_vertex], placed.drawn.triangles.data(),
                               static_cast<std::uint32_t>(placed.first_triangle),
-                              placed.shown.patches.empty() ? nullptr : placed.shown.patches.data()},
+                              placed.ids.empty() ? nullptr : placed.ids.data()},
                              blocks_[block].triangles, head.count, x_px, y_px, lens_.forward(x_px, y_px),
                              setup);
         fill_tile(setup, tile);

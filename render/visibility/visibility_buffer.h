@@ -28,6 +28,8 @@
 
 namespace hilcam {
 
+struct VisibleSet;
+
 class VisibilityBuffer {
   public:
     // The most that a frame may show.
@@ -49,6 +51,8 @@ class VisibilityBuffer {
         // They say for each triangle which one's id stands for it, or that it is left out (flat_patches.h), likewise. Empty: each has
         // its own.
         std::span<const std::uint32_t> patches{};
+        // All that may be seen of it (visible_sets.h), likewise: the rest is not looked at. Null: all of it may be.
+        const VisibleSet* visible = nullptr;
     };
     // Sorts the triangles of a frame. False: there is no room for them. Loop.
     bool place(const Pose& camera, std::span<const Shown> shown);
@@ -89,7 +93,11 @@ class VisibilityBuffer {
     };
     struct Placed {
         Shown shown;
-        std::size_t first_vertex, first_triangle;
+        // What is drawn of it, and whose ids stand for its triangles; none: each has its own.
+        MeshView drawn;
+        std::span<const std::uint32_t> ids;
+        std::size_t first_vertex, first_drawn;
+        std::size_t first_triangle;  // id of the whole mesh' first
         Mat3d camera_from_body;
         Vec3d origin_camera_m;
         ScreenProjection projection;
@@ -109,7 +117,7 @@ class VisibilityBuffer {
     int tiles_across_, tiles_down_;
     std::vector<Placed> placed_;
     double depth_origin_m_ = 1;
-    std::size_t triangle_count_ = 0;
+    std::size_t drawn_count_ = 0;         // triangles
     std::vector<ScreenVertex> vertices_;  // vertices of all objects
     std::vector<std::uint32_t> first_;    // block by tile and group
     std::vector<Block> blocks_;

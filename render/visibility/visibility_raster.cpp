@@ -168,10 +168,15 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
         const auto to = [&](V at) { return hn::Floor(hn::Sub(hn::Mul(four, at), half)); };
         const V from_x = from(x0), to_x = to(x1), from_y = from(y0), to_y = to(y1);
         const auto none = hn::Or(hn::Gt(from_x, to_x), hn::Gt(from_y, to_y));
-        // Most triangles of crumpled things have one there, and beside them.
-        const auto one = hn::And(hn::Eq(from_x, to_x), hn::Eq(from_y, to_y));
-        const auto beside = hn::And(one, is_beside(c, hn::Div(hn::Add(from_x, half), four),
-                                                   hn::Div(hn::Add(from_y, half), four), place_px));
+        // Most triangles of crumpled things, and of small ones, have one there or two each way, and beside them.
+        const auto next_to = [&](V sample) { return hn::Add(sample, hn::Set(d, 1)); };
+        const auto few = hn::And(hn::Ge(next_to(from_x), to_x), hn::Ge(next_to(from_y), to_y));
+        const auto place_of = [&](V at) { return hn::Div(hn::Add(at, half), four); };
+        const V px[] = {place_of(from_x), place_of(to_x)}, py[] = {place_of(from_y), place_of(to_y)};
+        const auto beside_both = [&](V y) {
+            return hn::And(is_beside(c, px[0], y, place_px), is_beside(c, px[1], y, place_px));
+        };
+        const auto beside = hn::And(few, hn::And(beside_both(py[0]), beside_both(py[1])));
         const V right = hn::Set(d, static_cast<float>(width_px)),
                 low = hn::Set(d, static_cast<float>(height_px));
         const auto missed = hn::Or(hn::Or(none, beside), hn::Or(hn::Or(hn::Lt(x1, zero), hn::Lt(y1, zero)),

@@ -31,6 +31,28 @@ class SunEdgesTest : public testing::Test {
         add(1.2f, kAway);
         s.build();
     }
+    // Squares of a tenth of a pixel, one in each, that one sample sees.
+    void build_dots() {
+        constexpr float kPixel_m = 5 * 2 * 0.3f / 160;
+        SceneObject object = plate(lambert(0.5), s.grid);
+        const Mesh square = object.mesh;
+        Mesh& dots = object.mesh;
+        dots.vertices_m.clear(), dots.triangles.clear(), dots.surface_of_triangle.clear();
+        for (int y = -20; y < 20; ++y)
+            for (int x = -45; x < -20; ++x) {
+                const auto first = static_cast<std::uint32_t>(dots.vertices_m.size());
+                const Vec3f middle{static_cast<float>(x) + 3.5f / 8, static_cast<float>(y) + 3.5f / 8, 0};
+                for (const Vec3f v : square.vertices_m)
+                    dots.vertices_m.push_back(kPixel_m * (middle + 0.05f * v));
+                for (const auto& t : square.triangles)
+                    dots.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+            }
+        dots.normals.clear(), dots.uvs.clear();
+        dots.surface_of_triangle.resize(dots.triangles.size());
+        s.add(std::move(object), {0, 0, 5});
+        add(1.2f, kAway);
+        s.build();
+    }
     static constexpr Vec3d kAway{3, 30, 2};
 
     std::uint64_t rays_with_it_at(Vec3d position_m) {
@@ -101,6 +123,17 @@ TEST_F(SunEdgesTest, VerticesOnBothSidesOfAShadowsEdgeAskAgain) {
     EXPECT_EQ(lit(130, 80), 0);
     EXPECT_GE(more, 107u * (2 * 4 + 16));
     EXPECT_LE(more, 109u * (2 * 4 + 2 * 16));
+}
+
+TEST_F(SunEdgesTest, WhatOneSampleSeesHasOneRay) {
+    build_dots();
+    const std::uint64_t all_lit = rays_with_it_at(kAway);
+    EXPECT_EQ(all_lit, 40u * 25u);
+    const float lit = s.radiance.row(80)[35], dark = s.radiance.row(80)[58];
+    EXPECT_GT(lit, 0);
+    EXPECT_NEAR(dark, lit, 0.01f * lit);
+    EXPECT_EQ(rays_with_it_at({3.6, 0, 2}), all_lit);
+    EXPECT_TRUE((s.radiance.row(80)[35] == 0) != (s.radiance.row(80)[58] == 0));
 }
 
 TEST_F(SunEdgesTest, AnEdgeFallsBetweenPixels) {

@@ -1,0 +1,180 @@
+#include "render/visibility/visible_sets.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "render/scene/flat_patches.h"
+#include "render/visibility/visibility_buffer.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+// Cells of 11 degrees, as narrower ones have hardly fewer triangles; pictures from nine directions in each, 5.6 degrees apart, with
+// four times as many samples each way as those that the sets are for. Of the generated satellite's samples one in 10,000 meets what
+// its set lacks.
+constexpr int kAcross = 8;  // cells along a side of a cube
+constexpr int kSteps = 2;   // from one of a cell's directions to the last of a row
+constexpr int kPicture_px = 512;
+constexpr double kFiner = 4;
+// The pictures' camera is so far away that directions are one; from a fortieth of it they differ by 1.4 degrees.
+constexpr double kFrom_radii = 1000, kLeast_radii = 40;
+constexpr int kCells = 6 * kAcross * kAcross;
+// By triangle.
+using Marks = std::vector<std::uint8_t>;
+void add(const Marks& of, Marks& to) {
+    std::transform(of.begin(), of.end(), to.begin(), to.begin(), std::bit_or<std::uint8_t>());
+}
+
+// A place on a side of a cube about the origin, from -1 to 1 each way, by angles: cells are alike.
+struct Place {
+    int side;
+    double across, down;
+};
+Vec3d direction_of(const Place& at) {
+    const double u = std::tan(at.across * kPi / 4), v = std::tan(at.down * kPi / 4),
+                 w = at.side % 2 == 0 ? 1 : -1;
+    if (at.side < 2) return {w, u, v};
+    return at.side < 4 ? Vec3d{u, w, v} : Vec3d{u, v, w};
+}
+Place place_of(Vec3d dir) {
+    const Vec3d size{std::abs(dir.x), std::abs(dir.y), std::abs(dir.z)};
+    const auto at = [](double along, double ahead) { return std::atan2(along, ahead) * 4 / kPi; };
+    if (size.x >= size.y && size.x >= size.z)
+        return {dir.x > 0 ? 0 : 1, at(dir.y, size.x), at(dir.z, size.x)};
+    if (size.y >= size.z) return {dir.y > 0 ? 2 : 3, at(dir.x, size.y), at(dir.z, size.y)};
+    return {dir.z > 0 ? 4 : 5, at(dir.x, size.z), at(dir.y, size.z)};
+}
+std::size_t cell_of(Vec3d dir) {
+    const Place at = place_of(dir);
+    const auto step = [](double along) {
+        return std::clamp(static_cast<int>((along + 1) / 2 * kAcross), 0, kAcross - 1);
+    };
+    return static_cast<std::size_t>((at.side * kAcross + step(at.down)) * kAcross + step(at.across));
+}
+// The direction so many cells from the corner of a side.
+Vec3d direction_on(int side, double across, double down) {
+    return direction_of({side, 2 * across / kAcross - 1, 2 * down / kAcross - 1});
+}
+struct Cell {
+    int side, across, down;
+};
+Cell cell_at(std::size_t number) {
+    const int n = static_cast<int>(number);
+    return {n / (kAcross * kAcross), n % kAcross, n / kAcross % kAcross};
+}
+
+// Takes pictures of a mesh from afar.
+class Pictures {
+  public:
+    Pictures(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> patches)
+        : shown_{0, {}, radius_m, mesh, {}, patches},
+          buffer_(geometry(), {1, mesh.vertices_m.size(), mesh.triangles.size()}) {}
+
+    // Marks what is seen from a direction.
+    void mark_seen(Vec3d dir, Marks& marks) {
+        const Vec3d from = normalized(dir);
+        // Not along the body's axes: thin parts along a row of samples would be met by all of them, or by none.
+        const Vec3d up = std::abs(from.x) < 0.5 ? Vec3d{0.8, 0.5, 0.3} : Vec3d{0.3, 0.8, 0.5};
+        if (!buffer_.place({kFrom_radii * shown_.radius_m * from, look_along(-1.0 * from, up)},
+                           {&shown_, 1})) {
+            // No room: a mesh of many large triangles. All of it may be seen.
+            std::fill(marks.begin(), marks.end(), std::uint8_t{1});
+            return;
+        }
+        for (int y = 0; y < kPicture_px; y += kVisibilityTile_px)
+            for (int x = 0; x < kPicture_px; x += kVisibilityTile_px) {
+                if (!buffer_.fill(x, y, tile_)) continue;
+                std::uint32_t last = VisibilityTile::kNothing;
+                for (const std::uint32_t id : tile_.id)
+                    if (id != std::exchange(last, id) && id != VisibilityTile::kNothing) marks[id] = 1;
+            }
+    }
+
+  private:
+    VisibilityBuffer::Shown shown_;
+    VisibilityBuffer buffer_;
+    VisibilityTile tile_;
+
+    // The mesh' sphere fills it.
+    static ImageGeometry geometry() {
+        ImageGeometry out;
+        out.width_px = out.height_px = kPicture_px;
+        out.focal_length_px = 0.5 * kPicture_px * kFrom_radii;
+        return out;
+    }
+};
+
+// By cell, what is seen from one of its directions. Cells side by side have those between them in common.
+std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
+                                std::span<const std::uint32_t> patches) {
+    // Each triangle by itself, but for what is not shown.
+    std::vector<std::uint32_t> own(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < own.size(); ++i)
+        own[i] = !patches.empty() && patches[i] == kNotShown ? kNotShown : i;
+    constexpr int kRow = kAcross * kSteps + 1;
+    const auto number = [](int side, int across, int down) {
+        return static_cast<std::size_t>((side * kRow + down) * kRow + across);
+    };
+    std::vector<Marks> seen(number(6, 0, 0), Marks(own.size()));
+    tbb::parallel_for(tbb::blocked_range<int>(0, 6 * kRow, 4), [&](const auto& rows) {
+        const auto pictures = std::make_unique<Pictures>(mesh, radius_m, own);
+        for (int row = rows.begin(); row < rows.end(); ++row)
+            for (int i = 0; i < kRow; ++i)
+                pictures->mark_seen(direction_on(row / kRow, 1.0 * i / kSteps, 1.0 * (row % kRow) / kSteps),
+                                    seen[number(row / kRow, i, row % kRow)]);
+    });
+    std::vector<Marks> out(kCells, Marks(own.size()));
+    for (std::size_t cell = 0; cell < out.size(); ++cell) {
+        const auto [side, across, down] = cell_at(cell);
+        for (int j = 0; j <= kSteps; ++j)
+            for (int i = 0; i <= kSteps; ++i)
+                add(seen[number(side, across * kSteps + i, down * kSteps + j)], out[cell]);
+    }
+    return out;
+}
+
+VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> patches, const Marks& marks) {
+    constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+    VisibleSet out;
+    std::vector<std::uint32_t> places(mesh.vertices_m.size(), kNone);
+    for (std::uint32_t i = 0; i < marks.size(); ++i) {
+        if (!marks[i]) continue;
+        TriangleCorners corners = mesh.triangles[i];
+        for (std::uint32_t& corner : corners) {
+            std::uint32_t& place = places[corner];
+            if (place == kNone)
+                place = static_cast<std::uint32_t>(out.vertices_m.size()),
+                out.vertices_m.push_back(mesh.vertices_m[corner]);
+            corner = place;
+        }
+        out.triangles.push_back(corners);
+        out.ids.push_back(patches.empty() ? i : patches[i]);
+    }
+    return out;
+}
+
+}  // namespace
+
+VisibleSets::VisibleSets(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> patches)
+    : radius_m_(radius_m), sets_(kCells) {
+    const std::vector<Marks> seen = seen_by_cell(mesh, radius_m, patches);
+    tbb::parallel_for(std::size_t{0}, sets_.size(),
+                      [&](std::size_t cell) { sets_[cell] = set_of(mesh, patches, seen[cell]); });
+}
+
+bool VisibleSets::serves(double distance_m, double sample_rad) const {
+    constexpr double kMost = kPicture_px * kVisibilitySamplesAcross / kFiner;  // samples across the mesh
+    return distance_m >= kLeast_radii * radius_m_ && 2 * radius_m_ <= kMost * sample_rad * distance_m;
+}
+
+const VisibleSet& VisibleSets::from(Vec3d dir) const { return sets_[cell_of(dir)]; }
+
+}  // namespace hilcam
