@@ -77,7 +77,9 @@ class PrimaryVertices {
     Aim aim_at(const Fragment& fragment, Vec2f place_px) const;
     std::size_t look_at_fragments();
     bool turns_much(std::size_t k) const;
+    float pixel_m(std::size_t k) const;
     bool is_textured(std::size_t k) const;
+    std::size_t looks_at_texture(std::size_t k, float samples) const;
     std::size_t add_looks(std::size_t k);
     void find_looks(std::size_t first);
     void look_at_samples();

@@ -10,6 +10,7 @@
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/mesh.h"
 #include "render/vocabulary/units.h"
+#include "tests/support/stage.h"
 
 namespace hilcam {
 namespace {
@@ -150,6 +151,32 @@ TEST(VisibleSets, AreForCamerasFarAwayAndPicturesCoarserThanTheirs) {
     EXPECT_FALSE(sets.serves(1000, 4.0 / 600 / 1000));
     EXPECT_TRUE(sets.serves(81, 1));
     EXPECT_FALSE(sets.serves(79, 1));
+}
+
+// Cubes in rows, each turned otherwise, of one make or each of its own.
+RadianceImage picture_of_cubes(bool alike) {
+    Stage s;
+    s.quality.visibility = "buffer";
+    s.quality.max_depth = 1;
+    s.camera(128, 0.08);
+    s.sun({0.3, 0.2, -1});
+    for (int i = 0; i < 16; ++i) {
+        SceneObject object = cube(lambert(0.5), s.grid);
+        if (alike && i > 0) object.like = 0;
+        s.add(std::move(object), {2.0 * (i % 4) - 3, 2.0 * (i / 4) - 3, 60}, {0.4 * i, 0.3 * i, 0.2 * i});
+    }
+    s.render();
+    return std::move(s.radiance);
+}
+
+TEST(VisibleSets, ManyOfAMakeAreSeenAsEachByItself) {
+    const RadianceImage alike = picture_of_cubes(true), each = picture_of_cubes(false);
+    double light = 0;
+    for (std::size_t i = 0; i < each.all().size(); ++i) {
+        ASSERT_EQ(alike.all()[i], each.all()[i]) << i;
+        light += static_cast<double>(each.all()[i]);
+    }
+    EXPECT_GT(light, 0);
 }
 
 }  // namespace
