@@ -158,6 +158,7 @@ RadianceImage picture_of_cubes(bool alike) {
     Stage s;
     s.quality.visibility = "buffer";
     s.quality.max_depth = 1;
+    s.quality.rays_across = 0;
     s.camera(128, 0.08);
     s.sun({0.3, 0.2, -1});
     for (int i = 0; i < 16; ++i) {
