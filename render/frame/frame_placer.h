@@ -135,7 +135,7 @@ class FramePlacer {
     // Buffers of ground alone (ground_light.h), by the pixels between their places, from 1; null: rays.
     std::array<std::unique_ptr<VisibilityBuffer>, 2> ground_visibility_;
     std::vector<VisibilityBuffer::Shown> seen_;
-    // What may be seen of those objects from afar that are many of a make, by its levels; none: of all others.
+    // Sets of what may be seen from afar of those objects that are many of a make, by its levels; none: of all others.
     using LevelSets = std::vector<std::unique_ptr<const VisibleSets>>;
     std::vector<std::shared_ptr<const LevelSets>> visible_sets_;
     bool uses_visibility_ = false, sees_ground_ = false;

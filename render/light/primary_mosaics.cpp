@@ -1,4 +1,4 @@
-// What a pixel sees of a mosaic (mosaic/mosaic.h), as vertices: one for each surface in it.
+// Makes vertices of what a pixel sees of a mosaic (mosaic/mosaic.h): one for each surface in it.
 
 #include <algorithm>
 

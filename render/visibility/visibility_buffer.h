@@ -93,7 +93,7 @@ class VisibilityBuffer {
     };
     struct Placed {
         Shown shown;
-        // What is drawn of it, and whose ids stand for its triangles; none: each has its own.
+        // The triangles that are drawn of it, and whose ids stand for its triangles; none: each has its own.
         MeshView drawn;
         std::span<const std::uint32_t> ids;
         std::size_t first_vertex, first_drawn;

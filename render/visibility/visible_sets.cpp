@@ -27,7 +27,7 @@ constexpr double kFiner = 4;
 // The pictures' camera is so far away that directions are one; from a fortieth of it they differ by 1.4 degrees.
 constexpr double kFrom_radii = 1000, kLeast_radii = 40;
 constexpr int kCells = 6 * kAcross * kAcross;
-// By triangle.
+// A byte for each triangle.
 using Marks = std::vector<std::uint8_t>;
 void add(const Marks& of, Marks& to) {
     std::transform(of.begin(), of.end(), to.begin(), to.begin(), std::bit_or<std::uint8_t>());

@@ -18,7 +18,7 @@
 
 namespace hilcam {
 
-// What may be seen of a mesh, as a mesh of its own.
+// The triangles of a mesh that may be seen, as a mesh of its own.
 struct VisibleSet {
     std::vector<Vec3f> vertices_m;
     std::vector<TriangleCorners> triangles;
