@@ -28,7 +28,7 @@ RayDensity density_of(const RenderQuality& quality) {
 // Frames that show more triangles than this are left to rays, which hardly cost more for more.
 constexpr std::size_t kMostTriangles = 8'000'000;
 
-// What may be seen from afar is found for objects of which there are so many, and for levels of so few triangles: it takes some
+// Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
 // seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
 constexpr std::size_t kManyLike = 16, kMostInSets = 20'000;
 
