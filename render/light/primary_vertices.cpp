@@ -269,8 +269,8 @@ void PrimaryVertices::look_at_samples() {
     find_looks(first_look_[packet_.count] - looked_at_.count);
 }
 
-// Returns the colours of a texture in fragment k. One look as wide as the pixel would blur it: what lies between two texels of such
-// a width has a third of its contrast at Nyquist's frequency, and a pixel two thirds.
+// Returns the colours of a texture in fragment k. One look as wide as the pixel would blur it: of the contrast at Nyquist's frequency
+// a pixel leaves sinc(1/2) = 0.64, and texels of its width, linear between two, sinc(1/2)^3 = 0.26 (sinc x = sin(pi x) / (pi x)).
 Spectrum PrimaryVertices::texture_of(std::size_t k, const Vertex& vertex) const {
     const auto looks = looks_of(k, look_places_);
     const std::uint32_t triangle = hits_.triangle[k];

@@ -60,6 +60,13 @@ class VisibilityBuffer {
     // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. False:
     // nothing. Loop, any thread.
     bool fill(int x_px, int y_px, VisibilityTile& tile) const;
+    // Does so for all tiles, one after the other; use(x_px, y_px) is called for each that sees something. Any thread.
+    template <class Use>
+    void fill_all(VisibilityTile& tile, const Use& use) const {
+        for (int y = 0; y < geometry_.padded_height(); y += kVisibilityTile_px)
+            for (int x = 0; x < geometry_.padded_width(); x += kVisibilityTile_px)
+                if (fill(x, y, tile)) use(x, y);
+    }
 
     // Returns the direction through a place in a pixel, as its tile has it; world axes, of any length.
     Vec3d direction(int x_px, int y_px, Vec2f within_px) const;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <utility>
 
+#include "render/ground/cube_sphere.h"
 #include "render/scene/flat_patches.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/units.h"
@@ -20,51 +21,28 @@ namespace {
 // Cells of 11 degrees, as narrower ones have hardly fewer triangles; pictures from nine directions in each, 5.6 degrees apart, with
 // four times as many samples each way as those that the sets are for. Of the generated satellite's samples one in 10,000 meets what
 // its set lacks.
-constexpr int kAcross = 8;  // cells along a side of a cube
+constexpr int kAcross = 8;  // cells along a face of a cube
 constexpr int kSteps = 2;   // from one of a cell's directions to the last of a row
 constexpr int kPicture_px = 512;
 constexpr double kFiner = 4;
 // The pictures' camera is so far away that directions are one; from a fortieth of it they differ by 1.4 degrees.
 constexpr double kFrom_radii = 1000, kLeast_radii = 40;
-constexpr int kCells = 6 * kAcross * kAcross;
+constexpr int kCells = kCubeFaces * kAcross * kAcross;
 // A byte for each triangle.
 using Marks = std::vector<std::uint8_t>;
 void add(const Marks& of, Marks& to) {
     std::transform(of.begin(), of.end(), to.begin(), to.begin(), std::bit_or<std::uint8_t>());
 }
 
-// A place on a side of a cube about the origin, from -1 to 1 each way, by angles: cells are alike.
-struct Place {
-    int side;
-    double across, down;
-};
-Vec3d direction_of(const Place& at) {
-    const double u = std::tan(at.across * kPi / 4), v = std::tan(at.down * kPi / 4),
-                 w = at.side % 2 == 0 ? 1 : -1;
-    if (at.side < 2) return {w, u, v};
-    return at.side < 4 ? Vec3d{u, w, v} : Vec3d{u, v, w};
-}
-Place place_of(Vec3d dir) {
-    const Vec3d size{std::abs(dir.x), std::abs(dir.y), std::abs(dir.z)};
-    const auto at = [](double along, double ahead) { return std::atan2(along, ahead) * 4 / kPi; };
-    if (size.x >= size.y && size.x >= size.z)
-        return {dir.x > 0 ? 0 : 1, at(dir.y, size.x), at(dir.z, size.x)};
-    if (size.y >= size.z) return {dir.y > 0 ? 2 : 3, at(dir.x, size.y), at(dir.z, size.y)};
-    return {dir.z > 0 ? 4 : 5, at(dir.x, size.z), at(dir.y, size.z)};
-}
 std::size_t cell_of(Vec3d dir) {
-    const Place at = place_of(dir);
-    const auto step = [](double along) {
-        return std::clamp(static_cast<int>((along + 1) / 2 * kAcross), 0, kAcross - 1);
+    const CubePoint point = cube_point(dir);
+    const auto step = [](double at) {
+        return std::clamp(static_cast<int>((at + 1) / 2 * kAcross), 0, kAcross - 1);
     };
-    return static_cast<std::size_t>((at.side * kAcross + step(at.down)) * kAcross + step(at.across));
-}
-// The direction so many cells from the corner of a side.
-Vec3d direction_on(int side, double across, double down) {
-    return direction_of({side, 2 * across / kAcross - 1, 2 * down / kAcross - 1});
+    return static_cast<std::size_t>((point.face * kAcross + step(point.at.y)) * kAcross + step(point.at.x));
 }
 struct Cell {
-    int side, across, down;
+    int face, across, down;
 };
 Cell cell_at(std::size_t number) {
     const int n = static_cast<int>(number);
@@ -78,9 +56,8 @@ class Pictures {
         : shown_{0, {}, radius_m, mesh, {}, patches},
           buffer_(geometry(), {1, mesh.vertices_m.size(), mesh.triangles.size()}) {}
 
-    // Marks what is seen from a direction.
-    void mark_seen(Vec3d dir, Marks& marks) {
-        const Vec3d from = normalized(dir);
+    // Marks what is seen from a direction, unit.
+    void mark_seen(Vec3d from, Marks& marks) {
         // Not along the body's axes: thin parts along a row of samples would be met by all of them, or by none.
         const Vec3d up = std::abs(from.x) < 0.5 ? Vec3d{0.8, 0.5, 0.3} : Vec3d{0.3, 0.8, 0.5};
         if (!buffer_.place({kFrom_radii * shown_.radius_m * from, look_along(-1.0 * from, up)},
@@ -89,13 +66,11 @@ class Pictures {
             std::fill(marks.begin(), marks.end(), std::uint8_t{1});
             return;
         }
-        for (int y = 0; y < kPicture_px; y += kVisibilityTile_px)
-            for (int x = 0; x < kPicture_px; x += kVisibilityTile_px) {
-                if (!buffer_.fill(x, y, tile_)) continue;
-                std::uint32_t last = VisibilityTile::kNothing;
-                for (const std::uint32_t id : tile_.id)
-                    if (id != std::exchange(last, id) && id != VisibilityTile::kNothing) marks[id] = 1;
-            }
+        buffer_.fill_all(tile_, [&](int, int) {
+            std::uint32_t last = VisibilityTile::kNothing;
+            for (const std::uint32_t id : tile_.id)
+                if (id != std::exchange(last, id) && id != VisibilityTile::kNothing) marks[id] = 1;
+        });
     }
 
   private:
@@ -120,23 +95,24 @@ std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
     for (std::uint32_t i = 0; i < own.size(); ++i)
         own[i] = !patches.empty() && patches[i] == kNotShown ? kNotShown : i;
     constexpr int kRow = kAcross * kSteps + 1;
-    const auto number = [](int side, int across, int down) {
-        return static_cast<std::size_t>((side * kRow + down) * kRow + across);
+    const auto number = [](int face, int across, int down) {
+        return static_cast<std::size_t>((face * kRow + down) * kRow + across);
     };
-    std::vector<Marks> seen(number(6, 0, 0), Marks(own.size()));
-    tbb::parallel_for(tbb::blocked_range<int>(0, 6 * kRow, 4), [&](const auto& rows) {
+    const auto along = [](int step) { return 2.0 * step / (kRow - 1) - 1; };
+    std::vector<Marks> seen(number(kCubeFaces, 0, 0), Marks(own.size()));
+    tbb::parallel_for(tbb::blocked_range<int>(0, kCubeFaces * kRow, 4), [&](const auto& rows) {
         const auto pictures = std::make_unique<Pictures>(mesh, radius_m, own);
         for (int row = rows.begin(); row < rows.end(); ++row)
             for (int i = 0; i < kRow; ++i)
-                pictures->mark_seen(direction_on(row / kRow, 1.0 * i / kSteps, 1.0 * (row % kRow) / kSteps),
+                pictures->mark_seen(cube_direction(row / kRow, {along(i), along(row % kRow)}),
                                     seen[number(row / kRow, i, row % kRow)]);
     });
     std::vector<Marks> out(kCells, Marks(own.size()));
     for (std::size_t cell = 0; cell < out.size(); ++cell) {
-        const auto [side, across, down] = cell_at(cell);
+        const auto [face, across, down] = cell_at(cell);
         for (int j = 0; j <= kSteps; ++j)
             for (int i = 0; i <= kSteps; ++i)
-                add(seen[number(side, across * kSteps + i, down * kSteps + j)], out[cell]);
+                add(seen[number(face, across * kSteps + i, down * kSteps + j)], out[cell]);
     }
     return out;
 }

@@ -142,9 +142,7 @@ TEST(FlatPatches, AreOneIdOfTheVisibilityBuffer) {
     ASSERT_TRUE(buffer.place(camera, shown));
     std::set<std::uint32_t> ids;
     VisibilityTile tile;
-    for (int y = 0; y < geometry.padded_height(); y += kVisibilityTile_px)
-        for (int x = 0; x < geometry.padded_width(); x += kVisibilityTile_px)
-            if (buffer.fill(x, y, tile)) ids.insert(tile.id.begin(), tile.id.end());
+    buffer.fill_all(tile, [&](int, int) { ids.insert(tile.id.begin(), tile.id.end()); });
     EXPECT_EQ(ids, (std::set{surfaces.patches[0], VisibilityTile::kNothing}));
 }
 

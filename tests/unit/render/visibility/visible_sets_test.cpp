@@ -53,13 +53,14 @@ class Views {
         shown_.visible = set;
         EXPECT_TRUE(
             buffer_.place({kFrom_radii * from, look_along(-1.0 * from, {0.3, 0.5, 0.8})}, {&shown_, 1}));
-        std::vector<std::uint32_t> out;
-        for (int y = 0; y < kSide_px; y += kVisibilityTile_px)
-            for (int x = 0; x < kSide_px; x += kVisibilityTile_px) {
-                if (!buffer_.fill(x, y, tile_)) tile_.clear();
-                for (const std::uint32_t id : tile_.id)
-                    out.push_back(id == VisibilityTile::kNothing ? id : buffer_.seen(id).triangle);
-            }
+        std::vector<std::uint32_t> out(kSide_px * kSide_px * kVisibilitySamples, VisibilityTile::kNothing);
+        buffer_.fill_all(tile_, [&](int x_px, int y_px) {
+            const auto tile =
+                static_cast<std::size_t>((y_px * kSide_px / kVisibilityTile_px + x_px) / kVisibilityTile_px);
+            for (std::size_t i = 0; i < VisibilityTile::kSize; ++i)
+                if (const std::uint32_t id = tile_.id[i]; id != VisibilityTile::kNothing)
+                    out[tile * VisibilityTile::kSize + i] = buffer_.seen(id).triangle;
+        });
         return out;
     }
 
