@@ -226,8 +226,9 @@ class MosaicFinder {
         double area_m2 = 0, height_m3 = 0;
         for (const Layer& layer : layers) area_m2 += layer.area_m2, height_m3 += layer.height_m3;
         out.upper_m = static_cast<float>(height_m3 / area_m2);
-        const double seen = painter.finish();
+        const double seen = painter.hide_lower();
         if (seen < kMinSeen || seen > kMaxSeen) return false;
+        painter.finish();
         for (const std::size_t i : upon)
             if (layer_of(i) < out.layers && out.covers(corners(i))) used_[i] = 1;
         out.above_m = static_cast<float>(top_m);

@@ -61,6 +61,32 @@ struct Shape {
     }
 };
 
+// Returns the part of a line along the texels' rows that lies in a triangle, begin and end [texels]; they are the wrong way round where
+// there is none.
+std::pair<double, double> part_in(const std::array<Vec2d, 3>& triangle, double y) {
+    double from = std::numeric_limits<double>::infinity(), until = -from;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2d a = triangle[k], b = triangle[(k + 1) % 3];
+        const double below = a.y - y, above = b.y - y;
+        if (below * above > 0 || below == above) continue;
+        const double x = a.x + below / (below - above) * (b.x - a.x);
+        from = std::min(from, x), until = std::max(until, x);
+    }
+    return {from, until};
+}
+
+// Returns the texels of a row, from the first until before the end, that a triangle fills: those that lie in it at the row's top and bottom,
+// as it is convex.
+std::pair<int, int> full_texels(const std::array<Vec2d, 3>& triangle, int row) {
+    constexpr double kRounding = 1e-6;  // texels
+    const auto [top_from, top_until] = part_in(triangle, row);
+    const auto [bottom_from, bottom_until] = part_in(triangle, row + 1);
+    const double from = std::max(top_from, bottom_from) + kRounding,
+                 until = std::min(top_until, bottom_until) - kRounding;
+    if (!(from < until)) return {0, 0};
+    return {static_cast<int>(std::ceil(from)), static_cast<int>(std::floor(until))};
+}
+
 }  // namespace
 
 MosaicPainter::MosaicPainter(Mosaic& mosaic)
@@ -90,33 +116,39 @@ void MosaicPainter::add(std::size_t layer, const std::array<Vec3d, 3>& corners) 
 void MosaicPainter::fill(std::size_t layer, const std::array<Vec2d, 3>& triangle, Vec2f lean) {
     Shape whole;
     std::copy(triangle.begin(), triangle.end(), whole.corner.begin()), whole.count = 3;
+    const auto put = [&](int x, int y, float area) {
+        covered_[layer][at(x, y)] += area;
+        if (layer > 0) lean_[0][at(x, y)] += area * lean.x, lean_[1][at(x, y)] += area * lean.y;
+    };
     const auto [top, bottom] = whole.extent([](Vec2d p) { return p.y; });
     for (int y = texel(top, rows_); y <= texel(bottom, rows_); ++y) {
         const Shape row =
             whole.cut([&](Vec2d p) { return p.y - y; }).cut([&](Vec2d p) { return y + 1 - p.y; });
         if (row.count < 3) continue;
-        const auto [left, right] = row.extent([](Vec2d p) { return p.x; });
-        for (int x = texel(left, columns_); x <= texel(right, columns_); ++x) {
+        const auto cut = [&](int x) {
             const Shape part =
                 row.cut([&](Vec2d p) { return p.x - x; }).cut([&](Vec2d p) { return x + 1 - p.x; });
-            const auto area = static_cast<float>(part.area());
-            covered_[layer][at(x, y)] += area;
-            if (layer > 0) lean_[0][at(x, y)] += area * lean.x, lean_[1][at(x, y)] += area * lean.y;
-        }
+            put(x, y, static_cast<float>(part.area()));
+        };
+        const auto [left, right] = row.extent([](Vec2d p) { return p.x; });
+        const int first = texel(left, columns_), last = texel(right, columns_);
+        const auto [full, full_end] = full_texels(triangle, y);
+        const int begin = std::clamp(full, first, last + 1), end = std::clamp(full_end, begin, last + 1);
+        for (int x = first; x < begin; ++x) cut(x);
+        for (int x = begin; x < end; ++x) put(x, y, 1);
+        for (int x = end; x <= last; ++x) cut(x);
     }
 }
 
-double MosaicPainter::finish() {
-    const double seen = hide_lower();
+void MosaicPainter::finish() {
     find_gaps();
     for (;;) {
         pack();
-        if (columns_ == 1 && rows_ == 1) return seen;
+        if (columns_ == 1 && rows_ == 1) return;
         halve();
     }
 }
 
-// Takes from each layer what those above it cover. Returns the share of the ground that is left.
 double MosaicPainter::hide_lower() {
     double ground = 0, left = 0;
     for (std::size_t t = 0; t < covered_[0].size(); ++t) {
@@ -203,22 +235,15 @@ std::vector<float> MosaicPainter::narrowness(std::size_t axis) const {
 // The parts of lines along an axis that upper triangles cover, in order.
 std::vector<MosaicPainter::Parts> MosaicPainter::covered_parts(std::size_t axis, int lines) const {
     std::vector<Parts> out(static_cast<std::size_t>(lines));
-    const auto along = [&](Vec2d p) { return axis == 0 ? p.x : p.y; };
-    const auto beside = [&](Vec2d p) { return axis == 0 ? p.y : p.x; };
-    for (const std::array<Vec2d, 3>& p : upper_) {
-        const auto [low, high] = std::minmax({beside(p[0]), beside(p[1]), beside(p[2])});
+    for (std::array<Vec2d, 3> p : upper_) {
+        if (axis == 1)
+            for (Vec2d& corner : p) std::swap(corner.x, corner.y);
+        const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
         const int first = std::max(0, static_cast<int>(std::ceil(low * kLinesEach - 0.5))),
                   last = std::min(lines - 1, static_cast<int>(std::floor(high * kLinesEach - 0.5)));
         for (int line = first; line <= last; ++line) {
             const double at = (line + 0.5) / kLinesEach;
-            double from = std::numeric_limits<double>::infinity(), until = -from;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec2d a = p[k], b = p[(k + 1) % 3];
-                const double below = beside(a) - at, above = beside(b) - at;
-                if (below * above > 0 || below == above) continue;
-                const double place = along(a) + below / (below - above) * (along(b) - along(a));
-                from = std::min(from, place), until = std::max(until, place);
-            }
+            const auto [from, until] = part_in(p, at);
             if (until > from) out[static_cast<std::size_t>(line)].emplace_back(from, until);
         }
     }

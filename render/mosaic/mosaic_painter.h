@@ -17,8 +17,10 @@ class MosaicPainter {
 
     // Adds a triangle of a layer, by the area of each texel that it fills.
     void add(std::size_t layer, const std::array<Vec3d, 3>& corners_m);
-    // Ends that. Returns the share of the ground that is seen.
-    double finish();
+    // Ends that: takes from each layer what those above it cover. Returns the share of the ground that is left.
+    double hide_lower();
+    // Makes the texels, after that.
+    void finish();
 
   private:
     static constexpr int kLinesEach = 2;  // lines through each row of texels, along which gaps are measured
@@ -39,7 +41,6 @@ class MosaicPainter {
                static_cast<std::size_t>(column);
     }
     void fill(std::size_t layer, const std::array<Vec2d, 3>& triangle, Vec2f lean);
-    double hide_lower();
     void find_gaps();
     std::vector<float> narrowness(std::size_t axis) const;
     float narrow_beside(const std::vector<float>& of, const std::vector<float>& against, int column, int row,
