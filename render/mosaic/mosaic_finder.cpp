@@ -89,6 +89,7 @@ class MosaicFinder {
     double error_m_, rounding_m_;
     std::vector<FlatTriangle> flat_;
     std::vector<std::uint8_t> used_;  // in a mosaic, or looked at as ground
+    MosaicPainter painter_;
 
     std::array<Vec3d, 3> corners(std::size_t i) const { return corners_of(mesh_, flat_[i].number); }
 
@@ -215,20 +216,20 @@ class MosaicFinder {
                 out.surface.begin());
         };
         double top_m = 0;
-        MosaicPainter painter(out);
-        for (const std::size_t i : ground) painter.add(0, corners(i));
+        painter_.begin(out);
+        for (const std::size_t i : ground) painter_.add(0, corners(i));
         for (const std::size_t i : upon) {
             const std::size_t layer = layer_of(i);
             if (layer == out.layers) continue;
-            painter.add(layer, corners(i));
+            painter_.add(layer, corners(i));
             for (const Vec3d c : corners(i)) top_m = std::max(top_m, dot(c - base, up));
         }
         double area_m2 = 0, height_m3 = 0;
         for (const Layer& layer : layers) area_m2 += layer.area_m2, height_m3 += layer.height_m3;
         out.upper_m = static_cast<float>(height_m3 / area_m2);
-        const double seen = painter.hide_lower();
+        const double seen = painter_.fill();
         if (seen < kMinSeen || seen > kMaxSeen) return false;
-        painter.finish();
+        painter_.finish();
         for (const std::size_t i : upon)
             if (layer_of(i) < out.layers && out.covers(corners(i))) used_[i] = 1;
         out.above_m = static_cast<float>(top_m);
