@@ -10,6 +10,7 @@
 
 #include "emulator/recording/recording_header.h"
 #include "emulator/recording/run_seed.h"
+#include "emulator/scenario/scenario_warnings.h"
 #include "io/system/service_manager.h"
 
 namespace hilcam {

@@ -10,6 +10,7 @@
 #include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
+#include "emulator/scenario/scenario_warnings.h"
 #include "io/pictures/image_file.h"
 #include "sensor/published_frame.h"
 

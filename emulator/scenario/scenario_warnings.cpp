@@ -7,7 +7,10 @@
 #include <set>
 
 #include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/scene_loader.h"
 #include "emulator/scenario/site.h"
+#include "io/config/config_advice.h"
+#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -169,6 +172,26 @@ void look_at_frames(const ScenarioConfig& s, Lines& out) {
         out.push_back("earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
 }
 
+// Says which rules of an object have no effect, and the surfaces that there are; empty: all have one.
+std::string meaning_of_idle_rules(const LoadedObject& object) {
+    if (object.idle_rules.empty()) return {};
+    std::vector<std::string> names;
+    std::string surfaces, rules;
+    for (const LoadedSurface& surface : object.surfaces) {
+        if (surface.triangles == 0) continue;
+        names.push_back(surface.name);
+        if (surfaces.size() < 400) surfaces += (surfaces.empty() ? "" : ", ") + in_quotes(surface.name);
+    }
+    for (const std::string& rule : object.idle_rules) {
+        rules += (rules.empty() ? "" : ", ") + in_quotes(rule);
+        if (std::find(names.begin(), names.end(), rule) != names.end())
+            rules += " (a rule before it takes that surface)";
+        else if (const std::string nearest = nearest_of(rule, names); !nearest.empty())
+            rules += " (the nearest is " + in_quotes(nearest) + ")";
+    }
+    return "no surface takes its material rules for " + rules + "; the mesh's surfaces: " + surfaces;
+}
+
 }  // namespace
 
 std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, const CommandsConfig& commands,
@@ -209,6 +232,29 @@ std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
 std::vector<std::string> place_warnings(const ScenarioConfig& scenario) {
     Lines out;
     look_at_places(scenario, out);
+    return out;
+}
+
+std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects) {
+    struct Warning {
+        std::string object, meaning;
+        std::size_t others = 0;
+    };
+    std::vector<Warning> warnings;
+    for (const LoadedObject& object : objects) {
+        std::string meaning = meaning_of_idle_rules(object);
+        if (meaning.empty()) continue;
+        const auto same = std::find_if(warnings.begin(), warnings.end(),
+                                       [&](const Warning& w) { return w.meaning == meaning; });
+        if (same != warnings.end())
+            ++same->others;
+        else
+            warnings.push_back({object.name, std::move(meaning)});
+    }
+    std::vector<std::string> out;
+    for (const Warning& w : warnings)
+        out.push_back("object '" + w.object + "'" +
+                      (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") + ": " + w.meaning);
     return out;
 }
 

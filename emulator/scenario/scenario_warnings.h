@@ -9,6 +9,8 @@
 
 namespace hilcam {
 
+struct LoadedObject;
+
 // A line each. What a run will not do: lockstep in which nobody can ask for a frame, faults that no output or
 // port can show, a camera whose frames nobody gets, keys that do nothing beside the others.
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario);
@@ -18,5 +20,7 @@ std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, con
                            FaultKind kind);
 // Cameras that begin inside a body. Throws InputError where the scenario's motions cannot be had.
 std::vector<std::string> place_warnings(const ScenarioConfig& scenario);
+// Says which rules of objects have no effect, and the surfaces that there are; once for those that are alike in that.
+std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects);
 
 }  // namespace hilcam

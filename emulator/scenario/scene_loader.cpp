@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "emulator/ground/body_loader.h"
 #include "emulator/ground/earth_loader.h"
 #include "emulator/ground/globe_loader.h"
 #include "emulator/progress/progress.h"
@@ -239,42 +240,6 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
     return objects;
 }
 
-BodyRelief load_relief(const std::string& name, const Figure& figure, const BodyConfig& config) {
-    const std::string key = name + ".height_map";
-    if (figure.equatorial_radius_m != figure.polar_radius_m)
-        throw InputError(key + ": the body is flattened; accepted: a round one");
-    const PixelMap map = read_pixel_map(config.height_map, true);
-    if (map.width() < 8 || map.height() < 4)
-        throw InputError(
-            fmt::format("{}: found {} x {} pixels; accepted: 8 x 4 or more", key, map.width(), map.height()));
-    std::vector<float> heights_m(map.all().begin(), map.all().end());
-    for (float& value : heights_m)
-        value = static_cast<float>(config.height_zero_m + config.height_step_m * static_cast<double>(value));
-    const auto [least, most] = std::minmax_element(heights_m.begin(), heights_m.end());
-    constexpr double kMaxShare = 0.05;
-    const double bound_m = kMaxShare * figure.equatorial_radius_m;
-    if (!(static_cast<double>(*least) > -bound_m && static_cast<double>(*most) < bound_m))
-        throw InputError(
-            fmt::format("{}: found heights from {:.6g} to {:.6g} m; accepted: within {:.6g} m of the sphere",
-                        key, *least, *most, bound_m));
-    return {figure.equatorial_radius_m, map.width(), map.height(), std::move(heights_m)};
-}
-
-SceneBody load_body(BodyId id, const std::string& name, const Figure& figure, const BodyConfig& config,
-                    const SpectralGrid& grid) {
-    SceneBody body;
-    body.visible = config.visible;
-    body.look = BodyLook(id, config, grid);
-    if (!config.albedo_map.empty()) body.map = MipTexture(read_picture(config.albedo_map));
-    body.map_reference = config.albedo_map_reference;
-    if (config.visible && !config.height_map.empty()) body.relief = load_relief(name, figure, config);
-    body.planetshine = config.planetshine;
-    if (config.rings && id != BodyId::kSaturn)
-        throw InputError(name + ".rings: found true; accepted: saturn alone has rings");
-    body.rings = config.rings;
-    return body;
-}
-
 // A frame's radiance is the largest of all images: where it alone does not fit, nothing is begun.
 void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
     constexpr double kGigabyte = 1e9;
@@ -320,24 +285,33 @@ std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const Spectr
     return terrain;
 }
 
-// Says which rules of an object have no effect, and the surfaces that there are; empty: all have one.
-std::string meaning_of_idle_rules(const LoadedObject& object) {
-    if (object.idle_rules.empty()) return {};
-    std::vector<std::string> names;
-    std::string surfaces, rules;
-    for (const LoadedSurface& surface : object.surfaces) {
-        if (surface.triangles == 0) continue;
-        names.push_back(surface.name);
-        if (surfaces.size() < 400) surfaces += (surfaces.empty() ? "" : ", ") + in_quotes(surface.name);
+void load_bodies(const ScenarioConfig& scenario, const SpectralGrid& grid, Scene& scene) {
+    for (std::size_t i = 0; i < kBodyCount; ++i)
+        scene.bodies[i] = load_body(static_cast<BodyId>(i), std::string(kBodyNames[i]), kFigures[i],
+                                    scenario.bodies[i], grid);
+    for (std::size_t k = 0; k < scenario.own_bodies.size(); ++k) {
+        const OwnBodyConfig& own = scenario.own_bodies[k];
+        scene.bodies[kBodyCount + k] = load_body(static_cast<BodyId>(kBodyCount + k), own.name,
+                                                 scenario.origin.own->list[k].figure, own.look, grid);
+        scene.bodies[kBodyCount + k].name = own.name;
     }
-    for (const std::string& rule : object.idle_rules) {
-        rules += (rules.empty() ? "" : ", ") + in_quotes(rule);
-        if (std::find(names.begin(), names.end(), rule) != names.end())
-            rules += " (a rule before it takes that surface)";
-        else if (const std::string nearest = nearest_of(rule, names); !nearest.empty())
-            rules += " (the nearest is " + in_quotes(nearest) + ")";
+}
+
+void load_air_and_earth(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
+                        Scene& scene) {
+    if (!scene.body(BodyId::kEarth).visible) return;
+    AtmosphereConfig air = scenario.atmosphere;
+    if (air.cache.empty()) air.cache = cache_folder();
+    std::optional<AtmosphereTable> table;
+    if (!air.table.empty()) table = read_atmosphere(air.table, grid);
+    const Progress progress("air");
+    scene.air = modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
+    if (!scenario.earth_surface.map.empty()) {
+        const Progress earth("Earth");
+        scene.earth = load_earth(scenario.earth_surface, scene.air.get(), grid);
+    } else if (air.model == "precomputed") {
+        scene.air = looked_up_from_space(std::move(scene.air));
     }
-    return "no surface takes its material rules for " + rules + "; the mesh's surfaces: " + surfaces;
 }
 
 }  // namespace
@@ -363,29 +337,6 @@ double LoadedObject::mean_reflectance() const {
     return area_m2 > 0 ? sum_m2 / area_m2 : 0;
 }
 
-std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects) {
-    struct Warning {
-        std::string object, meaning;
-        std::size_t others = 0;
-    };
-    std::vector<Warning> warnings;
-    for (const LoadedObject& object : objects) {
-        std::string meaning = meaning_of_idle_rules(object);
-        if (meaning.empty()) continue;
-        const auto same = std::find_if(warnings.begin(), warnings.end(),
-                                       [&](const Warning& w) { return w.meaning == meaning; });
-        if (same != warnings.end())
-            ++same->others;
-        else
-            warnings.push_back({object.name, std::move(meaning)});
-    }
-    std::vector<std::string> out;
-    for (const Warning& w : warnings)
-        out.push_back("object '" + w.object + "'" +
-                      (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") + ": " + w.meaning);
-    return out;
-}
-
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
                  std::vector<LoadedObject>* found, LightLoading* light) {
     Scene scene;
@@ -401,30 +352,8 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
         scene.stars =
             stars_at(loaded_for(stars->catalogue_where, [&] { return load_catalogue(stars->catalogue); }),
                      time, stars->faintest_magnitude, grid);
-    for (std::size_t i = 0; i < kBodyCount; ++i)
-        scene.bodies[i] = load_body(static_cast<BodyId>(i), std::string(kBodyNames[i]), kFigures[i],
-                                    scenario.bodies[i], grid);
-    for (std::size_t k = 0; k < scenario.own_bodies.size(); ++k) {
-        const OwnBodyConfig& own = scenario.own_bodies[k];
-        scene.bodies[kBodyCount + k] = load_body(static_cast<BodyId>(kBodyCount + k), own.name,
-                                                 scenario.origin.own->list[k].figure, own.look, grid);
-        scene.bodies[kBodyCount + k].name = own.name;
-    }
-    AtmosphereConfig air = scenario.atmosphere;
-    if (air.cache.empty()) air.cache = cache_folder();
-    if (scene.body(BodyId::kEarth).visible) {
-        std::optional<AtmosphereTable> table;
-        if (!air.table.empty()) table = read_atmosphere(air.table, grid);
-        const Progress progress("air");
-        scene.air =
-            modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
-        if (!scenario.earth_surface.map.empty()) {
-            const Progress earth("Earth");
-            scene.earth = load_earth(scenario.earth_surface, scene.air.get(), grid);
-        } else if (air.model == "precomputed") {
-            scene.air = looked_up_from_space(std::move(scene.air));
-        }
-    }
+    load_bodies(scenario, grid, scene);
+    load_air_and_earth(scenario, grid, modules, scene);
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
     scene.sun_irradiance_1au_w_m2_um =
         scenario.sun.has_spectrum ? grid.average(scenario.sun.spectrum) : solar_irradiance_1au_w_m2_um(grid);

@@ -27,8 +27,6 @@ struct LoadedObject {
 
     double mean_reflectance() const;  // by area
 };
-// Says which rules of objects have no effect, and the surfaces that there are; once for those that are alike in that.
-std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects);
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
 // found: gets the objects in their order; light: how the scene is to get its tables of directions, and what

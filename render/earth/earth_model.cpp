@@ -78,19 +78,6 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
     }
 }
 
-std::string map_text(const GroundMaps& ground) {
-    const int height = ground.height();
-    return (ground.count() > 1 ? std::to_string(ground.count()) + " maps by time, the finest"
-                               : std::string("map")) +
-           " of " + std::to_string(2 * height) + " x " + std::to_string(height) + " with its halves";
-}
-
-std::string finer_levels(const EarthDetail* detail) {
-    if (!detail) return {};
-    return ", finer ones to " + std::to_string(detail->shape().columns) + " x " +
-           std::to_string(detail->shape().rows) + " by tiles of " + detail->files();
-}
-
 // The ellipsoid at a height.
 Figure raised(double height_m) {
     return {kEarth.equatorial_radius_m + height_m, kEarth.polar_radius_m + height_m};
@@ -392,36 +379,6 @@ Spectrum EarthModel::disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) con
     const double area =
         kPi * radius_m * radius_m / (looks * kEarth.equatorial_radius_m * kEarth.equatorial_radius_m);
     return static_cast<float>(area) * sum;
-}
-
-std::vector<EarthModel::PartInfo> EarthModel::parts() const {
-    const auto rounded = [](double value) {
-        std::string text = std::to_string(value);
-        return text.substr(0, text.find('.') + 2);
-    };
-    std::vector<PartInfo> out;
-    out.push_back({Part::kSurface, map_text(ground()) + finer_levels(detail_.get()),
-                   ground().bytes() + (detail_ ? detail_bytes_ : 0)});
-    if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
-    if (table_)
-        out.push_back({Part::kClouds,
-                       "clouds: table by doubling, shadows" + std::string(together() ? "" : ", ") +
-                           (cloud_maps_->count() > 1 ? std::to_string(cloud_maps_->count()) + " maps by time"
-                                                     : (together() ? "" : "a map of their own")),
-                       table_->bytes() + cloud_maps_->bytes()});
-    if (air_) out.push_back({Part::kAir, "air: above the clouds and below them", columns_->bytes()});
-    if (lights_ > 0) out.push_back({Part::kLights, "lights of cities", 0});
-    return out;
-}
-
-EarthModel EarthModel::without(Part part) const {
-    HILCAM_CHECK(part != Part::kSurface);
-    EarthModel out = *this;
-    if (part == Part::kSea) out.glints_ = false;
-    if (part == Part::kClouds) out.table_.reset();
-    if (part == Part::kAir) out.air_ = nullptr, out.columns_.reset();
-    if (part == Part::kLights) out.lights_ = 0;
-    return out;
 }
 
 }  // namespace hilcam

@@ -1,6 +1,6 @@
 #pragma once
 // The kept light of all objects (kept_light.h) as one frame has it: brought up to where the sources are, and
-// looked up where a path meets a surface.
+// looked up where a path meets a surface (kept_reflection.cpp).
 //
 // Kept are the light between the parts of an object and between objects that stand near each other, and what
 // of the bodies' light reaches them past their parts. The Sun and lamps shine on what a path meets by rays as
@@ -135,6 +135,17 @@ class KeptScene {
         Vertex* follower;  // the first whose lobe is left to rays, which are those of all of them; null: none
         std::size_t followers;
     };
+    // A vertex, and the place whose light it has.
+    struct Use {
+        Vertex* at;
+        Place* place;
+    };
+    // Vertices that go together, and where they are.
+    struct Together {
+        std::array<Place, 32> places;
+        std::array<Use, 128> uses;
+        std::size_t place_count = 0, use_count = 0;
+    };
     // A lobe's reflection of other surfaces.
     struct MetByLobe {
         Spectrum radiance;                             // white or coloured as that of a place
@@ -146,6 +157,7 @@ class KeptScene {
         AlikeLobes<MetByLobe> met;
         AlikeLobes<SentOfBodies> bodies;
     };
+    std::size_t gather(const Tile& tile, std::span<Vertex> vertices, Together& block) const;
     Place* shared_place(std::span<Place> places, const Vertex& at, std::uint32_t quad) const;
     void find(const FrameView& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
@@ -153,10 +165,12 @@ class KeptScene {
     template <class Where>
     Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
+    void reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const;
     void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
     void reflect_far_bodies(Place& place) const;
     MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
     SentOfBodies sent_of_bodies(const Vertex& at) const;
+    void add_use(Tile& tile, const Use& use, float& room) const;
     static void follow_together(Vertex& at, Place& place);
     static bool hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions);
     SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, Vec3f normal, float reflectance) const;

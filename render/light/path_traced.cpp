@@ -3,9 +3,10 @@
 // the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
 //
-// Where light is kept (kept_scene.h) nothing is drawn: a path ends there, but for mirrors, lobes too narrow
-// to be kept, and glass, which fixed directions follow. What can add less than contribution_threshold is left
-// out.
+// Where light is kept (kept_scene.h) nothing is drawn: a path ends there, but for what fixed directions follow
+// (kept_rays.h).
+
+#include "render/light/path_models.h"
 
 #include <algorithm>
 #include <array>
@@ -14,40 +15,15 @@
 #include <limits>
 #include <span>
 
-#include "render/brdf/microfacet.h"
+#include "render/light/kept_rays.h"
 #include "render/light/kept_scene.h"
 #include "render/light/mirror_rays.h"
-#include "render/light/path_models.h"
+#include "render/light/next_ray.h"
 #include "render/light/primary_vertices.h"
-#include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
-#include "render/visibility/place_sequence.h"
 
 namespace hilcam {
 namespace {
-
-// A ray that continues a path.
-struct NextRay {
-    const Vertex* from;
-    Vec3f origin_m;
-    Vec3f dir;
-    float density;      // density of the direction [sr^-1]; 0: exact
-    float alpha_least;  // least alpha of the next vertex's facet lobe
-    bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
-    Spectrum weight;
-    bool whole_lobe = false;    // it stands for all of a narrow facet lobe about it
-    bool sees_bodies = true;    // false: their light in its lobe has been counted
-    Spectrum if_free{};         // light that it adds where it meets nothing
-    std::uint8_t lobe_ray = 0;  // number among those of a lobe (FollowedLobe)
-    // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
-    bool may_be_many = false;
-
-    // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
-    RayWidth width() const {
-        const float spread = density > 0 ? std::min(0.5f, 0.25f / std::sqrt(density)) : 0.0f;
-        return {from->footprint_m, spread};
-    }
-};
 
 class TracedPaths final : public PathModel {
   public:
@@ -64,20 +40,15 @@ class TracedPaths final : public PathModel {
   private:
     bool kept_;
     static constexpr auto kMax = static_cast<std::size_t>(kMostVertices);
-    static constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first surface
     // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
     // where others need fewer.
     static constexpr std::size_t kLeastOfMirror = 8;
-    // What a mirror of this reflectance shows is looked for in any case: a glint in it is as bright as paint.
-    static constexpr float kBright = 0.1f;
     static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
     std::array<Vertex, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
-    std::array<PixelShare, kMax> shares_;
-    std::array<FollowedLobe, kMax> lobes_;
-    std::size_t share_count_ = 0, lobe_count_ = 0;
+    KeptRays kept_rays_;
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
@@ -85,7 +56,7 @@ class TracedPaths final : public PathModel {
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
-        share_count_ = lobe_count_ = 0;
+        kept_rays_.clear();
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.kept) {
@@ -98,21 +69,20 @@ class TracedPaths final : public PathModel {
             }
             frame.radiance->add_light(tile, {current_ + keep, count - keep}, BodySampling::kSampled);
             const bool last = depth == frame.max_depth;
-            std::size_t rays = 0;
-            for (std::size_t i = 0; i < keep; ++i) continue_kept(tile, current_[i], rays);
-            count = follow(tile, choose(tile, keep, count, rays, last), last);
+            NextRays rays{next_};
+            for (std::size_t i = 0; i < keep; ++i) kept_rays_.add_of(tile, current_[i], rays);
+            choose(tile, {current_ + keep, count - keep}, last, rays);
+            count = follow(tile, rays.count, last);
         }
-        const std::span<const FollowedLobe> lobes = std::span(lobes_).first(lobe_count_);
-        const float share = found_over_believed(lobes);
-        for (const FollowedLobe& lobe : lobes) tile.add(lobe, share * lobe.believed());
+        kept_rays_.add_found(tile);
     }
 
-    // At the last surface only exact directions go on: no lamp has been counted in them.
-    std::size_t choose(Tile& tile, std::size_t first, std::size_t count, std::size_t ray_count, bool last) {
+    // Draws a direction at each vertex. At the last surface only exact ones go on: no lamp has been counted in them.
+    static void choose(const Tile& tile, std::span<const Vertex> vertices, bool last, NextRays& rays) {
         const FrameView& frame = tile.frame;
         const float least = frame.contribution_threshold;
-        for (std::size_t i = first; i < count && ray_count < next_.size(); ++i) {
-            const Vertex& at = current_[i];
+        for (const Vertex& at : vertices) {
+            if (rays.full()) return;
             if (last && !at.surface.has_exact()) continue;
             const auto random = tile.random_of(at, 0);
             const BrdfSample sample =
@@ -135,66 +105,8 @@ class TracedPaths final : public PathModel {
             const float alpha_least = frame.alpha_behind_diffuse > 0
                                           ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
                                           : 0.0f;
-            next_[ray_count++] = {
-                &at, at.start(!sample.transmits), sample.dir, sample.density, alpha_least, true, weight};
-        }
-        return ray_count;
-    }
-
-    // Rays from a vertex that keeps light: a mirror's one direction, in whose place follow_many() may put more, four of a narrow
-    // lobe, both of a sheet of glass.
-    void continue_kept(Tile& tile, Vertex& at, std::size_t& ray_count) {
-        const Scatterer& surface = at.surface;
-        if (surface.is_glass()) {
-            for (const int part : {0, 1}) {
-                const BrdfSample exact = brdf_exact(surface, at.normal, at.view_dir, part);
-                if (exact.valid)
-                    add_kept(tile,
-                             {&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight},
-                             ray_count);
-            }
-            return;
-        }
-        if (at.follows_lobe) follow_lobe(tile, at, ray_count);
-        if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
-        const Spectrum weight = at.weight * tile.frame.kept->lobe_albedo(at);
-        // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
-        const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
-        if (at.has_bodies && surface.alpha > 0 && !is_bright) return;
-        const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
-        if (surface.alpha < kNarrowestLobe) {
-            const bool meets_sun = surface.alpha == 0;
-            NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !at.has_bodies};
-            ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.facets;
-            // What bad mirrors show is not looked for where nothing stands near.
-            if (at.mirrors_near || is_bright)
-                add_kept(tile, ray, ray_count);
-            else if (dot(at.geometric_normal, mirror) > 0)
-                add_background(tile, ray);
-            return;
-        }
-        // Where nothing stands near, the bodies in a lobe are all there is, and kept_scene.h has them.
-        if (!at.mirrors_near) return;
-        const float core = 1 - tail_share(surface.alpha);
-        // Behind the first surface the lobe's middle stands for all of it: rays do not multiply.
-        const int count = at.depth == 1 ? kLobeRays : 1;
-        const Frame local(at.normal);
-        for (int i = 0; i < count; ++i) {
-            NextRay ray{&at,
-                        at.start(),
-                        mirror,
-                        0,
-                        surface.alpha,
-                        false,
-                        (core / static_cast<float>(count)) * weight};
-            if (count > 1) {
-                const float u1 = core * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-                const float u2 = std::fmod(0.25f * static_cast<float>(i) + 0.125f, 1.0f);
-                ray.dir = normalized(
-                    reflect(at.view_dir, local.to_world(sample_visible_normal(
-                                             surface.alpha, local.to_local(at.view_dir), u1, u2))));
-            }
-            add_kept(tile, ray, ray_count);
+            rays.add(
+                {&at, at.start(!sample.transmits), sample.dir, sample.density, alpha_least, true, weight});
         }
     }
 
@@ -227,71 +139,6 @@ class TracedPaths final : public PathModel {
             }
         }
         return sent;
-    }
-
-    // The vertices whose lobes the same rays follow, and their pixels' shares of what these find.
-    struct Followers {
-        std::array<const Vertex*, KeptScene::kMostTogether> vertex;
-        std::size_t count = 0;
-        float samples = 0;  // that see them
-    };
-    Followers share_rays(const Tile& tile, Vertex& first) {
-        Followers out;
-        const std::size_t begin = share_count_;
-        for (const Vertex* at = &first; at; at = at->follows_too) {
-            out.vertex[out.count++] = at;
-            out.samples += at->weight_samples;
-            const float samples = at->weight_samples / first.weight_samples;
-            shares_[share_count_++] = {at->pixel, at->halves, samples * tile.frame.kept->lobe_tint(*at)};
-        }
-        first.lobe = &lobes_[lobe_count_++];
-        *first.lobe = {
-            {shares_.data() + begin, out.count}, first.kept_lobe, first.kept_lobe_directions, {}, {}, {}};
-        return out;
-    }
-
-    // Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all.
-    void follow_lobe(Tile& tile, Vertex& at, std::size_t& ray_count) {
-        const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
-        const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
-        const Followers followers = share_rays(tile, at);
-        const std::size_t count = std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))),
-                                           FollowedLobe::kMostRays);
-        const Frame local(at.normal);
-        const std::size_t first = ray_count;
-        for (std::size_t i = 0; i < count && ray_count < next_.size(); ++i) {
-            const Vertex& from = *followers.vertex[i % followers.count];
-            const auto number = static_cast<float>(at.sample + i);
-            const Vec3f facet = local.to_world(sample_visible_normal(
-                at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kPlasticAlong * number, 1.0f),
-                std::fmod(0.25f * quarter + kPlasticAbout * number, 1.0f)));
-            const Vec3f dir = normalized(reflect(at.view_dir, facet));
-            if (dot(from.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
-                next_[ray_count++] = {&at, from.start(), dir, 0, at.surface.alpha, false, {}, false, false};
-        }
-        const std::span<NextRay> rays = std::span(next_).subspan(first, ray_count - first);
-        const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(rays.size(), 1))) *
-                                (at.weight * tile.frame.kept->plain_lobe_albedo(at));
-        KeptScene::LobeRays bodies(*tile.frame.kept, at);
-        for (const NextRay& ray : rays) bodies.count(ray.dir);
-        std::uint8_t number = 0;
-        for (NextRay& ray : rays)
-            ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir), ray.lobe_ray = number++;
-    }
-    // One for two of a pixel's samples, and for four of those beyond: of a square of four pixels, 20 rays instead of 32.
-    static float rays_for(float samples) {
-        constexpr float kOfPixel = 0.5f, kBeyond = 0.25f, kPixel = kVisibilitySamples;
-        return std::max(1.0f,
-                        kOfPixel * std::min(samples, kPixel) + kBeyond * std::max(samples - kPixel, 0.0f));
-    }
-
-    void add_kept(Tile& tile, const NextRay& ray, std::size_t& ray_count) {
-        if (ray.from->importance(ray.weight) >= tile.frame.contribution_threshold) add(ray, ray_count);
-    }
-    void add(const NextRay& ray, std::size_t& ray_count) {
-        const bool leaves = dot(ray.from->geometric_normal, ray.dir) > 0;
-        const bool through = ray.from->surface.is_glass();
-        if ((leaves || through) && ray_count < next_.size()) next_[ray_count++] = ray;
     }
 
     // Traces some of the chosen rays.
@@ -422,37 +269,6 @@ class TracedPaths final : public PathModel {
         }
         std::swap(current_, following_);
         return found;
-    }
-
-    static void add_background(Tile& tile, const NextRay& ray) {
-        Spectrum light;
-        add_background_seen(tile.frame, ray, light);
-        tile.add(*ray.from, light);
-    }
-    // The share of the light that next-event estimation has not counted.
-    static void add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light) {
-        const Background& background = *frame.background;
-        if (ray.whole_lobe) {
-            if (ray.sees_bodies) frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.weight, light);
-            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.weight, light);
-            return;
-        }
-        const bool exact = ray.density == 0;
-        const float lamps = exact ? 0 : body_light_density(frame, *ray.from, ray.dir);
-        Spectrum weight = exact ? ray.weight : (ray.density / (ray.density + lamps)) * ray.weight;
-        if (background.may_meet_body(ray.dir) &&
-            background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light))
-            return;
-        // As a point the Sun is only seen where no lobe has counted it.
-        if (exact) {
-            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), weight, light);
-            return;
-        }
-        const float sun = sun_density(frame, ray.dir);
-        if (sun > 0) {
-            weight = (ray.density / (ray.density + sun)) * ray.weight;
-            background.add_sun_disk(to_double(ray.dir), weight, light);
-        }
     }
 };
 

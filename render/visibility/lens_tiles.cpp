@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSide_px = kVisibilityTile_px;
 constexpr double kMaxError_px = 0.05;
-constexpr int kSteps = 32;  // steps of the grid on which the lens's derivatives are looked at
+constexpr int kGridSteps = 32;  // steps of the grid on which the lens's derivatives are looked at
 // The factor by which the lens may be curved more between the grid's places.
 constexpr double kSafety = 1.3;
 
@@ -55,10 +55,10 @@ Curvature curvature_in(const ImageGeometry& g, const Box& box) {
     const double f = g.focal_length_px, h = 1e-3;
     const auto screen = [&](double x, double y) { return g.distortion.distorted({x, y}); };
     Curvature out;
-    for (int j = 0; j <= kSteps; ++j)
-        for (int i = 0; i <= kSteps; ++i) {
-            const double x = (box.x0 + (box.x1 - box.x0) * i / kSteps - center.x) / f;
-            const double y = (box.y0 + (box.y1 - box.y0) * j / kSteps - center.y) / f;
+    for (int j = 0; j <= kGridSteps; ++j)
+        for (int i = 0; i <= kGridSteps; ++i) {
+            const double x = (box.x0 + (box.x1 - box.x0) * i / kGridSteps - center.x) / f;
+            const double y = (box.y0 + (box.y1 - box.y0) * j / kGridSteps - center.y) / f;
             const Vec2d at = screen(x, y), right = screen(x + h, y), left = screen(x - h, y),
                         below = screen(x, y + h), above = screen(x, y - h);
             const double xx = (right.x - left.x) / (2 * h), xy = (below.x - above.x) / (2 * h);

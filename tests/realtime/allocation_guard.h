@@ -2,6 +2,8 @@
 // Counts every operator new of the program, on every thread, while it is armed. What libraries (Embree's commit of a scene,
 // oneTBB's own pools) allocate is told apart by who calls.
 
+#include <gtest/gtest.h>
+
 namespace hilcam {
 
 // Numbers of allocations.
@@ -16,5 +18,12 @@ void prepare_allocation_guard();
 void arm_allocation_guard();
 // Returns what was counted since it was armed; disarms it.
 Allocations counted_allocations();
+
+// Tests that arm it; a test that ends early leaves it disarmed.
+class Allocation : public testing::Test {
+  protected:
+    static void SetUpTestSuite() { prepare_allocation_guard(); }
+    void TearDown() override { counted_allocations(); }
+};
 
 }  // namespace hilcam

@@ -40,6 +40,9 @@ class PlateTest : public FilesTest {
     }
 };
 
+// Tests of the loop as a whole stand in a file for each of its concepts.
+class FrameLoopTest : public PlateTest {};
+
 // Keeps what the loop publishes and tells.
 class Collector : public FrameSink {
   public:
@@ -85,6 +88,8 @@ inline PoseCommand camera_pose_at(TimeTai time, double x_m, double velocity_m_s 
     command.motion.velocity_world_m_s = {velocity_m_s, 0, 0};
     return command;
 }
+
+inline ExposeCommand expose(TimeTai time = {}, std::uint16_t frames = 0) { return {time, frames}; }
 
 // The middle of the plate's light. 10 mm of the camera's way are 1.6 px of it, the other way.
 inline double plate_x_px(const Collector::Frame& f) {

@@ -1,8 +1,13 @@
+#include "emulator/loop/live_settings.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
-#include "emulator/loop/live_settings.h"
+#include "tests/support/plate.h"
 
 namespace hilcam {
 namespace {
@@ -37,6 +42,102 @@ TEST(LiveSettings, NobodyWaitsForALoopThatHasEnded) {
     ASSERT_EQ(settings.order_in_lockstep(order), TriggerResult::kTaken);
     settings.close();
     EXPECT_TRUE(settings.wait_for_order(5)) << "the whole patience";
+}
+
+TEST_F(FrameLoopTest, BinnedLiveAFrameIsWhatACameraBinnedByItsFileTakes) {
+    const auto take = [&](const std::string& camera, std::int64_t binning) {
+        LoopRig rig(scenario(camera), {1, false});
+        EXPECT_TRUE(rig.settings.change({.binning_x = binning, .binning_y = binning}));
+        rig.loop.start();
+        EXPECT_TRUE(rig.collector.wait_for(1));
+        rig.loop.stop();
+        return std::move(rig.collector.frames[0]);
+    };
+    for (const char* kind : {"charge", "sum", "mean"}) {
+        const std::string binning = std::string(", binning: ") + kind;
+        const auto live = take(binning, 2), filed = take(binning + ", binning_x: 2, binning_y: 2", 2);
+        EXPECT_EQ(live.width, 32);
+        EXPECT_EQ(live.dn, filed.dn) << kind;
+        EXPECT_EQ(live.record.binning_x, 2);
+        EXPECT_EQ(take(binning + ", binning_x: 2, binning_y: 2", 1).width, 64);
+    }
+}
+
+TEST_F(FrameLoopTest, SettingsBelongToTheFrameThatTheyWereTakenWith) {
+    LoopRig rig(scenario(), {0, false});
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(3));
+    ASSERT_TRUE(rig.settings.change(
+        {.exposure_s = 0.01, .gain_db = 6, .black_level_dn = 200, .test_pattern = TestPattern::kWhite}));
+    ASSERT_TRUE(rig.collector.wait_for(rig.loop.counters().frames.load() + 8));
+    rig.loop.stop();
+    std::size_t white = 0;
+    for (const auto& f : rig.collector.frames) {
+        const bool is_white = std::all_of(f.dn.begin(), f.dn.end(), [](auto dn) { return dn == 4095; });
+        EXPECT_EQ(is_white, f.record.gain_db == 6) << f.record.id;
+        EXPECT_EQ(f.record.exposure_s, is_white ? 0.01 : 0.02);
+        EXPECT_EQ(f.record.black_level_dn, is_white ? 200 : 50);
+        white += is_white;
+    }
+    EXPECT_GE(white, 5u);
+}
+
+TEST_F(FrameLoopTest, ANewFrameRateHoldsFromTheLastFrameOn) {
+    LoopRig rig(scenario(", frame_rate_hz: 20"), {0, true});
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(4));
+    ASSERT_TRUE(rig.settings.change({.frame_rate_hz = 5}));
+    ASSERT_TRUE(rig.collector.wait_for(7));
+    ASSERT_TRUE(rig.settings.change({.frame_rate_hz = 50}));
+    ASSERT_TRUE(rig.collector.wait_for(11));
+    rig.loop.stop();
+    const auto& frames = rig.collector.frames;
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+        const std::int64_t interval_ns =
+            frames[i].record.exposure_mid_monotonic_ns - frames[i - 1].record.exposure_mid_monotonic_ns;
+        // Whole periods (a loaded machine may skip some) of one of the three rates; at a change to a faster
+        // one the frame may begin when the change comes.
+        const auto whole = [&](std::int64_t period_ns) { return interval_ns % period_ns == 0; };
+        const bool known = whole(50'000'000) || whole(200'000'000) || whole(20'000'000);
+        EXPECT_TRUE(known || (i >= 6 && interval_ns < 200'000'000)) << i << ": " << interval_ns;
+    }
+}
+
+TEST_F(FrameLoopTest, BlackLevelAndReversalAreThoseAskedFor) {
+    const auto take = [&](const SettingsChange& change) {
+        LoopRig rig(scenario(), {1, false});
+        EXPECT_TRUE(rig.settings.change(change));
+        rig.loop.start();
+        EXPECT_TRUE(rig.collector.wait_for(1));
+        rig.loop.stop();
+        return std::move(rig.collector.frames[0].dn);
+    };
+    const auto plain = take({}), brighter = take({.black_level_dn = 150}),
+               mirrored = take({.reverse_x = true}), turned = take({.reverse_x = true, .reverse_y = true});
+    for (std::size_t y = 0; y < 64; ++y)
+        for (std::size_t x = 0; x < 64; ++x) {
+            const auto at = [&](const auto& dn, std::size_t i, std::size_t j) { return dn[64 * j + i]; };
+            // Rounded from a value that is 100 higher; up to the converter's end.
+            EXPECT_EQ(at(brighter, x, y), std::min(4095, at(plain, x, y) + 100));
+            EXPECT_EQ(at(mirrored, x, y), at(plain, 63 - x, y));
+            EXPECT_EQ(at(turned, x, y), at(plain, 63 - x, 63 - y));
+        }
+}
+
+TEST_F(FrameLoopTest, WhatDoesNotFitChangesNothing) {
+    LoopRig rig(scenario(), {1, false});
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .binning_x = 3}));
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .black_level_dn = 4000}));
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .burst_frames = 0}));
+    EXPECT_FALSE(rig.settings.change({.automatic_exposure = true, .trigger_delay_s = -1}));
+    EXPECT_EQ(rig.settings.settings().exposure_s, 0.02);
+    EXPECT_FALSE(rig.settings.settings().automatic_exposure);
+    EXPECT_TRUE(rig.settings.change({.automatic_exposure = true}));
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01}));  // the camera's own now
+    EXPECT_TRUE(rig.settings.change({.exposure_s = 0.01, .automatic_exposure = false}));
+    LiveSettings fixed(rig.scenario.camera, {.fixed_size = true});
+    EXPECT_FALSE(fixed.change({.binning_x = 2}));
+    EXPECT_FALSE(LiveSettings(CameraModel{}, {.lockstep = true}).change({.triggered = false}));
 }
 
 }  // namespace

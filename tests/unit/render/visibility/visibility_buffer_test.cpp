@@ -17,7 +17,7 @@ namespace hilcam {
 namespace {
 
 // A camera that looks along its +z, and what it sees by the buffer and by rays through the same samples.
-struct Sight {
+struct BufferAndRays {
     ImageGeometry geometry;
     Pose camera;
     std::vector<Mesh> meshes;
@@ -27,7 +27,7 @@ struct Sight {
     std::unique_ptr<EmbreeScene> embree;
     std::unique_ptr<VisibilityBuffer> buffer;
 
-    Sight(int width_px, int height_px, double focal_px) {
+    BufferAndRays(int width_px, int height_px, double focal_px) {
         geometry.width_px = width_px, geometry.height_px = height_px, geometry.guard_px = 3;
         geometry.focal_length_px = focal_px;
     }
@@ -152,26 +152,26 @@ Pose turned(Vec3d position_m) { return {position_m, normalized(Quat{0.7, 0.2, -0
 
 // A sphere's triangles share all their edges: where it is seen, no sample is lost between two of them.
 TEST(VisibilityBuffer, SeesWhatRaysSee) {
-    Sight sight(200, 150, 300);
+    BufferAndRays sight(200, 150, 300);
     sight.add(sphere(1, 100), turned({0.1, -0.05, 4}));
     ASSERT_TRUE(sight.place());
-    const Sight::Count count = sight.compare();
+    const BufferAndRays::Count count = sight.compare();
     EXPECT_GT(count.seen_by_both, 100'000);
     EXPECT_LE(count.only_rays + count.only_buffer, 3);
     EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
 }
 
 // Rounding may decide a sample on an edge, or one where two triangles cross.
-void expect_same(Sight& sight) {
+void expect_same(BufferAndRays& sight) {
     ASSERT_TRUE(sight.place());
-    const Sight::Count count = sight.compare();
+    const BufferAndRays::Count count = sight.compare();
     EXPECT_GT(count.seen_by_both, 100'000);
     EXPECT_LT(count.only_rays + count.only_buffer, 1e-4 * count.seen_by_both);
     EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
 }
 
 TEST(VisibilityBuffer, SeesTrianglesOfAllSizesInFrontOfEachOther) {
-    Sight sight(200, 150, 300);
+    BufferAndRays sight(200, 150, 300);
     sight.add(debris(2000, 3, 1), turned({0, 0, 8}));
     sight.add(debris(2000, 3, 2), turned({2, 1, 9}));
     expect_same(sight);
@@ -179,7 +179,7 @@ TEST(VisibilityBuffer, SeesTrianglesOfAllSizesInFrontOfEachOther) {
 
 // The camera is among the triangles: some go through its plane.
 TEST(VisibilityBuffer, CutsWhatGoesThroughTheCamerasPlane) {
-    Sight sight(200, 150, 100);
+    BufferAndRays sight(200, 150, 100);
     sight.add(debris(3000, 3, 3), turned({0, 0, 0.5}));
     expect_same(sight);
 }
@@ -198,19 +198,19 @@ TEST(VisibilityBuffer, TellsThinPartsFromWhatTheyLieOn) {
     for (float x = -1.19f; x < 1.18f; x += 0.01f) add_strip(x, x + 0.002f, 0.0004f);
     mesh.surface_of_triangle.resize(mesh.triangles.size());
     const double tilt_rad = 75 * kDegree_rad;
-    Sight sight(200, 150, 1636);
+    BufferAndRays sight(200, 150, 1636);
     sight.add(std::move(mesh), {{1.1, -0.9, 50},
                                 Quat{std::cos(tilt_rad / 2), std::sin(tilt_rad / 2), 0, 0} *
                                     Quat{std::cos(0.3), 0, 0, std::sin(0.3)}});
     ASSERT_TRUE(sight.place());
-    const Sight::Count count = sight.compare();
+    const BufferAndRays::Count count = sight.compare();
     EXPECT_GT(count.seen_by_both, 20'000);
     EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
 }
 
 // A lens of a camera of 2000 px, with 5 % of barrel distortion in this corner of its picture and a little
 // tangential.
-void bend(Sight& sight) {
+void bend(BufferAndRays& sight) {
     sight.geometry.distortion.k1 = -0.25, sight.geometry.distortion.k2 = 0.1;
     sight.geometry.distortion.p1 = 1e-3, sight.geometry.distortion.p2 = -5e-4;
     sight.geometry.principal_offset_px = {-500, -300};
@@ -219,55 +219,55 @@ void bend(Sight& sight) {
 // As a tile has the lens, its samples see what rays see; against the lens itself edges are off by hundredths
 // of a pixel.
 TEST(VisibilityBuffer, SeesThroughALensThatBends) {
-    Sight sight(220, 160, 1600);
+    BufferAndRays sight(220, 160, 1600);
     bend(sight);
     ASSERT_TRUE(VisibilityBuffer::takes(sight.geometry));
     sight.add(debris(2000, 2, 1), turned({3, 2, 8}));
     sight.add(debris(2000, 2, 2), turned({4, 2.5, 9}));
     ASSERT_TRUE(sight.place());
-    const Sight::Count own = sight.compare(true);
+    const BufferAndRays::Count own = sight.compare(true);
     EXPECT_GT(own.seen_by_both, 100'000);
     EXPECT_LT(own.only_rays + own.only_buffer, 1e-4 * own.seen_by_both);
     EXPECT_LT(own.other_triangle, 1e-3 * own.seen_by_both);
-    const Sight::Count exact = sight.compare();
+    const BufferAndRays::Count exact = sight.compare();
     EXPECT_LT(exact.only_rays + exact.only_buffer, 1e-3 * exact.seen_by_both);
     EXPECT_LT(exact.other_triangle, 2e-3 * exact.seen_by_both);
 }
 
 // Triangles around the camera, through its plane, beside the picture: none is lost through the lens.
 TEST(VisibilityBuffer, LosesNoSampleInsideASphereBehindALensThatBends) {
-    Sight sight(220, 160, 1600);
+    BufferAndRays sight(220, 160, 1600);
     bend(sight);
     sight.add(sphere(1, 200), turned({0.3, 0.1, 0.2}));
     ASSERT_TRUE(sight.place());
-    const Sight::Count count = sight.compare(true);
+    const BufferAndRays::Count count = sight.compare(true);
     EXPECT_LE(count.samples - count.seen_by_both, 2);
 }
 
 TEST(VisibilityBuffer, LeavesLensesThatBendMuchToRays) {
-    Sight sight(220, 160, 1600);
+    BufferAndRays sight(220, 160, 1600);
     bend(sight);
     EXPECT_TRUE(VisibilityBuffer::takes(sight.geometry));
     sight.geometry.distortion.k1 = -3;  // folds over
     EXPECT_FALSE(VisibilityBuffer::takes(sight.geometry));
     sight.geometry.distortion = {.projection = Projection::kFisheye};
     EXPECT_FALSE(VisibilityBuffer::takes(sight.geometry));
-    Sight wide(200, 150, 100);
+    BufferAndRays wide(200, 150, 100);
     wide.geometry.distortion.k1 = -0.1;
     EXPECT_FALSE(VisibilityBuffer::takes(wide.geometry));
 }
 
 // From inside there is no way out.
 TEST(VisibilityBuffer, LosesNoSampleInsideASphere) {
-    Sight sight(200, 150, 60);
+    BufferAndRays sight(200, 150, 60);
     sight.add(sphere(1, 200), turned({0.3, 0.1, 0.2}));
     ASSERT_TRUE(sight.place());
-    const Sight::Count count = sight.compare();
+    const BufferAndRays::Count count = sight.compare();
     EXPECT_LE(count.samples - count.seen_by_both, 2);
 }
 
 // What all samples see.
-std::vector<std::uint32_t> ids_of(const Sight& sight) {
+std::vector<std::uint32_t> ids_of(const BufferAndRays& sight) {
     std::vector<std::uint32_t> ids;
     VisibilityTile tile;
     for (int y = 0; y < sight.geometry.padded_height(); y += kVisibilityTile_px)
@@ -280,7 +280,7 @@ std::vector<std::uint32_t> ids_of(const Sight& sight) {
 
 // Vectors of another width than this processor's are for other processors: their frames must be these.
 TEST(VisibilityBuffer, SeesTheSameWithVectorsOfAnyWidth) {
-    Sight sight(200, 150, 300);
+    BufferAndRays sight(200, 150, 300);
     sight.add(debris(1501, 3, 5), turned({0, 0, 8}));
     sight.add(sphere(1, 50), turned({0.3, 0.1, 1.2}));
     expect_same_by_any_width([&] {
@@ -291,7 +291,7 @@ TEST(VisibilityBuffer, SeesTheSameWithVectorsOfAnyWidth) {
 
 // A processor's threads sort triangles in any order.
 TEST(VisibilityBuffer, SeesTheSameOnAnyNumberOfThreads) {
-    Sight sight(200, 150, 300);
+    BufferAndRays sight(200, 150, 300);
     sight.add(debris(4000, 3, 6), turned({0, 0, 8}));
     ASSERT_TRUE(sight.place());
     const std::vector<std::uint32_t> several = ids_of(sight);
@@ -303,7 +303,7 @@ TEST(VisibilityBuffer, SeesTheSameOnAnyNumberOfThreads) {
 // Beside the picture, behind the camera, about it, and wherever else.
 TEST(VisibilityBuffer, WhatIsBesideThePictureIsLeftOutAndChangesNothing) {
     for (const Vec3d& at : {Vec3d{0, 0, 8}, Vec3d{3, 0, 5}, Vec3d{-0.5, 0.2, 0.3}, Vec3d{0, 0, -4}}) {
-        Sight sight(200, 150, 300);
+        BufferAndRays sight(200, 150, 300);
         sight.add(sphere(2, 60), turned(at)), sight.add(debris(4000, 3, 6), turned(at));
         ASSERT_TRUE(sight.place());
         const std::vector<std::uint32_t> all = ids_of(sight);
@@ -314,7 +314,7 @@ TEST(VisibilityBuffer, WhatIsBesideThePictureIsLeftOutAndChangesNothing) {
 }
 
 TEST(VisibilityBuffer, SaysWhenAFrameShowsMoreThanThereIsRoomFor) {
-    Sight sight(64, 48, 300);
+    BufferAndRays sight(64, 48, 300);
     sight.add(sphere(1, 20), turned({0, 0, 4}));
     ASSERT_TRUE(sight.place());
     VisibilityBuffer small(sight.geometry, {1, 1000, 100});
