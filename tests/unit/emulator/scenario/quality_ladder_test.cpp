@@ -64,7 +64,8 @@ TEST(QualityLadder, ALevelMayLeaveTheBufferAndNotTakeOne) {
 // Every step is a real one, none is better than the one before in anything, and the last is the least there
 // is.
 TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
-    for (const std::string name : {"reference.yaml", "still.yaml", "balanced.yaml", "realtime.yaml"}) {
+    for (const std::string name :
+         {"reference.yaml", "still.yaml", "balanced.yaml", "realtime.yaml", "fast.yaml"}) {
         RenderQuality last = shipped(name);
         last.noise_budget = name == "reference.yaml" ? 0.1 : 0;
         const std::vector<RenderQuality> levels = built_in_levels(last);
