@@ -151,7 +151,10 @@ struct PointSpread::Place {
     Place(double at_x_px, double at_y_px) {
         const double cx = std::floor(at_x_px), cy = std::floor(at_y_px);
         const double sx = (cx + 0.5 - at_x_px) * kOversampling, sy = (cy + 0.5 - at_y_px) * kOversampling;
-        x = static_cast<int>(std::floor(sx)), y = static_cast<int>(std::floor(sy));
+        // On a pixel's edge it is the end of the last step: a cubic has a sample farther, and there is no table for one more.
+        constexpr int kLast = kOversampling / 2 - 1;
+        x = std::min(static_cast<int>(std::floor(sx)), kLast);
+        y = std::min(static_cast<int>(std::floor(sy)), kLast);
         x_px = static_cast<int>(cx), y_px = static_cast<int>(cy);
         beyond_x = sx - x, beyond_y = sy - y;
     }
