@@ -28,6 +28,9 @@ RayDensity density_of(const RenderQuality& quality) {
 // Frames that show more triangles than this are left to rays, which hardly cost more for more.
 constexpr std::size_t kMostTriangles = 8'000'000;
 
+// So many objects may have pictures of their own, by levels of so many triangles: one takes some milliseconds of the processor.
+constexpr std::size_t kFew = 8, kMostInPicture = 1'000'000;
+
 // Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
 // seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
 constexpr std::size_t kManyLike = 16, kMostInSets = 20'000;
@@ -86,10 +89,12 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
         make_visibility(geometry, level);
         if (level.sees_ground()) make_ground_visibility(geometry, level);
     }
+    picture_room_ = room_for_pictures(levels);
     frame_.scene = &embree_;
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());
     frame_.is_point.resize(objects_.size());
+    frame_.lit_apart.resize(objects_.size());
     frame_.background = &background_;
     frame_.radiance = radiance_model_.get();
     frame_.lamps = &lamps_;
@@ -163,6 +168,22 @@ VisibilityBuffer::Room FramePlacer::visibility_room() const {
         room.triangles = std::min(kMostTriangles, room.triangles + mesh.triangles.size());
     }
     return room;
+}
+
+std::optional<VisibilityBuffer::Room> FramePlacer::room_for_pictures(
+    std::span<const RenderQuality> levels) const {
+    const bool buffer =
+        std::any_of(levels.begin(), levels.end(), [](const RenderQuality& q) { return q.uses_buffer(); });
+    if (!buffer || terrain_ || objects_.empty() || objects_.size() > kFew) return {};
+    VisibilityBuffer::Room room{1, 0, 0};
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        for (std::size_t level = 0; level < objects_[i].levels.size(); ++level) {
+            const MeshView mesh = embree_.mesh(i, level);
+            if (std::max(mesh.triangles.size(), mesh.vertices_m.size()) > kMostInPicture) continue;
+            room.vertices = std::max(room.vertices, mesh.vertices_m.size());
+            room.triangles = std::max(room.triangles, mesh.triangles.size());
+        }
+    return room.triangles > 0 ? std::optional(room) : std::nullopt;
 }
 
 std::unique_ptr<KeptScene> FramePlacer::make_kept() const {
@@ -263,15 +284,34 @@ void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
     any_placed_ = true;
 }
 
+// Where a body may stand before the object, or something is seen through it, the camera has to find its light.
+RayDensity FramePlacer::density_for(std::size_t i) const {
+    RayDensity out = density_;
+    const MeshView mesh = embree_.mesh(i, levels_[i]);
+    out.pictures_of_points = uses_visibility_ && picture_room_ &&
+                             mesh.triangles.size() <= picture_room_->triangles &&
+                             mesh.vertices_m.size() <= picture_room_->vertices;
+    const auto& buffer = frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_;
+    out.pictures_of_meshes = out.pictures_of_points && density_.rays_across > 0 && buffer &&
+                             rays_->is_still() && !frame_.has_glass && !frame_.bodies_may_hide;
+    return out;
+}
+
 // Rows with poses of their own meet objects anywhere: no mask, no boxes; here and below.
 void FramePlacer::place_objects() {
     const bool still = rays_->is_still();
     object_mask_.clear();
     double farthest_m = 0;
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        farthest_m =
+            std::max(farthest_m, length(world_.objects[i].position_world_m - world_.camera.position_world_m) +
+                                     radii_m_[i]);
+    frame_.bodies_may_hide = farthest_m > background_.nearest_m();
+    frame_.has_lit_apart = false;
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const Mat3d m = to_matrix(world_.objects[i].world_from_body);
         frame_.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
-        plans_[i] = plan_object(frame_.geometry, world_, world_.objects[i], radii_m_[i], density_);
+        plans_[i] = plan_object(frame_.geometry, world_, world_.objects[i], radii_m_[i], density_for(i));
         plans_[i].level = levels_[i];
         frame_.is_point[i] = plans_[i].use == ObjectUse::kPoints;
         if (!frame_.is_point[i] && still &&
@@ -279,10 +319,10 @@ void FramePlacer::place_objects() {
             plans_[i].use = ObjectUse::kHidden;
         if (!frame_.is_point[i] && plans_[i].samples_per_axis > density_.samples_per_axis)
             object_boxes_[i] = box_of(i);
-        farthest_m = std::max(farthest_m, plans_[i].distance_m + radii_m_[i]);
+        frame_.lit_apart[i] = plans_[i].use == ObjectUse::kMesh && plans_[i].picture_px > 0;
+        frame_.has_lit_apart = frame_.has_lit_apart || frame_.lit_apart[i];
     }
     frame_.object_mask = still ? &object_mask_ : &full_mask_;
-    frame_.bodies_may_hide = farthest_m > background_.nearest_m();
 }
 
 void FramePlacer::place_background() {
@@ -330,6 +370,11 @@ void FramePlacer::place_earth_detail() {
                                                   1 / frame_.geometry.focal_length_px}));
 }
 
+VisibilityBuffer::Shown FramePlacer::shown(std::size_t i) const {
+    return {static_cast<std::uint32_t>(i), world_.objects[i],           radii_m_[i],
+            embree_.mesh(i, levels_[i]),   shown_[i]->cluster_bounds_m, shown_[i]->patches};
+}
+
 void FramePlacer::place_visibility() {
     if (ground_is_alone()) {
         seen_.clear();
@@ -343,11 +388,21 @@ void FramePlacer::place_visibility() {
     if (!buffer || !uses_visibility_ || !rays_->is_still()) return;
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)
-        if (plans_[i].use == ObjectUse::kMesh)
-            seen_.push_back({static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i],
-                             embree_.mesh(i, levels_[i]), shown_[i]->cluster_bounds_m, shown_[i]->patches,
-                             visible_set(i)});
-    if (buffer->place(world_.camera, seen_)) frame_.visibility = buffer;
+        if (plans_[i].use == ObjectUse::kMesh) {
+            seen_.push_back(shown(i));
+            seen_.back().visible = visible_set(i);
+        }
+    if (buffer->place(world_.camera, seen_))
+        frame_.visibility = buffer;
+    else
+        light_by_rays();
+}
+
+// The camera's rays find the light of all that they meet.
+void FramePlacer::light_by_rays() {
+    frame_.has_lit_apart = false;
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        if (frame_.lit_apart[i]) frame_.lit_apart[i] = 0, plans_[i].picture_px = 0;
 }
 
 MovingFrame FramePlacer::moving() const {

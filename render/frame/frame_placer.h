@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,10 @@ class FramePlacer {
     MovingFrame moving() const;
     const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
     bool is_point(std::size_t object) const { return frame_.is_point[object] != 0; }
+    // Returns the object as the placed frame shows it.
+    VisibilityBuffer::Shown shown(std::size_t object) const;
+    // Returns what pictures of single objects need (object_picture.h); empty: there are none.
+    const std::optional<VisibilityBuffer::Room>& picture_room() const { return picture_room_; }
     double radius_m(std::size_t object) const { return radii_m_[object]; }
     // The last of the objects is the ground.
     bool has_terrain() const { return terrain_ != nullptr; }
@@ -145,6 +150,7 @@ class FramePlacer {
     std::unique_ptr<ShownTerrain> terrain_;
     double lod_error_px_;
     RayDensity density_;
+    std::optional<VisibilityBuffer::Room> picture_room_;
     FrameView frame_;
     WorldSnapshot world_;
 
@@ -162,6 +168,9 @@ class FramePlacer {
     }
     bool ground_is_alone() const;
     VisibilityBuffer::Room visibility_room() const;
+    std::optional<VisibilityBuffer::Room> room_for_pictures(std::span<const RenderQuality> levels) const;
+    RayDensity density_for(std::size_t object) const;
+    void light_by_rays();
     void make_visible_sets();
     const VisibleSet* visible_set(std::size_t object) const;
 };

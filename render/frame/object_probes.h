@@ -1,10 +1,12 @@
 #pragma once
-// The objects that a frame draws as points, all of them: each is traced by an ObjectProbe of the thread that takes it,
-// and its points are added in the objects' order, whatever the number of threads.
+// The objects that a frame draws as points, or lights so, all of them: each has an ObjectPicture, or is traced by an ObjectProbe of
+// the thread that takes it, and its points are added in the objects' order, whatever the number of threads.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "render/frame/object_picture.h"
 #include "render/frame/object_probe.h"
 #include "render/light/point_field.h"
 #include "render/vocabulary/point_source.h"
@@ -18,7 +20,9 @@ class ObjectProbes {
   public:
     // samples: the most rays along an axis of an object's picture. The frame's view must have its pointers and sizes
     // by now. Owner thread.
-    ObjectProbes(const FrameView& frame, std::size_t objects, int samples);
+    ObjectProbes(const FramePlacer& placer, int samples);
+    // Returns the most points that an object gives.
+    static std::size_t most_points(const FramePlacer& placer);
 
     // Adds the points of the placed frame's objects. Loop; no allocation while the vector has room. Returns what it
     // took to trace.
@@ -28,13 +32,18 @@ class ObjectProbes {
   private:
     struct Seen {
         std::size_t object;
-        std::size_t first;      // number of its first glimpse
+        std::size_t first;  // number of its first glimpse
+        bool pictured = false;
         std::size_t count = 0;  // number of its glimpses
         TileStats stats;
     };
+    void find_seen(const FramePlacer& placer, const PointField& field);
+    void look(const FramePlacer& placer, const FrameTracer& tracer, Seen& seen);
+
     std::vector<std::unique_ptr<ObjectProbe>> probes_;  // by slot of the thread pool
     std::vector<Seen> seen_;
-    std::vector<ObjectProbe::Glimpse> glimpses_;  // glimpses of all objects, with room for the most
+    std::optional<ObjectPicture> picture_;
+    std::vector<Glimpse> glimpses_;  // glimpses of all objects, with room for the most
 };
 
 }  // namespace hilcam

@@ -32,9 +32,17 @@ namespace {
 // A grid of n x n places knows the area of what has an outline to about n^-1.5 of it, and the light of an object
 // of s pixels, which goes with s^2, has noise of its own that goes with s: n that goes with s^(2/3) keeps the
 // error's share of that noise.
+double share_of_samples(double size_px) {
+    return std::cbrt(std::min(1.0, size_px / kPoints_px * (size_px / kPoints_px)));
+}
 int point_samples_of(double size_px, const RayDensity& density) {
-    const double share = std::cbrt(std::min(1.0, size_px / kPoints_px * (size_px / kPoints_px)));
-    return std::max(density.point_samples_least, static_cast<int>(std::ceil(share * density.point_samples)));
+    return std::max(density.point_samples_least,
+                    static_cast<int>(std::ceil(share_of_samples(size_px) * density.point_samples)));
+}
+// An even number, so that it has a middle.
+int picture_px_of(double size_px) {
+    constexpr int kLeast_px = 32;
+    return std::max(kLeast_px, 2 * static_cast<int>(std::ceil(share_of_samples(size_px) * kPicture_px / 2)));
 }
 
 }  // namespace
@@ -53,6 +61,9 @@ ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world
     const double across = std::ceil(density.rays_across / plan.size_px);
     plan.samples_per_axis = std::max(density.samples_per_axis, static_cast<int>(std::min(16.0, across)));
     plan.point_samples = point_samples_of(plan.size_px, density);
+    const bool is_point = plan.use == ObjectUse::kPoints;
+    if (plan.size_px < kPictured_px && (is_point ? density.pictures_of_points : density.pictures_of_meshes))
+        plan.picture_px = picture_px_of(plan.size_px), plan.samples_per_axis = density.samples_per_axis;
     return plan;
 }
 
@@ -158,7 +169,10 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
     for (std::size_t i = 0; i < planned.plans.size(); ++i) {
         const ObjectPlan& plan = planned.plans[i];
         add("object ", i + 1, " '", planned.names[i], "', ", planned.triangles[i], " triangles (level ",
-            plan.level, "), ", plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use));
+            plan.level, "), ", plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use),
+            plan.picture_px > 0 ? "; its light is that of a picture of its own, " +
+                                      std::to_string(plan.picture_px) + " px across"
+                                : "");
         if (f.kept)
             add("  light between its parts: ", f.kept->keeps(i)
                                                    ? "kept, " + f.kept->describe(i)

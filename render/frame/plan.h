@@ -24,6 +24,9 @@ struct ObjectPlan {
     std::size_t level = 0;     // level of detail; 0 is the mesh itself
     int samples_per_axis = 1;  // rays along a pixel of a traced object; a small one has more
     int point_samples = 0;     // rays along its little picture, of one that is drawn as points
+    // Pixels across a picture of its own (object_picture.h) from which its light comes; 0: none. Of a traced one the camera finds what is
+    // seen and what it hides, and the light comes as points.
+    int picture_px = 0;
 };
 
 // Distances of which the camera sees the objects; decides where ray space begins (frame_view.h).
@@ -38,12 +41,17 @@ RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> ra
 // An object this small is drawn as points: a single one below a pixel, a small cloud up to here. The regular
 // grid of rays would miss parts of it, and differently from frame to frame.
 inline constexpr double kPoints_px = 8.0;
+// An object smaller than this may have a picture of its own, of so many pixels across where it is not drawn as points.
+inline constexpr double kPictured_px = 64;
+inline constexpr int kPicture_px = 128;
 // The density that the quality asks for: rays along a pixel, the least number of rays across a traced object,
-// and rays along the little picture of one that is drawn as points: as large as those are, and at least.
+// and rays along the little picture of one that is drawn as points: as large as those are, and at least. And whether small objects have
+// pictures of their own: those that are drawn as points, and traced ones.
 struct RayDensity {
     int samples_per_axis;
     int rays_across;
     int point_samples = 0, point_samples_least = 0;
+    bool pictures_of_points = false, pictures_of_meshes = false;
 };
 
 ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world, const Pose& object,

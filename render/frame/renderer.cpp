@@ -41,7 +41,7 @@ struct Renderer::Implementation {
                    const Modules& modules)
         : placer(std::move(scene), grid, geometry, levels, models, modules),
           tracer(geometry, modules, levels),
-          probes(placer.frame(), placer.objects(), static_cast<int>(levels.front().point_samples)) {
+          probes(placer, static_cast<int>(levels.front().point_samples)) {
         use_level(0);
     }
 
@@ -101,9 +101,8 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 
 std::size_t Renderer::max_points() const {
     const FramePlacer& placer = implementation_->placer;
-    const std::size_t cells = ObjectProbe::kMaxCells * ObjectProbe::kMaxCells;
-    return placer.max_stars() + placer.objects() * cells + kMaxBodies * kMostBodyPoints +
-           placer.lamps().all().size();
+    return placer.max_stars() + placer.objects() * ObjectProbes::most_points(placer) +
+           kMaxBodies * kMostBodyPoints + placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {

@@ -104,12 +104,19 @@ void PrimaryVertices::take_pixel(int x, int y) {
     list_fragments(tile_.seen->ids(across * (x - part_.x0), across * (y - part_.y0)), across, seen);
     uncovered_[static_cast<std::size_t>(pixel)] = seen.nothing;
     if (seen.count == 0) return;
-    for (const PixelFragments::Fragment& found : std::span(seen.fragments).first(seen.count))
+    for (const PixelFragments::Fragment& found : std::span(seen.fragments).first(seen.count)) {
+        if (tile_.frame.has_lit_apart && is_lit_apart(found.id)) continue;
         fragments_[fragment_count_++] = {found.id, static_cast<std::uint16_t>(pixel), left, top,
                                          found.samples};
+    }
     tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
     tile_.stats.covered_px +=
         static_cast<double>(grid.weight(grid.all() & ~seen.nothing)) * (1.0 / kVisibilitySamples);
+}
+
+bool PrimaryVertices::is_lit_apart(std::uint32_t id) const {
+    const FrameView& frame = tile_.frame;
+    return frame.lit_apart[frame.visibility->seen(id).shown->object] != 0;
 }
 
 // True when a body stands before what the samples see: they see the body then.

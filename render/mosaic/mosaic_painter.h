@@ -36,7 +36,7 @@ class MosaicPainter {
     };
     struct Texel {
         std::array<float, Mosaic::kMaxLayers> share{};  // that each layer fills
-        // How what lies on the ground leans along both sides, times its share.
+        // The lean of what lies on the ground, along both sides, times its share.
         std::array<float, 2> lean{};
         // The share of the ground that is in gaps which run down; and how narrow these are, and those that run across, times their
         // shares.

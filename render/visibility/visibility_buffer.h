@@ -40,6 +40,12 @@ class VisibilityBuffer {
     // Owner thread. The geometry is one that it takes.
     VisibilityBuffer(const ImageGeometry& geometry, const Room& room);
 
+    // Looks through another lens, that leaves straight lines straight, from the next place() on. Loop.
+    void set_focal_length(double focal_length_px) {
+        geometry_.focal_length_px = focal_length_px;
+        lens_ = LensTiles(geometry_);
+    }
+
     // An object as a frame shows it.
     struct Shown {
         std::uint32_t object;
