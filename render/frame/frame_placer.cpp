@@ -284,7 +284,7 @@ void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
     any_placed_ = true;
 }
 
-// Where a body may stand before the object, or something is seen through it, the camera has to find its light.
+// Where a body may stand before the object, something is seen through it, or it is seen through air, the camera has to find its light.
 RayDensity FramePlacer::density_for(std::size_t i) const {
     RayDensity out = density_;
     const MeshView mesh = embree_.mesh(i, levels_[i]);
@@ -293,7 +293,8 @@ RayDensity FramePlacer::density_for(std::size_t i) const {
                              mesh.vertices_m.size() <= picture_room_->vertices;
     const auto& buffer = frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_;
     out.pictures_of_meshes = out.pictures_of_points && density_.rays_across > 0 && buffer &&
-                             rays_->is_still() && !frame_.has_glass && !frame_.bodies_may_hide;
+                             rays_->is_still() && !frame_.has_glass && !frame_.bodies_may_hide &&
+                             !background_.camera_in_air();
     return out;
 }
 

@@ -60,6 +60,16 @@ TEST_F(Allocation, NorWithLightFromBesideThePictureAndBodiesWithAllTheyHave) {
               0);
 }
 
+// It has a picture of its own, from which points take its light, whether its pixels are the camera's or not.
+TEST_F(Allocation, NorWithASmallObject) {
+    for (const char* distance_m : {"300", "3000"})
+        EXPECT_EQ(allocations({"quality.visibility=buffer", "quality.buffer_samples=64",
+                               "camera_pose.look_at_m=[0, 0, 0]",
+                               std::string("camera_pose.position_m=[") + distance_m + ", 0, 0]"}),
+                  0)
+            << distance_m;
+}
+
 TEST_F(Allocation, NorWithAKeptPictureOfTheEarth) {
     EXPECT_EQ(
         allocations({"quality.kept_earth=true", "camera_pose.position_m=[0, 0, 0]",
