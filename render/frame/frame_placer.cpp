@@ -291,8 +291,7 @@ RayDensity FramePlacer::density_for(std::size_t i) const {
     out.pictures_of_points = uses_visibility_ && picture_room_ &&
                              mesh.triangles.size() <= picture_room_->triangles &&
                              mesh.vertices_m.size() <= picture_room_->vertices;
-    const auto& buffer = frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_;
-    out.pictures_of_meshes = out.pictures_of_points && density_.rays_across > 0 && buffer &&
+    out.pictures_of_meshes = out.pictures_of_points && density_.rays_across > 0 && visibility() &&
                              rays_->is_still() && !frame_.has_glass && !frame_.bodies_may_hide &&
                              !background_.camera_in_air();
     return out;
@@ -385,7 +384,7 @@ void FramePlacer::place_visibility() {
             frame_.ground = ground_visibility(), frame_.ground_step_px = ground_step_px_;
         return;
     }
-    VisibilityBuffer* const buffer = (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
+    VisibilityBuffer* const buffer = visibility();
     if (!buffer || !uses_visibility_ || !rays_->is_still()) return;
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)

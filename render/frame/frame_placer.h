@@ -170,6 +170,10 @@ class FramePlacer {
     VisibilityBuffer::Room visibility_room() const;
     std::optional<VisibilityBuffer::Room> room_for_pictures(std::span<const RenderQuality> levels) const;
     RayDensity density_for(std::size_t object) const;
+    // Returns the buffer of the present quality's samples; null: there is none.
+    VisibilityBuffer* visibility() const {
+        return (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
+    }
     void light_by_rays();
     void make_visible_sets();
     const VisibleSet* visible_set(std::size_t object) const;

@@ -39,9 +39,10 @@ int point_samples_of(double size_px, const RayDensity& density) {
     return std::max(density.point_samples_least,
                     static_cast<int>(std::ceil(share_of_samples(size_px) * density.point_samples)));
 }
-// An even number, so that it has a middle.
+// An even number, so that the picture has a middle; no smaller than that of an object of one pixel, which takes little beside its
+// triangles.
 int picture_px_of(double size_px) {
-    constexpr int kLeast_px = 32;
+    constexpr int kLeast_px = kPicture_px / 4;
     return std::max(kLeast_px, 2 * static_cast<int>(std::ceil(share_of_samples(size_px) * kPicture_px / 2)));
 }
 

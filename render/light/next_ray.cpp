@@ -24,7 +24,7 @@ void add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& l
     if (background.may_meet_body(ray.dir) &&
         background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light))
         return;
-    // As a point the Sun is only seen where no lobe has counted it.
+    // The Sun is a point here, and it is added only where no lobe has counted its light.
     if (exact) {
         if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), weight, light);
         return;

@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// With kept light four pixels share what changes slowly.
+// Four neighbouring pixels share kept light, as it changes slowly.
 TEST(Visibility, KeptLightIsWhatRaysSee) {
     Stage s;
     s.quality.path_model = "kept";

@@ -98,7 +98,7 @@ TEST_F(FrameLoopTest, LockstepGoesToAnyTimeForWhoAsksAndForgetsWhatWasThere) {
     rig.loop.stop();
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(rig.collector.frames[i].record.exposure_mid - rig.start, times_s[i] * 1'000'000'000) << i;
-        // As above: with what was known before, the pose would be a mixture.
+        // The later pose has all of its values: with those that were known before it would be a mixture.
         EXPECT_NEAR(plate_x_px(rig.collector.frames[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
     }
 }
