@@ -10,9 +10,9 @@
 namespace hilcam {
 namespace {
 
-constexpr int kAcross = 256;             // samples of the pupil's diameter
-constexpr int kSize = 2 * kAcross;       // size of the grid: the autocorrelation is twice as wide
-constexpr double kStep = 2.0 / kAcross;  // pupil radii per sample
+constexpr int kPupilAcross = 256;             // samples of the pupil's diameter
+constexpr int kSize = 2 * kPupilAcross;       // size of the grid: the autocorrelation is twice as wide
+constexpr double kStep = 2.0 / kPupilAcross;  // pupil radii per sample
 
 struct Order {
     int n, m;  // m < 0: sine
@@ -69,8 +69,8 @@ double zernike(int noll, double x, double y) {
 PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std::span<const double> waves)
     : otf_(std::size_t{kSize} * kSize) {
     double area = 0;
-    for (int j = 0; j < kAcross; ++j)
-        for (int i = 0; i < kAcross; ++i) {
+    for (int j = 0; j < kPupilAcross; ++j)
+        for (int i = 0; i < kPupilAcross; ++i) {
             const double x = (i + 0.5) * kStep - 1, y = (j + 0.5) * kStep - 1;
             const double amplitude = cover(x, y, obscuration_ratio);
             if (amplitude == 0) continue;

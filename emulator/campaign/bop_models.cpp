@@ -31,8 +31,6 @@ struct Model {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-double angle_between(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
 // Sums up the normals of the triangles about each vertex, weighted by their angles there (Thuerrner & Wuethrich
 // 1998, Computing vertex normals from polygonal facets), as the format asks.
 std::vector<Vec3d> vertex_normals(const Model& model) {
@@ -45,7 +43,7 @@ std::vector<Vec3d> vertex_normals(const Model& model) {
         for (std::size_t k = 0; k < 3; ++k)
             sums[triangle[k]] =
                 sums[triangle[k]] +
-                angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]) * normalized(area);
+                angle_between_rad(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]) * normalized(area);
     }
     for (Vec3d& sum : sums) sum = length(sum) > 0 ? normalized(sum) : Vec3d{0, 0, 1};
     return sums;

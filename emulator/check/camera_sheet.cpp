@@ -41,17 +41,15 @@ SpectralGrid own_grid(const CameraModel& c) {
     return SpectralGrid(edges_um);
 }
 
-double angle(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
 void set_geometry(const CameraModel& c, CameraSheet& s) {
     const ImageGeometry g = geometry_of(c, 0);
     const double w = g.width_px, h = g.height_px;
     const auto at = [&](double x, double y) { return g.direction_camera(x, y); };
     const bool line = c.shutter.kind == ShutterKind::kLineScan;
     s.ifov_rad = c.pitch_m / c.focal_length_m;
-    s.field_x_rad = angle(at(0, g.center_px().y), at(w, g.center_px().y));
-    s.field_y_rad = line ? s.ifov_rad : angle(at(g.center_px().x, 0), at(g.center_px().x, h));
-    s.field_diagonal_rad = line ? s.field_x_rad : angle(at(0, 0), at(w, h));
+    s.field_x_rad = angle_between_rad(at(0, g.center_px().y), at(w, g.center_px().y));
+    s.field_y_rad = line ? s.ifov_rad : angle_between_rad(at(g.center_px().x, 0), at(g.center_px().x, h));
+    s.field_diagonal_rad = line ? s.field_x_rad : angle_between_rad(at(0, 0), at(w, h));
     s.frame_px = frame_size(c);
     s.frame_bytes =
         static_cast<double>(s.frame_px[0]) * s.frame_px[1] * static_cast<double>(c.container_bits) / 8;

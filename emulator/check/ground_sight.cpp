@@ -12,8 +12,6 @@
 namespace hilcam {
 namespace {
 
-double angle(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
 // The body that is met first, and how far along; none: the sky.
 std::optional<BodyId> first_body(const ScenarioConfig& s, const Bodies& bodies, Vec3d from_m, Vec3d dir,
                                  double& distance_m) {
@@ -75,13 +73,13 @@ std::optional<GroundSight> ground_sight(const ScenarioConfig& s, const Pose& cam
     out.pixel_m = sheet.ifov_rad * out.distance_m;
     out.wide_m = 2 * out.distance_m * std::tan(0.5 * std::min(sheet.field_x_rad, 3.0));
     out.high_m = 2 * out.distance_m * std::tan(0.5 * std::min(sheet.field_y_rad, 3.0));
-    out.off_vertical_rad = angle(-sight_dir, up);
-    out.sun_elevation_rad = 0.5 * kPi - angle(to_sun_m, up);
+    out.off_vertical_rad = angle_between_rad(-sight_dir, up);
+    out.sun_elevation_rad = 0.5 * kPi - angle_between_rad(to_sun_m, up);
     if (s.terrain) return out;
     const SpectralGrid band = band_of(sheet);
     const BodyLook look(*id, s.bodies[index_of(*id)], band);
     const double sun_au = length(to_sun_m) / kAstronomicalUnit_m;
-    const double share = over_white(look, sheet.camera, band, out, angle(to_sun_m, -sight_dir));
+    const double share = over_white(look, sheet.camera, band, out, angle_between_rad(to_sun_m, -sight_dir));
     // The first scene of the sheet is white, at 1 au, and faces the Sun.
     out.expected = read_out(sheet, share * sheet.scenes.front().signal_e / (sun_au * sun_au));
     return out;

@@ -11,11 +11,6 @@ namespace hilcam {
 namespace {
 
 // 0 to pi, right for small angles too (Kahan, How Futile are Mindless Assessments of Roundoff, 2006, 12).
-double angle_between(Vec3d a, Vec3d b) {
-    const Vec3d u = normalized(a), v = normalized(b);
-    return 2 * std::atan2(length(u - v), length(u + v));
-}
-
 }  // namespace
 
 EventCondition::EventCondition(const EventConditionConfig& c, const EventWorld& world)
@@ -91,11 +86,12 @@ bool EventCondition::holds(const WorldSnapshot& world) {
     const Vec3d boresight = to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1};
     // Each is asked, so that each knows whether it held.
     bool all = distance_m_.hold(length(way_m));
-    all &= off_boresight_rad_.hold(off_boresight_rad_.config.given() ? angle_between(boresight, way_m) : 0);
+    all &=
+        off_boresight_rad_.hold(off_boresight_rad_.config.given() ? angle_between_rad(boresight, way_m) : 0);
     all &= sun_off_boresight_rad_.hold(
-        sun_off_boresight_rad_.config.given() ? angle_between(boresight, to_sun_m) : 0);
+        sun_off_boresight_rad_.config.given() ? angle_between_rad(boresight, to_sun_m) : 0);
     all &= phase_rad_.hold(
-        phase_rad_.config.given() ? angle_between(world.bodies.sun_world_m - place_m, -way_m) : 0);
+        phase_rad_.config.given() ? angle_between_rad(world.bodies.sun_world_m - place_m, -way_m) : 0);
     if (light_ != EventLight::kAny) all &= eclipsed(place_m, world) == (light_ == EventLight::kEclipsed);
     return all;
 }

@@ -11,12 +11,12 @@ namespace hilcam {
 namespace {
 
 // Keys in the order in which they are written.
-using json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Names in the order of ClockCommand::Action, which a record that is read has been checked for.
 constexpr std::array kClockActions = {"ask", "scale", "pause", "resume", "step"};
 
-json list_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
+OrderedJson list_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 // Any two numbers have a difference: what a file says need not be a time.
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
@@ -31,11 +31,11 @@ double seconds_since(TimeTai time, const RecordingHeader& header) {
 }
 
 template <class T>
-void add(json& out, const char* key, const std::optional<T>& value) {
+void add(OrderedJson& out, const char* key, const std::optional<T>& value) {
     if (value) out[key] = *value;
 }
 
-void add_command(json& out, const Command& command, const RecordingHeader& header) {
+void add_command(OrderedJson& out, const Command& command, const RecordingHeader& header) {
     out["command"] = name_of_function(function_of(command));
     std::visit(Overloaded{
                    [&](const PoseCommand& p) {
@@ -94,7 +94,7 @@ void add_command(json& out, const Command& command, const RecordingHeader& heade
                command);
 }
 
-void add_change(json& out, const SettingsChange& c) {
+void add_change(OrderedJson& out, const SettingsChange& c) {
     visit_settings([&](std::string_view name, auto, auto wish) {
         if (!(c.*wish)) return;
         const auto value = *(c.*wish);
@@ -105,21 +105,21 @@ void add_change(json& out, const SettingsChange& c) {
     });
 }
 
-json text_of(const RecordedFrame& f, const RecordingHeader& header) {
+OrderedJson text_of(const RecordedFrame& f, const RecordingHeader& header) {
     const FrameUse& u = f.use;
-    json out = {{"record", "frame"},
-                {"camera", f.camera},
-                {"frame", u.id},
-                {"begin_s", seconds_since(u.begin_ns, header)},
-                {"middle_s", seconds_since(u.exposure_mid, header)},
-                {"shown_s", seconds_since(u.shown_at, header)},
-                {"exposure_s", u.exposure_s},
-                {"gain_db", u.gain_db},
-                {"black_level_dn", u.black_level_dn},
-                {"binning", {u.binning_x, u.binning_y}},
-                {"quality_level", u.quality_level},
-                {"trigger_sequence", u.trigger_sequence},
-                {"skipped", u.skipped}};
+    OrderedJson out = {{"record", "frame"},
+                       {"camera", f.camera},
+                       {"frame", u.id},
+                       {"begin_s", seconds_since(u.begin_ns, header)},
+                       {"middle_s", seconds_since(u.exposure_mid, header)},
+                       {"shown_s", seconds_since(u.shown_at, header)},
+                       {"exposure_s", u.exposure_s},
+                       {"gain_db", u.gain_db},
+                       {"black_level_dn", u.black_level_dn},
+                       {"binning", {u.binning_x, u.binning_y}},
+                       {"quality_level", u.quality_level},
+                       {"trigger_sequence", u.trigger_sequence},
+                       {"skipped", u.skipped}};
     if (u.late) out["late"] = true;
     if (u.shutter_closed) out["shutter_closed"] = true;
     if (u.test_pattern != TestPattern::kOff) out["test_pattern"] = static_cast<int>(u.test_pattern);
@@ -129,23 +129,23 @@ json text_of(const RecordedFrame& f, const RecordingHeader& header) {
     return out;
 }
 
-json text_of(const RecordedCommand& c, const RecordingHeader& header) {
-    json out = {{"record", "command"},
-                {"number", c.number},
-                {"arrival_s", seconds_since(c.source.arrival_monotonic_ns, header)},
-                {"sequence", c.source.sequence}};
+OrderedJson text_of(const RecordedCommand& c, const RecordingHeader& header) {
+    OrderedJson out = {{"record", "command"},
+                       {"number", c.number},
+                       {"arrival_s", seconds_since(c.source.arrival_monotonic_ns, header)},
+                       {"sequence", c.source.sequence}};
     if (c.source.camera != 0) out["camera"] = c.source.camera;
     if (c.source.event != 0) out["event"] = c.source.event - 1;  // from 0, as the scenario's list counts
     add_command(out, c.command, header);
     return out;
 }
-json text_of(const RecordedChange& c, const RecordingHeader& header) {
-    json out = {
+OrderedJson text_of(const RecordedChange& c, const RecordingHeader& header) {
+    OrderedJson out = {
         {"record", "settings"}, {"camera", c.camera}, {"at_s", seconds_since(c.monotonic_ns, header)}};
     add_change(out, c.change);
     return out;
 }
-json text_of(const RecordedTrigger& t, const RecordingHeader& header) {
+OrderedJson text_of(const RecordedTrigger& t, const RecordingHeader& header) {
     return {{"record", "trigger"},
             {"camera", t.camera},
             {"at_s", seconds_since(t.monotonic_ns, header)},
@@ -154,13 +154,13 @@ json text_of(const RecordedTrigger& t, const RecordingHeader& header) {
             {"sequence", t.order.sequence},
             {"taken", t.result == TriggerResult::kTaken}};
 }
-json text_of(const RecordedShown& s, const RecordingHeader&) {
+OrderedJson text_of(const RecordedShown& s, const RecordingHeader&) {
     return {{"record", "shown"}, {"camera", s.camera}, {"thing", s.thing}, {"number", s.number}};
 }
-json text_of(const RecordedLoss& l, const RecordingHeader&) {
+OrderedJson text_of(const RecordedLoss& l, const RecordingHeader&) {
     return {{"record", "loss"}, {"records", l.records}};
 }
-json text_of(const RecordedEnd& e, const RecordingHeader& header) {
+OrderedJson text_of(const RecordedEnd& e, const RecordingHeader& header) {
     return {{"record", "end"}, {"at_s", seconds_since(e.monotonic_ns, header)}};
 }
 
@@ -169,8 +169,8 @@ json text_of(const RecordedEnd& e, const RecordingHeader& header) {
 void list_recording(RecordingReader& recording, const std::function<void(const std::string&)>& line) {
     const RecordingHeader& h = recording.header();
     // Text that is no UTF-8, as a scenario may have it in a name, is shown as it can be.
-    const auto show = [&](const json& value) {
-        line(value.dump(-1, ' ', false, json::error_handler_t::replace));
+    const auto show = [&](const OrderedJson& value) {
+        line(value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
     };
     show({{"record", "header"},
           {"program", h.program},

@@ -17,9 +17,9 @@ Fields fields(FaultConfig& f) {
                                         kAllFaults.begin());
     };
     return {
-        required(
-            Field{"kind", "kind of fault (docs/faults.md)",
-                  ChoiceField{std::move(words), [&f](std::size_t i) { f.kind = kAllFaults[i]; }, present}}),
+        required(choice_field("kind",
+                              {std::move(words), [&f](std::size_t i) { f.kind = kAllFaults[i]; }, present},
+                              "kind of fault (docs/faults.md)")),
         number("rate", f.order.rate, 1, {0, 1},
                "share of packets, messages, frames or pixels that it strikes"),
         number("value", f.order.value, 1, {-1e9, 1e9}, "value of the fault; its meaning depends on the kind"),

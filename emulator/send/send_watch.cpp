@@ -44,7 +44,7 @@ std::string text(const HousekeepingFigures& h) {
         h.latency_p99_s * 1e3, h.temperature_c, h.active_faults, h.clients);
 }
 
-nlohmann::json json(const FrameReport& r) {
+nlohmann::json object_of(const FrameReport& r) {
     return {{"kind", "frame"},
             {"camera", r.camera},
             {"frame", r.frame},
@@ -60,7 +60,7 @@ nlohmann::json json(const FrameReport& r) {
             {"faults", names_of_bits(r.faults)}};
 }
 
-nlohmann::json json(const HousekeepingFigures& h) {
+nlohmann::json object_of(const HousekeepingFigures& h) {
     return {{"kind", "housekeeping"},
             {"mode", name_of(h.mode)},
             {"running", h.running},
@@ -85,7 +85,7 @@ std::string text_of(const Telemetry& telemetry, bool several) {
     return report ? text(*report, several) : text(std::get<HousekeepingFigures>(telemetry));
 }
 std::string json_of(const Telemetry& telemetry) {
-    return std::visit([](const auto& alternative) { return json(alternative).dump(); }, telemetry);
+    return std::visit([](const auto& alternative) { return object_of(alternative).dump(); }, telemetry);
 }
 
 void add_watch_options(CLI::App& app, WatchOptions& o) {

@@ -2,10 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <fstream>
+#include <filesystem>
 
 #include "emulator/campaign/campaign_config.h"
 #include "emulator/recording/program_version.h"
+#include "emulator/run/report.h"
 #include "emulator/scenario/app_config.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/command_pages.h"
@@ -32,12 +33,6 @@ int carry_out(const ManualArguments& o) {
     else
         fmt::print("{}", o.json ? config_manual_json(root, o.prefix) : config_manual(root, o.prefix));
     return 0;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    if (!out.flush()) throw DeviceError(file.string() + " cannot be written");
 }
 
 int make_pages(const CLI::App& app, const std::filesystem::path& folder) {

@@ -23,15 +23,15 @@ constexpr std::size_t kMaxCandidates = 200'000;
 double error_of(const MeasuredSetting& s) { return s.errors.noise.rms; }
 
 // A value of a knob against the scenario's own.
-struct Effect {
+struct KnobEffect {
     std::size_t choice = 0;
     double time_ratio = 1;
     double error_squared = 0;  // added to the own setting's
 };
 
-double weight_of(const std::vector<Effect>& effects, double own_error_squared) {
+double weight_of(const std::vector<KnobEffect>& effects, double own_error_squared) {
     double most = 0;
-    for (const Effect& e : effects)
+    for (const KnobEffect& e : effects)
         most =
             std::max(most, std::abs(std::log(e.time_ratio)) + std::abs(e.error_squared) / own_error_squared);
     return most;
@@ -39,10 +39,10 @@ double weight_of(const std::vector<Effect>& effects, double own_error_squared) {
 
 // Returns those of one knob's measured values that are on its own front. The scenario's own is always among
 // them: what another value spoils may not be seen beside the scenario's other errors.
-std::vector<Effect> front_of_knob(std::size_t knob, const std::vector<MeasuredSetting>& settings) {
+std::vector<KnobEffect> front_of_knob(std::size_t knob, const std::vector<MeasuredSetting>& settings) {
     const MeasuredSetting& own = settings.front();
     std::vector<TimedError> points;
-    std::vector<Effect> effects;
+    std::vector<KnobEffect> effects;
     for (const MeasuredSetting& s : settings) {
         const bool single = s.kind == MeasuredSetting::Kind::kSingle && s.choices[knob] != 0;
         const bool better = s.times.frame_ms < (1 - kFaster) * own.times.frame_ms ||
@@ -52,15 +52,15 @@ std::vector<Effect> front_of_knob(std::size_t knob, const std::vector<MeasuredSe
         effects.push_back({s.choices[knob], s.times.frame_ms / own.times.frame_ms,
                            error_of(s) * error_of(s) - error_of(own) * error_of(own)});
     }
-    std::vector<Effect> front;
+    std::vector<KnobEffect> front;
     for (const std::size_t i : pareto_front(points, kMoreAccurate)) front.push_back(effects[i]);
     const bool has_own =
-        std::any_of(front.begin(), front.end(), [](const Effect& e) { return e.choice == 0; });
-    if (!has_own) front.push_back(Effect{});
+        std::any_of(front.begin(), front.end(), [](const KnobEffect& e) { return e.choice == 0; });
+    if (!has_own) front.push_back(KnobEffect{});
     return front;
 }
 
-TimedError predicted(const MeasuredSetting& own, const std::vector<std::vector<Effect>>& fronts,
+TimedError predicted(const MeasuredSetting& own, const std::vector<std::vector<KnobEffect>>& fronts,
                      const Choices& place) {
     double time_ratio = 1, squared = error_of(own) * error_of(own);
     // No guess is better than this share of what is known.
@@ -73,7 +73,7 @@ TimedError predicted(const MeasuredSetting& own, const std::vector<std::vector<E
 }
 
 // The next place, as the digits of a counter; false after the last.
-bool advance(Choices& place, const std::vector<std::vector<Effect>>& fronts) {
+bool advance(Choices& place, const std::vector<std::vector<KnobEffect>>& fronts) {
     for (std::size_t k = 0; k < place.size(); ++k) {
         if (++place[k] < fronts[k].size()) return true;
         place[k] = 0;
@@ -82,19 +82,19 @@ bool advance(Choices& place, const std::vector<std::vector<Effect>>& fronts) {
 }
 
 // Leaves the knobs that do least at their own values until the rest can be gone through.
-void limit_candidates(std::vector<std::vector<Effect>>& fronts, double own_error_squared) {
+void limit_candidates(std::vector<std::vector<KnobEffect>>& fronts, double own_error_squared) {
     const auto candidates = [&] {
         double count = 1;
         for (const auto& front : fronts) count *= static_cast<double>(front.size());
         return count;
     };
     while (candidates() > static_cast<double>(kMaxCandidates)) {
-        std::vector<Effect>* least = nullptr;
+        std::vector<KnobEffect>* least = nullptr;
         for (auto& front : fronts)
             if (front.size() > 1 &&
                 (!least || weight_of(front, own_error_squared) < weight_of(*least, own_error_squared)))
                 least = &front;
-        *least = {Effect{}};
+        *least = {KnobEffect{}};
     }
 }
 
@@ -105,7 +105,7 @@ std::vector<std::vector<std::size_t>> promising_combinations(const std::vector<K
                                                              std::size_t most) {
     const MeasuredSetting& own = settings.front();
     const double own_squared = std::max(error_of(own) * error_of(own), 1e-12);
-    std::vector<std::vector<Effect>> fronts;
+    std::vector<std::vector<KnobEffect>> fronts;
     for (std::size_t k = 0; k < knobs.size(); ++k) fronts.push_back(front_of_knob(k, settings));
     limit_candidates(fronts, own_squared);
 

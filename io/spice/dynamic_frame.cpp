@@ -199,7 +199,7 @@ FrameTurn euler_turn(const DynamicFrame& f, double et_s) {
 std::optional<Mat3d> two_vector_axes(const DynamicFrame& f, Vec3d primary, Vec3d secondary) {
     const auto [first, second] = f.vectors;
     const Vec3d p = first.sign * primary, s = second.sign * secondary;
-    const double apart_rad = std::atan2(length(cross(p, s)), dot(p, s));
+    const double apart_rad = angle_between_rad(p, s);
     if (!(apart_rad > f.least_angle_rad && kPi - apart_rad > f.least_angle_rad)) return {};
     std::array<Vec3d, 3> axes;
     axes[first.axis] = normalized(p);

@@ -79,8 +79,7 @@ std::optional<double> half_field_of(const Reader& r, const std::optional<Vec3d>&
     double out = 0;
     for (std::size_t i = 0; i + 3 <= corners.size(); i += 3) {
         const Vec3d corner{corners[i], corners[i + 1], corners[i + 2]};
-        if (length(corner) > 0)
-            out = std::max(out, std::atan2(length(cross(corner, *boresight)), dot(corner, *boresight)));
+        if (length(corner) > 0) out = std::max(out, angle_between_rad(corner, *boresight));
     }
     if (!(out > 0)) return {};
     return out;

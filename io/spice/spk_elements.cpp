@@ -81,8 +81,7 @@ class PrecessingConic final : public SpkSegment {
     // Counts whole turns, by the mean anomaly's.
     double true_anomaly(Vec3d position, double since_s) const {
         const double mean_rad = mean_motion_rad_s_ * since_s, within = std::remainder(mean_rad, kTurn_rad);
-        const double apart =
-            std::atan2(length(cross(start_.position_m, position)), dot(start_.position_m, position));
+        const double apart = angle_between_rad(start_.position_m, position);
         return mean_rad - within + std::copysign(apart, within);
     }
 };

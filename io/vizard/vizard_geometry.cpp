@@ -11,9 +11,7 @@ Quat body_from_camera(Vec3d sigma_ub) {
     return normalized(from_mrp(sigma_ub) * kUFromC);
 }
 
-double angle_between(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
-double angle_between(const Mat3d& a, const Mat3d& b) {
+double turn_between_rad(const Mat3d& a, const Mat3d& b) {
     const Quat q = to_quat(a * transposed(b));
     return 2 * std::atan2(length(Vec3d{q.x, q.y, q.z}), std::abs(q.w));
 }

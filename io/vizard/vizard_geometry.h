@@ -18,8 +18,7 @@ namespace hilcam {
 // Ours of a message's camera rotation.
 Quat body_from_camera(Vec3d sigma_ub);
 // The angle between two vectors, 0..pi; accurate for small ones too. 0 when one of them is zero.
-double angle_between(Vec3d a, Vec3d b);
 // The angle that takes one attitude to the other, 0..pi.
-double angle_between(const Mat3d& a, const Mat3d& b);
+double turn_between_rad(const Mat3d& a, const Mat3d& b);
 
 }  // namespace hilcam

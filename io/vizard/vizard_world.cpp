@@ -231,15 +231,15 @@ void VizardWorld::check_bodies(const Bodies& bodies, const Shift& shift, Vec3d c
         const bool is_sun = body_word(body.name) == "sun";
         if (!id && !is_sun) continue;
         const Vec3d own_world_m = is_sun ? bodies.sun_world_m : bodies[*id].world_m;
-        const double aside_rad = angle_between(body.position_n_m + shift.position_m - camera_world_m,
-                                               own_world_m - camera_world_m);
+        const double aside_rad = angle_between_rad(body.position_n_m + shift.position_m - camera_world_m,
+                                                   own_world_m - camera_world_m);
         const std::string who = "body " + in_quotes(body.name) + ": the simulation ";
         if (!(aside_rad <= rules_.tolerance_rad))
             remark_once(who + "place", who + "has it " + degrees(aside_rad) +
                                            " from where the picture shows it (the scenario's ephemerides)");
         if (!id || !body.n_from_body) continue;
         const double turned_rad =
-            angle_between(transposed(to_matrix(*body.n_from_body)), bodies[*id].fixed_from_world);
+            turn_between_rad(transposed(to_matrix(*body.n_from_body)), bodies[*id].fixed_from_world);
         if (!(turned_rad <= rules_.tolerance_rad))
             remark_once(who + "turn", who + "turns it " + degrees(turned_rad) +
                                           " from how the picture shows it (the scenario's ephemerides)");

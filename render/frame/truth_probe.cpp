@@ -14,7 +14,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kBlock_px = 4;  // a packet of sixteen rays
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfinity_m = std::numeric_limits<float>::infinity();
 
 template <class Layer>
 void size_layer(Layer& layer, const FrameRaster& raster) {
@@ -297,8 +297,9 @@ void TruthProbe::write(int x, int y, const RayMet& met) {
     if (layers.range_m.planes() > 0) layers.range_m.row(y)[at] = static_cast<float>(met.range_m);
     const Vec3d place_m = camera_from_world_ * met.from_camera_m;
     if (layers.depth_m.planes() > 0)
-        layers.depth_m.row(y)[at] = sky ? kInfinity : static_cast<float>(place_m.z);
-    write_vector(layers.position_m, x, y, sky ? Vec3f{kInfinity, kInfinity, kInfinity} : to_float(place_m));
+        layers.depth_m.row(y)[at] = sky ? kInfinity_m : static_cast<float>(place_m.z);
+    write_vector(layers.position_m, x, y,
+                 sky ? Vec3f{kInfinity_m, kInfinity_m, kInfinity_m} : to_float(place_m));
     write_vector(layers.normal, x, y, to_float(camera_from_world_ * met.normal_dir));
 }
 

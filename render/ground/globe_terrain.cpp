@@ -95,7 +95,7 @@ bool GlobeTerrain::is_outside(const TerrainView& view, const GroundTile& tile) c
     const Vec3d to_tile = tile.middle_m - view.camera_m;
     const double distance = length(to_tile);
     if (distance <= tile.radius_m) return false;
-    const double off_rad = std::atan2(length(cross(to_tile, view.boresight)), dot(to_tile, view.boresight));
+    const double off_rad = angle_between_rad(to_tile, view.boresight);
     if (off_rad - std::asin(tile.radius_m / distance) > view.half_field_rad) return true;
     // Ground below the ellipsoid by more than this hides less than it is taken to.
     constexpr double kLowest = 0.99;
@@ -104,8 +104,7 @@ bool GlobeTerrain::is_outside(const TerrainView& view, const GroundTile& tile) c
     const double top_m = middle_m + tile.radius_m;
     if (camera_m <= horizon_m || tile.radius_m >= middle_m) return false;
     const double apart_rad =
-        std::atan2(length(cross(view.camera_m, tile.middle_m)), dot(view.camera_m, tile.middle_m)) -
-        std::asin(tile.radius_m / middle_m);
+        angle_between_rad(view.camera_m, tile.middle_m) - std::asin(tile.radius_m / middle_m);
     return apart_rad > std::acos(horizon_m / camera_m) + std::acos(std::min(1.0, horizon_m / top_m));
 }
 

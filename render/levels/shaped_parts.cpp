@@ -60,7 +60,7 @@ Bend bend_of(const Mesh& mesh, const Side& side, const Side& other) {
     const auto place_m = [&](std::uint32_t vertex) { return to_double(mesh.vertices_m[vertex]); };
     const Vec3d area = area_vector(mesh, mesh.triangles[side.triangle]),
                 other_area = area_vector(mesh, mesh.triangles[other.triangle]);
-    const double angle_rad = std::atan2(length(cross(area, other_area)), dot(area, other_area));
+    const double angle_rad = angle_between_rad(area, other_area);
     const bool convex = dot(area, place_m(other.beyond) - place_m(side.from)) < 0;
     return {length(place_m(side.to) - place_m(side.from)), convex ? angle_rad : -angle_rad};
 }

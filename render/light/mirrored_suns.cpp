@@ -27,7 +27,7 @@ struct Rectangle {
 constexpr std::array<Rectangle, 3> kRectangles{{{0.65f, 0.357f}, {1.55f, 0.437f}, {4.6f, 0.206f}}};
 
 // A vertex on its way to a mirror.
-struct Asked {
+struct MirrorRay {
     const Vertex* at;
     Spectrum light;    // light that it sends towards the viewer if it sees all of the mirrored Sun
     Vec3f start_m;     // start of the ray
@@ -93,7 +93,7 @@ class Asker {
         if (dot(at.normal, shown_.dir) <= (at.facets ? -0.7f : -0.01f)) return;
         const float above_m = dot(at.point_m - shown_.corner_m, shown_.normal);
         if (!(above_m > shown_.tolerance_m) || !at.surface.has_lobes()) return;
-        Asked asked;
+        MirrorRay asked;
         asked.at = &at;
         auto [sun, light] = sun_.of(at);
         // A disk that is widened is widened by the Sun's disk, too.
@@ -128,10 +128,10 @@ class Asker {
     ShadowRays<Reflected, Lit> sunlight_;
     RayPacket rays_;
     HitPacket hits_;
-    std::array<Asked, kPacketSize> asked_;
+    std::array<MirrorRay, kPacketSize> asked_;
 
     // Finds how much of the lobe the mirror fills, seen about a place of its plane. False: nothing.
-    bool look_up(Vec2f place, Asked& asked) const {
+    bool look_up(Vec2f place, MirrorRay& asked) const {
         const Vec2f cell = shape_.cell_m();
         // The map is as fine as its cells, and as true as the level of detail; what is sharper has the edges
         // that rays meet.
@@ -154,7 +154,7 @@ class Asker {
     }
 
     // The light that a rough mirror throws past its edge comes from there.
-    void aim_at_mirror(Vec2f place, Asked& asked) const {
+    void aim_at_mirror(Vec2f place, MirrorRay& asked) const {
         const Vec2f off{std::clamp(place.x, 0.0f, shape_.width_m) - place.x,
                         std::clamp(place.y, 0.0f, shape_.height_m) - place.y};
         if (off.x == 0 && off.y == 0) return;
@@ -174,7 +174,7 @@ class Asker {
         rays_.count = 0;
     }
 
-    void answer(Asked& asked, int lane) {
+    void answer(MirrorRay& asked, int lane) {
         const auto k = static_cast<std::size_t>(lane);
         const bool hit = hits_.object[k] != HitPacket::kMiss;
         bool met = false;

@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-constexpr float kFarthest = std::numeric_limits<float>::infinity();
+constexpr float kFarthestHit = std::numeric_limits<float>::infinity();
 
 // One tile's way through its packets.
 class PrimaryRays {
@@ -32,7 +32,7 @@ class PrimaryRays {
                                  static_cast<float>(tile.samples_per_axis);
         width_ = {sample_rad * static_cast<float>(frame_.way_to_start_m()), sample_rad};
         std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
-        rays_.nearest.fill(0), rays_.farthest.fill(kFarthest);
+        rays_.nearest.fill(0), rays_.farthest.fill(kFarthestHit);
         if (linear_) {
             // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
             corner_ = linear_->corner + tile.box.x0 * linear_->right + tile.box.y0 * linear_->down;
@@ -264,7 +264,7 @@ class PrimaryRays {
         for (std::size_t k = 0; k < n; ++k) {
             const Vec3d dir = normalized(exact_[k].dir);
             const Vec3f start = frame_.start_of(dir, exact_[k].from_camera_m);
-            rays_.set(static_cast<int>(k), start, to_float(dir), 0, kFarthest);
+            rays_.set(static_cast<int>(k), start, to_float(dir), 0, kFarthestHit);
         }
     }
 

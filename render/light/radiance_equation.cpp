@@ -52,7 +52,7 @@ float density_of_others(const FrameView& frame, const Vertex& at, Vec3f dir, con
     return density;
 }
 
-struct LitBy {
+struct SunlitBy {
     const Vertex* at;
     Spectrum weight;  // on the light that comes along dir
     Vec3f dir;
@@ -91,12 +91,12 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const bool primary = vertices.front().depth == 1;
     const bool finds_edges = primary && tile.edges && !frame.sun_is_disk && !frame.has_glass;
 
-    const auto lit = [&](const LitBy& by, const Spectrum* glass) {
+    const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
         tile.add(*by.at, glass ? by.weight * *glass : by.weight);
     };
     TileStats& stats = tile.stats;
     std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
-    ShadowRays<LitBy, decltype(lit)> shadow(frame, counter, lit);
+    ShadowRays<SunlitBy, decltype(lit)> shadow(frame, counter, lit);
     FacetLights of_facets;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         if (i % FacetLights::kMost == 0)
@@ -141,13 +141,13 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
 void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling how) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
-    const auto lit = [&](const LitBy& by, const Spectrum* glass) {
+    const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
         Spectrum weight = glass ? by.weight * *glass : by.weight;
         Spectrum light;
         background.add_bodies(by.at->start(), to_double(by.dir), weight, light);
         tile.add(*by.at, light);
     };
-    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
+    ShadowRays<SunlitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
     constexpr int kQuadrature = 64;
     constexpr float kGolden = 0.61803399f;

@@ -12,9 +12,9 @@ namespace hilcam {
 namespace {
 
 constexpr int kQuads = GroundNormals::kQuads, kSide = kQuads + 1;
-using Seen = std::array<std::uint8_t, kSide * kSide>;   // 1: the vertex sees the Sun
-constexpr int kAcross = 4, kLanes = kAcross * kAcross;  // vertices that are asked together
-constexpr std::uint32_t kBlock = 4;                     // quadrilaterals on an edge of a block
+using SeenCells = std::array<std::uint8_t, kSide * kSide>;             // 1: the vertex sees the Sun
+constexpr int kCellsAcross = 4, kLanes = kCellsAcross * kCellsAcross;  // vertices that are asked together
+constexpr std::uint32_t kBlock = 4;                                    // quadrilaterals on an edge of a block
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 // A box as the Sun sees it: z towards the Sun.
@@ -65,7 +65,7 @@ class SunView {
         });
     }
 
-    Seen seen_from_tile(const MeshGrid& grid) const;
+    SeenCells seen_from_tile(const MeshGrid& grid) const;
 
   private:
     struct alignas(64) Packet {
@@ -138,7 +138,7 @@ std::vector<SunView::Candidate> SunView::shades_over(const Box& box) const {
     return out;
 }
 
-Seen SunView::seen_from_tile(const MeshGrid& grid) const {
+SeenCells SunView::seen_from_tile(const MeshGrid& grid) const {
     const auto vertex = [&](int x, int y) {
         return grid.first_vertex + static_cast<std::size_t>((y + 1) * (kQuads + 3) + x + 1);
     };
@@ -146,7 +146,7 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
     constexpr float kAbove = 0.01f;
     const float above_m = kAbove * length(mesh_.vertices_m[vertex(1, 0)] - mesh_.vertices_m[vertex(0, 0)]);
     std::array<Vec3f, kSide * kSide> starts;
-    Seen seen;
+    SeenCells seen;
     Box all;  // about those that face the Sun
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const std::size_t v = vertex(static_cast<int>(i) % kSide, static_cast<int>(i) / kSide);
@@ -157,13 +157,13 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
     }
     const std::vector<Candidate> candidates = shades_over(all);
     if (candidates.empty()) return seen;
-    for (int y0 = 0; y0 < kSide; y0 += kAcross)
-        for (int x0 = 0; x0 < kSide; x0 += kAcross) {
+    for (int y0 = 0; y0 < kSide; y0 += kCellsAcross)
+        for (int x0 = 0; x0 < kSide; x0 += kCellsAcross) {
             Packet packet;
             std::array<std::size_t, kLanes> of;  // beyond the tile's edge those at it
             std::uint32_t lit = 0;
             for (std::size_t i = 0; i < kLanes; ++i) {
-                const int dx = static_cast<int>(i) % kAcross, dy = static_cast<int>(i) / kAcross;
+                const int dx = static_cast<int>(i) % kCellsAcross, dy = static_cast<int>(i) / kCellsAcross;
                 of[i] =
                     static_cast<std::size_t>(std::min(y0 + dy, kQuads) * kSide + std::min(x0 + dx, kQuads));
                 const Vec3f p = starts[of[i]];
@@ -182,7 +182,7 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
 }
 
 // Returns what those around a quadrilateral in the tile have seen.
-KnownSun known_of(const Seen& seen, int x, int y) {
+KnownSun known_of(const SeenCells& seen, int x, int y) {
     int lit = 0, all = 0;
     for (int j = std::max(0, y - 1); j <= std::min(kQuads, y + 2); ++j)
         for (int i = std::max(0, x - 1); i <= std::min(kQuads, x + 2); ++i, ++all)
@@ -196,7 +196,7 @@ std::vector<KnownSun> known_sun(const TerrainMesh& terrain, Vec3d sun_dir) {
     std::vector<KnownSun> known(terrain.mesh.triangles.size(), KnownSun::kAsk);
     const SunView view(terrain, sun_dir);
     tbb::parallel_for(std::size_t{0}, terrain.normals->tiles.size(), [&](std::size_t tile) {
-        const Seen seen = view.seen_from_tile(terrain.grids[tile]);
+        const SeenCells seen = view.seen_from_tile(terrain.grids[tile]);
         KnownSun* const at = known.data() + terrain.grids[tile].first_triangle;
         for (int y = 0; y < kQuads; ++y)
             for (int x = 0; x < kQuads; ++x) {

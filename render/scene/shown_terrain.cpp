@@ -47,8 +47,7 @@ bool ShownTerrain::is_stale(const TerrainView& view) const {
     const TerrainView& old = made_for_;
     if (length(view.camera_m - old.camera_m) > 0.02 * length(view.camera_m - anchor_m_)) return true;
     if (!terrain_->ground->depends_on_boresight()) return false;
-    const double turned_rad =
-        std::atan2(length(cross(view.boresight, old.boresight)), dot(view.boresight, old.boresight));
+    const double turned_rad = angle_between_rad(view.boresight, old.boresight);
     // A tenth of the Sun's own disk.
     constexpr double kSunStep_rad = 0.001;
     return turned_rad > 0.5 * kFieldMargin_rad || view.pixel_rad != old.pixel_rad ||

@@ -51,9 +51,9 @@ double to_ground(double r, double mu) {
 }
 
 // Bilinear on the unit square.
-class Table {
+class SpectrumTable {
   public:
-    Table(int width, int height)
+    SpectrumTable(int width, int height)
         : width_(width), height_(height), cells_(static_cast<std::size_t>(width * height)) {}
     int width() const { return width_; }
     int height() const { return height_; }
@@ -137,7 +137,7 @@ class PrecomputedAtmosphere final : public Atmosphere {
   private:
     AirPhysics air_;
     float ground_albedo_;
-    Table transmittance_, multiple_, sky_;
+    SpectrumTable transmittance_, multiple_, sky_;
     std::string text_;
 
     // --- coordinates of the tables
@@ -270,7 +270,7 @@ class PrecomputedAtmosphere final : public Atmosphere {
     void fill_multiple() {
         constexpr int kMaxOrders = 30;
         Orders last = next_order(nullptr);
-        Table total = last.mean;
+        SpectrumTable total = last.mean;
         for (int order = 2; order <= kMaxOrders; ++order) {
             last = next_order(&last);
             float most = 0;
@@ -287,11 +287,11 @@ class PrecomputedAtmosphere final : public Atmosphere {
 
     // Light of one order: its mean over all directions at a point, and its irradiance on the ground.
     struct Orders {
-        Table mean, ground;  // ground: height 2, both the same
+        SpectrumTable mean, ground;  // ground: height 2, both the same
     };
     Orders next_order(const Orders* previous) const {
         constexpr int kRings = 12, kSpokes = 6;
-        Orders out{Table(multiple_.width(), multiple_.height()), Table(multiple_.width(), 2)};
+        Orders out{SpectrumTable(multiple_.width(), multiple_.height()), SpectrumTable(multiple_.width(), 2)};
         tbb::parallel_for(0, multiple_.height() + 1, [&](int y) {
             // One more row: the ground itself, for irradiance.
             const bool on_ground = y == multiple_.height();
@@ -401,7 +401,7 @@ class PrecomputedAtmosphere final : public Atmosphere {
         hash.take_bytes(key);
         return folder / ("atmosphere_" + std::to_string(hash.value()) + ".bin");
     }
-    std::array<Table*, 3> tables() { return {&transmittance_, &multiple_, &sky_}; }
+    std::array<SpectrumTable*, 3> tables() { return {&transmittance_, &multiple_, &sky_}; }
 
     // The whole key stands at the head of the file: a hash that collides, or a file cut short, is no hit.
     bool read(const std::filesystem::path& file, const std::vector<char>& key) {
@@ -410,7 +410,7 @@ class PrecomputedAtmosphere final : public Atmosphere {
         std::ifstream in(file, std::ios::binary);
         std::vector<char> head(key.size());
         if (!in.read(head.data(), static_cast<std::streamsize>(head.size())) || head != key) return false;
-        for (Table* table : tables()) {
+        for (SpectrumTable* table : tables()) {
             const auto size = static_cast<std::streamsize>(table->cells().size() * sizeof(Spectrum));
             if (!in.read(reinterpret_cast<char*>(table->cells().data()), size)) return false;
             for (const Spectrum& cell : table->cells())
@@ -429,7 +429,7 @@ class PrecomputedAtmosphere final : public Atmosphere {
         {
             std::ofstream out(beside, std::ios::binary);
             out.write(key.data(), static_cast<std::streamsize>(key.size()));
-            for (Table* table : tables())
+            for (SpectrumTable* table : tables())
                 out.write(reinterpret_cast<const char*>(table->cells().data()),
                           static_cast<std::streamsize>(table->cells().size() * sizeof(Spectrum)));
             if (!out.flush()) return static_cast<void>(std::filesystem::remove(beside, ignored));

@@ -65,8 +65,7 @@ StarSky::Cone StarSky::cone_of(std::size_t begin, std::size_t end) const {
     const Vec3d axis_dir = normalized(sum);
     double angle_rad = 0;
     for (std::size_t i = begin; i < end; ++i)
-        angle_rad = std::max(angle_rad, std::atan2(length(cross(stars_[i].world_dir, axis_dir)),
-                                                   dot(stars_[i].world_dir, axis_dir)));
+        angle_rad = std::max(angle_rad, angle_between_rad(stars_[i].world_dir, axis_dir));
     // Rounding leaves none outside.
     return {axis_dir, angle_rad + 1e-9};
 }

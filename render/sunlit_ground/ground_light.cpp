@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 // A pixel asks whether the Sun reaches it.
-struct Asked {
+struct AskedPoint {
     std::uint32_t pixel;
     Spectrum light;
 };
@@ -137,7 +137,7 @@ class GroundTileLight {
 
     // From where a ray begins that leaves the ground, as Vertex::start() has it.
     void ask(std::size_t i, std::uint32_t pixel) {
-        Asked asked{pixel, {}};
+        AskedPoint asked{pixel, {}};
         for (int b = 0; b < view_.bins; ++b) asked.light[b] = light_[static_cast<std::size_t>(b)][i];
         const auto& corners = frame_.mesh.triangles[packet_.triangle[i]];
         const auto corner = [&](std::size_t c) { return frame_.mesh.vertices_m[corners[c]]; };
@@ -196,8 +196,10 @@ bool add_ground_light(Tile& tile) {
     if (!all) return false;
     tile.stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
     if (largest(frame.background->sun_irradiance_w_m2_um()) <= 0) return true;
-    const auto lit = [&](const Asked& asked, const Spectrum*) { tile.pixels[asked.pixel] += asked.light; };
-    ShadowRays<Asked, decltype(lit)> shadow(frame, tile.stats.shadow_rays, lit);
+    const auto lit = [&](const AskedPoint& asked, const Spectrum*) {
+        tile.pixels[asked.pixel] += asked.light;
+    };
+    ShadowRays<AskedPoint, decltype(lit)> shadow(frame, tile.stats.shadow_rays, lit);
     GroundTileLight light(tile, shadow);
     return each_block([&](int x, int y) {
         light.add(x, y, ids_at(x, y));

@@ -15,9 +15,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -144,13 +147,16 @@ struct SectionsField {
     std::function<SectionField(std::size_t)> at{};
 };
 
+using FieldTarget = std::variant<NumberField, IntegerField, FlagField, TextField, TextsField, PathField,
+                                 ChoiceField, NumbersField, Vec3Field, QuatField, CurveField, TableField,
+                                 SectionField, OptionalSectionField, SectionsField>;
+
+// Constructors and makers are in config_field.cpp: a list of keys is compiled in every section's source, and inline
+// they took a third of the time of compiling the program.
 struct Field {
     std::string key;
     std::string meaning;  // one line, with the unit where the key has none
-    std::variant<NumberField, IntegerField, FlagField, TextField, TextsField, PathField, ChoiceField,
-                 NumbersField, Vec3Field, QuatField, CurveField, TableField, SectionField,
-                 OptionalSectionField, SectionsField>
-        target;
+    FieldTarget target;
     bool required = false;
     bool* present = nullptr;     // set when the key is given
     bool changes_frames = true;  // false: frames do not depend on it, so that a replay may have another value
@@ -158,66 +164,55 @@ struct Field {
     // Says why the key, where it is given, has no effect beside the section's other keys, which are all read by then;
     // empty: it has one. Null: it always has.
     std::function<std::string()> why_idle{};
+
+    Field(std::string_view key_, std::string_view meaning_, FieldTarget target_);
+    Field(const Field&);
+    Field(Field&&) noexcept;
+    Field& operator=(const Field&);
+    Field& operator=(Field&&) noexcept;
+    ~Field();
 };
 
 inline bool holds_section(const Field& field) {
     return std::holds_alternative<SectionField>(field.target) ||
            std::holds_alternative<OptionalSectionField>(field.target);
 }
-// The section that stands at a key, opened where it is not there yet; nothing where the key is of another kind.
-inline std::optional<SectionField> section_in(const Field& field) {
-    if (const auto* section = std::get_if<SectionField>(&field.target)) return *section;
-    if (const auto* section = std::get_if<OptionalSectionField>(&field.target)) return section->open();
-    return {};
-}
+// Returns the section that stands at a key, opened where it is not there yet; nothing where the key is of another kind.
+std::optional<SectionField> section_in(const Field& field);
 
 // --- makers, so that a list reads as a table ---
-inline Field number(std::string key, double& value, double si_per_unit, Range range, std::string meaning) {
-    return {std::move(key), std::move(meaning), NumberField{&value, si_per_unit, range}};
-}
-inline Field integer(std::string key, std::int64_t& value, Range range, std::string meaning) {
-    return {std::move(key), std::move(meaning), IntegerField{&value, range}};
-}
-inline Field flag(std::string key, bool& value, std::string meaning) {
-    return {std::move(key), std::move(meaning), FlagField{&value}};
-}
-inline Field text(std::string key, std::string& value, std::string meaning) {
-    return {std::move(key), std::move(meaning), TextField{&value}};
-}
-inline Field texts(std::string key, std::vector<std::string>& value, std::string meaning) {
-    return {std::move(key), std::move(meaning), TextsField{&value}};
-}
-inline Field path(std::string key, std::filesystem::path& value, std::string meaning) {
-    return {std::move(key), std::move(meaning), PathField{&value}};
-}
-inline Field path(std::string key, std::filesystem::path& value, std::string& where, std::string meaning) {
-    return {std::move(key), std::move(meaning), PathField{&value, &where}};
-}
+Field number(std::string_view key, double& value, double si_per_unit, Range range, std::string_view meaning);
+Field integer(std::string_view key, std::int64_t& value, Range range, std::string_view meaning);
+Field flag(std::string_view key, bool& value, std::string_view meaning);
+Field text(std::string_view key, std::string& value, std::string_view meaning);
+Field texts(std::string_view key, std::vector<std::string>& value, std::string_view meaning);
+Field path(std::string_view key, std::filesystem::path& value, std::string_view meaning);
+Field path(std::string_view key, std::filesystem::path& value, std::string& where, std::string_view meaning);
+Field choice_field(std::string_view key, ChoiceField choice, std::string_view meaning);
+std::vector<std::string> words_of(std::initializer_list<std::string_view> words);
 // Enum E with values 0, 1, 2, ... in the order of `words`.
 template <class E>
-Field choice(std::string key, E& value, std::vector<std::string> words, std::string meaning) {
-    return {std::move(key), std::move(meaning),
-            ChoiceField{std::move(words), [&value](std::size_t i) { value = static_cast<E>(i); },
-                        [&value] { return static_cast<std::size_t>(value); }}};
+Field choice(std::string_view key, E& value, std::vector<std::string> words, std::string_view meaning) {
+    return choice_field(key,
+                        {std::move(words), [&value](std::size_t i) { value = static_cast<E>(i); },
+                         [&value] { return static_cast<std::size_t>(value); }},
+                        meaning);
 }
-inline Field numbers(std::string key, std::vector<double>& value, double si_per_unit, Range range,
-                     std::array<std::size_t, 2> count, std::string meaning) {
-    return {std::move(key), std::move(meaning), NumbersField{&value, si_per_unit, range, count[0], count[1]}};
+template <class E>
+Field choice(std::string_view key, E& value, std::initializer_list<std::string_view> words,
+             std::string_view meaning) {
+    return choice(key, value, words_of(words), meaning);
 }
-inline Field vector3(std::string key, Vec3d& value, double si_per_unit, Range range, std::string meaning) {
-    return {std::move(key), std::move(meaning), Vec3Field{&value, si_per_unit, range}};
-}
-inline Field quaternion(std::string key, Quat& value, std::string meaning) {
-    return {std::move(key), std::move(meaning), QuatField{&value}};
-}
-inline Field curve(std::string key, Curve& value, Range range, std::string meaning) {
-    return {std::move(key), std::move(meaning), CurveField{&value, range}};
-}
-inline Field table(std::string key, Table& value, std::array<std::string, 2> names, Range x_range,
-                   Range y_range, std::string meaning) {
-    return {std::move(key), std::move(meaning),
-            TableField{&value, std::move(names[0]), std::move(names[1]), x_range, y_range}};
-}
+Field numbers(std::string_view key, std::vector<double>& value, double si_per_unit, Range range,
+              std::array<std::size_t, 2> count, std::string_view meaning);
+Field vector3(std::string_view key, Vec3d& value, double si_per_unit, Range range, std::string_view meaning);
+Field quaternion(std::string_view key, Quat& value, std::string_view meaning);
+Field curve(std::string_view key, Curve& value, Range range, std::string_view meaning);
+Field table(std::string_view key, Table& value, std::array<std::string_view, 2> names, Range x_range,
+            Range y_range, std::string_view meaning);
+Field section_field(std::string_view key, SectionField section, std::string_view meaning);
+Field optional_section_field(std::string_view key, OptionalSectionField section, std::string_view meaning);
+Field sections_field(std::string_view key, SectionsField sections, std::string_view meaning);
 // T has `Fields fields(T&)` and, when its keys depend on each other, `void validate(const T&)`.
 template <class T>
 SectionField section_of(T& value) {
@@ -226,41 +221,29 @@ SectionField section_of(T& value) {
     return section;
 }
 template <class T>
-Field section(std::string key, T& value, std::string meaning) {
-    return {std::move(key), std::move(meaning), section_of(value)};
+Field section(std::string_view key, T& value, std::string_view meaning) {
+    return section_field(key, section_of(value), meaning);
 }
 template <class T>
-Field section(std::string key, std::optional<T>& value, std::string meaning) {
-    return {std::move(key), std::move(meaning),
-            OptionalSectionField{[&value] { return section_of(value ? *value : value.emplace()); },
-                                 [&value] { return value.has_value(); }}};
+Field section(std::string_view key, std::optional<T>& value, std::string_view meaning) {
+    return optional_section_field(key,
+                                  {[&value] { return section_of(value ? *value : value.emplace()); },
+                                   [&value] { return value.has_value(); }},
+                                  meaning);
 }
 template <class T>
-Field sections(std::string key, std::vector<T>& value, std::string meaning) {
-    return {std::move(key), std::move(meaning),
-            SectionsField{[&value] { return section_of(value.emplace_back()); },
-                          [&value] { return value.size(); },
-                          [&value](std::size_t i) { return section_of(value[i]); }}};
+Field sections(std::string_view key, std::vector<T>& value, std::string_view meaning) {
+    return sections_field(
+        key,
+        {[&value] { return section_of(value.emplace_back()); }, [&value] { return value.size(); },
+         [&value](std::size_t i) { return section_of(value[i]); }},
+        meaning);
 }
-inline Field required(Field field, bool* present = nullptr) {
-    field.required = true;
-    field.present = present;
-    return field;
-}
-inline Field optional(Field field, bool& present) {
-    field.present = &present;
-    return field;
-}
+Field required(Field field, bool* present = nullptr);
+Field optional(Field field, bool& present);
 // A key, with all below it, that a replay may have otherwise than the recording (docs/recording.md).
-inline Field beside_frames(Field field) {
-    field.changes_frames = false;
-    return field;
-}
-
+Field beside_frames(Field field);
 // A key that may have another value from one frame to the next.
-inline Field per_frame(Field field) {
-    field.per_frame = true;
-    return field;
-}
+Field per_frame(Field field);
 
 }  // namespace hilcam

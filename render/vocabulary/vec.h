@@ -41,6 +41,8 @@ template <class T>
 T length(Vec3<T> a) {
     return std::sqrt(dot(a, a));
 }
+// Returns the angle between two vectors, 0 to pi; it is exact for small angles, too, where an arc cosine is not.
+inline double angle_between_rad(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 // A unit vector along a; a zero or non-finite vector gives NaN, so callers check what comes from outside.
 // Always inline: a call would cost more than its root.
 template <class T>

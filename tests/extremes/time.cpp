@@ -24,7 +24,6 @@ std::int64_t days_of(Date d) {
 TimeTai from_tt(Date date, double seconds) {
     return {days_of(date) * 86400 * kNs + std::llround((seconds - 32.184) * 1e9)};
 }
-double angle_between(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
 }  // namespace
 
@@ -129,7 +128,7 @@ Group poles() {
                                    std::cos(theta)};
                  const Vec3d pole = earth_fixed_from_icrf(time, {}).z;
                  return std::vector<Found>{
-                     {std::abs(theta) / kArcsecond_rad, angle_between(pole, truth) / kArcsecond_rad}};
+                     {std::abs(theta) / kArcsecond_rad, angle_between_rad(pole, truth) / kArcsecond_rad}};
              }});
     return group;
 }
@@ -173,7 +172,7 @@ Group planets() {
                      about_z(node, about_x(inclination, about_z(perihelion - node, {x, y, 0})));
                  const Vec3d truth = about_x(kObliquity_deg * kDegree_rad, ecliptic);
                  const Vec3d found = heliocentric(BodyId::kMars, from_tt({year, 1, 1}, 43200)).position_m;
-                 return std::vector<Found>{{length(truth), angle_between(truth, found) / kArcsecond_rad}};
+                 return std::vector<Found>{{length(truth), angle_between_rad(truth, found) / kArcsecond_rad}};
              }});
     return group;
 }

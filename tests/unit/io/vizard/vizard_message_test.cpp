@@ -75,10 +75,10 @@ TEST(VizardGeometry, TheScriptsOwnRotationComesBack) {
 }
 
 TEST(VizardGeometry, AnglesAreRightDownToSmallOnes) {
-    EXPECT_NEAR(angle_between(Vec3d{2, 0, 0}, Vec3d{3, 3e-9, 0}), 1e-9, 1e-18);
-    EXPECT_DOUBLE_EQ(angle_between(Vec3d{1, 0, 0}, Vec3d{-4, 0, 0}), kPi);
+    EXPECT_NEAR(angle_between_rad(Vec3d{2, 0, 0}, Vec3d{3, 3e-9, 0}), 1e-9, 1e-18);
+    EXPECT_DOUBLE_EQ(angle_between_rad(Vec3d{1, 0, 0}, Vec3d{-4, 0, 0}), kPi);
     const Mat3d turned = to_matrix(from_rotation_vector({0, 1e-4, 0}));
-    EXPECT_NEAR(angle_between(turned, Mat3d{}), 1e-4, 1e-12);
+    EXPECT_NEAR(turn_between_rad(turned, Mat3d{}), 1e-4, 1e-12);
 }
 
 // --- messages
