@@ -13,6 +13,7 @@
 #include "emulator/send/choice_option.h"
 #include "emulator/send/send_command.h"
 #include "emulator/subcommands/subcommands.h"
+#include "emulator/subcommands/unknown_option.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -43,6 +44,11 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
         fmt::print(stderr, "hilcam: {}\n", what);
         return 2;
     }
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+        if (const std::string what = unknown_option(app); !what.empty()) {
+            fmt::print(stderr, "hilcam: {}\n", what);
+            return 2;
+        }
     // The library's words quote the command line.
     std::ostringstream help, problem;
     const int status = app.exit(error, help, problem);

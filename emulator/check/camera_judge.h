@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "emulator/check/camera_sheet.h"
+#include "io/config/key_places.h"
 
 namespace hilcam {
 
-// A line each, which names the key. keeps_rate: frames come at the camera's frame rate, and are not asked
-// for.
-std::vector<std::string> judge_camera(const CameraSheet& sheet, bool keeps_rate);
+// A line each, with the key and its place. keeps_rate: frames come at the camera's frame rate, and are not asked for.
+std::vector<std::string> judge_camera(const CameraSheet& sheet, bool keeps_rate, const KeyPlaces& places);
 
 }  // namespace hilcam

@@ -7,6 +7,7 @@
 
 #include "emulator/check/camera_judge.h"
 #include "emulator/check/camera_sheet.h"
+#include "emulator/check/scenario_verdict.h"
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/run/camera_station.h"
@@ -17,7 +18,6 @@
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/world/clock.h"
 #include "io/config/config_yaml.h"
-#include "io/system/net_interface.h"
 #include "io/system/resident_memory.h"
 
 namespace hilcam {
@@ -136,38 +136,16 @@ std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t
     return station;
 }
 
-// Says what a run would refuse on this machine now.
-std::vector<std::string> machine_warnings(const OutputsConfig& o) {
-    std::vector<std::string> out;
-    if (const auto* gige = o.find<GigeConfig>()) try {
-            const NetInterface interface = find_interface(gige->interface);
-            if (gige->packet_bytes > interface.mtu_bytes)
-                out.push_back(fmt::format("outputs.gige.packet_bytes is {}, and the interface {} carries {}",
-                                          gige->packet_bytes, interface.name, interface.mtu_bytes));
-        } catch (const InputError& error) {
-            out.push_back(std::string("outputs.gige: ") + error.what());
-        }
-    for (const RunFolder& folder : run_folders(o)) {
-        if (folder.overwrite) continue;
-        if (std::string used = used_by_another_run(folder); !used.empty()) out.push_back(std::move(used));
-    }
-    return out;
-}
-
 // memory_mb: gets what the process has while the camera is loaded.
 CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid,
-                       const Pose& first_camera, std::vector<std::string>& idle_rules, double& memory_mb) {
+                       const Pose& first_camera, std::vector<std::string>& about_objects, double& memory_mb) {
     const ScenarioConfig s = scenario_of_camera(bench, index);
     const std::unique_ptr<CameraStation> station = make_station(bench, index, grid);
     const TimeTai time = parse_utc(s.time_utc);
-    CameraReport report;
-    report.number = index + 1;
-    report.sheet = camera_sheet(s.camera);
-    report.share_in_bins = share_in_bins(s.camera, grid);
-    report.plan = station->renderer().explain_plan(snapshot_at(s, time, time));
-    report.sight = first_sight(*station, report.sheet, first_camera);
-    if (s.mode == CameraMode::kFreeRun)
-        report.period_s = ShutterTiming(s.camera).period_s(s.camera.frame_rate_hz, report.sheet.exposure_s);
+    const LoadedView view{s, station->renderer(), station->objects()};
+    std::vector<std::string> plan = station->renderer().explain_plan(snapshot_at(s, time, time));
+    CameraReport report = report_view(view, index + 1, first_camera);
+    report.plan = std::move(plan);
     WorldState world(initial_motions(s, time), s.origin, joints_of(s), s.mount, load_motion_sources(s),
                      lamp_mounts(s));
     ExposureRenderer exposures(station->renderer(), exposure_config_of(s), s.camera, grid,
@@ -184,32 +162,26 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
             (stray->ms < stray->told_ms ? " at most" : ""));
     report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
-    idle_rules = warnings_of(station->objects());
+    if (about_objects.empty()) about_objects = verdict_on_objects(view, VerdictOn::kAll);
     memory_mb = ResidentMemory().megabytes();
     return report;
-}
-
-// Cameras are named where there are several.
-void add_warnings(std::vector<std::string> warnings, std::size_t number, std::size_t cameras,
-                  std::vector<std::string>& out) {
-    for (std::string& warning : warnings)
-        out.push_back(cameras > 1 ? fmt::format("camera {}: {}", number, warning) : std::move(warning));
 }
 
 }  // namespace
 
 bool is_camera_file(const std::filesystem::path& file) { return has_top_level_key(file, "pitch_um"); }
 
-std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
+Checked check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
                          bool json) {
     CameraModel camera;
-    read_config(file, section_of(camera), overrides);
+    KeyPlaces places(file.string(), "camera.");
+    read_config(file, section_of(camera), overrides, &places);
     draw_fixed_pattern(camera, load_detector_pictures(camera));  // throws when a map does not fit
     const CameraSheet sheet = camera_sheet(camera);
-    if (json) return to_json(sheet, judge_camera(sheet, true));
-    std::string warnings;
-    for (const std::string& line : judge_camera(sheet, true)) warnings += "warning: " + line + "\n";
-    return warnings + to_text(sheet);
+    const std::vector<std::string> warnings = judge_camera(sheet, true, places);
+    std::string text;
+    for (const std::string& line : warnings) text += "warning: " + line + "\n";
+    return {json ? to_json(sheet, warnings) : text + to_text(sheet), !warnings.empty()};
 }
 
 CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
@@ -218,22 +190,23 @@ CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
     out.scenario = s.name;
     out.time = parse_utc(s.time_utc);
     out.cameras = 1 + s.more_cameras.size();
-    out.warnings = idle_warnings(s);
-    for (std::string& warning : place_warnings(s)) out.warnings.push_back(std::move(warning));
+    out.warnings = early_verdict(s, VerdictOn::kAll);
+    const auto warn = [&](const std::vector<std::string>& lines) {
+        out.warnings.insert(out.warnings.end(), lines.begin(), lines.end());
+    };
     const Pose first_camera = snapshot_at(s, out.time, out.time).camera;
-    std::vector<std::string> idle_rules;  // the same for every camera
+    std::vector<std::string> about_objects;  // the same for every camera
     // One after the other: the scene of each is large.
     for (std::size_t i = 0; i < out.cameras; ++i) {
         if (camera != 0 && camera != i + 1) continue;
         double memory_mb = 0;
-        out.reports.push_back(report_of(s, i, grid, first_camera, idle_rules, memory_mb));
+        out.reports.push_back(report_of(s, i, grid, first_camera, about_objects, memory_mb));
         out.memory_mb = std::max(out.memory_mb, memory_mb);
-        const ScenarioConfig own = scenario_of_camera(s, i);
-        add_warnings(judge(own, out.reports.back()), i + 1, out.cameras, out.warnings);
-        add_warnings(machine_warnings(own.outputs), i + 1, out.cameras, out.warnings);
+        warn(verdict_on_view(scenario_of_camera(s, i), out.reports.back()));
     }
-    out.warnings.insert(out.warnings.end(), idle_rules.begin(), idle_rules.end());
+    warn(about_objects);
     out.run = {seed_line(s), loop_line(s)};
+    for (std::string& line : no_output_warnings(s)) out.run.push_back(std::move(line));
     for (std::string& line : governor_lines(s)) out.run.push_back(std::move(line));
     return out;
 }

@@ -15,8 +15,12 @@ CheckReport check_scenario(const ScenarioConfig& scenario, std::size_t camera = 
 
 // A camera's file alone, told by its key pitch_um.
 bool is_camera_file(const std::filesystem::path& file);
-// Its data sheet. Throws InputError.
-std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
-                         bool json = false);
+struct Checked {
+    std::string text;  // for people, or JSON
+    bool has_warnings = false;
+};
+// Its data sheet, after what is probably not meant in it. Throws InputError.
+Checked check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
+                           bool json = false);
 
 }  // namespace hilcam

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "emulator/check/camera_judge.h"
-#include "emulator/check/check_report.h"
+#include "emulator/check/scenario_verdict.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -16,6 +16,10 @@ constexpr double kLongest_m = 500;
 constexpr double kShortest_m = 0.05;
 // Most of a constellation's objects are elsewhere.
 constexpr std::size_t kMaxTold = 10;
+// An object that is so much larger than the field is seen as a piece of its skin.
+constexpr double kFillsFields = 20;
+// Share of full scale below which a picture is dark to the eye.
+constexpr double kDim = 0.02;
 // Less of the Sun than this is an eclipse, less of the disk lit than this is its night side.
 constexpr double kDark = 0.02;
 
@@ -38,6 +42,18 @@ std::string origin_advice(const SeenObject& o) {
     const double off_m = length(0.5 * (o.loaded.least_m + o.loaded.most_m));
     if (!(off_m > length(o.loaded.most_m - o.loaded.least_m))) return "";
     return fmt::format("; that is its origin, and the middle of its mesh is {:.4g} m from there", off_m);
+}
+
+// What fills the picture with one of its details: a focal length in other units, a place that is too near.
+void judge_filling(const SeenObject& o, const CameraReport& camera, std::vector<std::string>& out) {
+    constexpr double kAll = 0.999;
+    const double fields = 2 * o.angular_radius_rad / camera.sheet.field_diagonal_rad;
+    if (o.picture_share < kAll || fields < kFillsFields) return;
+    out.push_back(fmt::format(
+        "object '{}' fills the picture: it is {:.3g} deg large, and the field is {:.3g} deg "
+        "(camera.focal_length_mm is {:.6g}, camera.pitch_um {:.4g})",
+        harmless(o.loaded.name), degrees(2 * o.angular_radius_rad), degrees(camera.sheet.field_diagonal_rad),
+        1e3 * camera.sheet.camera.focal_length_m, 1e6 * camera.sheet.camera.pitch_m));
 }
 
 void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<std::string>& out) {
@@ -65,6 +81,7 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
         case SeenObject::Place::kVisible:
             break;
     }
+    judge_filling(o, camera, out);
     if (longest_m(o) < kShortest_m && o.silhouette_px < 1)
         out.push_back(fmt::format("{} is {} large, {:.2g} pixels from {:.4g} m: is its scale too small?",
                                   name, size_text(o.loaded.most_m - o.loaded.least_m), o.silhouette_px,
@@ -74,40 +91,66 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
                                   size_text(o.loaded.most_m - o.loaded.least_m), o.distance_m, advice));
 }
 
+// Names the keys that make a signal too high or too low.
+std::string exposure_keys(const CameraSheet& sheet, bool by_converter) {
+    const std::string keys = std::string("camera.exposure_ms") +
+                             (by_converter ? ", or camera.gain_dn_e with camera.gain_db," : "");
+    return sheet.camera.offset_dn > 0.5 * sheet.most_dn ? "camera.offset_dn, which leaves little for light," : keys;
+}
+
+// Says what is wrong with the light of something that is lit and in the picture; empty: nothing.
+std::string exposure_fault(const CameraSheet& sheet, const ExpectedSignal& expected) {
+    const bool by_converter = sheet.converter_e < sheet.well_e;
+    if (sheet.camera.auto_exposure.on) return {};
+    if (expected.full_scale > 2)
+        return fmt::format("saturates: about {:.3g} times what {} takes; {} is too high", expected.full_scale,
+                           by_converter ? "the converter" : "a pixel", exposure_keys(sheet, by_converter));
+    if (expected.full_scale < kDim)
+        return fmt::format("is dark: about {:.0f} DN of {:.0f}, {:.2g} % of full scale; {} is too low", expected.dn,
+                           sheet.most_dn, 100 * expected.full_scale, exposure_keys(sheet, true));
+    return {};
+}
+
 bool any_lamp_lit(const ScenarioConfig& s) {
     return std::any_of(s.lamps.begin(), s.lamps.end(), [](const LampConfig& lamp) { return lamp.lit; });
 }
 
-void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraReport& camera,
+// key: the object's.
+void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraReport& camera, const std::string& key,
                  std::vector<std::string>& out) {
     if (o.place != SeenObject::Place::kVisible || o.holds_camera || any_lamp_lit(s)) return;
     const std::string name = "object '" + harmless(o.loaded.name) + "'";
+    const auto warn = [&](const std::string& text) { out.push_back(s.places.at(key, name + " " + text)); };
     if (o.sunlit < kDark)
-        out.push_back(fmt::format("{} is in eclipse: bodies leave it {:.2g} % of the Sun, and no lamp is lit",
-                                  name, 100 * o.sunlit));
+        warn(fmt::format("is in eclipse: bodies leave it {:.2g} % of the Sun, and no lamp is lit", 100 * o.sunlit));
     else if (lit_share(o.phase_rad) < kDark)
-        out.push_back(
-            fmt::format("{} shows its night side: phase angle {:.1f} deg", name, degrees(o.phase_rad)));
+        warn(fmt::format("shows its night side: phase angle {:.1f} deg", degrees(o.phase_rad)));
     else if (o.expected.snr < 1)
-        out.push_back(fmt::format("{} is lost in the noise: about {:.3g} e- of light, {:.3g} e- of noise",
-                                  name, o.expected.signal_e, camera.sheet.dark_total_e));
-    else if (o.expected.full_scale > 2 && !s.camera.auto_exposure.on)
-        out.push_back(fmt::format(
-            "{} saturates: about {:.3g} times what {} takes; {} is too high", name, o.expected.full_scale,
-            camera.sheet.converter_e < camera.sheet.well_e ? "the converter" : "a pixel",
-            camera.sheet.converter_e < camera.sheet.well_e ? "exposure_ms, or gain_dn_e with gain_db,"
-                                                           : "exposure_ms"));
+        warn(fmt::format("is lost in the noise: about {:.3g} e- of light, {:.3g} e- of noise", o.expected.signal_e,
+                         camera.sheet.dark_total_e));
+    else if (const std::string fault = exposure_fault(camera.sheet, o.expected); !fault.empty())
+        out.push_back(s.places.at("camera.exposure_ms", name + " " + fault));
+}
+
+// Where the boresight meets a body that the Sun lights; without air and clouds, so that it is told when it is far off.
+void judge_ground(const ScenarioConfig& s, const CameraReport& camera, std::vector<std::string>& out) {
+    const std::optional<GroundSight>& ground = camera.sight.ground;
+    constexpr double kHigh_rad = 10 * kDegree_rad;
+    if (!ground || !ground->expected || ground->sun_elevation_rad < kHigh_rad || any_lamp_lit(s)) return;
+    if (const std::string fault = exposure_fault(camera.sheet, *ground->expected); !fault.empty())
+        out.push_back(s.places.at("camera.exposure_ms", "the ground of the body '" + ground->body + "' " + fault));
 }
 
 void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector<std::string>& out) {
     if (!s.terrain) return;
     if (!sight.height_above_ground_m)
-        out.push_back(
+        out.push_back(s.places.at(
+            "terrain",
             "the camera is beside the terrain's map: terrain.place or pose, heights.spacing_m, or where the "
-            "camera is");
+            "camera is"));
     else if (*sight.height_above_ground_m < 0)
-        out.push_back(fmt::format("the camera is {:.4g} m below the ground of the terrain",
-                                  -*sight.height_above_ground_m));
+        out.push_back(s.places.at("camera_pose", fmt::format("the camera is {:.4g} m below the ground of the terrain",
+                                                             -*sight.height_above_ground_m)));
 }
 
 // True when anything in the picture sends light.
@@ -122,29 +165,34 @@ bool shows_light(const ScenarioConfig& s, const FirstSight& sight) {
 
 }  // namespace
 
-std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& camera) {
+std::vector<std::string> verdict_on_view(const ScenarioConfig& s, const CameraReport& camera) {
     std::vector<std::string> out;
     std::size_t left = 0;
-    for (const SeenObject& o : camera.sight.objects) {
+    for (std::size_t i = 0; i < camera.sight.objects.size(); ++i) {
+        const SeenObject& o = camera.sight.objects[i];
         std::vector<std::string> own;
         judge_place(o, camera, own);
-        judge_light(s, o, camera, own);
+        const std::string key = fmt::format("objects.{}", i);
+        for (std::string& line : own) line = s.places.at(key, line);
+        judge_light(s, o, camera, key, own);
         if (out.size() < kMaxTold)
             out.insert(out.end(), own.begin(), own.end());
         else
             left += own.empty() ? 0u : 1u;
     }
     if (left > 0)
-        out.push_back(
-            fmt::format("and {} more objects have warnings: --json tells where each of them is", left));
+        out.push_back(s.places.at(
+            "objects", fmt::format("and {} more objects have warnings: --json tells where each of them is", left)));
     if (!shows_light(s, camera.sight))
-        out.push_back("nothing that is lit is in the picture: it will be black");
-    for (std::string& line : judge_camera(camera.sheet, camera.period_s > 0)) out.push_back(std::move(line));
+        out.push_back(s.places.at("camera_pose", "nothing that is lit is in the picture: it will be black"));
+    for (std::string& line : judge_camera(camera.sheet, camera.period_s > 0, s.places)) out.push_back(std::move(line));
+    judge_ground(s, camera, out);
     judge_terrain(s, camera.sight, out);
     if (camera.share_in_bins < 0.5)
-        out.push_back(
+        out.push_back(s.places.at(
+            "spectrum_edges_um",
             fmt::format("spectrum_edges_um leave out {:.0f} % of what the camera would see of sunlight",
-                        100 * (1 - camera.share_in_bins)));
+                        100 * (1 - camera.share_in_bins))));
     return out;
 }
 

@@ -41,9 +41,6 @@ struct CheckReport {
     double memory_mb = 0;          // memory with the last camera loaded; 0: not known
 };
 
-// Says what is probably not meant in what a camera sees. scenario: as that camera has it.
-std::vector<std::string> judge(const ScenarioConfig& scenario, const CameraReport& camera);
-
 std::string to_text(const CheckReport& report);
 std::string to_json(const CheckReport& report);
 // A camera's data sheet, and what is probably not meant in it.

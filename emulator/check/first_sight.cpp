@@ -84,9 +84,10 @@ void tell_site(const ScenarioConfig& s, FirstSight& out) {
 
 }  // namespace
 
-FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const Pose& first_camera) {
-    const ScenarioConfig& s = station.scenario();
-    const FrameTruth truth = truth_of(s, station.renderer());
+FirstSight first_sight(const ScenarioConfig& s, const Renderer& renderer,
+                       const std::vector<LoadedObject>& objects, const CameraSheet& sheet,
+                       const Pose& first_camera) {
+    const FrameTruth truth = truth_of(s, renderer);
     FirstSight out;
     out.camera = truth.camera;
     out.pointing = radec_of(truth.camera.world_from_body);
@@ -102,7 +103,7 @@ FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const P
         // Terrain comes after the objects and is made while the camera runs: nothing is known of it here.
         if (thing.is_body || thing.id > s.objects.size()) continue;
         out.objects.push_back(
-            seen(thing, station.objects()[thing.id - 1], truth, sheet, s.mount.thing == thing.id));
+            seen(thing, objects[thing.id - 1], truth, sheet, s.mount.thing == thing.id));
     }
     const Mat3d first_from_world = transposed(to_matrix(first_camera.world_from_body));
     out.from_first_m = first_from_world * (truth.camera.position_world_m - first_camera.position_world_m);

@@ -9,7 +9,7 @@
 
 #include "emulator/check/expected_signal.h"
 #include "emulator/check/ground_sight.h"
-#include "emulator/run/camera_station.h"
+#include "emulator/scenario/scene_loader.h"
 #include "render/vocabulary/attitude.h"
 
 namespace hilcam {
@@ -47,7 +47,9 @@ struct FirstSight {
     double turned_rad = 0;
 };
 
-// The station's scene is loaded, and its renderer has placed the first instant (Renderer::explain_plan).
-FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const Pose& first_camera);
+// The scene is loaded, and the renderer has placed the instant that is looked at (Renderer::place_for_truth).
+FirstSight first_sight(const ScenarioConfig& scenario, const Renderer& renderer,
+                       const std::vector<LoadedObject>& objects, const CameraSheet& sheet,
+                       const Pose& first_camera);
 
 }  // namespace hilcam

@@ -15,7 +15,7 @@ namespace hilcam {
 namespace {
 
 // No spacecraft is as long, but the file of one in millimetres is; asteroids are.
-constexpr double kLongest_m = 500;
+constexpr double kLongestSide_m = 500;
 // Height over the longest side below which a triangle's corners are on a line: what single precision leaves.
 constexpr double kSliver = 1e-6;
 
@@ -157,7 +157,7 @@ MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file) {
     survey_triangles(mesh, out);
     survey_topology(mesh, out);
     const Vec3d size_m = out.most_m - out.least_m;
-    out.probably_mm = std::max({size_m.x, size_m.y, size_m.z}) > kLongest_m;
+    out.probably_mm = std::max({size_m.x, size_m.y, size_m.z}) > kLongestSide_m;
     out.coarse_step_m = coarse_step_m(out.least_m, out.most_m);
     out.missing_materials = contents.missing_materials;
     return out;

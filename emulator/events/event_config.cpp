@@ -142,7 +142,7 @@ std::string_view refusal_of(const Command& command) {
 
 EventActions actions_of(const EventConfig& e) {
     EventActions out;
-    if (e.actions.empty()) throw InputError("'do': found an empty list; accepted: one command or more");
+    if (e.actions.empty()) throw KeyError("do", "found an empty list; accepted: one command or more");
     for (const std::string& words : e.actions) {
         if (words == kEnd) {
             out.ends_run = true;
@@ -152,10 +152,10 @@ EventActions actions_of(const EventConfig& e) {
         try {
             command = command_of_words(words);
         } catch (const std::exception& error) {
-            throw InputError("do: " + in_quotes(words) + ": " + in_quotes(error.what()));
+            throw KeyError("do", "found " + in_quotes(words) + ": " + harmless(error.what()));
         }
         if (const std::string_view reason = refusal_of(command); !reason.empty())
-            throw InputError("do: " + in_quotes(words) + ": " + std::string(reason));
+            throw KeyError("do", "found " + in_quotes(words) + ": " + std::string(reason));
         out.commands.push_back(command);
     }
     return out;

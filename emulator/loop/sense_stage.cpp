@@ -36,7 +36,7 @@ SenseStage::SenseStage(const LoopParts& parts, LoopFigures& figures)
 bool SenseStage::run(FrameSlot& slot, const std::atomic<bool>& stopping) {
     sense(slot);
     if (!wait_for_end(slot, stopping)) return false;
-    if (loses_none_) wait_for_room();
+    wait_for_room();
     if (!replays_) know_machine_times(slot);
     if (recorder_) keep(slot);
     publish(slot);
@@ -99,13 +99,19 @@ bool SenseStage::wait_for_end(const FrameSlot& slot, const std::atomic<bool>& st
 }
 
 // In lockstep and in a replay every output has to have room, as no frame may be lost, the last ones of a run
-// as little as the others.
-void SenseStage::wait_for_room() const {
+// as little as the others; otherwise those that are to lose none.
+void SenseStage::wait_for_room() {
     constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
-    const std::int64_t until_ns = monotonic_ns() + kPatience_ns;
-    const auto room = [](const FrameSink* sink) { return sink->has_room(); };
-    while (!std::all_of(sinks_.begin(), sinks_.end(), room) && monotonic_ns() < until_ns)
-        sleep_until_monotonic_ns(monotonic_ns() + kPoll_ns);
+    const auto room = [this](const FrameSink* sink) {
+        return (!loses_none_ && !sink->must_be_waited_for()) || sink->has_room();
+    };
+    const std::int64_t begun_ns = monotonic_ns();
+    std::int64_t now_ns = begun_ns;
+    while (!std::all_of(sinks_.begin(), sinks_.end(), room) && now_ns < begun_ns + kPatience_ns) {
+        sleep_until_monotonic_ns(now_ns + kPoll_ns);
+        now_ns = monotonic_ns();
+    }
+    counters_.waited_for_outputs_ns.fetch_add(now_ns - begun_ns, std::memory_order_relaxed);
 }
 
 // When the exposure was, on the machine's clock: the scale of time may have changed since it began.

@@ -34,7 +34,7 @@ class SenseStage {
     void measure_exposure(FrameSlot& slot);
     void finish_picture(const FrameSlot& slot);
     bool wait_for_end(const FrameSlot& slot, const std::atomic<bool>& stopping) const;
-    void wait_for_room() const;
+    void wait_for_room();
     void know_machine_times(FrameSlot& slot) const;
     void keep(const FrameSlot& slot);
     void publish(FrameSlot& slot);

@@ -58,6 +58,7 @@ void CameraStation::make_sinks() {
                             settings_.settings().frame_rate_hz,
                             scenario_.camera.name,
                             &run,
+                            have_live(scenario_.outputs),
                             [this] { return status(); }};
     const SinkContext context = sink_context();
     scenario_.outputs.for_each_given([&](const auto& config) {
@@ -94,7 +95,8 @@ void CameraStation::load(const SpectralGrid& grid) {
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, exposures, scenario_.camera, grid,
                                                     world_->placed_objects());
     if (limits_.outputs && (scenario_.outputs.find<TruthConfig>() || truth_listener_)) {
-        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id, truth_listener_);
+        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id,
+                                     {truth_listener_, &fates_, have_live(scenario_.outputs)});
         truth_ = truth.get();
         sinks_.push_back(std::move(truth));
     }

@@ -16,6 +16,7 @@
 #include "emulator/scenario/app_config.h"
 #include "emulator/scenario/scene_loader.h"
 #include "io/contract/command_receiver.h"
+#include "io/contract/frame_fates.h"
 
 namespace hilcam {
 
@@ -100,7 +101,7 @@ class CameraStation {
     std::vector<std::string> new_faults();
     // An output that others feed too (telemetry); before prepare().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
-    SinkContext sink_context() { return {settings_, faults_, &delivery_}; }
+    SinkContext sink_context() { return {settings_, faults_, &delivery_, &fates_}; }
 
   private:
     void make_sinks();
@@ -115,6 +116,7 @@ class CameraStation {
     LiveSettings settings_;
     FaultBoard faults_;
     DeliveryMeter delivery_;
+    FrameFates fates_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
     bool told_render_fault_ = false;

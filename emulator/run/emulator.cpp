@@ -10,11 +10,12 @@
 
 #include "emulator/recording/recording_header.h"
 #include "emulator/recording/run_seed.h"
-#include "emulator/scenario/scenario_warnings.h"
 #include "io/system/service_manager.h"
 
 namespace hilcam {
 namespace {
+
+constexpr std::int64_t kBetweenMissedLines_ns = 10'000'000'000;
 
 volatile std::sig_atomic_t signalled = 0;
 std::atomic<std::int64_t> signalled_ns{0};
@@ -103,8 +104,6 @@ void Emulator::load_stations() {
         stations_.push_back(
             std::make_unique<CameraStation>(scenario_of_camera(scenario_, i), i + 1, limits_));
     for (const auto& station : stations_) station->load(grid_);
-    if (!limits_.outputs) return;
-    for (const std::string& warning : warnings_of(first().objects())) spdlog::warn("{}", warning);
 }
 
 std::vector<CommandedCamera> Emulator::commanded_cameras() const {
@@ -266,6 +265,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     notify_service_manager("READY=1");
     const bool terminal = isatty(STDERR_FILENO);
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;
+    next_missed_line_ns_ = begun_ns + kBetweenMissedLines_ns;  // first frames are late on every machine
     while (!signalled && !finished()) {
         const std::int64_t now_ns = monotonic_ns();
         seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
@@ -359,15 +359,14 @@ void Emulator::print_output_faults(std::int64_t now_ns) {
 
 // A log has no line of rates: it says when exposures are missed, and not more often than it can be read.
 void Emulator::print_missed(std::int64_t now_ns) {
-    constexpr std::int64_t kBetweenLines_ns = 10'000'000'000;
     if (now_ns < next_missed_line_ns_) return;
     std::uint64_t missed = 0;
     for (const auto& station : stations_) missed += station->loop().counters().deadline_misses.load();
     if (missed == missed_told_) return;
-    spdlog::warn("{} exposures missed in {:.0f} s, {} of them new: frames take longer than their period",
-                 missed, seconds_, missed - missed_told_);
+    spdlog::warn("{} exposures missed in {:.0f} s{}: frames take longer than their period", missed, seconds_,
+                 missed_told_ == 0 ? "" : fmt::format(", {} of them new", missed - missed_told_));
     missed_told_ = missed;
-    next_missed_line_ns_ = now_ns + kBetweenLines_ns;
+    next_missed_line_ns_ = now_ns + kBetweenMissedLines_ns;
 }
 
 // Prints the line of the first camera.

@@ -10,7 +10,6 @@
 #include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
-#include "emulator/scenario/scenario_warnings.h"
 #include "io/pictures/image_file.h"
 #include "sensor/published_frame.h"
 
@@ -102,14 +101,15 @@ void check_names(PictureStage stage, const RenderFiles& files) {
 }  // namespace
 
 void render_to_files(const ScenarioConfig& bench, PictureStage stage, double time_offset_s,
-                     const RenderFiles& files, std::size_t number) {
+                     const RenderFiles& files, std::size_t number,
+                     const std::function<void(StillCamera&)>& on_loaded) {
     const ScenarioConfig scenario = scenario_of_camera(bench, number - 1);
     check_names(stage, files);
     require_unused(files);
     StillCamera camera(
         scenario, time_offset_s,
         stage == PictureStage::kRadiance ? StillCamera::Light::kRadiance : StillCamera::Light::kCharge);
-    for (const std::string& warning : warnings_of(camera.objects())) spdlog::warn("{}", warning);
+    if (on_loaded) on_loaded(camera);
     PictureWriter writer(picture_run_of(scenario, number));
     const RandomKey key{seed_of_camera(scenario, number - 1), 1};
     std::optional<FrameTruth> truth;

@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 
 #include "emulator/scenario/app_config.h"
 
 namespace hilcam {
+
+class StillCamera;
 
 enum class PictureStage { kRadiance, kElectrons, kFrame };
 
@@ -20,8 +23,9 @@ struct RenderFiles {
 };
 
 // Writes what the camera of that number, from 1, sees first. Throws InputError, DeviceError; names of files
-// that cannot be, before anything is rendered.
+// that cannot be, before anything is rendered. on_loaded: is called before it is rendered; may be empty.
 void render_to_files(const ScenarioConfig& scenario, PictureStage stage, double time_offset_s,
-                     const RenderFiles& files, std::size_t camera = 1);
+                     const RenderFiles& files, std::size_t camera = 1,
+                     const std::function<void(StillCamera&)>& on_loaded = {});
 
 }  // namespace hilcam

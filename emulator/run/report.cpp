@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/recording/machine_report.h"
+#include "emulator/run/output_summary.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
 
@@ -49,9 +50,8 @@ namespace {
 
 json outputs_report(const CameraStation& station) {
     json outputs = json::array();
-    for (const FrameSink* sink : station.sinks()) {
-        const SinkReport r = sink->report();
-        json output = {{"name", r.name}, {"frames", r.frames}, {"dropped", r.dropped}};
+    for (const SinkReport& r : output_reports(station)) {
+        json output = counts_of(r);
         for (const auto& [name, value] : r.figures) output[name] = value;
         outputs.push_back(output);
     }
@@ -60,8 +60,8 @@ json outputs_report(const CameraStation& station) {
 
 std::vector<std::string> faults_of(const CameraStation& station) {
     std::vector<std::string> out;
-    for (const FrameSink* sink : station.sinks())
-        if (const std::string fault = sink->report().fault; !fault.empty()) out.push_back(fault);
+    for (const SinkReport& output : output_reports(station))
+        if (!output.fault.empty()) out.push_back(output.fault);
     if (const std::string fault = station.renderer().fault(); !fault.empty()) out.push_back(fault);
     return out;
 }
@@ -125,6 +125,8 @@ json camera_report(CameraStation& station, double seconds) {
           {"last_packet", percentiles_of(delivery.command_to_last)},
           {"exposure_mid_to_last_packet", percentiles_of(delivery.exposure_to_last)}}},
         {"outputs", outputs_report(station)},
+        {"waited_for_outputs_s",
+         rounded(static_cast<double>(loop.counters().waited_for_outputs_ns.load()) * 1e-9)},
         {"faults", faults_of(station)},
         {"fault_strikes", strikes_report(station)},
         {"quality", quality_report(station)},
@@ -136,7 +138,9 @@ json camera_report(CameraStation& station, double seconds) {
 
 RunOutcome run_outcome(const Emulator& emulator) {
     const LoopCounters& counters = emulator.first().loop().counters();
-    RunOutcome out{counters.frames.load(), counters.deadline_misses.load(), faults_of(emulator.first())};
+    RunOutcome out{counters.frames.load(), counters.deadline_misses.load(), {}};
+    for (const auto& station : emulator.stations())
+        for (std::string& fault : faults_of(*station)) out.faults.push_back(std::move(fault));
     if (const Recorder* recorder = emulator.recorder())
         if (const std::string fault = recorder->report().fault; !fault.empty()) out.faults.push_back(fault);
     return out;

@@ -26,10 +26,10 @@ std::optional<double> within_budget(const LoopCounters& counters);
 // Returns null for nothing.
 nlohmann::json or_null(const std::optional<double>& value);
 
-// Says how the first camera's run went, and the recording with it.
+// Says how the run went: the first camera's figures, the faults of all.
 struct RunOutcome {
     std::uint64_t frames = 0, deadline_misses = 0;
-    std::vector<std::string> faults;  // faults of outputs and the recording, a line each
+    std::vector<std::string> faults;  // faults of all outputs and the recording, a line each
 };
 RunOutcome run_outcome(const Emulator& emulator);
 // Reports the whole run: the first camera's figures at the top, with several cameras each one's under

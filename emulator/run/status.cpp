@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/run/light_maker.h"
+#include "emulator/run/output_summary.h"
 #include "emulator/run/report.h"
 #include "emulator/scenario/scenario_warnings.h"
 #include "io/contract/frame_flags.h"
@@ -80,11 +81,10 @@ json outputs_status(const std::vector<FrameSink*>& sinks) {
         const SinkReport r = sink->report();
         json figures = json::object();
         for (const auto& [name, value] : r.figures) figures[name] = value;
-        outputs.push_back({{"name", r.name},
-                           {"frames", r.frames},
-                           {"dropped", r.dropped},
-                           {"fault", r.fault},
-                           {"figures", figures}});
+        json output = counts_of(r);
+        output["fault"] = r.fault;
+        output["figures"] = figures;
+        outputs.push_back(std::move(output));
     }
     return outputs;
 }

@@ -44,6 +44,7 @@ class StillCamera {
     // Returns the part that no light makes: dark current [e-].
     ElectronImage dark();
 
+    const ScenarioConfig& scenario() const { return scenario_; }
     const SpectralGrid& grid() const { return grid_; }
     const Exposure& exposure() const { return exposure_; }
     TimeTai time() const { return time_; }

@@ -43,10 +43,10 @@ FrameTruth make_truth(const ScenarioConfig& s, const Renderer& renderer, const T
 
 std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& s, const SpectralGrid& grid,
                                            std::size_t number, const Renderer& renderer,
-                                           const std::string& run_id, TruthListener* listener) {
+                                           const std::string& run_id, const TruthSurroundings& surroundings) {
     return std::make_unique<TruthSink>(
         s.outputs.config<TruthConfig>(), truth_source(s, grid, number, run_id),
-        [&] { return make_truth(s, renderer, truth_wishes(s)); }, listener);
+        [&] { return make_truth(s, renderer, truth_wishes(s)); }, surroundings);
 }
 
 }  // namespace hilcam

@@ -24,6 +24,7 @@ FrameTruth make_truth(const ScenarioConfig& scenario, const Renderer& renderer, 
 // InputError.
 std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& scenario, const SpectralGrid& grid,
                                            std::size_t number, const Renderer& renderer,
-                                           const std::string& run_id = {}, TruthListener* listener = nullptr);
+                                           const std::string& run_id = {},
+                                           const TruthSurroundings& surroundings = {});
 
 }  // namespace hilcam

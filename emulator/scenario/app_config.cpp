@@ -313,7 +313,8 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
         settle_ground(scenario);
         validate(scenario);
     };
-    read_config(file, root, overrides);
+    scenario.places = KeyPlaces(file.string());
+    read_config(file, root, overrides, &scenario.places);
     take_kernels(scenario);
     if (scenario.leap_seconds) {
         const std::string warning = apply_leap_seconds(*scenario.leap_seconds, scenario.time_utc);

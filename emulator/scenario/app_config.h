@@ -24,6 +24,7 @@
 #include "emulator/world/clock.h"
 #include "emulator/world/world_state.h"
 #include "io/commands/telemetry.h"
+#include "io/config/key_places.h"
 #include "render/earth/earth_config.h"
 #include "render/frame/render_quality.h"
 #include "render/sky/atmosphere_config.h"
@@ -54,6 +55,7 @@ struct ScenarioConfig {
     ScenarioConfig();
 
     std::string name;
+    KeyPlaces places;                   // no key: where each key is given, for warnings
     std::vector<std::string> warnings;  // no key: what reading it found that need not be meant, a line each
     std::string time_utc = "2026-01-01T00:00:00Z";
     ClockConfig clock;

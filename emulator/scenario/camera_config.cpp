@@ -31,6 +31,8 @@ void validate(const CameraConfig& c) { check_attitude(c.attitude, kMountWords); 
 
 ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index) {
     ScenarioConfig own = scenario;
+    if (!scenario.more_cameras.empty())
+        own.places = own.places.labelled("camera " + std::to_string(index + 1));
     if (index == 0) return own;
     const CameraConfig& more = scenario.more_cameras[index - 1];
     own.camera = more.camera;
@@ -38,6 +40,8 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
     own.mount.thing_from_camera = frame_from_body(more.attitude);
     own.mount.thing = static_cast<std::size_t>(more.thing);
     own.outputs = more.outputs;
+    const std::string of_camera = "more_cameras." + std::to_string(index - 1) + ".";
+    own.places = own.places.with("camera.", of_camera + "camera.").with("outputs", of_camera + "outputs");
     // `rays`, where the scenario gives them, are the first camera's; the others go by their shutters.
     own.has_rays = false;
     own.models.rays = {};

@@ -6,15 +6,36 @@
 
 namespace hilcam {
 
+namespace {
+
+// Nadir is no direction at the centre of the body that it looks at.
+std::string undefined_nadir(const ScenarioConfig& s, const PoseConfig& pose) {
+    if (attitude_of(pose) != PoseConfig::Attitude::kNadir) return {};
+    const std::string body(kBodyNames[index_of(pose.nadir_of)]);
+    return ": the attitude nadir looks at the centre of the body '" + body + "', and that is where this stands, or " +
+           "right above its pole" +
+           (s.places.of("origin") == s.places.of("")
+                ? "; is 'origin' missing? It says where the world's origin is, which is the Earth's centre without it"
+                : "");
+}
+
+}  // namespace
+
 std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time) {
     const Bodies bodies = bodies_at(time, scenario.origin);
-    const auto motion_of = [&](const PoseConfig& pose) {
+    const auto motion_of = [&](const PoseConfig& pose, const std::string& key) {
         if (pose.frame == PoseConfig::Frame::kLocal)
             return local_motion_at(pose, site_of(scenario).value(), time, scenario.origin);
-        return initial_motion(pose, time, bodies);
+        try {
+            return initial_motion(pose, time, bodies);
+        } catch (const InputError& error) {
+            const std::string nadir = undefined_nadir(scenario, pose);
+            throw InputError(scenario.places.at(key, key + (nadir.empty() ? ": " + std::string(error.what()) : nadir)));
+        }
     };
-    std::vector<Motion> motions = {motion_of(scenario.camera_pose)};
-    for (const ObjectConfig& object : scenario.objects) motions.push_back(motion_of(object.pose));
+    std::vector<Motion> motions = {motion_of(scenario.camera_pose, "camera_pose")};
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i)
+        motions.push_back(motion_of(scenario.objects[i].pose, "objects." + std::to_string(i) + ".pose"));
     return motions;
 }
 

@@ -51,7 +51,10 @@ class Builder {
             try {
                 sources[thing] = source_of(*motion, thing);
             } catch (const InputError& error) {
-                throw InputError("motion of " + in_quotes(names_[thing]) + ": " + error.what());
+                const std::string key =
+                    thing == 0 ? "camera_motion" : "objects." + std::to_string(thing - 1) + ".motion";
+                throw InputError(scenario_.places.at(
+                    key, "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
             }
         }
         return {std::move(sources), names_};

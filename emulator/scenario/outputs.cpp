@@ -42,4 +42,13 @@ bool have_fixed_size(const OutputsConfig& outputs) {
     });
 }
 
+bool have_live(const OutputsConfig& outputs) {
+    return outputs.any([]<class Config>(const Config&) {
+        if constexpr (requires { Config::kLive; })
+            return Config::kLive;
+        else
+            return false;
+    });
+}
+
 }  // namespace hilcam

@@ -3,7 +3,8 @@
 //
 // An output is a FrameSink (io/contract/frame_sink.h) and its configuration, which says all that is asked of
 // it here: kKey and kMeaning; fields(), and validate() if keys depend on each other; make_sink(config, context,
-// shape). Where they hold, too: kFixedSize, when frames cannot change size while it runs; listening(config),
+// shape). Where they hold, too: kFixedSize, when frames cannot change size while it runs; kLive, when it hands frames to
+// clients while they are made, who must not wait for a disk; listening(config),
 // what it listens on; run_folder(config), a folder that it fills. docs/extending.md adds one.
 
 #include <tuple>
@@ -86,5 +87,7 @@ std::vector<ListeningPort> listening(const OutputsConfig& outputs);
 std::vector<RunFolder> run_folders(const OutputsConfig& outputs);
 // True when one of them needs frames of one size.
 bool have_fixed_size(const OutputsConfig& outputs);
+// True when one of them hands frames to clients while they are made.
+bool have_live(const OutputsConfig& outputs);
 
 }  // namespace hilcam

@@ -45,13 +45,15 @@ void look_at_askers(const ScenarioConfig& s, Lines& out) {
     });
     if (port || event) return;
     if (lockstep)
-        out.push_back(
+        out.push_back(s.places.at(
+            "mode",
             "mode: lockstep, and nobody can ask for a frame: give commands.udp (or tcp, unix, usb, vizard), "
-            "outputs.preview, or an event that exposes; 'hilcam send expose' then takes one");
+            "outputs.preview, or an event that exposes; 'hilcam send expose' then takes one"));
     else
-        out.push_back(
+        out.push_back(s.places.at(
+            "mode",
             "mode: triggered, and nobody can trigger a frame: give commands.udp (or tcp, unix, usb), "
-            "outputs.gige, outputs.preview, or an event that exposes; 'hilcam send expose' then takes one");
+            "outputs.gige, outputs.preview, or an event that exposes; 'hilcam send expose' then takes one"));
 }
 
 // Says what thing a command is for that the scenario does not have, or empty.
@@ -75,7 +77,8 @@ void look_at_actions(const ScenarioConfig& s, Lines& out) {
     for (std::size_t i = 0; i < s.events.size(); ++i)
         for (const Command& command : actions_of(s.events[i]).commands)
             if (const std::string what = missing_thing(command, s); !what.empty())
-                out.push_back(fmt::format("events.{}: will be refused: its 'do' is for {}", i, what));
+                out.push_back(s.places.at(fmt::format("events.{}.do", i),
+                                          fmt::format("events.{}.do: will be refused: it is for {}", i, what)));
 }
 
 // Lamps, motions and events name the first of several objects of one name.
@@ -83,10 +86,11 @@ void look_at_names(const ScenarioConfig& s, Lines& out) {
     std::set<std::string> names;
     for (std::size_t i = 0; i < s.objects.size(); ++i)
         if (const std::string& name = s.objects[i].name; !names.insert(name).second)
-            out.push_back(fmt::format(
-                "objects.{}.name: another object is named '{}', too, and is the one that lamps, motions and "
-                "events mean by it",
-                i, name));
+            out.push_back(s.places.at(
+                fmt::format("objects.{}.name", i),
+                fmt::format("objects.{}.name: another object is named '{}', too, and is the one that lamps, motions "
+                            "and events mean by it",
+                            i, name)));
 }
 
 void look_at_faults(const ScenarioConfig& s, Lines& out) {
@@ -96,8 +100,8 @@ void look_at_faults(const ScenarioConfig& s, Lines& out) {
     const auto look = [&](FaultKind kind, const char* by) {
         const std::string what = lacking_output(outputs, s.commands, kind);
         if (what.empty() || !told.insert(kind).second) return;
-        out.push_back(fmt::format("{}: nothing can show the fault '{}' ({}): that takes {}", by,
-                                  name_of(kind), meaning_of(kind), what));
+        out.push_back(s.places.at(by, fmt::format("{}: nothing can show the fault '{}' ({}): that takes {}", by,
+                                                  name_of(kind), meaning_of(kind), what)));
     };
     for (const FaultConfig& fault : s.faults) look(fault.kind, "faults");
     for (const EventConfig& event : s.events)
@@ -106,33 +110,87 @@ void look_at_faults(const ScenarioConfig& s, Lines& out) {
                 look(fault->order.kind, "events");
 }
 
+bool same_turn(const Quat& a, const Quat& b) {
+    return a.w == b.w && a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 bool is_inside(const BodyState& body, const Figure& figure, Vec3d place_world_m) {
     const Vec3d p = body.fixed_from_world * (place_world_m - body.world_m);
     const double stretch = figure.equatorial_radius_m / figure.polar_radius_m;
     return length(Vec3d{p.x, p.y, stretch * p.z}) < figure.equatorial_radius_m;
 }
 
-void look_at_places(const ScenarioConfig& bench, Lines& out) {
+// Says where a camera stands that is inside a body, and what it may have been meant as.
+std::string told_inside(const ScenarioConfig& s, std::size_t camera, std::size_t body, const WorldSnapshot& world) {
+    const Vec3d from_centre_m = world.camera.position_world_m - world.bodies.body[body].world_m;
+    std::string line = fmt::format(
+        "camera {} begins inside the body '{}', {:.6g} km from its centre: it sees "
+        "nothing else",
+        camera + 1, kBodyNames[body], length(from_centre_m) * 1e-3);
+    if (s.origin.center() == static_cast<BodyId>(body) && !s.origin.turns())
+        line += fmt::format("; the world's origin is that centre{}: say where it is by 'origin'",
+                            static_cast<BodyId>(body) == BodyId::kEarth ? " unless the scenario says otherwise" : "");
+    if (length(from_centre_m) * 1e3 > kFigures[body].equatorial_radius_m)
+        line += ", give positions in metres if these are kilometres";
+    return line + fmt::format(", move camera_pose, or set {}.visible: false", kBodyNames[body]);
+}
+
+void look_at_cameras(const ScenarioConfig& bench, Lines& out) {
     const TimeTai start = parse_utc(bench.time_utc);
     for (std::size_t camera = 0; camera <= bench.more_cameras.size(); ++camera) {
         const ScenarioConfig s = scenario_of_camera(bench, camera);
         const WorldSnapshot world = snapshot_at(s, start, start);
-        for (std::size_t i = 0; i < kBodyCount; ++i) {
-            if (!s.bodies[i].visible ||
-                !is_inside(world.bodies.body[i], kFigures[i], world.camera.position_world_m))
-                continue;
-            const double off_m = length(world.camera.position_world_m - world.bodies.body[i].world_m);
-            std::string line = fmt::format(
-                "camera {} begins inside the body '{}', {:.6g} km from its centre: it sees "
-                "nothing else",
-                camera + 1, kBodyNames[i], off_m * 1e-3);
-            if (s.origin.center() == static_cast<BodyId>(i) && !s.origin.turns())
-                line +=
-                    fmt::format("; the world's origin is that centre{}: say where it is by 'origin'",
-                                i == index_of(BodyId::kEarth) ? " unless the scenario says otherwise" : "");
-            out.push_back(line + fmt::format(", move camera_pose, or set {}.visible: false", kBodyNames[i]));
-        }
+        for (std::size_t i = 0; i < kBodyCount; ++i)
+            if (s.bodies[i].visible && is_inside(world.bodies.body[i], kFigures[i], world.camera.position_world_m))
+                out.push_back(bench.places.at(s.camera_motion ? "camera_motion" : "camera_pose",
+                                              told_inside(s, camera, i, world)));
     }
+}
+
+// A rover may stand in a basin some kilometres below the ellipsoid.
+constexpr double kDeep = 0.95;
+
+void look_at_objects(const ScenarioConfig& s, Lines& out) {
+    const TimeTai start = parse_utc(s.time_utc);
+    const WorldSnapshot world = snapshot_at(s, start, start);
+    for (std::size_t k = 0; k < s.objects.size(); ++k) {
+        const Pose& pose = world.objects[k];
+        const std::string key = fmt::format("objects.{}.{}", k, s.objects[k].motion ? "motion" : "pose");
+        for (std::size_t i = 0; i < kBodyCount; ++i) {
+            const Vec3d centre_m = world.bodies.body[i].world_m;
+            const Vec3d raised_m = centre_m + (pose.position_world_m - centre_m) / kDeep;
+            if (s.bodies[i].visible && is_inside(world.bodies.body[i], kFigures[i], raised_m))
+                out.push_back(s.places.at(
+                    key, fmt::format("{}: object '{}' is inside the body '{}', {:.6g} km from its centre", key,
+                                     s.objects[k].name, kBodyNames[i],
+                                     length(pose.position_world_m - centre_m) * 1e-3)));
+        }
+        for (std::size_t other = 0; other < k; ++other)
+            if (s.objects[k].has_mesh && s.objects[other].mesh == s.objects[k].mesh &&
+                s.objects[other].scale == s.objects[k].scale &&
+                length(world.objects[other].position_world_m - pose.position_world_m) == 0 &&
+                same_turn(world.objects[other].world_from_body, pose.world_from_body))
+                out.push_back(s.places.at(
+                    key, fmt::format("{}: object '{}' stands where '{}' of the same mesh does: which of them is seen "
+                                     "is chance",
+                                     key, s.objects[k].name, s.objects[other].name)));
+    }
+}
+
+bool gives_light(const LampConfig& lamp) {
+    const std::vector<double>& curve = lamp.spectral_intensity_w_sr_um.value;
+    const double most = lamp.has_intensity ? lamp.intensity_w_sr
+                        : curve.empty()    ? 0
+                                           : *std::max_element(curve.begin(), curve.end());
+    return most * lamp.level > 0;
+}
+
+void look_at_lamps(const ScenarioConfig& s, Lines& out) {
+    for (std::size_t i = 0; i < s.lamps.size(); ++i)
+        if (const std::string key = fmt::format("lamps.{}", i); s.lamps[i].lit && !gives_light(s.lamps[i]))
+            out.push_back(s.places.at(
+                key, fmt::format("{}: lamp '{}' is lit and gives no light: its intensity or level is 0", key,
+                                 s.lamps[i].name)));
 }
 
 // A bench's camera that shows its frames to nobody is forgotten; a scenario without any output is for
@@ -142,34 +200,62 @@ void look_at_outputs(const ScenarioConfig& s, Lines& out) {
     if (s.commands.has_vizard || !any_camera(s, shows)) return;
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
         if (!shows(s.more_cameras[i].outputs))
-            out.push_back(fmt::format(
-                "more_cameras.{}.outputs: camera {} has none, so nobody gets its frames", i, i + 2));
-    if (!shows(s.outputs)) out.push_back("outputs: camera 1 has none, so nobody gets its frames");
+            out.push_back(s.places.at(
+                fmt::format("more_cameras.{}", i),
+                fmt::format("more_cameras.{}.outputs: camera {} has none, so nobody gets its frames", i, i + 2)));
+    if (!shows(s.outputs))
+        out.push_back(s.places.at("outputs", "outputs: camera 1 has none, so nobody gets its frames"));
 }
 
-void look_at_shutter(const std::string& key, const ShutterConfig& shutter, Lines& out) {
+void look_at_shutter(const std::string& section, const ShutterConfig& shutter, const KeyPlaces& places, Lines& out) {
+    const std::string key = section + ".shutter.line_time_us";
     if (shutter.has_line_time && shutter.kind == ShutterKind::kGlobal)
-        out.push_back(key + ".shutter.line_time_us: has no effect with kind: global");
+        out.push_back(places.at(key, key + ": has no effect with kind: global"));
 }
 
 void look_at_shutters(const ScenarioConfig& s, Lines& out) {
-    look_at_shutter("camera", s.camera.shutter, out);
+    look_at_shutter("camera", s.camera.shutter, s.places, out);
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
-        look_at_shutter(fmt::format("more_cameras.{}.camera", i), s.more_cameras[i].camera.shutter, out);
+        look_at_shutter(fmt::format("more_cameras.{}.camera", i), s.more_cameras[i].camera.shutter,
+                        s.places, out);
 }
 
 // Warns of places and bodies that are named and that the scenario does not have.
 void look_at_frames(const ScenarioConfig& s, Lines& out) {
-    if (s.site && !uses_local_axes(s))
-        out.push_back("site: nothing is in its local axes: give a pose or a motion 'frame: local'");
-    if (s.stars && s.stars->catalogue.empty())
-        out.push_back("stars: there are none without stars.catalogue; hipparcos.csv is shipped");
-    if (s.atmosphere.model != "none" && !s.bodies[index_of(BodyId::kEarth)].visible)
-        out.push_back("atmosphere: has no effect, as the Earth is not shown: earth.visible");
-    if (!s.earth_surface.map.empty() && !s.bodies[index_of(BodyId::kEarth)].visible)
-        out.push_back("earth_surface: has no effect, as the Earth is not shown: earth.visible");
-    if (!s.earth_surface.map.empty() && !s.bodies[index_of(BodyId::kEarth)].albedo_map.empty())
-        out.push_back("earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
+    const bool shows_earth = s.bodies[index_of(BodyId::kEarth)].visible;
+    const auto warn = [&](bool about, const char* key, const char* text) {
+        if (about) out.push_back(s.places.at(key, text));
+    };
+    warn(s.site && !uses_local_axes(s), "site",
+         "site: nothing is in its local axes: give a pose or a motion 'frame: local'");
+    warn(s.stars && s.stars->catalogue.empty(), "stars",
+         "stars: there are none without stars.catalogue; hipparcos.csv is shipped");
+    warn(s.atmosphere.model != "none" && !shows_earth, "atmosphere",
+         "atmosphere: has no effect, as the Earth is not shown: earth.visible");
+    warn(!s.earth_surface.map.empty() && !shows_earth, "earth_surface",
+         "earth_surface: has no effect, as the Earth is not shown: earth.visible");
+    warn(!s.earth_surface.map.empty() && !s.bodies[index_of(BodyId::kEarth)].albedo_map.empty(),
+         "earth.albedo_map", "earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
+}
+
+// Beyond this no orbit about a body lasts: Hill's sphere of the Earth has 1.5e6 km, that of Neptune 1.2e8.
+double farthest_of(BodyId body) {
+    return index_of(body) >= index_of(BodyId::kJupiter) && index_of(body) <= index_of(BodyId::kNeptune) ? 2e11 : 2e9;
+}
+
+void look_at_length(const ScenarioConfig& s, const std::string& key, double length_m, BodyId body, Lines& out) {
+    if (length_m < farthest_of(body)) return;
+    const double km = length_m * 1e-3;
+    out.push_back(s.places.at(key, fmt::format("{} is {:.8g}: that is {:.2g} au from the body '{}'; in metres? here it "
+                                               "would be {:.6g}",
+                                               key, km, length_m / kAstronomicalUnit_m,
+                                               kBodyNames[index_of(body)], km * 1e-3)));
+}
+
+void look_at_orbit(const ScenarioConfig& s, const std::string& key, const MotionConfig& motion, Lines& out) {
+    if (motion.kind != MotionConfig::Kind::kKepler || !motion.kepler || motion.center >= kBodyCount) return;
+    look_at_length(s, key + ".kepler.semi_major_axis_km", motion.kepler->semi_major_axis_m,
+                   static_cast<BodyId>(motion.center), out);
 }
 
 // Says which rules of an object have no effect, and the surfaces that there are; empty: all have one.
@@ -217,31 +303,56 @@ std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, con
     return lacking(any(shows) || commands.has_vizard, "any of outputs");
 }
 
-std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
+std::vector<std::string> idle_run_warnings(const ScenarioConfig& scenario) {
     Lines out;
     look_at_askers(scenario, out);
     look_at_actions(scenario, out);
-    look_at_names(scenario, out);
     look_at_faults(scenario, out);
     look_at_outputs(scenario, out);
+    return out;
+}
+
+std::vector<std::string> no_output_warnings(const ScenarioConfig& s) {
+    if (s.commands.has_vizard || s.telemetry || any_camera(s, [](const OutputsConfig& o) { return o.any(); }))
+        return {};
+    return {s.places.at("outputs",
+                        "outputs: there are none, so nobody gets the frames of a run: give outputs.files, "
+                        "outputs.gige, outputs.preview (or --preview 8080), ...")};
+}
+
+std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
+    Lines out;
+    look_at_names(scenario, out);
     look_at_shutters(scenario, out);
+    look_at_lamps(scenario, out);
     look_at_frames(scenario, out);
+    return out;
+}
+
+std::vector<std::string> length_warnings(const ScenarioConfig& s) {
+    Lines out;
+    if (s.origin.turns()) look_at_length(s, "origin.height_km", s.origin.place.height_m, *s.origin.center(), out);
+    if (s.camera_motion) look_at_orbit(s, "camera_motion", *s.camera_motion, out);
+    for (std::size_t i = 0; i < s.objects.size(); ++i)
+        if (s.objects[i].motion) look_at_orbit(s, fmt::format("objects.{}.motion", i), *s.objects[i].motion, out);
     return out;
 }
 
 std::vector<std::string> place_warnings(const ScenarioConfig& scenario) {
     Lines out;
-    look_at_places(scenario, out);
+    look_at_cameras(scenario, out);
+    look_at_objects(scenario, out);
     return out;
 }
 
-std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects) {
+std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects, const KeyPlaces& places) {
     struct Warning {
         std::string object, meaning;
-        std::size_t others = 0;
+        std::size_t number = 0, others = 0;
     };
     std::vector<Warning> warnings;
-    for (const LoadedObject& object : objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const LoadedObject& object = objects[i];
         std::string meaning = meaning_of_idle_rules(object);
         if (meaning.empty()) continue;
         const auto same = std::find_if(warnings.begin(), warnings.end(),
@@ -249,12 +360,14 @@ std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects) {
         if (same != warnings.end())
             ++same->others;
         else
-            warnings.push_back({object.name, std::move(meaning)});
+            warnings.push_back({object.name, std::move(meaning), i});
     }
     std::vector<std::string> out;
     for (const Warning& w : warnings)
-        out.push_back("object '" + w.object + "'" +
-                      (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") + ": " + w.meaning);
+        out.push_back(places.at("objects." + std::to_string(w.number) + ".materials",
+                                "object '" + w.object + "'" +
+                                    (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") + ": " +
+                                    w.meaning));
     return out;
 }
 

@@ -109,13 +109,26 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
+// An error in a file stands where the scenario names it.
+template <class Load>
+auto loaded_for(const std::string& key_where, const Load& load) {
+    try {
+        return load();
+    } catch (const InputError& error) {
+        if (key_where.empty()) throw;
+        throw InputError(key_where + ": " + error.what());
+    }
+}
+
 // Puts the object's table of albedos onto the mesh. Returns what its materials are to be multiplied with.
 double paint(Mesh& mesh, const ObjectConfig& config) {
     if (!config.has_albedo_file) return 1;
     const Progress progress("albedos of " + config.name);
     const auto reference =
         config.has_albedo_reference ? std::optional(config.albedo_reference) : std::nullopt;
-    return paint_albedos(mesh, read_albedos(config.albedo_file), reference, config.albedo_file.string());
+    return loaded_for(config.albedo_where, [&] {
+        return paint_albedos(mesh, read_albedos(config.albedo_file), reference, config.albedo_file.string());
+    });
 }
 
 // Refuses a factor with which a surface would send back more light than it gets: by its material's own rule, else by
@@ -176,17 +189,6 @@ std::string make_of(const ObjectConfig& config, const std::filesystem::path& mes
     for (const JointConfig& joint : config.joints) make += joint.node + "\n";
     MaterialSet materials = config.materials;
     return make + section_listing(section_of(materials));
-}
-
-// An error in a file stands where the scenario names it.
-template <class Load>
-auto loaded_for(const std::string& key_where, const Load& load) {
-    try {
-        return load();
-    } catch (const InputError& error) {
-        if (key_where.empty()) throw;
-        throw InputError(key_where + ": " + error.what());
-    }
 }
 
 std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem::path& file,
@@ -356,7 +358,9 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     load_air_and_earth(scenario, grid, modules, scene);
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
     scene.sun_irradiance_1au_w_m2_um =
-        scenario.sun.has_spectrum ? grid.average(scenario.sun.spectrum) : solar_irradiance_1au_w_m2_um(grid);
+        scenario.sun.has_spectrum ? grid.average(scenario.sun.spectrum)
+                                  : loaded_for(scenario.places.of("spectrum_edges_um"),
+                                               [&] { return solar_irradiance_1au_w_m2_um(grid); });
     scene.limb_darkening = scenario.sun.limb_darkening;
     return scene;
 }

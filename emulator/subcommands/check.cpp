@@ -18,6 +18,7 @@ struct CheckArguments {
     ConfigArguments config;
     std::size_t camera = 0;  // from 1; 0: all of them
     bool json = false;
+    bool strict = false;  // warnings are failures
     CalibrationFormat calibration = CalibrationFormat::kNone;
 };
 
@@ -32,21 +33,23 @@ std::string calibrations(const CheckArguments& o) {
     return calibration_text(calibrations_of(scenario, o.camera), o.calibration);
 }
 
-std::string sheet_of_scenario(const CheckArguments& o) {
-    const ScenarioConfig scenario = load_and_warn(o.config);
+Checked sheet_of_scenario(const CheckArguments& o) {
+    const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
     require_camera(o.camera, scenario);
     const CheckReport report = in_memory(scenario, [&] { return check_scenario(scenario, o.camera); });
-    return o.json ? to_json(report) : to_text(report);
+    return {o.json ? to_json(report) : to_text(report), !report.warnings.empty()};
 }
 
 int carry_out(const CheckArguments& o) {
-    if (o.calibration != CalibrationFormat::kNone)
+    if (o.calibration != CalibrationFormat::kNone) {
         fmt::print("{}", calibrations(o));
-    else if (is_camera_file(o.config.file))
-        fmt::print("{}", check_camera(o.config.file, o.config.overrides, o.json));
-    else
-        fmt::print("{}", sheet_of_scenario(o));
-    return 0;
+        return 0;
+    }
+    const Checked found = is_camera_file(o.config.file)
+                                    ? check_camera(o.config.file, o.config.overrides, o.json)
+                                    : sheet_of_scenario(o);
+    fmt::print("{}", found.text);
+    return o.strict && found.has_warnings ? 1 : 0;
 }
 
 }  // namespace
@@ -58,6 +61,7 @@ void add_check_command(CLI::App& app, Action& action) {
     add_config(check, o->config);
     add_camera(check, o->camera);
     CLI::Option* json = check->add_flag("--json", o->json, "machine-readable");
+    check->add_flag("--strict", o->strict, "end with status 1 when there are warnings, for scripts");
     add_choice<CalibrationFormat>(*check, "--calibration", o->calibration,
                                   {{"opencv", CalibrationFormat::kOpencv},
                                    {"ros", CalibrationFormat::kRos},

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 
+#include "emulator/check/scenario_verdict.h"
 #include "emulator/recording/run_seed.h"
 #include "emulator/run/render_command.h"
-#include "emulator/scenario/scenario_warnings.h"
+#include "emulator/run/still_camera.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/send/choice_option.h"
 #include "emulator/subcommands/arguments.h"
@@ -23,17 +24,25 @@ struct RenderArguments {
     std::size_t camera = 0;  // from 1; 0: not told
 };
 
+// Before minutes go into a picture that is black.
+void log_picture_verdict(StillCamera& camera) {
+    const LoadedView view{camera.scenario(), camera.renderer(), camera.objects()};
+    log_warnings(verdict_on_objects(view, VerdictOn::kPicture));
+    camera.renderer().place_for_truth(camera.world());
+    log_warnings(verdict_on_view(view.scenario, report_view(view, 1, camera.world().camera)));
+}
+
 int carry_out(const RenderArguments& o) {
-    ScenarioConfig scenario = load_and_warn(o.config);
+    ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
     const auto threads = limit_threads(scenario);
     require_camera(o.camera, scenario);
     log_info(settle_seed(scenario));
-    log_warnings(place_warnings(scenario));
+    log_warnings(early_verdict(scenario, VerdictOn::kPicture));
     if (o.camera == 0 && !scenario.more_cameras.empty())
         spdlog::info("camera 1 of {}; --camera N for another", 1 + scenario.more_cameras.size());
     return in_memory(scenario, [&] {
         const std::size_t camera = std::max<std::size_t>(1, o.camera);
-        render_to_files(scenario, o.stage, o.time_offset_s, o.files, camera);
+        render_to_files(scenario, o.stage, o.time_offset_s, o.files, camera, log_picture_verdict);
         if (o.stage == PictureStage::kFrame && o.files.view.empty())
             log_warning(dark_picture_warning(o.files.out,
                                              scenario_of_camera(scenario, camera - 1).camera.frame_bits(),

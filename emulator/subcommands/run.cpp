@@ -2,13 +2,16 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "emulator/check/scenario_verdict.h"
 #include "emulator/recording/run_seed.h"
 #include "emulator/run/emulator.h"
+#include "emulator/run/output_summary.h"
 #include "emulator/run/report.h"
-#include "emulator/scenario/scenario_warnings.h"
+#include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
@@ -31,6 +34,21 @@ void warn_of_dark_pictures(const ScenarioConfig& scenario) {
     }
 }
 
+// What each camera sees at the first instant, by the truth's rays. Terrain is made for the pose that it is asked for: that
+// is the first frame's affair.
+void log_run_verdict(Emulator& emulator) {
+    const TimeTai start = parse_utc(emulator.first().scenario().time_utc);
+    const Pose first_camera = snapshot_at(emulator.first().scenario(), start, start).camera;
+    for (const auto& station : emulator.stations()) {
+        const LoadedView view{station->scenario(), station->renderer(), station->objects()};
+        if (station->number() == 1) log_warnings(verdict_on_objects(view, VerdictOn::kRun));
+        if (view.scenario.terrain) continue;
+        station->renderer().place_for_truth(snapshot_at(view.scenario, start, start));
+        const CameraReport seen = report_view(view, station->number(), first_camera);
+        log_warnings(verdict_on_view(view.scenario, seen));
+    }
+}
+
 void say_that_it_runs(const ScenarioConfig& scenario) {
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         const OutputsConfig& outputs = i == 0 ? scenario.outputs : scenario.more_cameras[i - 1].outputs;
@@ -42,6 +60,29 @@ void say_that_it_runs(const ScenarioConfig& scenario) {
     spdlog::info("running; Ctrl-C ends it");
 }
 
+// Says in one line for each camera what has become of its frames, and of the recording's.
+void say_outputs(const Emulator& emulator) {
+    for (const auto& station : emulator.stations()) {
+        std::vector<SinkReport> outputs = output_reports(*station);
+        if (station->number() == 1 && emulator.recorder())
+            outputs.push_back(output_report(emulator.recorder()->report()));
+        const std::string line = line_of(outputs);
+        if (line.empty()) continue;
+        const std::string whose =
+            emulator.stations().size() == 1 ? "" : fmt::format(" of camera {}", station->number());
+        spdlog::log(any_lost(outputs) ? spdlog::level::warn : spdlog::level::info, "outputs{}: {}", whose, line);
+    }
+}
+
+std::string waits_text(const Emulator& emulator) {
+    constexpr double kWorthTelling_s = 0.05;
+    double most_s = 0;
+    for (const auto& station : emulator.stations())
+        most_s = std::max(most_s, static_cast<double>(
+                                      station->loop().counters().waited_for_outputs_ns.load()) * 1e-9);
+    return most_s < kWorthTelling_s ? "" : fmt::format(", {:.1f} s of it waiting for outputs", most_s);
+}
+
 // Writes and says how the run went; returns the exit status.
 int conclude(const Emulator& emulator, const std::filesystem::path& report_file) {
     std::uint64_t outside = 0;
@@ -50,8 +91,9 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
         spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
     if (!report_file.empty()) write_json(report_file, run_report(emulator));
     const RunOutcome outcome = run_outcome(emulator);
-    spdlog::info("{} frames in {:.1f} s, {} exposures missed", outcome.frames, emulator.seconds(),
-                 outcome.deadline_misses);
+    spdlog::info("{} frames in {:.1f} s{}, {} exposures missed", outcome.frames, emulator.seconds(),
+                 waits_text(emulator), outcome.deadline_misses);
+    say_outputs(emulator);
     for (const std::string& fault : outcome.faults) spdlog::error("{}", fault);
     return outcome.faults.empty() ? 0 : 1;
 }
@@ -60,17 +102,16 @@ int carry_out(const RunArguments& o) {
     ConfigArguments config = o.config;
     if (o.preview_port > 0)
         config.overrides.push_back(fmt::format("outputs.preview.port={}", o.preview_port));
-    ScenarioConfig scenario = load_and_warn(config);
+    ScenarioConfig scenario = load_scenario(config.file, config.overrides);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
     limits.light_beside = limits.frames == 0;  // a limited number of frames is wanted for what they show
     log_info(settle_seed(scenario, limits.replay));
-    if (limits.replay.empty()) {
-        log_warnings(idle_warnings(scenario));
-        log_warnings(place_warnings(scenario));
-    }
+    log_warnings(limits.replay.empty() ? early_verdict(scenario, VerdictOn::kRun, !limits.record.empty())
+                                       : scenario.warnings);
     spdlog::info("loading {}", scenario.name);
     const auto emulator = in_memory(scenario, [&] { return std::make_unique<Emulator>(scenario, limits); });
+    if (limits.replay.empty()) log_run_verdict(*emulator);
     warn_of_dark_pictures(scenario);
     emulator->run([&] { say_that_it_runs(scenario); });
     return conclude(*emulator, o.report);

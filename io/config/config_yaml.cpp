@@ -10,6 +10,7 @@
 
 #include "io/config/config_advice.h"
 #include "io/config/config_manual.h"
+#include "io/config/open_bracket.h"
 #include "io/system/input_file.h"
 #include "io/system/program_files.h"
 #include "io/system/text_number.h"
@@ -52,7 +53,8 @@ struct Override {
 
 class Reader {
   public:
-    Reader(const Fields& root, std::span<const std::string> overrides) : root_(root) {
+    Reader(const Fields& root, std::span<const std::string> overrides, KeyPlaces* places = nullptr)
+        : root_(root), places_(places) {
         for (const std::string& text : overrides) add_override(text);
     }
 
@@ -70,17 +72,26 @@ class Reader {
 
     void read_text(std::string_view text, const Place& place, const SectionField& section,
                    const std::string& path, int depth) {
-        YAML::Node node;
-        try {
-            // An alias makes one node stand in many places; without any there is nothing to blow up.
-            node = YAML::Load(std::string(text));
-        } catch (const YAML::Exception& error) {
-            throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
-                             std::to_string(error.mark.column + 1) + ": not YAML: " + shortened(error.msg) +
-                             kYamlRules);
-        }
+        const YAML::Node node = only_document(text, place);
         if (!node.IsMap()) fail(place, node, path, "found " + show(node) + "; accepted: a mapping of keys");
         read_section(node, place, section, path, depth);
+    }
+
+    // A file holds one document: of several, which one was meant is not known.
+    static YAML::Node only_document(std::string_view text, const Place& place) {
+        try {
+            // An alias makes one node stand in many places; without any there is nothing to blow up.
+            const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
+            for (std::size_t i = 1; i < documents.size(); ++i)
+                if (!documents[i].IsNull())
+                    fail(place, documents[i], "", "a second document ('---') begins here; accepted: one a file");
+            return documents.empty() ? YAML::Node() : documents.front();
+        } catch (const YAML::Exception& error) {
+            const std::string open = unpaired_bracket(text);
+            throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
+                             std::to_string(error.mark.column + 1) + ": not YAML: " + shortened(error.msg) +
+                             (open.empty() ? kYamlRules : "; " + open));
+        }
     }
 
     void require_all_overrides_used() const {
@@ -90,6 +101,7 @@ class Reader {
 
   private:
     const Fields& root_;
+    KeyPlaces* places_;
     std::vector<Override> overrides_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t nodes_ = 0;
@@ -248,6 +260,7 @@ class Reader {
     void read_value(const YAML::Node& node, const Place& place, const Field& field, const std::string& path,
                     int depth) {
         count_node(place, node, path, depth);
+        if (places_) places_->note(path, where(place, node));
         const auto refuse = [&](const YAML::Node& at, const std::string& accepted,
                                 const std::string& advice = "") {
             fail(place, at, path,
@@ -404,8 +417,8 @@ class Reader {
 }  // namespace
 
 void read_config(const std::filesystem::path& file, const SectionField& root,
-                 std::span<const std::string> overrides) {
-    Reader reader(root.fields, overrides);
+                 std::span<const std::string> overrides, KeyPlaces* places) {
+    Reader reader(root.fields, overrides, places);
     reader.read_file(file, root, "", 0);
     reader.require_all_overrides_used();
 }

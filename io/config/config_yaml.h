@@ -12,13 +12,15 @@
 #include <string>
 #include <string_view>
 
+#include "io/config/key_places.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
 
-// Reads a file of at most 4 MiB into the section. Owner thread.
+// Reads a file of at most 4 MiB into the section. places: gets where each key is given, before the section's own check;
+// may be null. Owner thread.
 void read_config(const std::filesystem::path& file, const SectionField& root,
-                 std::span<const std::string> overrides = {});
+                 std::span<const std::string> overrides = {}, KeyPlaces* places = nullptr);
 // The same from memory; `name` stands for the file in messages, relative paths are taken from `folder`.
 void read_config_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                       const SectionField& root, std::span<const std::string> overrides = {});

@@ -24,12 +24,12 @@ class FrameMailbox {
     }
     // Opens the mailbox: from here to close() a thread takes what is put in. Owner thread.
     void open() { open_.store(true, std::memory_order_relaxed); }
-    // Loop, one thread.
-    void put(const DnImage& frame, const FrameRecord& record) noexcept {
+    // False: dropped. Loop, one thread.
+    bool put(const DnImage& frame, const FrameRecord& record) noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);
         if (head - tail_.load(std::memory_order_acquire) == items_.size()) {
             dropped_.fetch_add(1, std::memory_order_relaxed);
-            return;
+            return false;
         }
         Item& item = items_[head % items_.size()];
         item.frame.reshape(frame.width(), frame.height());
@@ -37,6 +37,7 @@ class FrameMailbox {
         item.record = record;
         head_.store(head + 1, std::memory_order_release);
         ready_.release();
+        return true;
     }
     // Sink's thread: waits for a frame; nullptr after close(). The item stays until done().
     const Item* wait() {

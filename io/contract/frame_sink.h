@@ -41,11 +41,14 @@ struct FrameRecord {
 
 class TruthListener;
 
+// What has become of the frames that an output got: it delivered them, lost them, or nobody took frames then.
 struct SinkReport {
-    std::string name;           // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
-    std::uint64_t frames = 0;   // delivered
-    std::uint64_t dropped = 0;  // taken from the loop but not delivered (no client, sink too slow)
-    std::string fault;          // empty, or why the sink stopped delivering
+    std::string name;          // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
+    std::uint64_t frames = 0;  // delivered
+    // Frames that somebody was to get and did not: the sink is too slow, the disk full, a fault was ordered.
+    std::uint64_t dropped = 0;
+    std::string fault{};         // empty, or why frames are lost that nobody allowed to be lost
+    std::uint64_t unwanted = 0;  // frames that nobody took: no client, no host, not acquiring
     // More figures by name: packets resent, clients, ...
     std::vector<std::pair<std::string, double>> figures{};
 };
@@ -69,6 +72,8 @@ class FrameSink {
     // out yet: never for long, and not where nobody takes frames (no client, the device gone, the sink
     // stopped). Lockstep waits for it. Loop.
     virtual bool has_room() const noexcept { return true; }
+    // True when the loop has to wait for has_room() also outside lockstep (when_slow.h). Loop.
+    virtual bool must_be_waited_for() const noexcept { return false; }
     // Loop and any other thread, at the same time: never waits. An exposure's end is told by publish()'s
     // thread, right before that frame's publish().
     virtual void happened(const CameraEvent&) noexcept {}
@@ -93,12 +98,14 @@ class DeliveryListener {
 
 class CameraControl;
 class FaultBoard;
+class FrameFates;
 
 // The surroundings of a sink; all of it outlives the sink.
 struct SinkContext {
     CameraControl& camera;
     FaultBoard& faults;
     DeliveryListener* listener = nullptr;  // may be null
+    FrameFates* fates = nullptr;           // gets what becomes of frames' files; may be null
 };
 
 }  // namespace hilcam

@@ -30,6 +30,7 @@ Fields fields(FilesConfig& c) {
         flag("overwrite", c.overwrite,
              "treatment of a folder that holds another run's frames. false: it is refused; true: they are "
              "removed first"),
+        when_slow(c.when_slow),
     };
 }
 
@@ -53,8 +54,11 @@ std::string dark_picture_warning(const FilesConfig& c, int bits) {
                                 "outputs.files.view: true writes pictures to look at beside them");
 }
 
-FilesSink::FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run)
+FilesSink::FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run, bool waits,
+                     FrameFates* fates)
     : config_(config),
+      waits_(waits),
+      fates_(fates),
       names_(config.name, ending_of(config.format)),
       camera_{run.camera, run.model.name},
       writer_(run),
@@ -69,18 +73,23 @@ void FilesSink::start() {
 }
 
 void FilesSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
-    if (offered_++ % static_cast<std::uint64_t>(config_.every_nth) == 0) mailbox_.put(frame, record);
+    if (offered_++ % static_cast<std::uint64_t>(config_.every_nth) != 0) return;
+    if (fates_) fates_->expect(record.id);  // the writing thread may be done with it before put() returns
+    if (!mailbox_.put(frame, record) && fates_) fates_->settle(record.id, false);
 }
 
 void FilesSink::run() {
     while (const FrameMailbox::Item* item = mailbox_.wait()) {
+        bool written = false;
         try {
             write(*item);
+            written = true;
             written_.fetch_add(1);
         } catch (const std::exception& error) {
             const std::lock_guard lock(mutex_);
             if (failed_++ == 0) first_failure_ = error.what();
         }
+        if (fates_) fates_->settle(item->record.id, written);
         mailbox_.done();
     }
 }
@@ -100,23 +109,35 @@ void FilesSink::stop() noexcept {
 }
 
 bool FilesSink::has_fault() const noexcept {
+    if (config_.when_slow != WhenSlow::kDrop && mailbox_.dropped() > 0) return true;
     const std::lock_guard lock(mutex_);
     return failed_ > 0;
 }
 
-SinkReport FilesSink::report() const {
-    const std::lock_guard lock(mutex_);
-    SinkReport out{"files " + config_.folder.string(), written_.load(), mailbox_.dropped() + failed_, {}};
+// The files that could not be written come before those that there was no time for.
+std::string FilesSink::told_loss() const {
     if (failed_ > 0)
-        out.fault =
-            first_failure_ + (failed_ == 1 ? " (1 frame lost)"
-                                           : " (the first of " + std::to_string(failed_) + " frames lost)");
-    return out;
+        return first_failure_ + (failed_ == 1
+                                     ? " (1 frame lost)"
+                                     : " (the first of " + std::to_string(failed_) + " frames lost)");
+    const std::uint64_t dropped = mailbox_.dropped();
+    return dropped == 0 || config_.when_slow == WhenSlow::kDrop
+               ? ""
+               : told_drops("outputs.files", config_.folder, dropped, written_.load());
 }
 
-std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext&,
+SinkReport FilesSink::report() const {
+    const std::lock_guard lock(mutex_);
+    return {.name = "files " + config_.folder.string(),
+            .frames = written_.load(),
+            .dropped = mailbox_.dropped() + failed_,
+            .fault = told_loss()};
+}
+
+std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext& context,
                                      const OutputShape& shape) {
-    return std::make_unique<FilesSink>(config, shape.width, shape.height, *shape.run);
+    return std::make_unique<FilesSink>(config, shape.width, shape.height, *shape.run,
+                                       waits(config.when_slow, shape.has_live_output), context.fates);
 }
 
 }  // namespace hilcam

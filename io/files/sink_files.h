@@ -11,8 +11,10 @@
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/frame_fates.h"
 #include "io/contract/output_shape.h"
 #include "io/contract/run_folder.h"
+#include "io/contract/when_slow.h"
 #include "io/files/file_name_pattern.h"
 #include "io/pictures/image_file.h"
 #include "render/vocabulary/config_field.h"
@@ -30,6 +32,7 @@ struct FilesConfig {
     bool label = false;
     std::int64_t every_nth = 1;
     bool overwrite = false;
+    WhenSlow when_slow = WhenSlow::kAuto;
 };
 // Returns the part of its folder that must not be mixed with another run.
 RunFolder run_folder(const FilesConfig& config);
@@ -43,13 +46,16 @@ std::string dark_picture_warning(const FilesConfig& config, int bits);
 
 class FilesSink : public FrameSink {
   public:
-    // The largest frame's size. Throws InputError when the folder holds another run's frames.
-    FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run);
+    // The largest frame's size; waits: the loop waits for room. fates may be null, and outlives the sink. Throws
+    // InputError when the folder holds another run's frames.
+    FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run, bool waits = true,
+              FrameFates* fates = nullptr);
     ~FilesSink() override { stop(); }
 
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     bool has_room() const noexcept override { return mailbox_.has_room(); }
+    bool must_be_waited_for() const noexcept override { return waits_; }
     void stop() noexcept override;
     SinkReport report() const override;
     bool has_fault() const noexcept override;
@@ -57,8 +63,11 @@ class FilesSink : public FrameSink {
   private:
     void run();
     void write(const FrameMailbox::Item& item);
+    std::string told_loss() const;
 
     FilesConfig config_;
+    bool waits_;
+    FrameFates* fates_;
     FileNamePattern names_;
     FileNamePattern::Camera camera_;
     PictureWriter writer_;

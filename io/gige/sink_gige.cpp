@@ -306,7 +306,7 @@ SinkReport GigeSink::report() const {
     return {.name = "gige " + format_ipv4(my.address.load()),
             .frames = c.frames,
             .dropped = my.writer.dropped() + my.writer.of_other_size(),
-            .fault = "",
+            .unwanted = my.writer.unwanted(),
             .figures = {{"clients", my.controlled ? 1.0 : 0.0},
                         {"acquisitions", n(my.acquisitions)},
                         {"packets_sent", n(c.packets)},

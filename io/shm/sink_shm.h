@@ -20,6 +20,7 @@ struct ShmConfig {
     static constexpr const char* kKey = "shm";
     static constexpr const char* kMeaning =
         "frames in a shared memory that programs on this machine read without a copy (docs/shared_memory.md)";
+    static constexpr bool kLive = true;
 
     std::string name = "hilcam";
     std::int64_t slots = 8;

@@ -23,11 +23,16 @@ LineServerSetup port_of(const TruthConfig& c) {
 }  // namespace
 
 TruthSink::TruthSink(const TruthConfig& config, const TruthSource& source,
-                     const std::function<FrameTruth()>& make_slot, TruthListener* listener)
-    : config_(config), document_(source), listener_(listener) {
+                     const std::function<FrameTruth()>& make_slot, const TruthSurroundings& surroundings)
+    : config_(config),
+      document_(source),
+      listener_(surroundings.listener),
+      fates_(config.folder.empty() ? nullptr : surroundings.fates),
+      waits_(!config.folder.empty() && waits(config.when_slow, surroundings.has_live_output)) {
     if (!config.folder.empty()) require_unused(run_folder(config));
     if (config.port != 0) server_ = std::make_unique<LineServer>(port_of(config));
     for (const std::string& to : config.udp_to) destinations_.push_back(parse_endpoint(to));
+    if (fates_) fates_->listen([this] { news_.release(); });
     // A listener can miss one: it wants a few frames a second.
     const std::size_t count = config.layers.empty() && has_outputs() ? kSlots : kFewerSlots;
     for (std::size_t i = 0; i < count; ++i) {
@@ -95,34 +100,68 @@ bool TruthSink::has_room() const noexcept {
     return waiting + kInLoop < slots_.size();
 }
 
+// News are of a frame's truth, of a frame's file, or of the end.
 void TruthSink::run() {
     while (true) {
         news_.acquire();
-        const std::size_t done = done_.load(std::memory_order_relaxed);
-        if (done == ready_.load(std::memory_order_acquire)) return;  // stop() has called
-        const Slot& slot = *slots_[done % slots_.size()];
-        try {
-            deliver(slot);
-            written_.fetch_add(1, std::memory_order_relaxed);
-            took_ms_.store(took_ms_.load(std::memory_order_relaxed) + slot.truth.took_ms,
-                           std::memory_order_relaxed);
-        } catch (const std::exception& error) {
-            dropped_.fetch_add(1, std::memory_order_relaxed);
-            const std::lock_guard lock(mutex_);
-            fault_ = error.what();
-        }
-        done_.store(done + 1, std::memory_order_release);
+        if (done_.load(std::memory_order_relaxed) != ready_.load(std::memory_order_acquire))
+            take_next();
+        else if (!open_.load(std::memory_order_acquire))
+            break;
+        write_settled_lines(false);
     }
+    write_settled_lines(true);
+}
+
+// What throws was lost.
+template <class Action>
+void TruthSink::count(const Action& action) {
+    try {
+        if (action()) written_.fetch_add(1, std::memory_order_relaxed);
+    } catch (const std::exception& error) {
+        dropped_.fetch_add(1, std::memory_order_relaxed);
+        const std::lock_guard lock(mutex_);
+        fault_ = error.what();
+    }
+}
+
+void TruthSink::take_next() {
+    const std::size_t done = done_.load(std::memory_order_relaxed);
+    const Slot& slot = *slots_[done % slots_.size()];
+    count([&] {
+        deliver(slot);
+        return !(files_ && slot.for_outputs);  // that is counted with its line
+    });
+    took_ms_.store(took_ms_.load(std::memory_order_relaxed) + slot.truth.took_ms, std::memory_order_relaxed);
+    ++told_;
+    done_.store(done + 1, std::memory_order_release);
 }
 
 // The stream first: files take longer.
 void TruthSink::deliver(const Slot& slot) {
-    const std::string line = document_.line(slot.truth, slot.record);
+    std::string line = document_.line(slot.truth, slot.record);
     if (slot.for_listener) listener_->take_truth(slot.record.id, line);
     if (!slot.for_outputs) return;
     if (server_) server_->notify(line + "\n");
     if (!destinations_.empty()) send_datagrams(slot.truth, slot.record, line);
-    if (files_) files_->write(slot.truth, slot.record.id, line, document_.legend(slot.truth));
+    if (!files_) return;
+    files_->write_layers(slot.truth, slot.record.id, document_.legend(slot.truth));
+    held_lines_.push_back({slot.record.id, std::move(line)});
+}
+
+// In the frames' order, up to the first whose file may still come; all: no file comes any more.
+void TruthSink::write_settled_lines(bool all) {
+    while (!held_lines_.empty()) {
+        const auto fate = fates_ ? fates_->of(held_lines_.front().frame) : FrameFates::Fate::kNoFile;
+        if (fate == FrameFates::Fate::kPending && !all && held_lines_.size() < kMostHeld) return;
+        std::string line = std::move(held_lines_.front().text);
+        held_lines_.pop_front();
+        if (fate == FrameFates::Fate::kLost) line.replace(line.size() - 1, 1, ",\"file\":false}");
+        count([&] {
+            files_->add_line(line);
+            return true;
+        });
+    }
 }
 
 void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& record, const std::string& line) {
@@ -146,6 +185,7 @@ void TruthSink::stop() noexcept {
 }
 
 bool TruthSink::has_fault() const noexcept {
+    if (loss_is_fault() && dropped_.load() > 0) return true;
     const std::lock_guard lock(mutex_);
     return !fault_.empty();
 }
@@ -155,7 +195,8 @@ SinkReport TruthSink::report() const {
     out.name = has_outputs() ? "truth" : "truth for the preview";
     out.frames = written_.load();
     out.dropped = dropped_.load();
-    out.figures = {{"truth_ms", out.frames > 0 ? took_ms_.load() / static_cast<double>(out.frames) : 0.0}};
+    const std::uint64_t told = told_.load();
+    out.figures = {{"truth_ms", told > 0 ? took_ms_.load() / static_cast<double>(told) : 0.0}};
     if (server_) {
         out.figures.emplace_back("clients", static_cast<double>(server_->clients()));
         out.figures.emplace_back("cut_off", static_cast<double>(server_->cut_off()));
@@ -164,6 +205,8 @@ SinkReport TruthSink::report() const {
         out.figures.emplace_back("datagrams_not_sent", static_cast<double>(not_sent_.load()));
     const std::lock_guard lock(mutex_);
     out.fault = fault_;
+    if (out.fault.empty() && loss_is_fault() && out.dropped > 0)
+        out.fault = told_drops("outputs.truth", config_.folder, out.dropped, out.frames);
     return out;
 }
 

@@ -56,6 +56,7 @@ Fields fields(TruthConfig& c) {
         flag("overwrite", c.overwrite,
              "treatment of a folder that holds another run's truth. false: it is refused; true: it is "
              "removed first"),
+        when_slow(c.when_slow),
     };
 }
 

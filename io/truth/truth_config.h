@@ -8,6 +8,7 @@
 
 #include "io/contract/output_shape.h"
 #include "io/contract/run_folder.h"
+#include "io/contract/when_slow.h"
 #include "render/frame/frame_truth.h"
 #include "render/vocabulary/config_field.h"
 
@@ -30,6 +31,7 @@ struct TruthConfig {
     double ground_px = 0;  // 0: no craters and boulders
     std::int64_t every_nth = 1;
     bool overwrite = false;
+    WhenSlow when_slow = WhenSlow::kAuto;  // of its folder
 };
 Fields fields(TruthConfig& config);
 void validate(const TruthConfig& config);

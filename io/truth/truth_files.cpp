@@ -162,9 +162,8 @@ void TruthFiles::add_line(std::string_view line) {
     throw DeviceError((folder_ / kTruthLines).string() + " cannot be written; is the disk full?");
 }
 
-void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string_view line,
-                       std::span<const std::string> legend) {
-    add_line(line);
+void TruthFiles::write_layers(const FrameTruth& truth, std::uint64_t frame,
+                              std::span<const std::string> legend) const {
     if (!truth.wishes.layers()) return;
     char stem[64];
     std::snprintf(stem, sizeof stem, "truth_%08llu", static_cast<unsigned long long>(frame));

@@ -44,17 +44,16 @@ class TruthFiles {
     // DeviceError when that cannot be.
     TruthFiles(const std::filesystem::path& folder, std::string_view header);
 
-    // line: without a newline; it is there for readers when this returns. DeviceError: what there was no room
-    // for is left out whole.
-    void write(const FrameTruth& truth, std::uint64_t frame, std::string_view line,
-               std::span<const std::string> legend);
+    // These throw a DeviceError: what there was no room for is left out whole.
+    // line: without a newline; it is there for readers when this returns.
+    void add_line(std::string_view line);
+    // Writes the layers that were asked for.
+    void write_layers(const FrameTruth& truth, std::uint64_t frame, std::span<const std::string> legend) const;
 
   private:
     std::filesystem::path folder_;
     Fd lines_;
     off_t lines_bytes_ = 0;  // bytes of whole lines
-
-    void add_line(std::string_view line);
 };
 
 // The files for the truth of a single picture: FOLDER/NAME.truth.jsonl and FOLDER/NAME.truth.exr for

@@ -259,12 +259,12 @@ SinkReport UvcSink::report() const {
     SinkReport report;
     report.name = "uvc " + gadget_.udc();
     report.frames = delivered_.load();
-    report.dropped = mailbox_.dropped() + unwanted_.load() + late_.load();
+    report.dropped = mailbox_.dropped() + late_.load();
+    report.unwanted = unwanted_.load();
     report.figures = {{"requests", static_cast<double>(requests_.load())},
                       {"settings_changed", static_cast<double>(changes_.load())},
                       {"requests_refused", static_cast<double>(refusals_.load())},
                       {"streams", static_cast<double>(streams_.load())},
-                      {"without_host", static_cast<double>(unwanted_.load())},
                       {"host_too_slow", static_cast<double>(late_.load())}};
     const std::lock_guard lock(mutex_);
     report.fault = fault_;

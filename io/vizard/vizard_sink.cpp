@@ -44,6 +44,6 @@ void VizardSink::forget() {
     state_.store(State::kIdle, std::memory_order_release);
 }
 
-SinkReport VizardSink::report() const { return {name_, given_.load(), 0, {}}; }
+SinkReport VizardSink::report() const { return {.name = name_, .frames = given_.load()}; }
 
 }  // namespace hilcam

@@ -145,6 +145,27 @@ class Check(unittest.TestCase):
         sheet = json.loads(hilcam("check", SOURCE / "configs/cameras/inspector_1k.yaml", "--json").stdout)
         self.assertEqual(sheet["width_px"], 1024)
 
+    def test_strict_makes_warnings_failures(self):
+        self.assertEqual(hilcam("check", SCENARIO, "--strict").returncode, 0)
+        warned = hilcam("check", SCENARIO, "--strict", "--set", "outputs.gige.interface=eth7")
+        self.assertEqual(warned.returncode, 1)
+        self.assertRegex(warned.stdout, r"--set outputs.gige.interface: outputs.gige: interface 'eth7' does not exist")
+        self.assertEqual(hilcam("check", SOURCE / "configs/cameras/inspector_1k.yaml", "--strict", "--set", "offset_dn=4000").returncode, 1)
+
+    def test_render_and_run_print_what_concerns_them(self):
+        away = ("--set", "camera_pose.look_at_m=[44, 30, 14]")
+        behind, nobody = "object 'target' is behind the camera", "so nobody gets the frames of a run"
+        with tempfile.TemporaryDirectory() as folder:
+            picture = hilcam("render", SCENARIO, "--out", f"{folder}/black.png", *away)
+            self.assertEqual(picture.returncode, 0, picture.stderr)
+            run = hilcam("run", SCENARIO, "--frames", 1, "--set", "outputs={}", "--set", "commands={}", *away)
+            self.assertEqual(run.returncode, 0, run.stderr)
+        for result in (picture, run):
+            self.assertIn(behind, result.stderr)
+            self.assertIn("it will be black", result.stderr)
+        self.assertIn(nobody, run.stderr)
+        self.assertNotIn(nobody, picture.stderr)
+
     def test_each_camera_of_a_bench(self):
         pair = SOURCE / "tests/protocol/pair_scenario.yaml"
         text = hilcam("check", pair).stdout
@@ -298,6 +319,41 @@ class Pictures(unittest.TestCase):
                 result = hilcam("render", SCENARIO, "--stage", stage, "--out", file)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(file.read_bytes()[:4], b"\x76\x2f\x31\x01")  # OpenEXR's magic number
+
+
+class SlowDisk(unittest.TestCase):
+    """Frames come faster than a disk takes them: a thousand a second, of which no machine writes each."""
+    FAST = ("--frames", 60, "--set", "commands={}", "--set", "camera.exposure_ms=0.1", "--set", "camera.exposure_range_ms=[0.01, 1]",
+            "--set", "camera.frame_rate_hz=1000", "--set", "camera.frame_rate_range_hz=[1, 2000]")
+
+    def run_into(self, folder, *arguments):
+        result = hilcam("run", SCENARIO, *self.FAST, "--report", f"{folder}/report.json", "--set",
+                        f"outputs={{files: {{folder: {folder}/frames, view: true}}, truth: {{folder: {folder}/frames}}}}", *arguments)
+        report = json.loads(pathlib.Path(folder, "report.json").read_text())
+        outputs = {output["name"].split()[0]: output for output in report["outputs"]}
+        with open(f"{folder}/frames/truth.jsonl") as file:
+            lines = [json.loads(line) for line in file][1:]
+        return result, outputs, lines, set(pathlib.Path(folder, "frames").glob("frame_????????.png"))
+
+    def test_a_free_run_loses_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result, outputs, lines, pictures = self.run_into(folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(len(pictures), 60)
+            self.assertEqual(len(lines), 60)
+            for name in ("files", "truth"):
+                self.assertEqual((outputs[name]["frames"], outputs[name]["dropped"]), (60, 0), result.stderr)
+            self.assertFalse([line for line in lines if "file" in line])
+            self.assertRegex(result.stderr, r"outputs: files \S+ 60 frames; truth 60 frames")
+
+    def test_what_may_be_dropped_is_told_and_no_fault(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result, outputs, lines, pictures = self.run_into(folder, "--set", "outputs.files.when_slow=drop")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(outputs["files"]["frames"], len(pictures))
+            self.assertEqual(outputs["files"]["frames"] + outputs["files"]["dropped"], 60)
+            there = {int(picture.stem.split("_")[1]) for picture in pictures}
+            self.assertEqual({line["frame"] for line in lines if line.get("file", True)}, there)
 
 
 class FullDisk(unittest.TestCase):

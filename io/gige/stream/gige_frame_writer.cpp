@@ -22,14 +22,18 @@ GigeFrameWriter::GigeFrameWriter(GigeRing& ring, FaultBoard& faults, std::string
 std::uint64_t GigeFrameWriter::admit(const DnImage& frame, const FrameRecord& record,
                                      const GigeStreamNow& now) noexcept {
     const GigeStreamState& s = now.state;
-    if (!s.open || !s.acquiring) return 0;
+    const auto unwanted = [this] {
+        unwanted_.fetch_add(1, std::memory_order_relaxed);
+        return std::uint64_t{0};
+    };
+    if (!s.open || !s.acquiring) return unwanted();
     if (now.acquisition != acquisition_) {
         acquisition_ = now.acquisition;
         frames_ = 0;
         ids_.restart();
         before_ = nullptr;
     }
-    if (s.frames != 0 && frames_ >= s.frames) return 0;
+    if (s.frames != 0 && frames_ >= s.frames) return unwanted();
     if (!fits(frame, record, s)) {
         of_other_size_.fetch_add(1, std::memory_order_relaxed);
         return 0;

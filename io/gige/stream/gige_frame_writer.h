@@ -32,6 +32,7 @@ class GigeFrameWriter {
 
     // Any thread.
     std::uint64_t dropped() const { return dropped_.load(); }
+    std::uint64_t unwanted() const { return unwanted_.load(); }
     std::uint64_t of_other_size() const { return of_other_size_.load(); }
 
   private:
@@ -44,7 +45,7 @@ class GigeFrameWriter {
     BlockIds ids_;
     StampClock clock_;
     const GigeSlot* before_ = nullptr;  // the frame before, of this acquisition
-    std::atomic<std::uint64_t> dropped_{0}, of_other_size_{0};
+    std::atomic<std::uint64_t> dropped_{0}, of_other_size_{0}, unwanted_{0};
 };
 
 }  // namespace hilcam

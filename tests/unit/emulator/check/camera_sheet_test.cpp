@@ -166,14 +166,14 @@ TEST_F(CheckTest, ACameraFileIsToldFromAScenario) {
     EXPECT_FALSE(is_camera_file(HILCAM_SOURCE_DIR "/configs/scenarios/small.yaml"));
     EXPECT_FALSE(is_camera_file(folder_ / "nothing.yaml"));
     EXPECT_FALSE(is_camera_file(write("broken.yaml", "pitch_um: [1")));
-    EXPECT_EQ(check_camera(kCameras + "inspector_1k.yaml", {}).rfind("camera inspector-1k\n", 0), 0u);
+    EXPECT_EQ(check_camera(kCameras + "inspector_1k.yaml", {}).text.rfind("camera inspector-1k\n", 0), 0u);
     const std::string error = error_of([&] { check_camera(write("short.yaml", "pitch_um: 5\n"), {}); });
     EXPECT_NE(error.find("short.yaml"), std::string::npos) << error;
 }
 
 TEST_F(CheckTest, EveryShippedCameraHasASheetOfFiniteFigures) {
     for (const auto& entry : std::filesystem::directory_iterator(kCameras)) {
-        const std::string text = check_camera(entry.path(), {});
+        const std::string text = check_camera(entry.path(), {}).text;
         EXPECT_EQ(text.find("nan"), std::string::npos) << text;
         EXPECT_EQ(text.find("inf,"), std::string::npos) << text;
     }

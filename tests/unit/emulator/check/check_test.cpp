@@ -110,9 +110,9 @@ TEST_F(CheckScenario, AMeshBesideItsOriginIsSaid) {
 TEST_F(CheckScenario, ActionsForThingsThatAreNotThereAreSaid) {
     EXPECT_THAT(warnings({"events=[{at_s: 1, do: lamp on}, {at_s: 1, do: joint --object 9 --joint 1 "
                           "--angle-deg 3}, {at_s: 1, do: joint --object 1 --joint 2 --angle-deg 3}]"}),
-                ElementsAre("events.0: will be refused: its 'do' is for lamp 1, and there are 0",
-                            "events.1: will be refused: its 'do' is for object 9, and there are 1",
-                            "events.2: will be refused: its 'do' is for joint 2 of 'plate', which has 0"));
+                ElementsAre(HasSubstr("events.0.do: will be refused: it is for lamp 1, and there are 0"),
+                            HasSubstr("events.1.do: will be refused: it is for object 9, and there are 1"),
+                            HasSubstr("events.2.do: will be refused: it is for joint 2 of 'plate', which has 0")));
     EXPECT_THAT(warnings({"events=[{at_s: 1, do: lamp on}]",
                           "lamps=[{name: flash, intensity_w_sr_um: 1, lit: false}]"}),
                 IsEmpty());
@@ -122,18 +122,18 @@ TEST_F(CheckScenario, WhatIsHiddenIsSaid) {
     EXPECT_THAT(warnings({"objects=[{name: near, mesh: " + (folder_ / "plate.obj").string() +
                           ", pose: {position_m: [0, 0, 2]}}, {name: far, mesh: " +
                           (folder_ / "plate.obj").string() + ", pose: {position_m: [0, 0, 4]}}]"}),
-                ElementsAre("object 'far' is hidden: something stands before it"));
+                ElementsAre(HasSubstr("object 'far' is hidden: something stands before it")));
 }
 
 TEST_F(CheckScenario, AModelInMillimetresIsSaid) {
     write_sphere();
     EXPECT_THAT(
         warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=1000"}),
-        Contains(
+        Contains(HasSubstr(
             "the camera is inside the mesh of object 'plate', which is 2000 x 2000 x 2000 m; the file is "
-            "probably in millimetres: scale: 0.001"));
+            "probably in millimetres: scale: 0.001")));
     EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=10"}),
-                Contains("the camera is inside the mesh of object 'plate', which is 20 x 20 x 20 m"));
+                Contains(HasSubstr("the camera is inside the mesh of object 'plate', which is 20 x 20 x 20 m")));
     // An asteroid from where all of it is seen.
     EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=1000",
                           "objects.0.pose.position_m=[0, 0, 30000]"}),
@@ -168,8 +168,8 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
     EXPECT_THAT(warnings({"mode=triggered", "commands.tcp.port=15999"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=triggered", "events=[{at_s: 1, do: mode free-run}]"}), IsEmpty());
     EXPECT_THAT(warnings({"faults=[{kind: packet_drop}, {kind: packet_drop, from_frame: 9}]"}),
-                ElementsAre("faults: nothing can show the fault 'packet_drop' (stream packets are not sent): "
-                            "that takes outputs.gige"));
+                ElementsAre(HasSubstr("faults: nothing can show the fault 'packet_drop' (stream packets are not "
+                                      "sent): that takes outputs.gige")));
     EXPECT_THAT(warnings({"faults=[{kind: image_black}]"}),
                 ElementsAre(HasSubstr("that takes any of outputs")));
     EXPECT_THAT(
@@ -181,9 +181,9 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
         warnings(
             {"objects.0.materials={surfaces: [{name: DefaultMateriel, material: {}}, {name: zz, material: "
              "{}}]}"}),
-        ElementsAre(
+        ElementsAre(HasSubstr(
             "object 'plate': no surface takes its material rules for 'DefaultMateriel' (the nearest is "
-            "'DefaultMaterial'), 'zz'; the mesh's surfaces: 'DefaultMaterial'"));
+            "'DefaultMaterial'), 'zz'; the mesh's surfaces: 'DefaultMaterial'")));
     EXPECT_THAT(
         warnings({"objects.0.materials={surfaces: [{name: \"*\", material: {}}, {name: DefaultMaterial, "
                   "material: {}}]}"}),
@@ -194,16 +194,17 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
     EXPECT_THAT(
         warnings({"objects=[{name: a, mesh: " + mesh + ", pose: {position_m: [0, 0, 4]}, " + rules +
                   "}, {name: b, mesh: " + mesh + ", pose: {position_m: [0.1, 0, 4]}, " + rules + "}]"}),
-        ElementsAre("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
-                    "surfaces: 'DefaultMaterial'"));
+        ElementsAre(HasSubstr("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
+                              "surfaces: 'DefaultMaterial'")));
 }
 
 TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {
     EXPECT_THAT(
         warnings({"earth.visible=true"}),
-        Contains("camera 1 begins inside the body 'earth', 0 km from its centre: it sees nothing else; the "
-                 "world's origin is that centre unless the scenario says otherwise: say where it is by "
-                 "'origin', move camera_pose, or set earth.visible: false"));
+        Contains(HasSubstr(
+            "camera 1 begins inside the body 'earth', 0 km from its centre: it sees nothing else; the "
+            "world's origin is that centre unless the scenario says otherwise: say where it is by "
+            "'origin', move camera_pose, or set earth.visible: false")));
     // 10 km under the Moon's surface, and 10 km over it.
     const std::vector<std::string> moon = {"moon.visible=true",
                                            "origin={kind: body_fixed, body: moon, height_km: 10}"};
@@ -211,7 +212,7 @@ TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {
     EXPECT_THAT(warnings({"moon.visible=true", "origin={kind: body_fixed, body: moon, height_km: -9.9}"}),
                 Contains(HasSubstr(
                     "camera 1 begins inside the body 'moon', 1727.5 km from its centre: it sees nothing "
-                    "else, move camera_pose")));
+                    "else")));
 }
 
 TEST_F(CheckScenario, WhatThisMachineLacksIsSaid) {
@@ -365,7 +366,7 @@ TEST_F(CheckScenario, OfManyObjectsTheFirstAreTold) {
                    ", pose: {position_m: [9, 0, " + std::to_string(i) + "]}},";
     const CheckReport report = check({objects + "]"});
     EXPECT_THAT(report.warnings,
-                Contains("and 50 more objects have warnings: --json tells where each of them is"));
+                Contains(HasSubstr("and 50 more objects have warnings: --json tells where each of them is")));
     EXPECT_EQ(report.warnings.size(), 12u);
     EXPECT_THAT(to_text(report), HasSubstr("  and 10 more objects: --json has them\n"));
 }

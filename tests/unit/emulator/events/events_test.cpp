@@ -273,7 +273,7 @@ TEST_F(EventsTest, MistakesAreNamedWithTheirPlace) {
     EXPECT_THAT(refusal("{do: stop}"), HasSubstr("one of 'at_s', 'at_utc', 'at_frame', 'after' and 'when'"));
     EXPECT_THAT(refusal("{at_s: 1, at_frame: 2, do: stop}"), HasSubstr("found 2"));
     EXPECT_THAT(refusal("{at_s: 1}"), HasSubstr("events.0.do: the key is missing"));
-    EXPECT_THAT(refusal("{at_s: 1, do: fly}"), HasSubstr("do: 'fly'"));
+    EXPECT_THAT(refusal("{at_s: 1, do: fly}"), HasSubstr("do: found 'fly': "));
     EXPECT_THAT(refusal("{at_s: 1, do: settings}"), HasSubstr("names no setting"));
     EXPECT_THAT(refusal("{at_s: 1, do: ping}"), HasSubstr("does nothing to a camera"));
     EXPECT_THAT(refusal("{after: x, do: stop}"), HasSubstr("there is no event 'x'"));

@@ -90,5 +90,38 @@ TEST_F(FrameLoopTest, NoFrameIsPublishedBeforeItsExposureIsOver) {
     }
 }
 
+// By the camera's own rate, too, a frame waits for the outputs that are to lose none, and for no others.
+TEST_F(FrameLoopTest, AFreeRunWaitsForOutputsThatAreToLoseNothing) {
+    class Slow : public Collector {
+      public:
+        explicit Slow(bool waited_for) : waited_for_(waited_for) {}
+        bool must_be_waited_for() const noexcept override { return waited_for_; }
+        bool has_room() const noexcept override { return monotonic_ns() >= room_ns_; }
+        void publish(const DnImage& frame, const FrameRecord& record) noexcept override {
+            if (!has_room()) ++lost_;
+            room_ns_ = monotonic_ns() + (waited_for_ ? 100'000'000 : 1'000'000'000'000);
+            Collector::publish(frame, record);
+        }
+        int lost() const { return lost_; }
+
+      private:
+        bool waited_for_;
+        std::atomic<std::int64_t> room_ns_{0};
+        std::atomic<int> lost_{0};
+    };
+    LoopRig rig(scenario(", frame_rate_hz: 30"), {});
+    Slow files(true), stream(false);
+    LoopParts parts = rig.parts({6, 0, true});
+    parts.sinks = {&files, &stream};
+    FrameLoop loop(parts);
+    loop.start();
+    ASSERT_TRUE(files.wait_for(6));
+    loop.stop();
+    EXPECT_EQ(files.lost(), 0);
+    EXPECT_EQ(stream.lost(), 5);
+    EXPECT_GT(loop.counters().waited_for_outputs_ns.load(), 0);
+    EXPECT_GT(loop.counters().deadline_misses.load(), 0u);  // what it costs is told
+}
+
 }  // namespace
 }  // namespace hilcam

@@ -37,7 +37,8 @@ TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginni
         config.format = static_cast<FilesConfig::Format>(i);
         config.overwrite = i > 0;
         testing::internal::CaptureStderr();
-        FilesSink sink(config, 8, 4, PictureRun{});
+        FrameFates fates;
+        FilesSink sink(config, 8, 4, PictureRun{}, true, &fates);
         sink.start();
         fill_up("frame_00000002" + ending);
         fill_up("frame_00000003" + ending);
@@ -50,11 +51,84 @@ TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginni
                                             "frames lost)"));
         EXPECT_EQ(report.frames, 2u);
         EXPECT_EQ(report.dropped, 2u);
+        for (const std::uint64_t id : {2u, 3u}) EXPECT_EQ(fates.of(id), FrameFates::Fate::kLost);
+        EXPECT_EQ(fates.of(4), FrameFates::Fate::kWritten);
         for (const char* id : {"1", "4"})
             EXPECT_GT(std::filesystem::file_size(folder_ / ("frame_0000000" + (id + ending))), 0u);
         for (const char* id : {"2", "3"})
             EXPECT_FALSE(std::filesystem::is_symlink(folder_ / ("frame_0000000" + (id + ending))));
     }
+}
+
+// Before start() nothing takes frames out: eight wait, the others find no room.
+void publish_at_once(FilesSink& sink, std::uint64_t last) {
+    for (std::uint64_t id = 1; id <= last; ++id) {
+        FrameRecord record;
+        record.id = id;
+        sink.publish(DnImage(8, 4), record);
+    }
+}
+
+TEST_F(FilesSinkTest, FramesThatComeTooFastAreAFaultUnlessTheyMayBeDropped) {
+    for (const WhenSlow when_slow : {WhenSlow::kAuto, WhenSlow::kWait, WhenSlow::kDrop}) {
+        FilesConfig config{.folder = folder_ / "out", .overwrite = true, .when_slow = when_slow};
+        FilesSink sink(config, 8, 4, PictureRun{});
+        publish_at_once(sink, 8);
+        EXPECT_FALSE(sink.has_fault());
+        publish_at_once(sink, 2);
+        EXPECT_EQ(sink.has_fault(), when_slow != WhenSlow::kDrop);
+        sink.start();
+        sink.stop();
+        const SinkReport report = sink.report();
+        EXPECT_EQ(report.frames, 8u);
+        EXPECT_EQ(report.dropped, 2u);
+        if (when_slow == WhenSlow::kDrop)
+            EXPECT_EQ(report.fault, "");
+        else
+            EXPECT_THAT(report.fault,
+                        HasSubstr("outputs.files: 2 of 10 frames came too fast for '" + config.folder.string() +
+                                  "' and were lost; accepted: outputs.files.when_slow: wait"));
+    }
+}
+
+TEST(FilesConfig, TheCameraWaitsUnlessClientsTakeFramesBesideTheFiles) {
+    EXPECT_TRUE(waits(WhenSlow::kAuto, false));
+    EXPECT_FALSE(waits(WhenSlow::kAuto, true));
+    for (const bool live : {false, true}) {
+        EXPECT_TRUE(waits(WhenSlow::kWait, live));
+        EXPECT_FALSE(waits(WhenSlow::kDrop, live));
+    }
+}
+
+TEST_F(FilesSinkTest, ItIsKnownWhatHasBecomeOfEachFramesFile) {
+    using Fate = FrameFates::Fate;
+    FilesConfig config{.folder = folder_ / "out", .every_nth = 2};
+    FrameFates fates;
+    FilesSink sink(config, 8, 4, PictureRun{}, true, &fates);
+    publish_at_once(sink, 20);  // 1, 3, ... 15 wait
+    EXPECT_EQ(fates.of(15), Fate::kPending);
+    sink.start();
+    sink.stop();
+    EXPECT_EQ(fates.of(1), Fate::kWritten);
+    EXPECT_EQ(fates.of(15), Fate::kWritten);
+    EXPECT_EQ(fates.of(2), Fate::kNoFile);
+    EXPECT_EQ(fates.of(17), Fate::kLost);
+    EXPECT_EQ(fates.of(19), Fate::kLost);
+    EXPECT_EQ(fates.of(21), Fate::kNoFile);
+}
+
+TEST(FrameFates, TheNewestFramesAreKnown) {
+    using Fate = FrameFates::Fate;
+    FrameFates fates;
+    int news = 0;
+    fates.listen([&] { ++news; });
+    for (std::uint64_t id = 10; id <= 20480; id += 10) fates.expect(id);
+    EXPECT_EQ(fates.of(10240), Fate::kNoFile);
+    EXPECT_EQ(fates.of(10250), Fate::kPending);
+    fates.settle(10250, true), fates.settle(20480, false), fates.settle(7, true);
+    EXPECT_EQ(fates.of(10250), Fate::kWritten);
+    EXPECT_EQ(fates.of(20480), Fate::kLost);
+    EXPECT_EQ(news, 3);
 }
 
 TEST_F(FilesSinkTest, FilesAreNamedByThePatternAndAViewLiesBesideEach) {

@@ -60,10 +60,11 @@ FrameTruth slot(const TruthConfig& config) {
 
 struct TruthOut : FilesTest {
     TruthConfig config;
+    TruthSurroundings surroundings{};
     std::unique_ptr<TruthSink> sink;
 
     void make() {
-        sink = std::make_unique<TruthSink>(config, source(), [this] { return slot(config); });
+        sink = std::make_unique<TruthSink>(config, source(), [this] { return slot(config); }, surroundings);
     }
     // As the loop does it; false: dropped.
     bool frame(std::uint64_t id, std::size_t stars = 0) {
@@ -227,6 +228,57 @@ TEST_F(TruthOut, TruthIsDroppedAndCountedWhenNobodyWritesIt) {
     wait_for(9);
 }
 
+// A line of the folder waits until it is known whether the frame's file was written.
+TEST_F(TruthOut, ALineSaysWhenTheFramesFileWasLost) {
+    FrameFates fates;
+    surroundings.fates = &fates;
+    config.folder = folder_ / "truth";
+    make();
+    sink->start();
+    for (const std::uint64_t id : {1u, 2u, 3u, 5u}) fates.expect(id);  // frame 4 has none
+    fates.settle(2, false);
+    for (std::uint64_t id = 1; id <= 5; ++id) {
+        while (!sink->has_room()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(frame(id));
+    }
+    EXPECT_EQ(sink->report().frames, 0u);  // the first one's file may come yet
+    fates.settle(1, true);
+    wait_for(2);
+    fates.settle(3, false);
+    wait_for(4);
+    sink->stop();  // outputs of frames have ended before
+    EXPECT_EQ(sink->report().frames, 5u);
+    EXPECT_EQ(sink->report().fault, "");
+    std::ifstream in(config.folder / "truth.jsonl");
+    std::string line;
+    std::getline(in, line);
+    for (int id = 1; id <= 5; ++id) {
+        ASSERT_TRUE(std::getline(in, line));
+        const json told = json::parse(line);
+        EXPECT_EQ(told["frame"].get<int>(), id);
+        EXPECT_EQ(told.contains("file"), id == 2 || id == 3) << line;
+        EXPECT_FALSE(told.value("file", false)) << line;
+    }
+}
+
+TEST_F(TruthOut, LostTruthOfAFolderIsAFaultUnlessItMayBeDropped) {
+    for (const WhenSlow when_slow : {WhenSlow::kAuto, WhenSlow::kDrop}) {
+        config.folder = folder_ / "truth";
+        config.overwrite = true;
+        config.when_slow = when_slow;
+        make();
+        EXPECT_EQ(sink->must_be_waited_for(), when_slow != WhenSlow::kDrop);
+        sink->start();
+        FrameRecord record;
+        for (record.id = 1; record.id <= 9; ++record.id) sink->begin(record);  // eight slots
+        EXPECT_EQ(sink->has_fault(), when_slow != WhenSlow::kDrop);
+        EXPECT_EQ(sink->report().fault.find("outputs.truth: 1 of 1 frames came too fast for ") == 0,
+                  when_slow != WhenSlow::kDrop)
+            << sink->report().fault;
+        sink->stop();
+    }
+}
+
 TEST_F(TruthOut, LayersAreChannelsOfOnePicture) {
     config.folder = folder_ / "truth";
     config.layers = {"object", "depth", "normal"};
@@ -354,17 +406,16 @@ TEST_F(TruthOut, AnotherRunsTruthIsRefusedOrReplacedAsAWhole) {
 TEST_F(TruthOut, LinesStayWholeWhenTheDiskIsFullForAWhile) {
     std::filesystem::create_directories(folder_ / "truth");
     TruthFiles files(folder_ / "truth", "header");
-    const FrameTruth truth = slot(config);
     rlimit before{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
     const auto old = std::signal(SIGXFSZ, SIG_IGN);
-    files.write(truth, 1, "first", {});
+    files.add_line("first");
     const rlimit little{16, before.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
-    EXPECT_THROW(files.write(truth, 2, "second", {}), DeviceError);
+    EXPECT_THROW(files.add_line("second"), DeviceError);
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     std::signal(SIGXFSZ, old);
-    files.write(truth, 3, "third", {});
+    files.add_line("third");
     std::ifstream in(folder_ / "truth" / "truth.jsonl");
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "header\nfirst\nthird\n");
 }

@@ -1,0 +1,86 @@
+#include "emulator/check/scenario_verdict.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "emulator/check/machine_verdict.h"
+#include "emulator/check/mesh_survey.h"
+#include "emulator/loop/shutter_timing.h"
+#include "emulator/scenario/scenario_warnings.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+void append(Lines more, Lines& out) {
+    std::move(more.begin(), more.end(), std::back_inserter(out));
+}
+
+// A check takes its time; who waits for a picture or a run does not wait for millions of edges to be sorted.
+constexpr std::size_t kMostTrianglesOnTheWay = 50'000;
+
+// What makes a mesh look wrong, of all that `hilcam mesh` says: panels are open on purpose.
+Lines mesh_warnings(const ObjectConfig& object, const std::string& key, const KeyPlaces& places) {
+    const std::optional<int> surface =
+        object.has_mesh_surface ? std::optional<int>(static_cast<int>(object.mesh_surface)) : std::nullopt;
+    const MeshSurvey survey = survey_mesh(load_mesh_contents(object.mesh, surface), object.mesh.string());
+    Lines out;
+    const std::string name = key + ": '" + harmless(object.mesh.filename().string()) + "'";
+    if (survey.inverted_shells > 0)
+        out.push_back(places.at(
+            key, fmt::format("{} is inside out: the triangles of {} of its {} closed surfaces look inwards "
+                             "('hilcam mesh' tells more); turn their corners round",
+                             name, survey.inverted_shells, survey.shells)));
+    for (const std::string& file : survey.missing_materials)
+        out.push_back(places.at(key, name + " names the materials " + in_quotes(file) +
+                                         ", and there is no such file: its surfaces are grey"));
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::string> early_verdict(const ScenarioConfig& bench, VerdictOn on, bool keeps_frames) {
+    Lines out = bench.warnings;
+    if (on != VerdictOn::kPicture) append(idle_run_warnings(bench), out);
+    if (on == VerdictOn::kRun && !keeps_frames) append(no_output_warnings(bench), out);
+    append(idle_warnings(bench), out);
+    append(length_warnings(bench), out);
+    append(place_warnings(bench), out);
+    if (on != VerdictOn::kAll) return out;
+    for (std::size_t i = 0; i <= bench.more_cameras.size(); ++i)
+        append(machine_warnings(scenario_of_camera(bench, i)), out);
+    return out;
+}
+
+std::vector<std::string> verdict_on_objects(const LoadedView& view, VerdictOn on) {
+    const KeyPlaces places = view.scenario.places.labelled("");  // objects are those of all cameras
+    Lines out = warnings_of(view.objects, places);
+    for (std::size_t i = 0; i < view.objects.size(); ++i) {
+        const ObjectConfig& object = view.scenario.objects[i];
+        if (!object.has_mesh || (on != VerdictOn::kAll && view.objects[i].triangles > kMostTrianglesOnTheWay))
+            continue;
+        const auto same = [&](const ObjectConfig& before) { return before.mesh == object.mesh; };
+        const auto here = view.scenario.objects.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::any_of(view.scenario.objects.begin(), here, same)) continue;
+        append(mesh_warnings(object, fmt::format("objects.{}.mesh", i), places), out);
+    }
+    return out;
+}
+
+CameraReport report_view(const LoadedView& view, std::size_t number, const Pose& first_camera) {
+    const ScenarioConfig& s = view.scenario;
+    CameraReport report;
+    report.number = number;
+    report.sheet = camera_sheet(s.camera);
+    report.share_in_bins = share_in_bins(s.camera, SpectralGrid(s.spectrum_edges_um));
+    report.sight = first_sight(s, view.renderer, view.objects, report.sheet, first_camera);
+    if (s.mode == CameraMode::kFreeRun)
+        report.period_s = ShutterTiming(s.camera).period_s(s.camera.frame_rate_hz, report.sheet.exposure_s);
+    return report;
+}
+
+}  // namespace hilcam

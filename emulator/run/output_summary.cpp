@@ -1,0 +1,49 @@
+#include "emulator/run/output_summary.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "emulator/recording/recorder.h"
+#include "emulator/run/camera_station.h"
+
+namespace hilcam {
+
+std::vector<SinkReport> output_reports(const CameraStation& station) {
+    std::vector<SinkReport> out;
+    for (const FrameSink* sink : station.sinks()) out.push_back(sink->report());
+    return out;
+}
+
+SinkReport output_report(const RecorderReport& recorder) {
+    return {.name = "recording " + recorder.file,
+            .frames = recorder.frames,
+            .dropped = recorder.lost,
+            .fault = recorder.fault};
+}
+
+nlohmann::json counts_of(const SinkReport& output) {
+    return {{"name", output.name},
+            {"frames", output.frames},
+            {"dropped", output.dropped},
+            {"unwanted", output.unwanted}};
+}
+
+std::string line_of(const std::vector<SinkReport>& outputs) {
+    std::string out;
+    for (const SinkReport& o : outputs) {
+        if (o.frames + o.dropped + o.unwanted == 0) continue;
+        out += fmt::format("{}{} {} frame{}", out.empty() ? "" : "; ", o.name, o.frames,
+                           o.frames == 1 ? "" : "s");
+        if (o.dropped > 0) out += fmt::format(", {} lost", o.dropped);
+        if (o.unwanted > 0) out += fmt::format(", {} that nobody took", o.unwanted);
+    }
+    return out;
+}
+
+bool any_lost(const std::vector<SinkReport>& outputs) {
+    return std::any_of(outputs.begin(), outputs.end(), [](const SinkReport& o) { return o.dropped > 0; });
+}
+
+}  // namespace hilcam
