@@ -11,6 +11,7 @@
 #include "emulator/recording/program_version.h"
 #include "emulator/run/log_setup.h"
 #include "emulator/send/choice_option.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/send/send_command.h"
 #include "emulator/subcommands/subcommands.h"
 #include "emulator/subcommands/unknown_option.h"
@@ -20,22 +21,12 @@
 namespace hilcam {
 namespace {
 
-// Adds the subcommands in the order of the help.
-void add_subcommands(CLI::App& app, Action& action) {
-    add_run_command(app, action);
-    add_recording_command(app, action);
-    add_render_command(app, action);
-    add_check_command(app, action);
-    add_mesh_command(app, action);
-    add_ground_command(app, action);
-    add_bench_command(app, action);
-    add_tradeoff_command(app, action);
-    add_campaign_command(app, action);
-    add_characterise_command(app, action);
-    add_doctor_command(app, action);
-    add_manual_command(app, action);
-    add_send_command(app, action);
-    add_pages_command(app, action);
+// True when a command that only has others below it was named without one of those.
+bool lacks_subcommand(const CLI::App& app, const CLI::ParseError& error) {
+    const CLI::App* last = &app;
+    while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
+    return error.get_name() == "RequiredError" && last->get_require_subcommand_min() > 0 &&
+           last->remaining().empty();
 }
 
 // Prints help, version or what was wrong; returns the exit status.
@@ -49,6 +40,10 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
             fmt::print(stderr, "hilcam: {}\n", what);
             return 2;
         }
+    if (lacks_subcommand(app, error)) {
+        fmt::print(stderr, "{}", app.help());
+        return 2;
+    }
     // The library's words quote the command line.
     std::ostringstream help, problem;
     const int status = app.exit(error, help, problem);
@@ -77,13 +72,36 @@ int carry_out(const Action& action) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv) {
-    set_up_log();
-    CLI::App app{"hilcam: a spacecraft's camera for the test bench"};
+// The subcommands are added in the order of the help.
+void set_up_command_line(CLI::App& app, Action& action) {
+    app.name("hilcam");
+    app.description("hilcam: a spacecraft's camera for the test bench");
     app.set_version_flag("--version", fmt::format("{} ({})", kProgramVersion, program_commit()));
     app.require_subcommand(1);
+    set_examples(&app, {"hilcam list scenarios", "hilcam run small --frames 3",
+                        "hilcam run geo_inspection --preview 8080", "hilcam check --help"});
+    add_run_command(app, action);
+    add_recording_command(app, action);
+    add_render_command(app, action);
+    add_check_command(app, action);
+    add_list_command(app, action);
+    add_mesh_command(app, action);
+    add_ground_command(app, action);
+    add_bench_command(app, action);
+    add_tradeoff_command(app, action);
+    add_campaign_command(app, action);
+    add_characterise_command(app, action);
+    add_doctor_command(app, action);
+    add_manual_command(app, action);
+    add_send_command(app, action);
+    add_pages_command(app, action);
+}
+
+int run_command_line(int argc, char** argv) {
+    set_up_log();
+    CLI::App app;
     Action action;
-    add_subcommands(app, action);
+    set_up_command_line(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -87,7 +87,9 @@ Fields detector_fields(CameraModel& c) {
         number("diffusion_um", c.diffusion_m, 1e-6, {0, 100}, "standard deviation of charge diffusion"),
         number("crosstalk_fraction", c.crosstalk_fraction, 1, {0, 0.2},
                "share of a pixel's charge that goes to each of its four neighbours"),
-        section("color_filter", c.color_filter, "colour filter array"),
+        section("color_filter", c.color_filter,
+                "colour filter array; RGGB, GRBG, GBRG and BGGR are shipped with generic filters, and mono "
+                "is none"),
         required(number("full_well_e", c.full_well_e, 1, {10, 1e8}, "saturation capacity")),
         numbers("nonlinearity", c.nonlinearity, 1, {-0.5, 0.5}, {1, 2},
                 "a2, a3: charge is read as q (1 + a2 x + a3 x^2), x = q / full well"),

@@ -16,11 +16,17 @@ Fields fields(ColorFilterConfig& c) {
 Fields fields(ColorFilterArrayConfig& c) {
     return {
         text("pattern", c.pattern, "filters by letter, row by row, with a space between rows: RG GB"),
-        sections("filters", c.filters, "filters of the array, at most 8"),
+        sections("filters", c.filters, "filters of the array, at most 8; generic_rgb is shipped"),
     };
 }
 
 void validate(const ColorFilterArrayConfig& c) {
+    // One row of four letters would be stripes, which nobody means by this word.
+    for (const std::string bayer : {"RGGB", "GRBG", "GBRG", "BGGR"})
+        if (c.pattern == bayer)
+            throw InputError("color_filter.pattern: found '" + bayer +
+                             "', which is one row; accepted: " + bayer.substr(0, 2) + " " + bayer.substr(2) +
+                             "; or all of it as color_filter: " + bayer);
     if (c.filters.size() > 8)
         throw refused("color_filter.filters", std::to_string(c.filters.size()), "at most 8");
     for (const ColorFilterConfig& filter : c.filters)
@@ -34,7 +40,7 @@ void validate(const ColorFilterArrayConfig& c) {
             for (const ColorFilterConfig& filter : c.filters) known |= filter.name[0] == c.pattern[i];
             if (!known)
                 throw InputError("color_filter.pattern: no filter is named '" + std::string(1, c.pattern[i]) +
-                                 "'");
+                                 "'; 'filters: generic_rgb' has R, G and B");
             ++row;
             continue;
         }

@@ -1,6 +1,7 @@
 #include "emulator/bench/bench.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include "emulator/bench/pilot.h"
@@ -53,7 +54,8 @@ double copy_ms(const ScenarioConfig& scenario) {
     return median(times);
 }
 
-Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
+// share: of this run, told while it goes on.
+Run run_once(const ScenarioConfig& scenario, const BenchOptions& options, std::atomic<double>& share) {
     constexpr std::uint64_t kWarmUp = 20;
     RunLimits limits;
     limits.frames = kWarmUp + options.frames;
@@ -63,8 +65,11 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     Emulator emulator(scenario, limits);
     const std::optional<CircleFlight> flight = flight_of_pilot(scenario);
     {
-        const Progress progress("frames", static_cast<double>(limits.frames), [&emulator] {
-            return static_cast<double>(emulator.loop().counters().frames.load());
+        const auto frames = static_cast<double>(limits.frames);
+        const Progress progress("frames", frames, [&emulator, &share, frames] {
+            const auto done = static_cast<double>(emulator.loop().counters().frames.load());
+            share.store(std::min(1.0, done / frames));
+            return done;
         });
         // Once round in the frames of a run, so that every run sees the same views however fast it is.
         const double seconds_per_frame = flight ? flight->period_s / static_cast<double>(limits.frames) : 0;
@@ -143,10 +148,12 @@ Bench over_runs(const std::vector<Run>& runs) {
 
 Bench bench(const ScenarioConfig& scenario, const BenchOptions& options) {
     std::vector<Run> runs;
-    Progress progress("bench", options.runs);
+    std::atomic<double> done{0}, share{0};
+    const Progress progress("bench", options.runs, [&done, &share] { return done + share; });
     for (int i = 0; i < options.runs; ++i) {
-        runs.push_back(run_once(scenario, options));
-        progress.done(i + 1);
+        runs.push_back(run_once(scenario, options, share));
+        share = 0;
+        done = i + 1;
     }
     Bench out = over_runs(runs);
     out.scenario = scenario.name;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "emulator/progress/progress.h"
 #include "render/vocabulary/median.h"
 #include "render/vocabulary/stopwatch.h"
 #include "render/vocabulary/units.h"
@@ -192,12 +193,14 @@ SensorBench bench_sensor(const ScenarioConfig& scenario, int runs) {
     out.runs = runs;
     out.base = time_stage(base_rig, runs);
     out.floor_ms = out.base.fft_pair_ms + copy_ms(common, runs);
+    Progress progress("sensor stage", static_cast<double>(effects().size()));
     for (const Effect& effect : effects()) {
         CameraModel camera = common;
         Exposure exposure = plain;
         effect.turn_on(camera, exposure);
         Rig rig(camera, grid, sampling, picture, exposure);
         out.effects.push_back({effect.name, extra_ms(base_rig, rig, runs)});
+        progress.done(static_cast<double>(out.effects.size()));
     }
     return out;
 }

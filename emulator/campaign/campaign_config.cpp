@@ -6,7 +6,7 @@
 #include <set>
 
 #include "io/config/config_yaml.h"
-#include "io/system/program_files.h"
+#include "io/system/shipped_parts.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {

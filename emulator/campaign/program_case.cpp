@@ -18,6 +18,7 @@
 #include "emulator/scenario/app_config.h"
 #include "io/system/fd.h"
 #include "io/system/input_file.h"
+#include "io/system/program_files.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/stopwatch.h"
 
@@ -175,7 +176,7 @@ class BenchRun {
         };
         listen(scenario.commands.has_udp, "udp_port", "commands.udp.port", SOCK_DGRAM);
         listen(scenario.commands.has_tcp, "tcp_port", "commands.tcp.port", SOCK_STREAM);
-        arguments_ = {"/proc/self/exe", "run", campaign.scenario.string(), "--report",
+        arguments_ = {own_program().string(), "run", campaign.scenario.string(), "--report",
                       (folder / "report.json").string()};
         for (const std::string& override : overrides)
             arguments_.insert(arguments_.end(), {"--set", override});

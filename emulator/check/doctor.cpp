@@ -214,7 +214,10 @@ void look_at_time(const MachineFacts& m, Findings& out) {
         out.note("tai", "the kernel's TAI offset is 0", "ptp4l sets it; chrony with 'leapsectz right/UTC'");
     else
         out.good("tai", fmt::format("TAI - UTC = {} s", m.tai_offset_s));
-    out.good("pps", m.pps.empty() ? "none" : fmt::format("{}", fmt::join(m.pps, ", ")));
+    out.good("pps",
+             m.pps.empty()
+                 ? "none; nothing here needs one: with it chrony can hold the clock to a receiver's pulse"
+                 : fmt::format("{}", fmt::join(m.pps, ", ")));
 }
 
 constexpr double kLargeCache_bytes = 10e9;

@@ -130,6 +130,8 @@ void survey_triangles(const Mesh& mesh, MeshSurvey& out) {
         ++surface.triangles;
         surface.area_m2 += 0.5 * length(face);
     }
+    // Importers add a default material that nothing has.
+    std::erase_if(out.surfaces, [](const SurveyedSurface& surface) { return surface.triangles == 0; });
 }
 
 }  // namespace
@@ -205,8 +207,9 @@ std::string to_text(const MeshSurvey& s) {
         s.has_normals ? "with normals" : "without normals: flat");
     out += fmt::format("surfaces   {}\n", s.surfaces.size());
     for (const SurveyedSurface& surface : s.surfaces)
-        out += fmt::format("  {:>10} triangles  {:>10.4g} m2  '{}'{}\n", surface.triangles, surface.area_m2,
-                           harmless(surface.name), surface.textured ? ", with a texture" : "");
+        out += fmt::format("  {:>10} triangles  {:>10.4g} m2  {}{}\n", surface.triangles, surface.area_m2,
+                           surface.name.empty() ? "without a name" : "'" + harmless(surface.name) + "'",
+                           surface.textured ? ", with a texture" : "");
     out += fmt::format("nodes      {}\n", s.nodes.size());
     for (std::size_t i = 0; i < std::min(s.nodes.size(), kMaxNodes); ++i)
         out += fmt::format("  {:>10} triangles  {:{}}'{}'\n", s.nodes[i].triangles, "",

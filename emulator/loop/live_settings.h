@@ -90,6 +90,7 @@ class LiveSettings : public CameraControl {
     void wake() { news_.release(); }
     // No order will be looked at any more.
     void close() { closed_.store(true); }
+    bool is_closed() const { return closed_.load(); }
     // All frames of an order are rendered, or the order is dropped.
     void order_done() { done_.release(); }
     // True at once when there is a change or a trigger, or after 50 ms; false when the instant has come.

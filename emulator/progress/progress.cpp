@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -56,24 +57,26 @@ class ProgressLine {
     }
 
   private:
+    using Pause = std::chrono::duration<double>;
     // Work that is done sooner has no line.
-    static constexpr auto kFirstLine = 700ms, kBetweenLines = 250ms;
+    static constexpr Pause kFirstLine = 700ms, kBetweenLines = 250ms;
+    static constexpr std::size_t kColumnsOfLogs = 200;
 
     void run(const std::stop_token& over) {
         std::unique_lock lock(mutex_);
         bool written = false;
         const auto never = [] { return false; };
-        for (auto pause = kFirstLine;; pause = kBetweenLines) {
+        for (Pause pause = terminal_ ? kFirstLine : between_;; pause = terminal_ ? kBetweenLines : between_) {
             news_.wait_for(lock, over, pause, never);
             if (over.stop_requested()) break;
             if (works_.empty()) continue;
-            write(text() + "\r");
+            write(terminal_ ? over_line(text(columns()) + "\r") : text(kColumnsOfLogs) + "\n");
             written = true;
         }
-        if (written) write("");
+        if (written && terminal_) write(over_line(""));
     }
     // Called with the lock.
-    std::string text() const {
+    std::string text(std::size_t columns) const {
         std::vector<ProgressItem> items;
         for (const auto& work : works_) {
             ProgressItem item{
@@ -82,7 +85,7 @@ class ProgressLine {
             if (work->steps > 0) item.fraction = std::clamp(done / work->steps, 0.0, 1.0);
             items.push_back(item);
         }
-        return "hilcam: " + progress_text(items, columns() - 9);
+        return "hilcam: " + progress_text(items, columns - 9);
     }
     static std::size_t columns() {
         winsize size{};
@@ -90,12 +93,14 @@ class ProgressLine {
         return known ? size.ws_col : 80;
     }
     // Clears the line first. The cursor stays at its beginning, where the next message is written over it.
-    static void write(const std::string& text) {
-        const std::string bytes = "\r\x1b[K" + text;
+    static std::string over_line(const std::string& text) { return "\r\x1b[K" + text; }
+    static void write(const std::string& bytes) {
         [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, bytes.data(), bytes.size());
     }
 
-    bool shown_ = isatty(STDERR_FILENO) == 1;
+    const bool terminal_ = isatty(STDERR_FILENO) == 1;
+    const Pause between_{seconds_between_lines(std::getenv("HILCAM_PROGRESS_S"))};
+    bool shown_ = terminal_ || between_ > Pause::zero();
     std::mutex mutex_;
     std::condition_variable_any news_;
     std::vector<std::shared_ptr<Progress::Work>> works_;

@@ -1,6 +1,7 @@
 #pragma once
-// Tells how far long work is while the object lives: on one line of standard error, where that is a terminal,
-// with the time that is left by the pace so far. Elsewhere nothing is written and no thread runs.
+// Tells how far long work is while the object lives, with the time that is left by the pace so far: on one line of
+// standard error, which is written over, where that is a terminal; elsewhere, as in a log, by a line each 30 s.
+// $HILCAM_PROGRESS_S is another number of seconds between such lines; 0: there are none, and no thread runs.
 //
 // Work within work makes a Progress of its own: the line has the outermost, whose time it tells, and the
 // innermost. Not for a camera's loop: functions here lock. Who may be watched from outside gives `look`

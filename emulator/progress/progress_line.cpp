@@ -5,9 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/system/text_number.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
+
+double seconds_between_lines(const char* text) {
+    constexpr double kUsual_s = 30, kLeast_s = 0.1, kMost_s = 1e6;
+    if (text == nullptr) return kUsual_s;
+    const std::optional<double> seconds = number_of(text);
+    if (!seconds || !(*seconds >= 0)) return kUsual_s;
+    return *seconds == 0 ? 0 : std::clamp(*seconds, kLeast_s, kMost_s);
+}
 
 std::string duration_text(double seconds) {
     const auto s = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
@@ -24,9 +33,10 @@ std::optional<double> left_s(const ProgressItem& item) {
 }
 
 std::string progress_text(const std::vector<ProgressItem>& items, std::size_t max_columns) {
+    // Work that has hardly begun counts no steps yet: "0 %" would look like one that stands.
     const auto named = [](const ProgressItem& item) {
-        return item.fraction ? fmt::format("{} {:.0f} %", item.what, std::floor(100 * *item.fraction))
-                             : item.what;
+        const double percent = std::floor(100 * item.fraction.value_or(0));
+        return percent >= 1 ? fmt::format("{} {:.0f} %", item.what, percent) : item.what;
     };
     const ProgressItem& first = items.front();
     std::string text = fmt::format("{}, {}", named(first), duration_text(first.elapsed_s));

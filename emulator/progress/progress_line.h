@@ -14,6 +14,9 @@ struct ProgressItem {
     double elapsed_s = 0;
 };
 
+// Returns the time between two lines of a log by the text of $HILCAM_PROGRESS_S: 30 s where there is none, or it is
+// no number; 0: no lines.
+double seconds_between_lines(const char* text);
 // "8 s", "2 min 5 s", "1 h 3 min".
 std::string duration_text(double seconds);
 // Returns the time left by the pace so far; none in the first second, or before a hundredth is done.

@@ -4,6 +4,7 @@
 
 #include "emulator/recording/recorder.h"
 #include "emulator/run/event_director.h"
+#include "io/contract/refused_settings.h"
 #include "render/vocabulary/overloaded.h"
 
 namespace hilcam {
@@ -23,6 +24,13 @@ CommandStatus status_of(TriggerResult result) {
             break;
     }
     return CommandStatus::kNotNow;
+}
+
+// The status of a trigger; a camera whose run is over says so.
+CommandStatus answer_of(const CommandedCamera& camera, TriggerResult result, CommandNotes* notes) {
+    if (notes && result == TriggerResult::kNotArmed && camera.settings->is_closed())
+        notes->why = "the run ends: no more frames are taken (--frames, --duration, or it was stopped)";
+    return status_of(result);
 }
 
 SettingsChange change_of(const SettingsCommand& s) {
@@ -215,12 +223,15 @@ std::int64_t CommandDispatch::settings_hold_from(const CommandSource& source) co
 CommandStatus CommandDispatch::change(const SettingsChange& change, const CommandSource& source,
                                       CommandStatus refused) {
     const std::int64_t from_ns = settings_hold_from(source);
+    const auto judged = [&](LiveSettings& settings, bool is_done) {
+        if (!is_done && source.notes && source.notes->why.empty())
+            source.notes->why = refusal_of(change, settings.settings(), settings.limits());
+        return is_done ? CommandStatus::kAccepted : refused;
+    };
     const auto change_all = [&](const auto& is_done) {
         return for_cameras(
             source.camera,
-            [&](const CommandedCamera& c) {
-                return is_done(*c.settings) ? CommandStatus::kAccepted : refused;
-            },
+            [&](const CommandedCamera& c) { return judged(*c.settings, is_done(*c.settings)); },
             source.notes);
     };
     const CommandStatus status = change_all([&](const LiveSettings& s) { return s.takes(change); });
@@ -243,7 +254,8 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
     order.at_monotonic_ns = source.arrival_monotonic_ns;
     if (e.time.ns != 0) order.at_simulated = tag;
     return for_cameras(
-        source.camera, [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); },
+        source.camera,
+        [&](const CommandedCamera& c) { return answer_of(c, c.settings->trigger(order), source.notes); },
         source.notes);
 }
 
@@ -273,7 +285,9 @@ CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, con
 CommandStatus CommandDispatch::run_order(const TriggerOrder& order, const CommandSource& source) {
     const CommandStatus status = for_cameras(
         source.camera,
-        [&](const CommandedCamera& c) { return status_of(c.settings->order_in_lockstep(order)); },
+        [&](const CommandedCamera& c) {
+            return answer_of(c, c.settings->order_in_lockstep(order), source.notes);
+        },
         source.notes);
     const CommandStatus done = for_cameras(source.camera, [&](const CommandedCamera& c) {
         return c.settings->wait_for_order(kPatience_s) ? CommandStatus::kAccepted : CommandStatus::kBusy;

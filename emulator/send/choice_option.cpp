@@ -13,6 +13,7 @@ std::string unknown_subcommand(const CLI::App& app) {
     std::vector<std::string> names;
     std::string list;
     for (const CLI::App* sub : last->get_subcommands([](const CLI::App*) { return true; })) {
+        if (sub->get_group().empty()) continue;  // hidden
         names.push_back(sub->get_name());
         list += " " + sub->get_name();
     }

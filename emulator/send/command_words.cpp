@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "emulator/send/choice_option.h"
+#include "emulator/send/command_examples.h"
 #include "io/contract/fault.h"
 #include "render/vocabulary/attitude.h"
 #include "render/vocabulary/check.h"
@@ -40,9 +41,15 @@ void on(CLI::App* app, const Take& take, Make make) {
 Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 void add_simple(CLI::App& app, const Take& take) {
-    app.add_subcommand("ping", "ask for the simulated time")->callback([take] { take(PingCommand{1}); });
-    app.add_subcommand("start", "let the camera take frames")->callback([take] { take(StartCommand{}); });
-    app.add_subcommand("stop", "let the camera pause")->callback([take] { take(StopCommand{}); });
+    const auto add = [&](const char* name, const char* meaning, std::string_view example,
+                         const Command& command) {
+        CLI::App* sub = app.add_subcommand(name, meaning);
+        sub->callback([take, command] { take(command); });
+        set_examples(sub, {example});
+    };
+    add("ping", "ask for the simulated time", "hilcam send --to 127.0.0.1:5010 ping", PingCommand{1});
+    add("start", "let the camera take frames", "hilcam send start", StartCommand{});
+    add("stop", "let the camera pause", "hilcam send stop", StopCommand{});
 }
 
 void add_settings(CLI::App& app, const Take& take) {
@@ -54,6 +61,7 @@ void add_settings(CLI::App& app, const Take& take) {
     CLI::Option* exposure = settings->add_option("--exposure-ms", o->exposure_ms);
     CLI::Option* gain = settings->add_option("--gain-db", o->gain_db);
     CLI::Option* rate = settings->add_option("--frame-rate-hz", o->frame_rate_hz);
+    set_examples(settings, {"hilcam send settings --exposure-ms 5 --gain-db 6"});
     on(settings, take, [=] {
         SettingsCommand command;
         if (exposure->count()) command.exposure_s = o->exposure_ms * 1e-3;
@@ -130,6 +138,8 @@ void add_pose(CLI::App& app, const Take& take) {
     pose->add_option("--velocity-m-s", o->velocity_m_s, "x y z in the world");
     pose->add_option("--at-utc", o->utc, "simulated time at which it is true; left out: on arrival");
     pose->add_option("--rate-deg-s", o->rate_deg_s, "x y z about the body axes");
+    set_examples(pose, {"hilcam send pose --position-m 40 27 13 --look-at-m 0 0 0",
+                        "hilcam send pose --object 1 --position-m 0 0 0 --attitude 1 0 0 0"});
     on(pose, take, [=] {
         PoseCommand command;
         command.object = static_cast<std::uint16_t>(o->object);
@@ -160,6 +170,7 @@ void add_joint(CLI::App& app, const Take& take) {
     joint->add_option("--angle-deg", o->angle_deg, "angle from the file's own state")->required();
     joint->add_option("--rate-deg-s", o->rate_deg_s, "rate of turn from then on");
     joint->add_option("--at-utc", o->utc, "simulated time at which it is true; left out: on arrival");
+    set_examples(joint, {"hilcam send joint --object 1 --joint 1 --angle-deg 30 --rate-deg-s 0.5"});
     on(joint, take, [=] {
         return JointCommand{static_cast<std::uint16_t>(o->object), static_cast<std::uint16_t>(o->joint),
                             o->utc.empty() ? TimeTai{} : parse_utc(o->utc), o->angle_deg * kDegree_rad,
@@ -179,6 +190,7 @@ void add_lamp(CLI::App& app, const Take& take) {
     lamp->add_option("--lamp", o->lamp, "1, 2, ...: the scenario's lamps")->check(CLI::Range(1, 65535));
     CLI::Option* level = lamp->add_option("--level", o->level, "on: share of its intensity, 0 to 1");
     lamp->add_option("--at-utc", o->utc, "simulated time of the switch; left out: on arrival");
+    set_examples(lamp, {"hilcam send lamp on --lamp 1 --level 0.5", "hilcam send lamp off --lamp 1"});
     on(lamp, take, [=] {
         const bool off = o->what == "off";
         if (off && level->count()) throw InputError("'off' and --level do not go together");
@@ -201,6 +213,7 @@ void add_expose(CLI::App& app, const Take& take) {
         "--at-utc", o->utc,
         "simulated time of the trigger, in lockstep of the exposure's middle; left out: now, in "
         "lockstep a frame period on");
+    set_examples(expose, {"hilcam send expose --frames 3"});
     on(expose, take, [=] {
         return ExposeCommand{o->utc.empty() ? TimeTai{} : parse_utc(o->utc),
                              static_cast<std::uint16_t>(o->frames)};
@@ -220,6 +233,8 @@ void add_clock(CLI::App& app, const Take& take) {
         clock->add_option("--scale", o->scale, "simulated seconds in one of the machine's")->excludes(what);
     CLI::Option* seconds = clock->add_option("--seconds", o->seconds,
                                              "step: simulated time that goes by before it stands again");
+    set_examples(
+        clock, {"hilcam send clock", "hilcam send clock --scale 10", "hilcam send clock step --seconds 60"});
     on(clock, take, [=] {
         using Action = ClockCommand::Action;
         ClockCommand command;
@@ -254,6 +269,7 @@ void add_mode(CLI::App& app, const Take& take) {
         ->check(CLI::IsMember({"free_run", "free-run", "triggered"}));
     mode->add_option("--burst-frames", o->burst_frames, "frames of each trigger; left out: as it is")
         ->check(CLI::Range(1, 65535));
+    set_examples(mode, {"hilcam send mode triggered --burst-frames 3", "hilcam send mode free_run"});
     on(mode, take, [=] {
         return TriggerModeCommand{o->mode == "triggered", static_cast<std::uint16_t>(o->burst_frames)};
     });
@@ -286,6 +302,9 @@ void add_fault(CLI::App& app, const Take& take, const std::function<void()>& lis
         if (!refusal.empty()) throw InputError(o->name + ": " + std::string(refusal));
         return command;
     };
+    set_examples(fault,
+                 {"hilcam send fault list", "hilcam send fault packet_drop --rate 0.01 --duration-s 10",
+                  "hilcam send fault clear"});
     fault->callback([=] {
         if (list_faults && o->name == "list") return list_faults();
         hand_over(fault, take, make);

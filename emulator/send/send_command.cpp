@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "emulator/send/choice_option.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/send/command_words.h"
 #include "emulator/send/send_clock.h"
 #include "emulator/send/send_fly.h"
@@ -93,6 +94,8 @@ void add_send_command(CLI::App& app, std::function<int()>& action) {
     CLI::App* send = app.add_subcommand("send", "send commands to a running emulator");
     send->require_subcommand(1);
     add_target(*send, o->target);
+    set_examples(send, {"hilcam send ping", "hilcam send settings --exposure-ms 5",
+                        "hilcam send --to tcp:127.0.0.1:5010 watch", "hilcam send pose --help"});
     add_command_words(
         *send,
         [&action, o](const Command& command) {
@@ -102,12 +105,15 @@ void add_send_command(CLI::App& app, std::function<int()>& action) {
         [&action] { action = list_faults; });
     CLI::App* fly = send->add_subcommand("fly", "fly on a circle around a point, looking at it");
     add_fly_options(*fly, o->fly);
+    set_examples(fly, {"hilcam send fly --around-m 0 0 0 --from-m 40 0 0 --period-s 120"});
     fly->callback([&action, o] { action = [o] { return send_flight(o->target, o->fly); }; });
     CLI::App* watch = send->add_subcommand("watch", "print frame reports and housekeeping as they come");
     add_watch_options(*watch, o->watch);
+    set_examples(watch, {"hilcam send watch"});
     watch->callback([&action, o] { action = [o] { return watch_telemetry(o->target, o->watch); }; });
     CLI::App* script = send->add_subcommand("script", "send the commands of a file, each at its time");
     script->add_option("file", o->script, "lines: [@SECONDS or +SECONDS] and a command as here")->required();
+    set_examples(script, {"hilcam send script approach.txt"});
     script->callback([&action, o] { action = [o] { return play_script(*o); }; });
 }
 

@@ -11,6 +11,7 @@
 
 #include "emulator/scenario/app_config.h"
 #include "emulator/subcommands/subcommands.h"
+#include "io/system/shipped_parts.h"
 
 namespace hilcam {
 
@@ -23,8 +24,12 @@ struct ConfigArguments {
 void add_config(CLI::App* command, ConfigArguments& config);
 // Adds --set alone. whose: "the scenario", as the help says whose keys are replaced.
 void add_overrides(CLI::App* command, std::vector<std::string>& overrides, const std::string& whose);
-// Puts a shipped file's path in the place of its name, and refuses a name that is neither that nor a file.
+// Puts a shipped file's path in the place of its name, and refuses a name that is neither that nor a file: of a
+// scenario or a camera; of a part of that kind (io/system/shipped_parts.h).
 CLI::Validator name_of_shipped();
+CLI::Validator name_of_shipped(const ShippedKind& kind);
+// Says why there is no shipped part on this machine; empty: there are.
+std::string without_shipped_parts();
 
 // Adds --camera, which counts from 1; 0 stays where the command line does not say it.
 void add_camera(CLI::App* command, std::size_t& camera);

@@ -8,6 +8,7 @@
 #include "emulator/bench/bench_report.h"
 #include "emulator/bench/soak_report.h"
 #include "emulator/run/report.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "emulator/tradeoff/error_bench.h"
@@ -140,6 +141,8 @@ void add_bench_command(CLI::App& app, Action& action) {
     bench->add_option("--runs", o->speed.runs, "number of runs, of which the median is taken")
         ->check(CLI::Range(1, 1000));
     add_error_options(bench, *o, add_soak_options(bench, *o));
+    set_examples(bench, {"hilcam bench small", "hilcam bench geo_inspection --soak 3600 --out soak",
+                         "hilcam bench geo_inspection --error --views 4"});
     when_named(bench, action, o, carry_out);
 }
 

@@ -6,8 +6,10 @@
 #include "emulator/campaign/case_record.h"
 #include "emulator/campaign/slurm_script.h"
 #include "emulator/run/page_maker.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
+#include "io/system/program_files.h"
 #include "io/system/text_number.h"
 #include "render/vocabulary/quoted.h"
 
@@ -65,7 +67,7 @@ double seconds_of_case(const CampaignConfig& campaign, const CampaignOptions& op
 int go_to_slurm(const CampaignArguments& o, const CampaignConfig& campaign) {
     const double case_s = seconds_of_case(campaign, o.options);
     SlurmPlan plan{campaign.name,
-                   std::filesystem::read_symlink("/proc/self/exe"),
+                   program_file(),
                    std::filesystem::absolute(o.config.file),
                    std::filesystem::absolute(o.options.out),
                    o.config.overrides,
@@ -137,6 +139,8 @@ void add_campaign_command(CLI::App& app, Action& action) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->needs(slurm);
+    set_examples(campaign, {"hilcam campaign views.yaml --out views",
+                            "hilcam campaign views.yaml --out views --case 17 --retry"});
     when_named(campaign, action, o, carry_out);
 }
 

@@ -6,6 +6,7 @@
 
 #include "emulator/characterise/characterise_report.h"
 #include "emulator/scenario/scene_loader.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "io/config/config_yaml.h"
 #include "render/vocabulary/check.h"
@@ -45,6 +46,7 @@ void add_characterise_command(CLI::App& app, Action& action) {
     add_overrides(command, o->camera.overrides, "the camera");
     command->add_flag("--json", o->json, "machine-readable");
     command->add_option("--out", o->out, "folder for JSON, curves (CSV) and a page with plots");
+    set_examples(command, {"hilcam characterise mv_imx249", "hilcam characterise lorri --out lorri_sheet"});
     when_named(command, action, o, carry_out);
 }
 

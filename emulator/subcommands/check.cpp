@@ -6,7 +6,9 @@
 
 #include "emulator/check/calibration.h"
 #include "emulator/check/check_command.h"
+#include "emulator/progress/progress.h"
 #include "emulator/send/choice_option.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "io/config/config_yaml.h"
@@ -36,7 +38,10 @@ std::string calibrations(const CheckArguments& o) {
 Checked sheet_of_scenario(const CheckArguments& o) {
     const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
     require_camera(o.camera, scenario);
-    const CheckReport report = in_memory(scenario, [&] { return check_scenario(scenario, o.camera); });
+    const CheckReport report = in_memory(scenario, [&] {
+        const Progress progress("check " + scenario.name);
+        return check_scenario(scenario, o.camera);
+    });
     return {o.json ? to_json(report) : to_text(report), !report.warnings.empty()};
 }
 
@@ -68,6 +73,8 @@ void add_check_command(CLI::App& app, Action& action) {
                                    {"kalibr", CalibrationFormat::kKalibr}},
                                   "print the cameras' calibration instead (YAML; docs/check.md)")
         ->excludes(json);
+    set_examples(check, {"hilcam check geo_inspection", "hilcam check lorri",
+                         "hilcam check stereo --camera 2 --calibration opencv"});
     when_named(check, action, o, carry_out);
 }
 

@@ -4,6 +4,7 @@
 
 #include "emulator/check/doctor.h"
 #include "emulator/check/doctor_facts.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "io/files/mesh_cache.h"
@@ -48,6 +49,7 @@ void add_doctor_command(CLI::App& app, Action& action) {
     doctor->add_flag(
         "--clear-cache", o->clear_cache,
         "remove what earlier runs have kept ($HILCAM_CACHE, else ~/.cache/hilcam), and do nothing else");
+    set_examples(doctor, {"hilcam doctor", "hilcam doctor geo_inspection"});
     when_named(doctor, action, o, carry_out);
 }
 

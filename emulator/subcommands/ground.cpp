@@ -5,6 +5,7 @@
 #include "emulator/run/ground_footprint.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/scenario/site.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "render/vocabulary/units.h"
@@ -119,6 +120,8 @@ void add_ground_command(CLI::App& app, Action& action) {
     ground->add_option("--smallest-px", o->seen.smallest_px, "footprint: least diameter in the picture [px]")
         ->check(CLI::Range(0.1, 1e4));
     ground->add_option("--out", o->out, "footprint: picture of the hazards, .exr");
+    set_examples(ground, {"hilcam ground lunar_landing --list craters --within-m 500",
+                          "hilcam ground lunar_landing --list heights --at 23.47 0.67"});
     when_named(ground, action, o, carry_out);
 }
 

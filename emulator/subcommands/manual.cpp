@@ -8,6 +8,7 @@
 #include "emulator/recording/program_version.h"
 #include "emulator/run/report.h"
 #include "emulator/scenario/app_config.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/command_pages.h"
 #include "io/config/config_keys.h"
@@ -60,6 +61,7 @@ void add_manual_command(CLI::App& app, Action& action) {
                    "print a JSON Schema (draft 2020-12) of a scenario file, or of a file that holds the "
                    "section PREFIX")
         ->excludes(json);
+    set_examples(manual, {"hilcam manual camera.shutter", "hilcam manual camera --schema"});
     when_named(manual, action, o, carry_out);
 }
 

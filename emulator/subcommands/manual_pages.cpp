@@ -83,6 +83,17 @@ std::string see_also(const std::string& pages) {
            "bin/hilcam.\n";
 }
 
+// The examples of a command and of those below it; empty: there are none.
+std::string examples(const CommandText& command) {
+    std::string lines;
+    const auto add = [&](const CommandText& of) {
+        for (const std::string& example : of.examples) lines += roff(example) + "\n";
+    };
+    add(command);
+    for (const CommandText& below : command.commands) add(below);
+    return lines.empty() ? "" : ".SH EXAMPLES\n.nf\n" + lines + ".fi\n";
+}
+
 constexpr const char* kEnds =
     ".SH EXIT STATUS\n0 done, 1 failed at run time, 2 wrong usage or configuration. Messages go to standard "
     "error, data to standard output.\n";
@@ -96,7 +107,7 @@ std::string subcommand_page(const CommandText& command, const std::string& versi
         out += ".SS " + roff(below.name) + "\n" +
                synopsis("hilcam " + command.name + " " + below.name, below) + "\n.PP\n" +
                roff(below.meaning) + "\n" + option_list(below);
-    return out + kEnds + see_also(".BR hilcam (1)");
+    return out + examples(command) + kEnds + see_also(".BR hilcam (1)");
 }
 
 std::string main_page(const CommandText& program, const std::string& version) {
@@ -113,10 +124,15 @@ std::string main_page(const CommandText& program, const std::string& version) {
     for (const CommandText& command : program.commands)
         out += ".TP\n.BR hilcam\\-" + roff(command.name) + " (1)\n" + roff(command.meaning) + "\n";
     out += ".SH OPTIONS\n" + option_list(program);
-    out += kEnds;
+    CommandText alone = program;  // those of subcommands are in their own pages
+    alone.commands.clear();
+    out += examples(alone) + kEnds;
     out +=
         ".SH ENVIRONMENT\n.TP\nHILCAM_CACHE\nfolder of what takes long to make; else $XDG_CACHE_HOME/hilcam, "
-        "else ~/.cache/hilcam\n.TP\nNOTIFY_SOCKET\ntold when the camera is ready and when it stops, as by "
+        "else ~/.cache/hilcam\n.TP\nHILCAM_PROGRESS_S\nseconds between two lines that say how far long work "
+        "is, where standard error "
+        "is no terminal [30]; 0: none\n.TP\nNOTIFY_SOCKET\ntold when the camera is ready and when it stops, "
+        "as by "
         ".BR sd_notify (3)\n";
     std::string pages;
     for (const CommandText& command : program.commands)

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "emulator/check/mesh_survey.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 
 namespace hilcam {
@@ -26,10 +27,14 @@ void add_mesh_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<MeshArguments>();
     CLI::App* mesh =
         app.add_subcommand("mesh", "say how large a mesh file is, what it is made of, what is wrong with it");
-    mesh->add_option("file", o->file, "GLB, glTF, OBJ, STL or PLY file, or a shape (.tab, .plt, .icq, .bds)")
-        ->required();
+    mesh->add_option(
+            "file", o->file,
+            "GLB, glTF, OBJ, STL or PLY file, a shape (.tab, .plt, .icq, .bds), or a shipped one's name")
+        ->required()
+        ->transform(name_of_shipped(*shipped_kind("meshes")));
     mesh->add_option("--surface", o->surface, "code of the surface, of a shape kernel (.bds) with several");
     mesh->add_flag("--json", o->json, "machine-readable");
+    set_examples(mesh, {"hilcam mesh asteroid", "hilcam mesh corner_mirrors --json"});
     when_named(mesh, action, o, carry_out);
 }
 

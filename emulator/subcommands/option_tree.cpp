@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <regex>
 
+#include "emulator/send/command_examples.h"
+
 namespace hilcam {
 namespace {
 
@@ -71,7 +73,7 @@ OptionText described(const CLI::Option& option) {
 }  // namespace
 
 CommandText described(const CLI::App& app) {
-    CommandText out{app.get_name(), app.get_description(), {}, {}};
+    CommandText out{app.get_name(), app.get_description(), {}, {}, examples_of(app)};
     for (const CLI::Option* option : app.get_options())
         if (!option->get_group().empty()) out.options.push_back(described(*option));
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

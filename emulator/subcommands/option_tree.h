@@ -23,6 +23,7 @@ struct CommandText {
     std::string meaning;
     std::vector<OptionText> options;
     std::vector<CommandText> commands;
+    std::vector<std::string> examples;  // command lines (emulator/send/command_examples.h)
 };
 
 // A command with all below it, but for what is hidden (of the group ""). Owner thread.

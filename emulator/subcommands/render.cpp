@@ -5,11 +5,13 @@
 #include <algorithm>
 
 #include "emulator/check/scenario_verdict.h"
+#include "emulator/progress/progress.h"
 #include "emulator/recording/run_seed.h"
 #include "emulator/run/render_command.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/send/choice_option.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 
@@ -40,6 +42,7 @@ int carry_out(const RenderArguments& o) {
     log_warnings(early_verdict(scenario, VerdictOn::kPicture));
     if (o.camera == 0 && !scenario.more_cameras.empty())
         spdlog::info("camera 1 of {}; --camera N for another", 1 + scenario.more_cameras.size());
+    const Progress progress("render " + scenario.name);
     return in_memory(scenario, [&] {
         const std::size_t camera = std::max<std::size_t>(1, o.camera);
         render_to_files(scenario, o.stage, o.time_offset_s, o.files, camera, log_picture_verdict);
@@ -75,6 +78,9 @@ void add_render_command(CLI::App& app, Action& action) {
     add_camera(render, o->camera);
     render->add_flag("--overwrite", o->files.overwrite,
                      "replace a run's frame, or a truth that is there already");
+    set_examples(render, {"hilcam render small --out small.png --view small_view.png",
+                          "hilcam render moon_flyby --time-offset-s 600 --out moon.png",
+                          "hilcam render small --set quality=still --stage radiance --out small.exr"});
     when_named(render, action, o, carry_out);
 }
 

@@ -7,12 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/check/scenario_verdict.h"
+#include "emulator/progress/progress.h"
 #include "emulator/recording/run_seed.h"
 #include "emulator/run/emulator.h"
 #include "emulator/run/output_summary.h"
 #include "emulator/run/report.h"
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/scene_loader.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 
@@ -110,7 +112,10 @@ int carry_out(const RunArguments& o) {
     log_warnings(limits.replay.empty() ? early_verdict(scenario, VerdictOn::kRun, !limits.record.empty())
                                        : scenario.warnings);
     spdlog::info("loading {}", scenario.name);
-    const auto emulator = in_memory(scenario, [&] { return std::make_unique<Emulator>(scenario, limits); });
+    const auto emulator = in_memory(scenario, [&] {
+        const Progress progress("loading " + scenario.name);
+        return std::make_unique<Emulator>(scenario, limits);
+    });
     if (limits.replay.empty()) log_run_verdict(*emulator);
     warn_of_dark_pictures(scenario);
     emulator->run([&] { say_that_it_runs(scenario); });
@@ -138,6 +143,9 @@ void add_run_command(CLI::App& app, Action& action) {
         ->needs(replay);
     run->add_flag("--force", o->limits.replay_force, "replay a recording of another scenario or version, too")
         ->needs(replay);
+    set_examples(run,
+                 {"hilcam run small --frames 3", "hilcam run geo_inspection --preview 8080 --duration 60",
+                  "hilcam run small --set outputs.files.folder=/tmp/frames --report run.json"});
     when_named(run, action, o, carry_out);
 }
 

@@ -17,6 +17,7 @@ void add_run_command(CLI::App& app, Action& action);
 void add_recording_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
+void add_list_command(CLI::App& app, Action& action);
 void add_mesh_command(CLI::App& app, Action& action);
 void add_ground_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);

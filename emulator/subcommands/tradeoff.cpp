@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "emulator/run/report.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "emulator/tradeoff/tradeoff_report.h"
@@ -66,6 +67,7 @@ void add_tradeoff_command(CLI::App& app, Action& action) {
         ->add_option("--reference-set", o->options.reference_set,
                      "KEY=VALUE replaces a value of the reference; may be repeated")
         ->allow_extra_args(false);
+    set_examples(tradeoff, {"hilcam tradeoff small --out small_tradeoff --budget-s 120"});
     when_named(tradeoff, action, o, carry_out);
 }
 

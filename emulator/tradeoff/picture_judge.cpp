@@ -7,6 +7,7 @@
 
 #include "emulator/characterise/characterise_setup.h"
 #include "emulator/progress/progress.h"
+#include "emulator/progress/progress_line.h"
 #include "emulator/tradeoff/structural_similarity.h"
 #include "render/visibility/screen_bounds.h"
 #include "render/vocabulary/stopwatch.h"
@@ -77,6 +78,13 @@ double saturation_of(const CameraModel& camera) {
     return configured_saturation_e(camera, gain_db_of(camera));
 }
 
+constexpr double kLongReference_s = 1800;
+
+// Tenths of seconds where it is a matter of seconds.
+std::string wait_text(double seconds) {
+    return seconds < 10 ? fmt::format("{:.2g} s", seconds) : duration_text(seconds);
+}
+
 }  // namespace
 
 ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, const ReferenceLimits& limits,
@@ -99,8 +107,14 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
             halves[out.frames % 2].add(picture);
             if (out.frames > 0) continue;
             const double frame_s = watch.seconds();
-            log(fmt::format("a frame of the reference takes {:.2g} s: {:.2g} s for 4, up to {:.2g} s for {}",
-                            frame_s, 4 * frame_s, limits.max_frames * frame_s, limits.max_frames));
+            log(fmt::format("a frame of the reference takes {}: {} for 4, up to {} for {}",
+                            wait_text(frame_s), wait_text(4 * frame_s),
+                            wait_text(limits.max_frames * frame_s), limits.max_frames));
+            // Half an hour before the sweep begins is seldom what was meant.
+            if (4 * frame_s > kLongReference_s)
+                log("that is long: --set camera.window_px=[LEFT, TOP, WIDTH, HEIGHT] measures a part of the "
+                    "picture, "
+                    "--set objects.0.mesh=... a simpler one, --reference-set a cheaper reference");
         }
         out.standard_error = noise_error(halves[0].mean(), halves[1].mean(), out.dark, noise);
         out.standard_error.p99 *= 0.5, out.standard_error.rms *= 0.5;

@@ -109,8 +109,6 @@ std::string_view meaning_of(CommandStatus status) {
 }
 
 std::string_view meaning_of(CommandStatus status, const Command& command) {
-    if (status == CommandStatus::kBadArgument && std::holds_alternative<SettingsCommand>(command))
-        return "outside the camera's limits, or set by the camera itself (automatic, sequence, line_scan)";
     if (status != CommandStatus::kNotNow) return meaning_of(status);
     if (std::holds_alternative<ExposeCommand>(command))
         return "no trigger is taken in free_run ('hilcam send mode triggered') or when stopped ('... start')";

@@ -19,8 +19,11 @@ CommandSender::CommandSender(const std::string& endpoint, const DialectConfig& d
       stream_(answer_rule(dialect)) {}
 
 DeviceError CommandSender::silent(int timeout_ms) const {
-    return DeviceError("no acknowledgement from " + endpoint_ + " within " + std::to_string(timeout_ms) +
-                       " ms; is 'hilcam run' up and listening there?");
+    const char* const other = dialect_.dialect == Dialect::kCfs ? "hilcam" : "cfs";
+    return DeviceError(
+        "no acknowledgement from " + endpoint_ + " within " + std::to_string(timeout_ms) +
+        " ms; is 'hilcam run' up and listening there, and not in the other dialect (--dialect " + other +
+        ")?");
 }
 
 bool CommandSender::next_packet(std::span<const std::uint8_t>& packet, std::int64_t deadline_ns) {

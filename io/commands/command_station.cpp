@@ -109,8 +109,9 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
         if (notes.tell_sender)
             out.reason = name_of(CommandStatus::kTimeBackwards);
         else if (out.status != CommandStatus::kAccepted)
-            out.reason = (notes.refused_by > 0 ? "camera " + std::to_string(notes.refused_by) + ": " : "") +
-                         std::string(meaning_of(out.status, decoded.command));
+            out.reason =
+                (notes.refused_by > 0 ? "camera " + std::to_string(notes.refused_by) + ": " : "") +
+                (notes.why.empty() ? std::string(meaning_of(out.status, decoded.command)) : notes.why);
         if (const auto* ping = std::get_if<PingCommand>(&decoded.command)) out.token = ping->token;
     }
     const std::uint64_t went_back = notes.went_back ? 1 : 0;

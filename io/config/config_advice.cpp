@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/config/config_keys.h"
+#include "io/config/data_sheet_words.h"
 #include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
@@ -62,6 +63,20 @@ std::vector<std::string> places_of(std::string_view key, const Fields& root) {
     return out;
 }
 
+bool has_key(const Fields& known, std::string_view key) {
+    return std::any_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; });
+}
+
+// Says what a word of a data sheet is here; empty: it is none, or this is no place of a camera's keys.
+std::string sheet_advice(std::string_view key, const Fields& known) {
+    const DataSheetWord* const word = data_sheet_word(key);
+    const bool inside = has_key(known, "full_well_e"), outside = has_key(known, "camera");
+    if (!word || (!inside && !outside)) return {};
+    if (word->key.empty()) return "; " + std::string(word->how);
+    const std::string_view here = inside ? word->key.substr(word->key.rfind('.') + 1) : word->key;
+    return "; a data sheet's word? here it is " + std::string(here) + ": " + std::string(word->how);
+}
+
 }  // namespace
 
 std::string nearest_of(std::string_view word, std::span<const std::string> known) {
@@ -83,6 +98,7 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
         keys.push_back(field.key);
         list += " " + field.key;
     }
+    if (std::string of_sheet = sheet_advice(key, known); !of_sheet.empty()) return of_sheet;
     const std::string nearest = nearest_of(key, keys);
     if (!nearest.empty()) return "; nearest known key: " + nearest + "; known keys:" + list;
     // A section with commands: their options are words of theirs.

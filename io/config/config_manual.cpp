@@ -35,7 +35,7 @@ std::string accepted_text(const Field& field) {
                           [](const OneOf<SectionField, OptionalSectionField> auto&) {
                               return std::string("mapping or file");
                           },
-                          [](const SectionsField&) { return std::string("list of mappings"); },
+                          [](const SectionsField&) { return std::string("list of mappings, or file"); },
                       },
                       field.target);
 }

@@ -76,7 +76,8 @@ Json type_of(const Field& field) {
                           [](const SectionField& f) { return section_of_field(f); },
                           [](const OptionalSectionField& f) { return section_of_field(f.open()); },
                           [](const SectionsField& f) {
-                              return Json{{"type", "array"}, {"items", section_of_field(f.append())}};
+                              const Json list = {{"type", "array"}, {"items", section_of_field(f.append())}};
+                              return Json{{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, list}}};
                           },
                       },
                       field.target);

@@ -13,6 +13,7 @@
 #include "io/config/open_bracket.h"
 #include "io/system/input_file.h"
 #include "io/system/program_files.h"
+#include "io/system/shipped_parts.h"
 #include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
@@ -60,21 +61,14 @@ class Reader {
 
     void read_file(const std::filesystem::path& file, const SectionField& section, const std::string& path,
                    int depth) {
-        std::error_code error;
-        const auto canonical = std::filesystem::weakly_canonical(file, error);
-        if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
-            throw InputError(file.string() + ": the file includes itself");
-        const std::string text = read_input_file(file, kYamlFile);
-        open_files_.push_back(canonical);
-        read_text(text, {file.string(), file.parent_path()}, section, path, depth);
-        open_files_.pop_back();
+        in_file(file, path, [&](const YAML::Node& node, const Place& place) {
+            read_section(node, place, section, path, depth);
+        });
     }
 
     void read_text(std::string_view text, const Place& place, const SectionField& section,
                    const std::string& path, int depth) {
-        const YAML::Node node = only_document(text, place);
-        if (!node.IsMap()) fail(place, node, path, "found " + show(node) + "; accepted: a mapping of keys");
-        read_section(node, place, section, path, depth);
+        read_section(mapping_in(text, place, path), place, section, path, depth);
     }
 
     // A file holds one document: of several, which one was meant is not known.
@@ -106,6 +100,26 @@ class Reader {
     std::vector<std::filesystem::path> open_files_;
     std::size_t nodes_ = 0;
     std::size_t numbers_ = 0;
+
+    // Has `use` read what a file holds.
+    template <class Use>
+    void in_file(const std::filesystem::path& file, const std::string& path, const Use& use) {
+        std::error_code error;
+        const auto canonical = std::filesystem::weakly_canonical(file, error);
+        if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
+            throw InputError(file.string() + ": the file includes itself");
+        const std::string text = read_input_file(file, kYamlFile);
+        open_files_.push_back(canonical);
+        const Place place{file.string(), file.parent_path()};
+        use(mapping_in(text, place, path), place);
+        open_files_.pop_back();
+    }
+
+    static YAML::Node mapping_in(std::string_view text, const Place& place, const std::string& path) {
+        const YAML::Node node = only_document(text, place);
+        if (!node.IsMap()) fail(place, node, path, "found " + show(node) + "; accepted: a mapping of keys");
+        return node;
+    }
 
     // file:line:column
     static std::string where(const Place& place, const YAML::Node& node) {
@@ -160,14 +174,17 @@ class Reader {
         return path.empty() ? key : path + "." + key;
     }
 
-    // What a file names: from that one's folder; where nothing is there, the shipped file of that name. What
-    // a shipped file names and is not shipped is the user's: a mesh to bring, a folder to write to. It lies
-    // in the working directory.
-    static std::filesystem::path found_from(const Place& place, const std::string& name) {
+    // What a file names: from that one's folder; where nothing is there, the shipped file of that path, or the
+    // shipped part of that name, where the key takes one. What a shipped file names and is not shipped is the
+    // user's: a mesh to bring, a folder to write to. It lies in the working directory.
+    static std::filesystem::path found_from(const Place& place, const std::string& name,
+                                            const std::string& key) {
         std::filesystem::path own = place.folder / name;
         std::error_code error;
         if (std::filesystem::exists(own, error)) return own;
         std::filesystem::path shipped = shipped_file(name);
+        if (!shipped.empty()) return shipped;
+        if (const ShippedKind* const kind = kind_of_key(key)) shipped = shipped_part(*kind, name);
         if (!shipped.empty()) return shipped;
         return is_shipped(place.folder) ? std::filesystem::current_path() / name : own;
     }
@@ -308,7 +325,7 @@ class Reader {
                 },
                 [&](const PathField& f) {
                     if (!node.IsScalar() || node.Scalar().empty()) refuse(node, "a path");
-                    *f.value = found_from(place, node.Scalar());
+                    *f.value = found_from(place, node.Scalar(), path);
                     if (f.where) *f.where = where(place, node) + (place.command_line ? "" : ": " + path);
                 },
                 [&](const ChoiceField& f) {
@@ -353,7 +370,9 @@ class Reader {
                 [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
                 [&](const OptionalSectionField& f) { section(node, place, f.open(), path, depth, refuse); },
                 [&](const SectionsField& f) {
-                    if (!node.IsSequence()) refuse(node, "a list of mappings");
+                    if (node.IsScalar()) return list_in_file(node, place, field, path, depth);
+                    if (!node.IsSequence())
+                        refuse(node, "a list of mappings, or the path of a file that holds it");
                     for (std::size_t i = 0; i < node.size(); ++i)
                         section(node[i], place, f.append(), join(path, std::to_string(i)), depth, refuse);
                 },
@@ -397,18 +416,46 @@ class Reader {
         return out;
     }
 
+    // The file that stands in the place of a mapping or a list; fails when there is none.
+    static std::filesystem::path named_file(const YAML::Node& node, const Place& place,
+                                            const std::string& path, const char* whole) {
+        std::filesystem::path file = found_from(place, node.Scalar(), path);
+        std::error_code error;
+        if (!std::filesystem::exists(file, error))
+            fail(place, node, path,
+                 "found " + show(node) + "; accepted: " + whole + ", or the path of a file that holds it" +
+                     shipped_advice(path, node.Scalar()) + "; " + file.string() + ": no such file");
+        return file;
+    }
+
+    // Says which shipped parts a key takes by name.
+    static std::string shipped_advice(const std::string& path, const std::string& found) {
+        const ShippedKind* const kind = kind_of_key(path);
+        if (!kind) return {};
+        const std::vector<std::string> names = shipped_names(*kind);
+        const std::string nearest = nearest_of(found, names);
+        return ", or the name of a shipped one ('hilcam list " + std::string(kind->words) + "')" +
+               (nearest.empty() ? "" : "; nearest: " + nearest);
+    }
+
+    // A list in a file of its own stands there under the key that it has here.
+    void list_in_file(const YAML::Node& node, const Place& place, const Field& field, const std::string& path,
+                      int depth) {
+        in_file(named_file(node, place, path, "a list of mappings"), path,
+                [&](const YAML::Node& map, const Place& own) {
+                    refuse_unknown_keys(map, own, {field}, path);
+                    const YAML::Node list = map[field.key];
+                    if (!list.IsDefined() || list.IsNull())
+                        fail(own, map, path,
+                             "the key '" + field.key + "' is missing; it is " + field.meaning);
+                    read_value(list, own, field, path, depth + 1);
+                });
+    }
+
     template <class Refuse>
     void section(const YAML::Node& node, const Place& place, const SectionField& f, const std::string& path,
                  int depth, const Refuse& refuse) {
-        if (node.IsScalar()) {
-            const std::filesystem::path file = found_from(place, node.Scalar());
-            std::error_code error;
-            if (!std::filesystem::exists(file, error))
-                fail(place, node, path,
-                     "found " + show(node) + "; accepted: a mapping, or the path of a file that holds it; " +
-                         file.string() + ": no such file");
-            return read_file(file, f, path, depth + 1);
-        }
+        if (node.IsScalar()) return read_file(named_file(node, place, path, "a mapping"), f, path, depth + 1);
         if (!node.IsMap()) refuse(node, "a mapping, or the path of a file that holds it");
         read_section(node, place, f, path, depth + 1);
     }

@@ -4,7 +4,8 @@
 //
 // Every error is one InputError line: file:line:column, the key's path, what was found, what is accepted.
 // Keys that are unknown name the nearest known one. A section may be given as the path of another file,
-// relative to the naming file. An override "a.b.0.c=VALUE" replaces a value before it is read; VALUE is YAML;
+// relative to the naming file, or as the name of a shipped part (io/system/shipped_parts.h); a list of sections, too, which that
+// file then has under the same key. An override "a.b.0.c=VALUE" replaces a value before it is read; VALUE is YAML;
 // errors in it name "--set".
 
 #include <filesystem>

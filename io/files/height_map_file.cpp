@@ -18,22 +18,22 @@ namespace {
 // The most that columns and rows can ask for: a map is not read whole.
 constexpr std::uintmax_t kMaxHeightBytes = 4'000'000'000'000;
 
-// A file of another format that is often taken for raw heights, and how heights come out of it; empty: none
-// of them. TIFF 6.0 and BigTIFF begin with their byte order and 42 or 43, PDS3 labels with their version.
+// A file of another format that is often taken for raw heights, and what reads it; empty: none of them. TIFF 6.0
+// and BigTIFF begin with their byte order and 42 or 43, PDS3 labels with their version.
 std::string format_with_heights_inside(int fd) {
     std::array<char, 16> head{};
     if (pread(fd, head.data(), head.size(), 0) != static_cast<ssize_t>(head.size())) return {};
     const std::string_view magic(head.data(), head.size());
+    const auto advice = [](const std::string& what, const std::string& file) {
+        return "is a " + what +
+               "; accepted: raw heights. terrain.globe in place of terrain.heights reads it as it is: globe: "
+               "{body: moon, maps: [{file: " +
+               file + "}]}; or 'gdal_translate -of ENVI -ot Float32 " + file + " heights.raw' makes raw ones";
+    };
     using namespace std::string_view_literals;
     for (const std::string_view tiff : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv})
-        if (magic.starts_with(tiff))
-            return "is a TIFF; accepted: raw heights, as 'gdal_translate -of ENVI -ot Float32 FILE.tif "
-                   "heights.raw' makes them";
-    if (magic.starts_with("PDS_VERSION_ID"))
-        return "is a PDS label; accepted: raw heights, as 'gdal_translate -of ENVI -ot Float32 FILE.lbl "
-               "heights.raw' makes "
-               "them";
-    return {};
+        if (magic.starts_with(tiff)) return advice("TIFF", "FILE.tif");
+    return magic.starts_with("PDS_VERSION_ID") ? advice("PDS label", "FILE.lbl") : std::string();
 }
 
 class MappedHeights final : public HeightMap {

@@ -59,6 +59,7 @@ function showPixel(pixel) {
   $("pixel").textContent = text;
 }
 function showFrame(f) {
+  if (document.body.classList.contains("no-frame")) showWaiting();  // before what draws into boxes that were hidden
   const struck = status ? [...status.faults, ...status.frame_flags].filter(x => f.faults >> BigInt(x.bit) & 1n).map(x => x.kind).join(", ") : "";
   pairs($("frame"), [
     ["Frame", f.id.toString()],
@@ -113,6 +114,25 @@ function showLatency() {
   }), ["", "p50", "p99", "most"]);
 }
 
+// --- What the page waits for, in the picture's place, until there is one.
+const opened = performance.now();
+function waitsFor() {
+  if (picture.frame) return "";
+  if (!status) {
+    if (link === "no answer") return "the camera does not answer: is 'hilcam run' still up?";
+    return `waiting for the camera's first answer: loading, ${Math.floor((performance.now() - opened) / 1000)} s`;
+  }
+  if (!status.settings.running) return "no frame yet: the camera is stopped";
+  if (status.camera.lockstep) return "no frame yet: in lockstep each 'expose' takes one";
+  if (status.settings.triggered) return "no frame yet: the camera waits for a trigger";
+  return "no frame yet: the first is being made";
+}
+function showWaiting() {
+  $("waiting").textContent = waitsFor();
+  document.body.classList.toggle("no-status", !status);
+  document.body.classList.toggle("no-frame", !picture.frame);
+}
+
 // --- Figures.
 function chip(text, value, state = "") { return make("span", { className: "chip " + state }, text + " ", make("b", {}, value)); }
 function showChips() {
@@ -148,6 +168,7 @@ function showFigures() {
   $("outputs").replaceChildren(...status.outputs.map(o => make("div", { className: "output" },
     make("div", {}, o.name),
     make("div", { className: "figures" }, [["frames", o.frames], ["dropped", o.dropped], ...Object.entries(o.figures)]
+      .filter(([name, value]) => name === "frames" || value !== 0)
       .map(([name, value]) => `${name.replaceAll("_", " ")} ${number(value, 4)}`).join(" · ")),
     ...(o.fault ? [make("div", { className: "bad" }, o.fault)] : []))));
 }
@@ -265,11 +286,13 @@ async function refresh() {
     if (link === "connecting") link = "";
   } catch (error) {
     link = "no answer";
+    showWaiting();
     return showChips();
   }
   document.title = `${status.camera.name || "camera"} – hilcam`;
   $("camera").textContent = status.camera.name || "hilcam";
   $("scenario").textContent = status.scenario;
+  showWaiting();  // before what draws into boxes that were hidden
   showSettings(); showFigures(); showLatency(); showFaults(); showCameras(); showChips();
 }
 
@@ -346,5 +369,6 @@ document.addEventListener("keydown", event => {
   event.preventDefault();
   act();
 });
+showWaiting();
 refresh();
-setInterval(refresh, 1000);
+setInterval(() => { showWaiting(); refresh(); }, 1000);

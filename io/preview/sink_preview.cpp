@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "io/contract/refused_settings.h"
 #include "io/pictures/image_file.h"
 #include "io/preview/preview_assets.h"
 #include "io/preview/preview_guard.h"
@@ -13,7 +14,6 @@
 #include "io/preview/preview_shelf.h"
 #include "io/preview/preview_slot.h"
 #include "io/preview/preview_viewers.h"
-#include "io/preview/refused_settings.h"
 #include "io/system/allow_list.h"
 #include "io/system/fd.h"
 #include "io/system/text_number.h"

@@ -1,16 +1,13 @@
 #include "io/system/program_files.h"
 
-#include <algorithm>
+#include <sys/auxv.h>
 
 namespace hilcam {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path program_folder() {
-    std::error_code error;
-    return fs::read_symlink("/proc/self/exe", error).parent_path();
-}
+fs::path program_folder() { return program_file().parent_path(); }
 
 bool is_file(const fs::path& path) {
     std::error_code error;
@@ -30,6 +27,28 @@ fs::path find_data_folder() {
 
 }  // namespace
 
+fs::path program_file_by(const fs::path& link) {
+    std::error_code error;
+    fs::path file = fs::read_symlink(link, error);
+    if (!error) return file;
+    // A relative path is that of the working directory at the start, which is when this is asked first.
+    const auto* const asked_for = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+    if (asked_for == nullptr) return {};
+    file = fs::canonical(asked_for, error);
+    return error ? fs::path() : file;
+}
+
+fs::path program_file() {
+    static const fs::path file = program_file_by("/proc/self/exe");
+    return file;
+}
+
+fs::path own_program() {
+    const fs::path link = "/proc/self/exe";
+    std::error_code error;
+    return fs::exists(link, error) ? link : program_file();
+}
+
 fs::path data_folder() {
     static const fs::path folder = find_data_folder();
     return folder;
@@ -42,29 +61,6 @@ fs::path shipped_file(const fs::path& name) {
     const fs::path inside = *plain.begin() == "configs" ? plain.lexically_relative("configs") : plain;
     if (*inside.begin() == "..") return {};
     return is_file(folder / inside) ? folder / inside : fs::path();
-}
-
-fs::path named_config(const fs::path& name) {
-    std::error_code error;
-    if (name.empty() || fs::exists(name, error)) return name;
-    if (const fs::path file = shipped_file(name); !file.empty()) return file;
-    if (name.has_parent_path() || name.has_extension()) return name;
-    for (const char* const kind : {"scenarios", "cameras"})
-        if (const fs::path file = shipped_file(fs::path(kind) / (name.string() + ".yaml")); !file.empty())
-            return file;
-    return name;
-}
-
-std::vector<std::string> shipped_names() {
-    std::vector<std::string> out;
-    for (const char* const kind : {"scenarios", "cameras"}) {
-        std::error_code error;
-        const std::size_t first = out.size();
-        for (const auto& entry : fs::directory_iterator(data_folder() / kind, error))
-            if (entry.path().extension() == ".yaml") out.push_back(entry.path().stem().string());
-        std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
-    }
-    return out;
 }
 
 bool is_shipped(const fs::path& folder) {

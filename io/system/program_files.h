@@ -7,9 +7,16 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace hilcam {
+
+// The running program's file: what /proc says; where there is no /proc, as in a bare chroot, what the kernel was asked
+// to run. Empty: neither tells.
+std::filesystem::path program_file();
+// The same where `link` stands for /proc/self/exe.
+std::filesystem::path program_file_by(const std::filesystem::path& link);
+// A path by which the program starts itself once more: the file that runs, even where another has taken its place since.
+std::filesystem::path own_program();
 
 // The folder of scenarios/, cameras/, stars/ ...; empty: there is none.
 std::filesystem::path data_folder();
@@ -17,12 +24,6 @@ std::filesystem::path data_folder();
 // A shipped file by its path in that folder, "cameras/lorri.yaml", as it may be written from the source tree,
 // too ("configs/cameras/lorri.yaml"); empty: there is no such file.
 std::filesystem::path shipped_file(const std::filesystem::path& name);
-// A scenario or a camera's file as people name it: a path, or a word such as "small" for the shipped
-// scenarios/small.yaml, or cameras/small.yaml. What is there at the path itself comes first; the name as it
-// is, when nothing is there.
-std::filesystem::path named_config(const std::filesystem::path& name);
-// The words that named_config() takes, scenarios before cameras.
-std::vector<std::string> shipped_names();
 // True of a file's folder that lies in the data folder, where runs must not write.
 bool is_shipped(const std::filesystem::path& folder);
 

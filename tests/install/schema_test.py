@@ -27,6 +27,7 @@ SECTIONS = {
     "scenario": "",
     "campaign": "--campaign",
     "camera": "camera",
+    "color_filter": "camera.color_filter",
     "quality": "quality",
     "materials": "objects.N.materials",
     "material": "objects.N.materials.surfaces.N.material",
@@ -68,7 +69,7 @@ def kind_of(path):
         return "scenario"
     if path.parent.name == "materials":
         return "materials" if path.name == "spacecraft.yaml" else "material"
-    return {"cameras": "camera", "quality": "quality"}[path.parent.name]
+    return {"cameras": "camera", "filters": "color_filter", "quality": "quality"}[path.parent.name]
 
 
 class Schemas(unittest.TestCase):

@@ -10,6 +10,7 @@ import math
 import os
 import pathlib
 import random
+import runpy
 import shutil
 import signal
 import subprocess
@@ -220,8 +221,13 @@ class Made(unittest.TestCase):
 
     def test_the_page_shows_what_there_is(self):
         page = (self.folder / "index.html").read_text()
-        for words in ("8 cases: 8 done, 0 failed", "No case has failed", "Phase angle", "Signal over noise", 'src="views/000003.png"'):
+        for words in ("8 cases: 8 done, 0 failed", "No case has failed", "Phase angle", "Signal over noise", 'src="views/000003.png"', ">-180°<", ">-90°<"):
             self.assertIn(words, page)
+
+    def test_numbers_of_the_page_are_written_as_people_write_them(self):
+        number_text = runpy.run_path(str(SOURCE / "tools/hilcam-plot-campaign"))["number_text"]
+        for value, words in ((56300, "56,300"), (0.01035, "0.01035"), (0, "0"), (-5.5, "-5.5"), (9999.6, "10,000"), (1e9, "1e+09")):
+            self.assertEqual(number_text(value), words)
 
     def test_coco(self):
         seen = 0

@@ -4,8 +4,10 @@
     preview_test.py HILCAM SOURCE_DIR [--screenshot FILE.png]
 """
 import datetime
+import http.server
 import io
 import json
+import mimetypes
 import os
 import pathlib
 import signal
@@ -14,6 +16,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import urllib.error
@@ -461,6 +464,61 @@ class PageInBrowser(unittest.TestCase):
         self.page.wait(f"Number(preview.frame.id) > {frame}")
         for url in self.page.requested():
             self.assertTrue(url.startswith((URL + "/", "data:")), url)
+
+    def test_until_there_is_a_picture_the_page_says_what_it_waits_for(self):
+        """The program's page from a server that answers as a camera does which loads, and then waits for a trigger."""
+        seen, loaded = status(), threading.Event()
+
+        class Loading(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                name = self.path.split("?")[0].lstrip("/")
+                if name == "status":
+                    loaded.wait(60)
+                    answer = json.dumps(seen | {"settings": seen["settings"] | {"triggered": True}}).encode()
+                elif name in ("frame", "truth"):
+                    answer = None
+                    time.sleep(0.2)
+                else:
+                    answer = get("/" + name)
+                self.send_response(200 if answer is not None else 204)
+                for word, value in (("Content-Length", len(answer or b"")), ("Content-Type", mimetypes.guess_type(name or "a.html")[0] or "application/json")):
+                    self.send_header(word, str(value))
+                self.end_headers()
+                self.wfile.write(answer or b"")
+
+            def log_message(self, *_):
+                pass
+
+        with http.server.ThreadingHTTPServer(("127.0.0.1", 0), Loading) as server:
+            threading.Thread(target=server.serve_forever, daemon=True).start()
+            page = Page(self.browser, f"http://127.0.0.1:{server.server_port}/")
+            waiting = "document.getElementById('waiting').textContent"
+            shown = "['.side', '.figures', '.pair'].map(c => document.querySelector(c).getClientRects().length > 0)"
+            try:
+                page.wait(f"document.getElementById('waiting') && {waiting}.startsWith(\"waiting for the camera's first answer: loading, \")")
+                self.assertEqual(page.run(shown), [False, False, False])
+                loaded.set()
+                page.wait(f"{waiting} === 'no frame yet: the camera waits for a trigger'")
+                self.assertEqual(page.run(shown), [True, True, False])
+            finally:
+                loaded.set()
+                page.close()
+                server.shutdown()
+        self.assertEqual(self.page.run(waiting), "")
+        self.assertEqual(self.page.run(shown), [True, True, True])
+
+    def test_counters_that_are_nought_are_not_listed(self):
+        self.page.wait("document.getElementById('outputs').textContent.includes('frames ')")
+        listed = self.page.run("Array.from(document.querySelectorAll('.output .figures')).map(f => f.textContent)")
+        self.assertGreater(len(listed), 0)
+        for figures in listed:
+            self.assertNotRegex(figures, r"(?<!frames) 0(?: |$)")
+
+    def test_the_columns_are_about_as_long_as_each_other(self):
+        page = self.open(width=1440, height=900)
+        left, right = (f"document.querySelector('{name}').getBoundingClientRect()" for name in (".figures .card:last-child", ".faults"))
+        self.assertLess(page.run(f"Math.abs({left}.bottom - {right}.bottom) / Math.max({left}.bottom, {right}.bottom)"), 0.3)
+        page.close()
 
     def test_the_value_under_the_cursor_and_on_the_canvas(self):
         page = self.page

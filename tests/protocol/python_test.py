@@ -234,19 +234,48 @@ class Campaigns(unittest.TestCase):
 
 
 class Installed(unittest.TestCase):
-    def test_pip_installs_it_from_the_tree(self):
-        if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode:
-            self.skipTest("python3-pip is missing")
+    """Installed into a bare environment without a network, as on a bench's machine: neither setuptools nor numpy are there."""
+
+    def test_pip_installs_it_from_the_tree_alone(self):
         with tempfile.TemporaryDirectory() as folder:
-            # A copy: setuptools builds beside the sources.
-            shutil.copytree(SOURCE / "tools/python", f"{folder}/source", ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
-            subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index", "--target",
-                            f"{folder}/site", f"{folder}/source"], check=True, capture_output=True)
-            words = "import hilcam, hilcam.client; print(hilcam.__file__, hilcam.look_at((1, 0, 0), (0, 0, 0)))"
-            result = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, check=True, cwd=folder,
-                                    env={**os.environ, "PYTHONPATH": f"{folder}/site"})
-            self.assertTrue(result.stdout.startswith(f"{folder}/site/hilcam/"), result.stdout)
-            self.assertFalse(os.path.islink(f"{folder}/site/hilcam/client.py"))
+            made = subprocess.run([sys.executable, "-m", "venv", f"{folder}/bare"], capture_output=True)
+            if made.returncode:
+                self.skipTest("python3-venv is missing")
+            python = f"{folder}/bare/bin/python"
+            bare = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+            result = subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-index", "--disable-pip-version-check",
+                                     str(SOURCE / "tools/python")], capture_output=True, text=True, env=bare)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            words = ("import hilcam, hilcam.client\n"
+                     "print(hilcam.__version__, hilcam.__file__, hilcam.look_at((1, 0, 0), (0, 0, 0)))\n"
+                     "try: hilcam.Campaign\n"
+                     "except ImportError as error: print(error)\n")
+            result = subprocess.run([python, "-c", words], capture_output=True, text=True, cwd=folder, env=bare)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertTrue(result.stdout.startswith(f"{hilcam.__version__} {folder}/bare/lib/"), result.stdout)
+            self.assertIn("hilcam.Campaign needs numpy", result.stdout)
+            client, = pathlib.Path(folder).glob("bare/lib/*/site-packages/hilcam/client.py")
+            self.assertFalse(client.is_symlink())
+            removed = subprocess.run([python, "-m", "pip", "uninstall", "--quiet", "--yes", "hilcam"], capture_output=True, text=True, env=bare)
+            self.assertEqual(removed.returncode, 0, removed.stderr)
+            self.assertFalse(client.exists())
+
+    def test_wheels_of_the_same_files_are_the_same(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = "import sys, wheel_of_hilcam as w; print(w.build_wheel(sys.argv[1])); print(w.build_sdist(sys.argv[1]))"
+            wheels = set()
+            for n in range(2):
+                out = pathlib.Path(folder) / str(n)
+                out.mkdir()
+                names = subprocess.run([sys.executable, "-c", words, str(out)], cwd=SOURCE / "tools/python", check=True, capture_output=True,
+                                       text=True).stdout.split()
+                self.assertEqual(sorted(names), sorted(p.name for p in out.iterdir()))
+                wheels.add((out / names[0]).read_bytes())
+            self.assertEqual(len(wheels), 1)
+
+    def test_its_version_is_the_programs(self):
+        told = subprocess.run([HILCAM, "--version"], capture_output=True, text=True, check=True).stdout
+        self.assertTrue(told.startswith(f"hilcam {hilcam.__version__} ("), told)
 
 
 if __name__ == "__main__":

@@ -108,12 +108,48 @@ class ExitCodes(unittest.TestCase):
         refused(2750, 1, "not enough memory for the scenario: its camera of 2750 x 2750 px")
         refused(16384, 2, "a frame of 131328 x 131328 pixels (guard_px and oversampling included)")
 
+    def test_a_command_that_is_missing_is_answered_by_the_help(self):
+        for words, own in (((), "geo_inspection"), (("send",), "hilcam send settings --exposure-ms 5")):
+            result = hilcam(*words)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertIn(own, result.stderr)
+            self.assertEqual(result.stderr, hilcam(*words, "--help").stdout)
+        for line in hilcam("--help").stdout, hilcam("redner", "small").stderr, hilcam("make-page").stderr:
+            self.assertNotIn("make-pages", line)
+        self.refused("nearest: render", "redner", "small")
+
+    def test_shipped_parts_go_by_their_names(self):
+        refused = hilcam("check", SCENARIO, "--set", "quality=realtme")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("nearest: realtime", refused.stderr)
+        result = hilcam("check", SCENARIO, "--set", "quality=fast", "--set", "camera=mv_imx249", "--set", "camera.color_filter=GRBG")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.refused("which is neither a file nor a shipped one ('hilcam list meshes'); nearest: asteroid", "mesh", "asteriod")
+        self.refused("a shipped scenario or camera ('hilcam list')", "check", "nosuchthing")
+
+    def test_the_list_has_every_part_with_what_it_is(self):
+        parts = json.loads(hilcam("list", "--json").stdout)
+        kinds = {part["kind"] for part in parts}
+        self.assertEqual(kinds, {"scenarios", "cameras", "qualities", "materials", "filters", "meshes", "maps", "stars"})
+        for folder, kind in (("scenarios", "scenarios"), ("cameras", "cameras"), ("quality", "qualities"), ("materials", "materials")):
+            names = sorted(path.stem for path in (SOURCE / "configs" / folder).glob("*.yaml"))
+            self.assertEqual(sorted(p["name"] for p in parts if p["kind"] == kind), names)
+            lines = hilcam("list", kind).stdout.splitlines()
+            self.assertTrue(lines[0].startswith(kind + ": "), lines[0])
+            self.assertEqual(sorted(line.split()[0] for line in lines[1:]), names)
+            self.assertTrue(all(len(line.split()) > 3 for line in lines[1:]), lines)
+        for part in parts:
+            self.assertTrue(pathlib.Path(part["file"]).is_file(), part)
+        self.assertEqual(hilcam("list", "lenses").returncode, 2)
+
     def test_device_faults_are_status_1_and_say_what_to_do(self):
         result = hilcam("run", SCENARIO, "--set", "outputs.v4l2.device=/dev/video-none")
         self.assertEqual(result.returncode, 1)
         self.assertIn("/dev/video-none: cannot be opened", result.stderr)
         self.assertIn("modprobe v4l2loopback", result.stderr)
-        self.assertEqual(hilcam("send", "--to", "127.0.0.1:15999", "--timeout-ms", 100, "ping").returncode, 1)
+        silent = hilcam("send", "--to", "127.0.0.1:15999", "--timeout-ms", 100, "ping")
+        self.assertEqual(silent.returncode, 1)
+        self.assertIn("the other dialect (--dialect cfs)?", silent.stderr)
 
     def test_the_manual_is_the_documented_one(self):
         documented = (SOURCE / "docs/configuration.md").read_text().splitlines()
@@ -436,7 +472,7 @@ class Characterise(unittest.TestCase):
             self.assertIn("PRNU: none configured (", page)
             self.assertIn("DSNU: none configured (", page)
 
-    def test_progress_is_told_to_terminals_alone(self):
+    def test_progress_is_told_on_one_line_to_terminals_and_by_lines_to_logs(self):
         # Its standard error is a terminal, its standard output is none.
         parent, terminal = pty.openpty()
         with subprocess.Popen([HILCAM, "characterise", self.CAMERA, "--json"], stdout=subprocess.PIPE, stderr=terminal) as process:
@@ -450,8 +486,13 @@ class Characterise(unittest.TestCase):
             process.kill()
         os.close(parent)
         self.assertRegex(told.decode(), r"\r\x1b\[Khilcam: measuring [a-zA-Z ]+ \d+ %, \d+ s, about [^:]* left\r")
-        result = hilcam("characterise", self.CAMERA, "--json", *self.FAST)
-        self.assertEqual(result.stderr, "")
+        def log(seconds):
+            return hilcam("characterise", self.CAMERA, "--json", *self.FAST, env=os.environ | {"HILCAM_PROGRESS_S": seconds}).stderr
+        self.assertEqual(log("0"), "")
+        lines = log("0.1").splitlines()
+        self.assertGreater(len(lines), 1)
+        for line in lines:
+            self.assertRegex(line, r"^hilcam: measuring [a-zA-Z ]+( \d+ %)?, \d+ s(, about [^:]* left)?$")
 
     def test_a_camera_that_cannot_be_is_refused(self):
         result = hilcam("characterise", self.CAMERA, "--set", "f_number=0")
@@ -627,6 +668,9 @@ class Camera(unittest.TestCase):
             frames = pathlib.Path(folder) / "frames"
             self.assertEqual(emulator.send("fly", "--from-m", 22, 15, 7, "--duration-s", 1, "--rate-hz", 50).returncode, 0)
             self.assertEqual(emulator.send("stop").returncode, 0)
+            refused = emulator.send("settings", "--exposure-ms", 5e9)
+            self.assertEqual(refused.returncode, 1)
+            self.assertRegex(refused.stdout, r"^bad argument: exposure_s: found 5000000; accepted: \S+ to \d+ ")
             time.sleep(0.5)
             before = len(list(frames.iterdir()))
             time.sleep(0.5)
@@ -636,8 +680,8 @@ class Camera(unittest.TestCase):
             self.assertGreater(len(list(frames.iterdir())), before)
             # A camera turned away from the target sees an (almost) empty picture: the file compresses to less.
             report = emulator.stop()
-            self.assertGreaterEqual(report["commands"]["received"], 52)
-            self.assertEqual(report["commands"]["refused"], 0)
+            self.assertGreaterEqual(report["commands"]["received"], 53)
+            self.assertEqual(report["commands"]["refused"], 1)
 
 
 class Pair(unittest.TestCase):

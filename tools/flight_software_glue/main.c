@@ -1,7 +1,7 @@
 // Stands in for the app or component around camera_link.c: a POSIX socket and a loop of 25 Hz. The comments
 // name the calls of cFS's operating system layer (OSAL 7.0) that a cFS app has in their places.
 //
-//     flight_software_glue ADDRESS PORT own|cfs POSES
+//     flight_software_glue ADDRESS PORT hilcam|cfs POSES
 //
 // Sends the poses, and an exposure that the camera refuses; prints figures as a line of JSON. Exit status 1
 // when a frame with the last pose does not come within five seconds, or an answer is missing.
@@ -48,14 +48,15 @@ static void receive_packets(int fd, camera_link* link) {
 
 int main(int argc, char** argv) {
     static const double towards_x_wxyz[4] = {0.70710678118654752, 0, 0.70710678118654752, 0};
-    if (argc != 5) {
-        fprintf(stderr, "usage: flight_software_glue ADDRESS PORT own|cfs POSES\n");
+    const int is_cfs = argc == 5 && strcmp(argv[3], "cfs") == 0;
+    if (argc != 5 || (!is_cfs && strcmp(argv[3], "hilcam") != 0)) {
+        fprintf(stderr, "usage: flight_software_glue ADDRESS PORT hilcam|cfs POSES\n");
         return 2;
     }
     const int fd = open_socket(argv[1], argv[2]), poses = atoi(argv[4]);
     if (fd < 0) return perror("flight_software_glue: no socket"), 1;
     camera_link link;
-    camera_link_begin(&link, strcmp(argv[3], "cfs") == 0 ? HILCAM_DIALECT_CFS : HILCAM_DIALECT_OWN);
+    camera_link_begin(&link, is_cfs ? HILCAM_DIALECT_CFS : HILCAM_DIALECT_OWN);
 
     uint8_t bytes[HILCAM_MOST_PACKET_BYTES];
     send_packet(fd, bytes, camera_link_subscribe(&link, bytes));

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Poses at a steady rate from both clients to a running program: none lost, none reordered, none shown late.
 
-    pose_stream.py HILCAM [--client c|python|all] [--to udp|tcp|all] [--dialect own|cfs] [--seconds 600] [--rate-hz 1000]
+    pose_stream.py HILCAM [--client c|python|all] [--to udp|tcp|all] [--dialect hilcam|cfs] [--seconds 600] [--rate-hz 1000]
                    [--talk PROGRAM]
 
 Every pose must be accepted, its answers come in the order of sending, frames show ever newer poses with the time tags
@@ -129,7 +129,7 @@ def python_flight(to, dialect, seconds, rate_hz):
 
 
 def c_flight(talk, port, transport, dialect, seconds, rate_hz):
-    result = subprocess.run([str(talk), "127.0.0.1", str(port), transport, "cfs" if dialect == CFS else "own", str(seconds),
+    result = subprocess.run([str(talk), "127.0.0.1", str(port), transport, "cfs" if dialect == CFS else "hilcam", str(seconds),
                              str(rate_hz)], capture_output=True, text=True)
     figures = json.loads(result.stdout) if result.stdout.strip() else {}
     problems = result.stderr.splitlines()
@@ -179,7 +179,7 @@ def main():
     parser.add_argument("hilcam")
     parser.add_argument("--client", choices=("c", "python", "all"), default="all")
     parser.add_argument("--to", choices=("udp", "tcp", "all"), default="udp")
-    parser.add_argument("--dialect", choices=("own", "cfs"), default="own")
+    parser.add_argument("--dialect", choices=("hilcam", "cfs"), default="hilcam")
     parser.add_argument("--seconds", type=float, default=600)
     parser.add_argument("--rate-hz", type=float, default=1000)
     parser.add_argument("--talk", help="the C client, compiled")

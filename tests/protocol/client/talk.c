@@ -1,7 +1,7 @@
 // A C99 program that talks to a running hilcam through tools/client/hilcam_client.h and POSIX sockets: every
 // command once with its answer, then poses at a steady rate whose answers and frames are checked one by one.
 //
-//     talk ADDRESS PORT udp|tcp own|cfs SECONDS POSES_A_SECOND
+//     talk ADDRESS PORT udp|tcp hilcam|cfs SECONDS POSES_A_SECOND
 //
 // Prints a line of figures. Exit status 1, and what is wrong on standard error, when a command is not
 // answered as docs/protocol.md says, when an answer is missing, comes twice or out of order, or when a
@@ -286,7 +286,7 @@ int main(int argc, char** argv) {
     static link_t link;
     static flight_t flight;
     if (argc != 7) {
-        fprintf(stderr, "usage: talk ADDRESS PORT udp|tcp own|cfs SECONDS POSES_A_SECOND\n");
+        fprintf(stderr, "usage: talk ADDRESS PORT udp|tcp hilcam|cfs SECONDS POSES_A_SECOND\n");
         return 2;
     }
     link.is_stream = strcmp(argv[3], "tcp") == 0;

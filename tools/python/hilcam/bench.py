@@ -9,7 +9,7 @@ import tempfile
 import time
 from typing import Any, Dict, Optional, Sequence, Union
 
-from .conventions import tai_ns_of_utc
+from .times import tai_ns_of_utc
 
 
 class BenchFailed(RuntimeError):

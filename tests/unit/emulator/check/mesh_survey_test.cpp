@@ -50,6 +50,16 @@ TEST_F(MeshSurveyTest, ACubeIsWhatItIs) {
     EXPECT_THAT(to_text(s), HasSubstr("'box'"));
 }
 
+TEST_F(MeshSurveyTest, ASurfaceThatNothingHasIsNotListed) {
+    // The importer adds a 'DefaultMaterial' to each OBJ.
+    write("gold.mtl", "newmtl gold\n");
+    const MeshSurvey s =
+        survey(std::string("mtllib gold.mtl\n") + kCorners + "usemtl gold\n" + kFaces + kLast);
+    ASSERT_EQ(s.surfaces.size(), 1u);
+    EXPECT_EQ(s.surfaces[0].name, "gold");
+    EXPECT_EQ(s.surfaces[0].triangles, 12u);
+}
+
 TEST_F(MeshSurveyTest, WhatIsWrongIsCounted) {
     const std::string corners = kCorners, faces = kFaces, last = kLast;
     EXPECT_THAT(problems(corners + faces), ElementsAre(HasSubstr("4 open edges: ")));

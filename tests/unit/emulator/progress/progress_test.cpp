@@ -1,5 +1,5 @@
-// The words of the progress line. That it is written to a terminal and to nothing else is tested on the
-// program itself (tests/protocol/run_program_test.py).
+// The words of the progress line. That it is written over on a terminal, and comes line by line elsewhere, is tested on
+// the program itself (tests/protocol/run_program_test.py).
 
 #include "emulator/progress/progress_line.h"
 
@@ -31,6 +31,21 @@ TEST(ProgressLine, HasTheOutermostWorkAndTheInnermost) {
     EXPECT_EQ(progress_text({outer, middle, inner}, 80),
               "tradeoff 34 %, 12 s, about 23 s left: loading a.glb");
     EXPECT_EQ(progress_text({inner}, 80), "loading a.glb, 2 s");
+}
+
+TEST(ProgressLine, WorkThatHasHardlyBegunDoesNotStandAtNought) {
+    EXPECT_EQ(progress_text({{"bench", 0.0, 12}, {"light kept on sat", 0.009, 11}}, 80),
+              "bench, 12 s: light kept on sat");
+    EXPECT_EQ(progress_text({{"bench", 0.01, 12}}, 80), "bench 1 %, 12 s, about 19 min 48 s left");
+}
+
+TEST(ProgressLine, ALogHasOneEachThirtySecondsUnlessToldOtherwise) {
+    EXPECT_EQ(seconds_between_lines(nullptr), 30);
+    EXPECT_EQ(seconds_between_lines("5"), 5);
+    EXPECT_EQ(seconds_between_lines("0"), 0);
+    for (const char* const none : {"", "often", "-1", "nan"})
+        EXPECT_EQ(seconds_between_lines(none), 30) << none;
+    EXPECT_EQ(seconds_between_lines("1e-9"), 0.1);
 }
 
 TEST(ProgressLine, IsOneLineThatMakesATerminalDoNothing) {

@@ -91,5 +91,28 @@ TEST(CommandDispatch, ARefusalOfManyCamerasSaysWhichOne) {
     EXPECT_EQ(refused_by(SettingsCommand{0.002, {}, {}}, 0, CommandStatus::kBadArgument), 2);
 }
 
+TEST(CommandDispatch, ARefusedSettingNamesItsLimitsAndATriggerTheRunsEnd) {
+    CameraModel camera;
+    LiveSettings settings(camera, {.lockstep = true});
+    const Motion initial = motion_at(0, 0);
+    WorldState world(std::span(&initial, 1), {});
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
+    FaultBoard faults;
+    CommandDispatch dispatch({{&world, &settings, &faults}}, clock);
+    const auto why = [&](const Command& command, CommandStatus expected) {
+        CommandNotes notes;
+        EXPECT_EQ(dispatch.handle(command, {1, 0, 0, &notes}), expected);
+        return notes.why;
+    };
+    EXPECT_EQ(why(SettingsCommand{5000, {}, {}}, CommandStatus::kBadArgument), "exposure_s: found 5000; accepted: 1e-06 to 10");
+    EXPECT_EQ(why(SettingsCommand{0.002, {}, {}}, CommandStatus::kAccepted), "");
+    EXPECT_EQ(why(TriggerModeCommand{false, 0}, CommandStatus::kNotNow),
+              "triggered: in lockstep each 'expose' takes a frame, and stays so");
+    settings.close();
+    const std::string end = why(ExposeCommand{{}, 1}, CommandStatus::kNotNow);
+    EXPECT_EQ(end.substr(0, 14), "the run ends: ");
+    EXPECT_LE(end.size(), 96u) << "more does not travel";
+}
+
 }  // namespace
 }  // namespace hilcam

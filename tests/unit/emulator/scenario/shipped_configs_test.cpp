@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -36,6 +37,70 @@ TEST(Configs, EveryShippedPartLoads) {
         QualityConfig quality;
         EXPECT_NO_THROW(read_config(entry.path(), section_of(quality))) << entry.path();
     }
+}
+
+CameraModel camera_with(const std::string& line) {
+    CameraModel camera;
+    read_config_text(
+        "width_px: 64\nheight_px: 64\npitch_um: 5\nfocal_length_mm: 10\nf_number: 4\nquantum_efficiency: "
+        "0.5\n"
+        "full_well_e: 1e4\ngain_dn_e: 0.2\nbits: 12\n" +
+            line + "\n",
+        "cam.yaml", ".", section_of(camera));
+    return camera;
+}
+
+// The formulas that stand in configs/filters/generic_rgb.yaml.
+double generic_dye(char name, double w_um) {
+    const auto band = [&](double at_um) { return std::exp(-0.5 * std::pow((w_um - at_um) / 0.038, 2)); };
+    const auto edge = [&](double at_um, double width_um) {
+        return 1 / (1 + std::exp(-(w_um - at_um) / width_um));
+    };
+    const double value = name == 'R'   ? 0.85 * edge(0.590, 0.008)
+                         : name == 'G' ? std::max(0.78 * band(0.535), 0.90 * edge(0.800, 0.018))
+                                       : std::max(0.80 * band(0.460), 0.90 * edge(0.820, 0.018));
+    return std::max(0.03, value);
+}
+
+TEST(Configs, ABayerPatternIsNamedByItsWordAndHasTheGenericDyes) {
+    const std::pair<const char*, const char*> arrays[] = {
+        {"RGGB", "RG GB"}, {"GRBG", "GR BG"}, {"GBRG", "GB RG"}, {"BGGR", "BG GR"}, {"rggb", "RG GB"}};
+    for (const auto& [name, pattern] : arrays) {
+        const CameraModel camera = camera_with("color_filter: " + std::string(name));
+        EXPECT_EQ(camera.color_filter.pattern, pattern);
+        ASSERT_EQ(camera.color_filter.filters.size(), 3u);
+        for (const ColorFilterConfig& filter : camera.color_filter.filters) {
+            ASSERT_GT(filter.transmission.wavelength_um.size(), 30u);
+            for (std::size_t i = 0; i < filter.transmission.value.size(); ++i)
+                EXPECT_NEAR(filter.transmission.value[i],
+                            generic_dye(filter.name[0], filter.transmission.wavelength_um[i]), 0.00501)
+                    << filter.name << " at " << filter.transmission.wavelength_um[i];
+        }
+    }
+    EXPECT_TRUE(camera_with("color_filter: mono").color_filter.pattern.empty());
+    EXPECT_EQ(camera_with("color_filter: {pattern: BG GR, filters: generic_rgb}").color_filter.filters.size(),
+              3u);
+}
+
+TEST(Configs, AColourFilterThatIsNoneSaysWhatIs) {
+    const auto message = [](const std::string& line) {
+        try {
+            camera_with(line);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("taken");
+    };
+    EXPECT_THAT(message("color_filter: RGBG"), HasSubstr("'hilcam list filters'); nearest: RGGB; "));
+    // Stripes, where a mosaic was meant.
+    EXPECT_THAT(
+        message("color_filter: {pattern: RGGB, filters: generic_rgb}"),
+        HasSubstr("found 'RGGB', which is one row; accepted: RG GB; or all of it as color_filter: RGGB"));
+    EXPECT_THAT(message("color_filter: {pattern: RG GB}"),
+                HasSubstr("'filters: generic_rgb' has R, G and B"));
+    EXPECT_THAT(
+        message("color_filter: {pattern: RG GB, filters: generic}"),
+        HasSubstr("found 'generic'; accepted: a list of mappings, or the path of a file that holds it"));
 }
 
 // What a camera's file gets wrong is named with its place.

@@ -7,6 +7,8 @@
 
 #include <array>
 
+#include "emulator/send/command_examples.h"
+
 namespace hilcam {
 namespace {
 
@@ -34,6 +36,8 @@ struct Line {
         lamp->add_option("what", what, "the way")->check(CLI::IsMember({"on", "off"}));
         lamp->add_option("--place-m", place, "x y z")->required();
         app.add_subcommand("hidden", "of no page")->group("");
+        set_examples(run, {"hilcam run a.yaml --fast"});
+        set_examples(lamp, {"hilcam send lamp on"});
     }
 };
 
@@ -69,6 +73,9 @@ TEST(ManualPages, EachSubcommandHasOneWithThoseBelowIt) {
     EXPECT_THAT(pages[1].text, HasSubstr("back\\eslashes"));
     EXPECT_THAT(pages[2].text, HasSubstr(".SS lamp\n"));
     EXPECT_THAT(pages[2].text, HasSubstr("\\fIWHAT\\fR\nthe way; accepted: on|off\n"));
+    EXPECT_THAT(pages[1].text, HasSubstr(".SH EXAMPLES\n.nf\nhilcam run a.yaml \\-\\-fast\n.fi\n"));
+    EXPECT_THAT(pages[2].text, HasSubstr(".SH EXAMPLES\n.nf\nhilcam send lamp on\n.fi\n"));
+    EXPECT_THAT(pages[0].text, Not(HasSubstr("EXAMPLES")));
     for (const NamedText& page : pages) EXPECT_THAT(page.text, Not(HasSubstr("hidden")));
 }
 

@@ -208,6 +208,41 @@ TEST(ConfigYaml, SectionFromAnotherFileNamesThatFile) {
     std::filesystem::remove_all(folder);
 }
 
+TEST(ConfigYaml, AListMayStandInAFileOfItsOwnUnderItsKey) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("hilcam_lists_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "list.yaml") << "list:\n  - exposure_ms: 7\n  - exposure_ms: 8\n";
+    std::ofstream(folder / "other.yaml") << "list: []\nname: x\n";
+    std::ofstream(folder / "empty.yaml") << "{}\n";
+    std::ofstream(folder / "self.yaml") << "list: self.yaml\n";
+    const auto read_in = [&](const std::string& text, const std::vector<std::string>& overrides = {}) {
+        Outer out;
+        try {
+            read_config_text(text, "test.yaml", folder, section_of(out), overrides);
+        } catch (const InputError& error) {
+            out.name = error.what();
+        }
+        return out;
+    };
+    const Outer read = read_in("name: x\nlist: list.yaml\n", {"list.1.exposure_ms=9"});
+    ASSERT_EQ(read.list.size(), 2u) << read.name;
+    EXPECT_DOUBLE_EQ(read.list[0].exposure_s, 0.007);
+    EXPECT_DOUBLE_EQ(read.list[1].exposure_s, 0.009);
+    const std::string by_option = "list=" + (folder / "list.yaml").string();
+    EXPECT_EQ(read_in("name: x\n", {by_option}).list.size(), 2u);
+    EXPECT_THAT(read_in("name: x\nlist: other.yaml\n").name,
+                HasSubstr("other.yaml:2:1: list.name: unknown key"));
+    EXPECT_THAT(read_in("name: x\nlist: empty.yaml\n").name,
+                HasSubstr("list: the key 'list' is missing; it is many"));
+    EXPECT_THAT(read_in("name: x\nlist: self.yaml\n").name, HasSubstr("the file includes itself"));
+    EXPECT_THAT(
+        read_in("name: x\nlist: none.yaml\n").name,
+        HasSubstr(
+            "test.yaml:2:7: list: found 'none.yaml'; accepted: a list of mappings, or the path of a file"));
+    std::filesystem::remove_all(folder);
+}
+
 TEST(ConfigYaml, ManualListsKeysWithDefaults) {
     Outer out;
     EXPECT_THAT(config_manual(section_of(out)),

@@ -26,18 +26,12 @@ TEST_F(ProgramFiles, ShippedFilesAreFoundByTheirPathThere) {
         EXPECT_EQ(shipped_file(none), fs::path()) << none;
 }
 
-TEST_F(ProgramFiles, AConfigurationIsAPathOrAName) {
-    EXPECT_EQ(named_config("small"), kConfigs / "scenarios/small.yaml");
-    EXPECT_EQ(named_config("lorri"), kConfigs / "cameras/lorri.yaml");
-    EXPECT_EQ(named_config("nothing"), "nothing");
-    EXPECT_EQ(named_config("no/small"), "no/small");
-    EXPECT_EQ(named_config("small.yml"), "small.yml");
-    // What is there comes first.
-    write("small", "name: mine\n");
-    const fs::path before = fs::current_path();
-    fs::current_path(folder_);
-    EXPECT_EQ(named_config("small"), "small");
-    fs::current_path(before);
+TEST_F(ProgramFiles, TheProgramIsFoundWithoutProc) {
+    const fs::path by_proc = program_file_by("/proc/self/exe");
+    EXPECT_TRUE(fs::is_regular_file(by_proc)) << by_proc;
+    EXPECT_EQ(program_file(), by_proc);
+    EXPECT_EQ(program_file_by(folder_ / "no_proc"), by_proc);
+    EXPECT_EQ(fs::canonical(own_program()), by_proc);
 }
 
 TEST_F(ProgramFiles, WhatLiesInTheDataFolderIsShipped) {

@@ -1,4 +1,4 @@
-#include "io/preview/refused_settings.h"
+#include "io/contract/refused_settings.h"
 
 #include <cstdint>
 
@@ -55,7 +55,7 @@ std::string refusal_of(const SettingsChange& c, const CameraSettings& now, const
              lacking("reverse_y", c.reverse_y, l.reversible),
          })
         if (!line.empty()) return line;
-    if (c.triggered && l.lockstep) return "triggered: lockstep takes each frame on command, and stays so";
+    if (c.triggered && l.lockstep) return "triggered: in lockstep each 'expose' takes a frame, and stays so";
     return "the camera cannot set this now";
 }
 

@@ -1,4 +1,4 @@
-#include "io/preview/refused_settings.h"
+#include "io/contract/refused_settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 #pragma once
-// Why the camera refuses a change of its settings, in words for whoever asked over HTTP.
+// Why the camera refuses a change of its settings, in words for whoever asked by a command or over HTTP. A command's
+// answer has room for 96 bytes (io/commands/acknowledgement.h).
 
 #include <string>
 
