@@ -36,23 +36,28 @@ void judge_well(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
                         "the data sheet count in ke-?",
                         s.well_e)));
     else if (converter_share < kMinShare)
-        out.push_back(places.at("camera.gain_dn_e", fmt::format(
-            "the camera's converter ends at {:.4g} e-, {:.2g} % of its full well of {:.4g} e-: "
-            "camera.gain_dn_e "
-            "or gain_db is too high (now {:.4g} DN/e-; {:.3g} DN/e- would take the whole well)",
-            s.converter_e, 100 * converter_share, s.well_e, s.gain_dn_e, s.gain_dn_e * converter_share)));
+        out.push_back(places.at(
+            "camera.gain_dn_e",
+            fmt::format("the camera's converter ends at {:.4g} e-, {:.2g} % of its full well of {:.4g} e-: "
+                        "camera.gain_dn_e "
+                        "or gain_db is too high (now {:.4g} DN/e-; {:.3g} DN/e- would take the whole well)",
+                        s.converter_e, 100 * converter_share, s.well_e, s.gain_dn_e,
+                        s.gain_dn_e * converter_share)));
     else if (well_share < kMinShare)
-        out.push_back(places.at("camera.gain_dn_e", fmt::format(
-            "the camera's full well of {:.4g} e- is {:.3g} DN, {:.2g} % of what its converter takes: "
-            "camera.gain_dn_e or gain_db is too low (now {:.4g} DN/e-)",
-            s.well_e, s.well_dn, 100 * well_share, s.gain_dn_e)));
+        out.push_back(places.at(
+            "camera.gain_dn_e",
+            fmt::format(
+                "the camera's full well of {:.4g} e- is {:.3g} DN, {:.2g} % of what its converter takes: "
+                "camera.gain_dn_e or gain_db is too low (now {:.4g} DN/e-)",
+                s.well_e, s.well_dn, 100 * well_share, s.gain_dn_e)));
 }
 
 // Half a DN is rounded up to the next.
 void judge_response(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     if (s.response_e_s > 0) return;
-    out.push_back(places.at("camera.quantum_efficiency",
-                            "the camera sees no light: camera.quantum_efficiency times camera.transmission is 0"));
+    out.push_back(
+        places.at("camera.quantum_efficiency",
+                  "the camera sees no light: camera.quantum_efficiency times camera.transmission is 0"));
 }
 
 void judge_black(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
@@ -70,10 +75,12 @@ void judge_black(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     const double x = black_dn / noise_dn;
     const double rise_dn =
         noise_dn * (std::exp(-0.5 * x * x) / std::sqrt(2 * kPi) - 0.5 * x * std::erfc(x / std::sqrt(2.0)));
-    out.push_back(places.at("camera.offset_dn", fmt::format(
-        "camera.offset_dn is {:.4g}, and the noise in the dark {:.3g} DN: what lies below 0 is cut "
-        "off, which makes dark pixels {:.2g} DN too bright; {:.0f} would keep it",
-        s.camera.offset_dn, noise_dn, rise_dn, std::ceil(4 * noise_dn))));
+    out.push_back(places.at(
+        "camera.offset_dn",
+        fmt::format(
+            "camera.offset_dn is {:.4g}, and the noise in the dark {:.3g} DN: what lies below 0 is cut "
+            "off, which makes dark pixels {:.2g} DN too bright; {:.0f} would keep it",
+            s.camera.offset_dn, noise_dn, rise_dn, std::ceil(4 * noise_dn))));
 }
 
 void judge_period(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
@@ -82,28 +89,32 @@ void judge_period(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     if (timing.is_fixed() || done_hz > 0.999 * asked_hz) return;
     out.push_back(places.at(
         "camera.frame_rate_hz",
-        fmt::format("camera.frame_rate_hz is {:.4g}: camera.exposure_ms of {:.4g} with the shutter's rows allows "
-                    "{:.4g} frames/s at most",
-                    asked_hz, 1e3 * s.exposure_s, done_hz)));
+        fmt::format(
+            "camera.frame_rate_hz is {:.4g}: camera.exposure_ms of {:.4g} with the shutter's rows allows "
+            "{:.4g} frames/s at most",
+            asked_hz, 1e3 * s.exposure_s, done_hz)));
 }
 
 void judge_optics(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     const double pitch_um = s.camera.pitch_m * 1e6, lens_m = s.camera.focal_length_m / s.camera.f_number;
     if (pitch_um < kPitch_um[0] || pitch_um > kPitch_um[1])
-        out.push_back(places.at(
-            "camera.pitch_um", fmt::format("camera.pitch_um is {:.4g}: pixels of cameras have {} to {} um; is the "
-                                           "point at its place?",
-                                           pitch_um, kPitch_um[0], kPitch_um[1])));
+        out.push_back(
+            places.at("camera.pitch_um",
+                      fmt::format("camera.pitch_um is {:.4g}: pixels of cameras have {} to {} um; is the "
+                                  "point at its place?",
+                                  pitch_um, kPitch_um[0], kPitch_um[1])));
     if (lens_m > kWidestLens_m)
-        out.push_back(places.at("camera.focal_length_mm",
-                                fmt::format("camera.focal_length_mm of {:.6g} at f/{:.3g} is a lens {:.3g} m wide; in "
-                                            "micrometres?",
-                                            1e3 * s.camera.focal_length_m, s.camera.f_number, lens_m)));
+        out.push_back(
+            places.at("camera.focal_length_mm",
+                      fmt::format("camera.focal_length_mm of {:.6g} at f/{:.3g} is a lens {:.3g} m wide; in "
+                                  "micrometres?",
+                                  1e3 * s.camera.focal_length_m, s.camera.f_number, lens_m)));
     if (lens_m < kNarrowestLens_m)
-        out.push_back(places.at("camera.focal_length_mm",
-                                fmt::format("camera.focal_length_mm of {:.4g} at f/{:.3g} is a lens {:.2g} mm wide; in "
-                                            "metres?",
-                                            1e3 * s.camera.focal_length_m, s.camera.f_number, 1e3 * lens_m)));
+        out.push_back(
+            places.at("camera.focal_length_mm",
+                      fmt::format("camera.focal_length_mm of {:.4g} at f/{:.3g} is a lens {:.2g} mm wide; in "
+                                  "metres?",
+                                  1e3 * s.camera.focal_length_m, s.camera.f_number, 1e3 * lens_m)));
 }
 
 }  // namespace

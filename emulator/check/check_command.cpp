@@ -171,8 +171,7 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
 
 bool is_camera_file(const std::filesystem::path& file) { return has_top_level_key(file, "pitch_um"); }
 
-Checked check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
-                         bool json) {
+Checked check_camera(const std::filesystem::path& file, std::span<const std::string> overrides, bool json) {
     CameraModel camera;
     KeyPlaces places(file.string(), "camera.");
     read_config(file, section_of(camera), overrides, &places);

@@ -21,6 +21,6 @@ struct Checked {
 };
 // Its data sheet, after what is probably not meant in it. Throws InputError.
 Checked check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
-                           bool json = false);
+                     bool json = false);
 
 }  // namespace hilcam

@@ -48,7 +48,7 @@ std::string origin_advice(const SeenObject& o) {
 void judge_filling(const SeenObject& o, const CameraReport& camera, std::vector<std::string>& out) {
     constexpr double kAll = 0.999;
     const double fields = 2 * o.angular_radius_rad / camera.sheet.field_diagonal_rad;
-    if (o.picture_share < kAll || fields < kFillsFields) return;
+    if (o.picture_share < kAll || fields < kFillsFields || !(o.angular_radius_rad < 0.5 * kPi)) return;
     out.push_back(fmt::format(
         "object '{}' fills the picture: it is {:.3g} deg large, and the field is {:.3g} deg "
         "(camera.focal_length_mm is {:.6g}, camera.pitch_um {:.4g})",
@@ -95,7 +95,8 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
 std::string exposure_keys(const CameraSheet& sheet, bool by_converter) {
     const std::string keys = std::string("camera.exposure_ms") +
                              (by_converter ? ", or camera.gain_dn_e with camera.gain_db," : "");
-    return sheet.camera.offset_dn > 0.5 * sheet.most_dn ? "camera.offset_dn, which leaves little for light," : keys;
+    return sheet.camera.offset_dn > 0.5 * sheet.most_dn ? "camera.offset_dn, which leaves little for light,"
+                                                        : keys;
 }
 
 // Says what is wrong with the light of something that is lit and in the picture; empty: nothing.
@@ -106,8 +107,8 @@ std::string exposure_fault(const CameraSheet& sheet, const ExpectedSignal& expec
         return fmt::format("saturates: about {:.3g} times what {} takes; {} is too high", expected.full_scale,
                            by_converter ? "the converter" : "a pixel", exposure_keys(sheet, by_converter));
     if (expected.full_scale < kDim)
-        return fmt::format("is dark: about {:.0f} DN of {:.0f}, {:.2g} % of full scale; {} is too low", expected.dn,
-                           sheet.most_dn, 100 * expected.full_scale, exposure_keys(sheet, true));
+        return fmt::format("is dark: about {:.0f} DN of {:.0f}, {:.2g} % of full scale; {} is too low",
+                           expected.dn, sheet.most_dn, 100 * expected.full_scale, exposure_keys(sheet, true));
     return {};
 }
 
@@ -116,18 +117,19 @@ bool any_lamp_lit(const ScenarioConfig& s) {
 }
 
 // key: the object's.
-void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraReport& camera, const std::string& key,
-                 std::vector<std::string>& out) {
+void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraReport& camera,
+                 const std::string& key, std::vector<std::string>& out) {
     if (o.place != SeenObject::Place::kVisible || o.holds_camera || any_lamp_lit(s)) return;
     const std::string name = "object '" + harmless(o.loaded.name) + "'";
     const auto warn = [&](const std::string& text) { out.push_back(s.places.at(key, name + " " + text)); };
     if (o.sunlit < kDark)
-        warn(fmt::format("is in eclipse: bodies leave it {:.2g} % of the Sun, and no lamp is lit", 100 * o.sunlit));
+        warn(fmt::format("is in eclipse: bodies leave it {:.2g} % of the Sun, and no lamp is lit",
+                         100 * o.sunlit));
     else if (lit_share(o.phase_rad) < kDark)
         warn(fmt::format("shows its night side: phase angle {:.1f} deg", degrees(o.phase_rad)));
     else if (o.expected.snr < 1)
-        warn(fmt::format("is lost in the noise: about {:.3g} e- of light, {:.3g} e- of noise", o.expected.signal_e,
-                         camera.sheet.dark_total_e));
+        warn(fmt::format("is lost in the noise: about {:.3g} e- of light, {:.3g} e- of noise",
+                         o.expected.signal_e, camera.sheet.dark_total_e));
     else if (const std::string fault = exposure_fault(camera.sheet, o.expected); !fault.empty())
         out.push_back(s.places.at("camera.exposure_ms", name + " " + fault));
 }
@@ -138,7 +140,8 @@ void judge_ground(const ScenarioConfig& s, const CameraReport& camera, std::vect
     constexpr double kHigh_rad = 10 * kDegree_rad;
     if (!ground || !ground->expected || ground->sun_elevation_rad < kHigh_rad || any_lamp_lit(s)) return;
     if (const std::string fault = exposure_fault(camera.sheet, *ground->expected); !fault.empty())
-        out.push_back(s.places.at("camera.exposure_ms", "the ground of the body '" + ground->body + "' " + fault));
+        out.push_back(
+            s.places.at("camera.exposure_ms", "the ground of the body '" + ground->body + "' " + fault));
 }
 
 void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector<std::string>& out) {
@@ -149,8 +152,9 @@ void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector
             "the camera is beside the terrain's map: terrain.place or pose, heights.spacing_m, or where the "
             "camera is"));
     else if (*sight.height_above_ground_m < 0)
-        out.push_back(s.places.at("camera_pose", fmt::format("the camera is {:.4g} m below the ground of the terrain",
-                                                             -*sight.height_above_ground_m)));
+        out.push_back(
+            s.places.at("camera_pose", fmt::format("the camera is {:.4g} m below the ground of the terrain",
+                                                   -*sight.height_above_ground_m)));
 }
 
 // True when anything in the picture sends light.
@@ -182,10 +186,12 @@ std::vector<std::string> verdict_on_view(const ScenarioConfig& s, const CameraRe
     }
     if (left > 0)
         out.push_back(s.places.at(
-            "objects", fmt::format("and {} more objects have warnings: --json tells where each of them is", left)));
+            "objects",
+            fmt::format("and {} more objects have warnings: --json tells where each of them is", left)));
     if (!shows_light(s, camera.sight))
         out.push_back(s.places.at("camera_pose", "nothing that is lit is in the picture: it will be black"));
-    for (std::string& line : judge_camera(camera.sheet, camera.period_s > 0, s.places)) out.push_back(std::move(line));
+    for (std::string& line : judge_camera(camera.sheet, camera.period_s > 0, s.places))
+        out.push_back(std::move(line));
     judge_ground(s, camera, out);
     judge_terrain(s, camera.sight, out);
     if (camera.share_in_bins < 0.5)

@@ -102,8 +102,7 @@ FirstSight first_sight(const ScenarioConfig& s, const Renderer& renderer,
             (thing.id == kSunId ? out.shows_sun : out.shows_body) = true;
         // Terrain comes after the objects and is made while the camera runs: nothing is known of it here.
         if (thing.is_body || thing.id > s.objects.size()) continue;
-        out.objects.push_back(
-            seen(thing, objects[thing.id - 1], truth, sheet, s.mount.thing == thing.id));
+        out.objects.push_back(seen(thing, objects[thing.id - 1], truth, sheet, s.mount.thing == thing.id));
     }
     const Mat3d first_from_world = transposed(to_matrix(first_camera.world_from_body));
     out.from_first_m = first_from_world * (truth.camera.position_world_m - first_camera.position_world_m);

@@ -16,14 +16,12 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-void append(Lines more, Lines& out) {
-    std::move(more.begin(), more.end(), std::back_inserter(out));
-}
+void append(Lines more, Lines& out) { std::move(more.begin(), more.end(), std::back_inserter(out)); }
 
 // A check takes its time; who waits for a picture or a run does not wait for millions of edges to be sorted.
 constexpr std::size_t kMostTrianglesOnTheWay = 50'000;
 
-// What makes a mesh look wrong, of all that `hilcam mesh` says: panels are open on purpose.
+// Tells what makes a mesh look wrong, of all that `hilcam mesh` says: panels are open on purpose.
 Lines mesh_warnings(const ObjectConfig& object, const std::string& key, const KeyPlaces& places) {
     const std::optional<int> surface =
         object.has_mesh_surface ? std::optional<int>(static_cast<int>(object.mesh_surface)) : std::nullopt;

@@ -20,14 +20,14 @@ struct LoadedView {
     const std::vector<LoadedObject>& objects;
 };
 
-// Before anything is loaded. keeps_frames: a run's frames are recorded. Throws InputError where the scenario's motions
+// Judges before anything is loaded. keeps_frames: a run's frames are recorded. Throws InputError where the scenario's motions
 // cannot be had.
 std::vector<std::string> early_verdict(const ScenarioConfig& bench, VerdictOn on, bool keeps_frames = false);
 // Once the objects are loaded: their materials and meshes.
 std::vector<std::string> verdict_on_objects(const LoadedView& view, VerdictOn on);
-// On what the camera sees at that instant. camera: from report_view().
+// Judges what the camera sees at that instant. camera: from report_view().
 std::vector<std::string> verdict_on_view(const ScenarioConfig& scenario, const CameraReport& camera);
-// What there is to judge a camera by: its sheet and what it sees. number: from 1.
+// Finds what there is to judge a camera by: its sheet and what it sees. number: from 1.
 CameraReport report_view(const LoadedView& view, std::size_t number, const Pose& first_camera);
 
 }  // namespace hilcam

@@ -32,8 +32,9 @@ struct LoopCounters {
     // Exposures skipped, or of a trigger begun a period late, because the one before took too long.
     std::atomic<std::uint64_t> deadline_misses{0};
     std::atomic<std::uint64_t> last_id{0};
-    std::atomic<std::int64_t> waited_for_outputs_ns{0};  // time in which a frame was ready and an output was not
-    std::atomic<std::uint64_t> motion_limited{0};      // frames with more motion than exact motion divides
+    std::atomic<std::int64_t> waited_for_outputs_ns{
+        0};                                        // time in which a frame was ready and an output was not
+    std::atomic<std::uint64_t> motion_limited{0};  // frames with more motion than exact motion divides
     std::atomic<std::uint64_t> standing{0}, stale{0};  // frames while time stood; while no poses came
     // Frames before the kept light that they ask for was there: how many, and the newest one.
     std::atomic<std::uint64_t> without_light{0}, last_without_light{0};

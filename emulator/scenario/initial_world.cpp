@@ -12,11 +12,11 @@ namespace {
 std::string undefined_nadir(const ScenarioConfig& s, const PoseConfig& pose) {
     if (attitude_of(pose) != PoseConfig::Attitude::kNadir) return {};
     const std::string body(kBodyNames[index_of(pose.nadir_of)]);
-    return ": the attitude nadir looks at the centre of the body '" + body + "', and that is where this stands, or " +
-           "right above its pole" +
-           (s.places.of("origin") == s.places.of("")
-                ? "; is 'origin' missing? It says where the world's origin is, which is the Earth's centre without it"
-                : "");
+    return ": the attitude nadir looks at the centre of the body '" + body +
+           "', and that is where this stands, or " + "right above its pole" +
+           (s.places.of("origin") == s.places.of("") ? "; is 'origin' missing? It says where the world's "
+                                                       "origin is, which is the Earth's centre without it"
+                                                     : "");
 }
 
 }  // namespace
@@ -30,7 +30,8 @@ std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time
             return initial_motion(pose, time, bodies);
         } catch (const InputError& error) {
             const std::string nadir = undefined_nadir(scenario, pose);
-            throw InputError(scenario.places.at(key, key + (nadir.empty() ? ": " + std::string(error.what()) : nadir)));
+            throw InputError(
+                scenario.places.at(key, key + (nadir.empty() ? ": " + std::string(error.what()) : nadir)));
         }
     };
     std::vector<Motion> motions = {motion_of(scenario.camera_pose, "camera_pose")};

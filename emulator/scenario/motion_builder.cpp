@@ -53,8 +53,8 @@ class Builder {
             } catch (const InputError& error) {
                 const std::string key =
                     thing == 0 ? "camera_motion" : "objects." + std::to_string(thing - 1) + ".motion";
-                throw InputError(scenario_.places.at(
-                    key, "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
+                throw InputError(
+                    scenario_.places.at(key, "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
             }
         }
         return {std::move(sources), names_};

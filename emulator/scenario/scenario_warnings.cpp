@@ -77,8 +77,9 @@ void look_at_actions(const ScenarioConfig& s, Lines& out) {
     for (std::size_t i = 0; i < s.events.size(); ++i)
         for (const Command& command : actions_of(s.events[i]).commands)
             if (const std::string what = missing_thing(command, s); !what.empty())
-                out.push_back(s.places.at(fmt::format("events.{}.do", i),
-                                          fmt::format("events.{}.do: will be refused: it is for {}", i, what)));
+                out.push_back(
+                    s.places.at(fmt::format("events.{}.do", i),
+                                fmt::format("events.{}.do: will be refused: it is for {}", i, what)));
 }
 
 // Lamps, motions and events name the first of several objects of one name.
@@ -88,9 +89,10 @@ void look_at_names(const ScenarioConfig& s, Lines& out) {
         if (const std::string& name = s.objects[i].name; !names.insert(name).second)
             out.push_back(s.places.at(
                 fmt::format("objects.{}.name", i),
-                fmt::format("objects.{}.name: another object is named '{}', too, and is the one that lamps, motions "
-                            "and events mean by it",
-                            i, name)));
+                fmt::format(
+                    "objects.{}.name: another object is named '{}', too, and is the one that lamps, motions "
+                    "and events mean by it",
+                    i, name)));
 }
 
 void look_at_faults(const ScenarioConfig& s, Lines& out) {
@@ -100,8 +102,8 @@ void look_at_faults(const ScenarioConfig& s, Lines& out) {
     const auto look = [&](FaultKind kind, const char* by) {
         const std::string what = lacking_output(outputs, s.commands, kind);
         if (what.empty() || !told.insert(kind).second) return;
-        out.push_back(s.places.at(by, fmt::format("{}: nothing can show the fault '{}' ({}): that takes {}", by,
-                                                  name_of(kind), meaning_of(kind), what)));
+        out.push_back(s.places.at(by, fmt::format("{}: nothing can show the fault '{}' ({}): that takes {}",
+                                                  by, name_of(kind), meaning_of(kind), what)));
     };
     for (const FaultConfig& fault : s.faults) look(fault.kind, "faults");
     for (const EventConfig& event : s.events)
@@ -110,9 +112,7 @@ void look_at_faults(const ScenarioConfig& s, Lines& out) {
                 look(fault->order.kind, "events");
 }
 
-bool same_turn(const Quat& a, const Quat& b) {
-    return a.w == b.w && a.x == b.x && a.y == b.y && a.z == b.z;
-}
+bool same_turn(const Quat& a, const Quat& b) { return a.w == b.w && a.x == b.x && a.y == b.y && a.z == b.z; }
 
 bool is_inside(const BodyState& body, const Figure& figure, Vec3d place_world_m) {
     const Vec3d p = body.fixed_from_world * (place_world_m - body.world_m);
@@ -121,15 +121,17 @@ bool is_inside(const BodyState& body, const Figure& figure, Vec3d place_world_m)
 }
 
 // Says where a camera stands that is inside a body, and what it may have been meant as.
-std::string told_inside(const ScenarioConfig& s, std::size_t camera, std::size_t body, const WorldSnapshot& world) {
+std::string told_inside(const ScenarioConfig& s, std::size_t camera, std::size_t body,
+                        const WorldSnapshot& world) {
     const Vec3d from_centre_m = world.camera.position_world_m - world.bodies.body[body].world_m;
     std::string line = fmt::format(
         "camera {} begins inside the body '{}', {:.6g} km from its centre: it sees "
         "nothing else",
         camera + 1, kBodyNames[body], length(from_centre_m) * 1e-3);
     if (s.origin.center() == static_cast<BodyId>(body) && !s.origin.turns())
-        line += fmt::format("; the world's origin is that centre{}: say where it is by 'origin'",
-                            static_cast<BodyId>(body) == BodyId::kEarth ? " unless the scenario says otherwise" : "");
+        line += fmt::format(
+            "; the world's origin is that centre{}: say where it is by 'origin'",
+            static_cast<BodyId>(body) == BodyId::kEarth ? " unless the scenario says otherwise" : "");
     if (length(from_centre_m) * 1e3 > kFigures[body].equatorial_radius_m)
         line += ", give positions in metres if these are kilometres";
     return line + fmt::format(", move camera_pose, or set {}.visible: false", kBodyNames[body]);
@@ -141,7 +143,8 @@ void look_at_cameras(const ScenarioConfig& bench, Lines& out) {
         const ScenarioConfig s = scenario_of_camera(bench, camera);
         const WorldSnapshot world = snapshot_at(s, start, start);
         for (std::size_t i = 0; i < kBodyCount; ++i)
-            if (s.bodies[i].visible && is_inside(world.bodies.body[i], kFigures[i], world.camera.position_world_m))
+            if (s.bodies[i].visible &&
+                is_inside(world.bodies.body[i], kFigures[i], world.camera.position_world_m))
                 out.push_back(bench.places.at(s.camera_motion ? "camera_motion" : "camera_pose",
                                               told_inside(s, camera, i, world)));
     }
@@ -161,8 +164,8 @@ void look_at_objects(const ScenarioConfig& s, Lines& out) {
             const Vec3d raised_m = centre_m + (pose.position_world_m - centre_m) / kDeep;
             if (s.bodies[i].visible && is_inside(world.bodies.body[i], kFigures[i], raised_m))
                 out.push_back(s.places.at(
-                    key, fmt::format("{}: object '{}' is inside the body '{}', {:.6g} km from its centre", key,
-                                     s.objects[k].name, kBodyNames[i],
+                    key, fmt::format("{}: object '{}' is inside the body '{}', {:.6g} km from its centre",
+                                     key, s.objects[k].name, kBodyNames[i],
                                      length(pose.position_world_m - centre_m) * 1e-3)));
         }
         for (std::size_t other = 0; other < k; ++other)
@@ -171,9 +174,10 @@ void look_at_objects(const ScenarioConfig& s, Lines& out) {
                 length(world.objects[other].position_world_m - pose.position_world_m) == 0 &&
                 same_turn(world.objects[other].world_from_body, pose.world_from_body))
                 out.push_back(s.places.at(
-                    key, fmt::format("{}: object '{}' stands where '{}' of the same mesh does: which of them is seen "
-                                     "is chance",
-                                     key, s.objects[k].name, s.objects[other].name)));
+                    key, fmt::format(
+                             "{}: object '{}' stands where '{}' of the same mesh does: which of them is seen "
+                             "is chance",
+                             key, s.objects[k].name, s.objects[other].name)));
     }
 }
 
@@ -202,12 +206,14 @@ void look_at_outputs(const ScenarioConfig& s, Lines& out) {
         if (!shows(s.more_cameras[i].outputs))
             out.push_back(s.places.at(
                 fmt::format("more_cameras.{}", i),
-                fmt::format("more_cameras.{}.outputs: camera {} has none, so nobody gets its frames", i, i + 2)));
+                fmt::format("more_cameras.{}.outputs: camera {} has none, so nobody gets its frames", i,
+                            i + 2)));
     if (!shows(s.outputs))
         out.push_back(s.places.at("outputs", "outputs: camera 1 has none, so nobody gets its frames"));
 }
 
-void look_at_shutter(const std::string& section, const ShutterConfig& shutter, const KeyPlaces& places, Lines& out) {
+void look_at_shutter(const std::string& section, const ShutterConfig& shutter, const KeyPlaces& places,
+                     Lines& out) {
     const std::string key = section + ".shutter.line_time_us";
     if (shutter.has_line_time && shutter.kind == ShutterKind::kGlobal)
         out.push_back(places.at(key, key + ": has no effect with kind: global"));
@@ -216,8 +222,8 @@ void look_at_shutter(const std::string& section, const ShutterConfig& shutter, c
 void look_at_shutters(const ScenarioConfig& s, Lines& out) {
     look_at_shutter("camera", s.camera.shutter, s.places, out);
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
-        look_at_shutter(fmt::format("more_cameras.{}.camera", i), s.more_cameras[i].camera.shutter,
-                        s.places, out);
+        look_at_shutter(fmt::format("more_cameras.{}.camera", i), s.more_cameras[i].camera.shutter, s.places,
+                        out);
 }
 
 // Warns of places and bodies that are named and that the scenario does not have.
@@ -235,21 +241,24 @@ void look_at_frames(const ScenarioConfig& s, Lines& out) {
     warn(!s.earth_surface.map.empty() && !shows_earth, "earth_surface",
          "earth_surface: has no effect, as the Earth is not shown: earth.visible");
     warn(!s.earth_surface.map.empty() && !s.bodies[index_of(BodyId::kEarth)].albedo_map.empty(),
-         "earth.albedo_map", "earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
+         "earth.albedo_map",
+         "earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
 }
 
 // Beyond this no orbit about a body lasts: Hill's sphere of the Earth has 1.5e6 km, that of Neptune 1.2e8.
 double farthest_of(BodyId body) {
-    return index_of(body) >= index_of(BodyId::kJupiter) && index_of(body) <= index_of(BodyId::kNeptune) ? 2e11 : 2e9;
+    return index_of(body) >= index_of(BodyId::kJupiter) && index_of(body) <= index_of(BodyId::kNeptune) ? 2e11
+                                                                                                        : 2e9;
 }
 
-void look_at_length(const ScenarioConfig& s, const std::string& key, double length_m, BodyId body, Lines& out) {
+void look_at_length(const ScenarioConfig& s, const std::string& key, double length_m, BodyId body,
+                    Lines& out) {
     if (length_m < farthest_of(body)) return;
     const double km = length_m * 1e-3;
-    out.push_back(s.places.at(key, fmt::format("{} is {:.8g}: that is {:.2g} au from the body '{}'; in metres? here it "
-                                               "would be {:.6g}",
-                                               key, km, length_m / kAstronomicalUnit_m,
-                                               kBodyNames[index_of(body)], km * 1e-3)));
+    out.push_back(s.places.at(
+        key, fmt::format("{} is {:.8g}: that is {:.2g} au from the body '{}'; in metres? here it "
+                         "would be {:.6g}",
+                         key, km, length_m / kAstronomicalUnit_m, kBodyNames[index_of(body)], km * 1e-3)));
 }
 
 void look_at_orbit(const ScenarioConfig& s, const std::string& key, const MotionConfig& motion, Lines& out) {
@@ -331,10 +340,12 @@ std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
 
 std::vector<std::string> length_warnings(const ScenarioConfig& s) {
     Lines out;
-    if (s.origin.turns()) look_at_length(s, "origin.height_km", s.origin.place.height_m, *s.origin.center(), out);
+    if (s.origin.turns())
+        look_at_length(s, "origin.height_km", s.origin.place.height_m, *s.origin.center(), out);
     if (s.camera_motion) look_at_orbit(s, "camera_motion", *s.camera_motion, out);
     for (std::size_t i = 0; i < s.objects.size(); ++i)
-        if (s.objects[i].motion) look_at_orbit(s, fmt::format("objects.{}.motion", i), *s.objects[i].motion, out);
+        if (s.objects[i].motion)
+            look_at_orbit(s, fmt::format("objects.{}.motion", i), *s.objects[i].motion, out);
     return out;
 }
 
@@ -366,8 +377,8 @@ std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects, c
     for (const Warning& w : warnings)
         out.push_back(places.at("objects." + std::to_string(w.number) + ".materials",
                                 "object '" + w.object + "'" +
-                                    (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") + ": " +
-                                    w.meaning));
+                                    (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") +
+                                    ": " + w.meaning));
     return out;
 }
 

@@ -357,10 +357,10 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     load_bodies(scenario, grid, scene);
     load_air_and_earth(scenario, grid, modules, scene);
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
-    scene.sun_irradiance_1au_w_m2_um =
-        scenario.sun.has_spectrum ? grid.average(scenario.sun.spectrum)
-                                  : loaded_for(scenario.places.of("spectrum_edges_um"),
-                                               [&] { return solar_irradiance_1au_w_m2_um(grid); });
+    scene.sun_irradiance_1au_w_m2_um = scenario.sun.has_spectrum
+                                           ? grid.average(scenario.sun.spectrum)
+                                           : loaded_for(scenario.places.of("spectrum_edges_um"),
+                                                        [&] { return solar_irradiance_1au_w_m2_um(grid); });
     scene.limb_darkening = scenario.sun.limb_darkening;
     return scene;
 }

@@ -51,8 +51,8 @@ int carry_out(const CheckArguments& o) {
         return 0;
     }
     const Checked found = is_camera_file(o.config.file)
-                                    ? check_camera(o.config.file, o.config.overrides, o.json)
-                                    : sheet_of_scenario(o);
+                              ? check_camera(o.config.file, o.config.overrides, o.json)
+                              : sheet_of_scenario(o);
     fmt::print("{}", found.text);
     return o.strict && found.has_warnings ? 1 : 0;
 }

@@ -26,7 +26,7 @@ struct RenderArguments {
     std::size_t camera = 0;  // from 1; 0: not told
 };
 
-// Before minutes go into a picture that is black.
+// Is called before minutes go into a picture that is black.
 void log_picture_verdict(StillCamera& camera) {
     const LoadedView view{camera.scenario(), camera.renderer(), camera.objects()};
     log_warnings(verdict_on_objects(view, VerdictOn::kPicture));

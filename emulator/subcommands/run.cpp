@@ -36,7 +36,7 @@ void warn_of_dark_pictures(const ScenarioConfig& scenario) {
     }
 }
 
-// What each camera sees at the first instant, by the truth's rays. Terrain is made for the pose that it is asked for: that
+// Judges what each camera sees at the first instant, by the truth's rays. Terrain is made for the pose that it is asked for: that
 // is the first frame's affair.
 void log_run_verdict(Emulator& emulator) {
     const TimeTai start = parse_utc(emulator.first().scenario().time_utc);
@@ -72,7 +72,8 @@ void say_outputs(const Emulator& emulator) {
         if (line.empty()) continue;
         const std::string whose =
             emulator.stations().size() == 1 ? "" : fmt::format(" of camera {}", station->number());
-        spdlog::log(any_lost(outputs) ? spdlog::level::warn : spdlog::level::info, "outputs{}: {}", whose, line);
+        spdlog::log(any_lost(outputs) ? spdlog::level::warn : spdlog::level::info, "outputs{}: {}", whose,
+                    line);
     }
 }
 
@@ -80,8 +81,8 @@ std::string waits_text(const Emulator& emulator) {
     constexpr double kWorthTelling_s = 0.05;
     double most_s = 0;
     for (const auto& station : emulator.stations())
-        most_s = std::max(most_s, static_cast<double>(
-                                      station->loop().counters().waited_for_outputs_ns.load()) * 1e-9);
+        most_s = std::max(
+            most_s, static_cast<double>(station->loop().counters().waited_for_outputs_ns.load()) * 1e-9);
     return most_s < kWorthTelling_s ? "" : fmt::format(", {:.1f} s of it waiting for outputs", most_s);
 }
 

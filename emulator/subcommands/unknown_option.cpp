@@ -34,14 +34,16 @@ std::vector<std::string> options_of(const CLI::App& command) {
 std::string advice(const CLI::App& command, const std::string& word, const std::string& value) {
     const std::string option = word.substr(0, word.find('='));
     const std::vector<std::string> options = options_of(command);
-    if (const std::string nearest = nearest_of(option, options); !nearest.empty()) return "; nearest: " + nearest;
+    const bool takes_keys = std::find(options.begin(), options.end(), "--set") != options.end();
     std::string name = option.substr(std::min(option.find_first_not_of('-'), option.size()));
     std::replace(name.begin(), name.end(), '-', '_');
-    const std::string key = key_named(name);
-    if (key.empty() || std::find(options.begin(), options.end(), "--set") == options.end())
-        return "; 'hilcam " + command.get_name() + " --help' lists what is accepted";
-    return "; " + in_quotes(key) + " is a key of the scenario: --set " + key + "=" +
-           (value.empty() ? "VALUE" : harmless(value));
+    if (const std::string key = takes_keys ? key_named(name) : ""; !key.empty())
+        return "; " + in_quotes(key) + " is a key of the scenario: --set " + key + "=" +
+               (value.empty() ? "VALUE" : harmless(value));
+    // A slip of the pen leaves the first letter.
+    if (const std::string nearest = nearest_of(option, options); nearest.substr(0, 3) == option.substr(0, 3))
+        return "; nearest: " + nearest;
+    return "; 'hilcam " + command.get_name() + " --help' lists what is accepted";
 }
 
 }  // namespace
@@ -50,10 +52,11 @@ std::string unknown_option(const CLI::App& app) {
     const CLI::App* command = &app;
     while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
     const std::vector<std::string> left = command->remaining();
-    const auto word = std::find_if(left.begin(), left.end(), [](const std::string& w) { return w.starts_with("-"); });
+    const auto word =
+        std::find_if(left.begin(), left.end(), [](const std::string& w) { return w.starts_with("-"); });
     if (word == left.end()) return {};
     const std::size_t equals = word->find('=');
-    const std::string value = equals != std::string::npos                          ? word->substr(equals + 1)
+    const std::string value = equals != std::string::npos ? word->substr(equals + 1)
                               : word + 1 != left.end() && !(word + 1)->starts_with("-") ? *(word + 1)
                                                                                         : "";
     std::string all;

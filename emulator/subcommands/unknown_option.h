@@ -1,5 +1,5 @@
 #pragma once
-// What is said of a command line with words that its subcommand does not take.
+// Makes the message for a command line with words that its subcommand does not take.
 
 #include <CLI/CLI.hpp>
 #include <string>

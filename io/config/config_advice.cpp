@@ -103,8 +103,10 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
     if (!nearest.empty()) return "; nearest known key: " + nearest + "; known keys:" + list;
     // A section with commands: their options are words of theirs.
     if (std::find(keys.begin(), keys.end(), "do") != keys.end())
-        return "; an option of a command stands in its words, as do: 'joint --object 1 --joint 1 --angle-deg 30'; known "
-               "keys:" + list;
+        return "; an option of a command stands in its words, as do: 'joint --object 1 --joint 1 --angle-deg "
+               "30'; known "
+               "keys:" +
+               list;
     const std::vector<std::string> places = places_of(key, root);
     // A word like `name` stands in many places, which helps nobody.
     if (places.empty() || places.size() > kMaxPlaces) return "; known keys:" + list;

@@ -78,7 +78,8 @@ class Reader {
             const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
             for (std::size_t i = 1; i < documents.size(); ++i)
                 if (!documents[i].IsNull())
-                    fail(place, documents[i], "", "a second document ('---') begins here; accepted: one a file");
+                    fail(place, documents[i], "",
+                         "a second document ('---') begins here; accepted: one a file");
             return documents.empty() ? YAML::Node() : documents.front();
         } catch (const YAML::Exception& error) {
             const std::string open = unpaired_bracket(text);

@@ -16,7 +16,9 @@ class KeyPlaces {
     explicit KeyPlaces(std::string file, std::string top = "")
         : known_(std::make_shared<Known>(Known{std::move(file), std::move(top), {}})) {}
 
-    void note(const std::string& key, std::string place) { known_->places[known_->top + key] = std::move(place); }
+    void note(const std::string& key, std::string place) {
+        known_->places[known_->top + key] = std::move(place);
+    }
     // Returns "bench.yaml:7:11", or "--set camera.bits"; of a key that is not given, the place of what holds it or
     // would; empty: nothing is known.
     std::string of(std::string_view key) const;

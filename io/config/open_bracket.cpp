@@ -18,8 +18,12 @@ std::string named(char bracket, std::size_t line) {
 // Goes past a text in quotes; at: of the first quote. Returns the place of the last one.
 std::size_t end_of_quotes(std::string_view text, std::size_t at, std::size_t& line) {
     const char quote = text[at];
-    for (++at; at < text.size() && text[at] != quote; ++at) {
-        if (text[at] == '\\' && quote == '"') ++at;
+    for (++at; at < text.size(); ++at) {
+        const bool doubled = quote == '\'' && text.substr(at, 2) == "''";
+        if (doubled || (quote == '"' && text[at] == '\\'))
+            ++at;
+        else if (text[at] == quote)
+            break;
         if (at < text.size() && text[at] == '\n') ++line;
     }
     return at;

@@ -41,7 +41,7 @@ struct FrameRecord {
 
 class TruthListener;
 
-// What has become of the frames that an output got: it delivered them, lost them, or nobody took frames then.
+// Tells what has become of the frames that an output got: it delivered them, lost them, or nobody took frames then.
 struct SinkReport {
     std::string name;          // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
     std::uint64_t frames = 0;  // delivered

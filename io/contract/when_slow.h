@@ -13,11 +13,12 @@ namespace hilcam {
 enum class WhenSlow { kAuto, kWait, kDrop };
 
 inline Field when_slow(WhenSlow& value) {
-    return choice("when_slow", value, {"auto", "wait", "drop"},
-                  "what happens when frames come faster than they are written. wait: the camera waits, and misses "
-                  "exposures instead; drop: frames are left out, which is told and no fault; auto: drop beside gige, "
-                  "v4l2, uvc or shm, whose clients must not wait for a disk, and wait otherwise; a frame that is lost "
-                  "then is a fault (exit status 1)");
+    return choice(
+        "when_slow", value, {"auto", "wait", "drop"},
+        "treatment of frames that come faster than they are written. wait: the camera waits, and misses "
+        "exposures instead; drop: frames are left out, which is told and no fault; auto: drop beside gige, "
+        "v4l2, uvc or shm, whose clients must not wait for a disk, and wait otherwise; a frame that is lost "
+        "then is a fault (exit status 1)");
 }
 
 // has_live_output: somebody else takes the same frames while they are made.
@@ -26,8 +27,8 @@ inline bool waits(WhenSlow value, bool has_live_output) {
 }
 
 // Says that frames were lost that nobody allowed to be lost. key: "outputs.files".
-inline std::string told_drops(const std::string& key, const std::filesystem::path& folder, std::uint64_t dropped,
-                              std::uint64_t written) {
+inline std::string told_drops(const std::string& key, const std::filesystem::path& folder,
+                              std::uint64_t dropped, std::uint64_t written) {
     return key + ": " + std::to_string(dropped) + " of " + std::to_string(dropped + written) +
            " frames came too fast for '" + folder.string() + "' and were lost; accepted: " + key +
            ".when_slow: wait, which loses none, drop, which allows it, or a larger every_nth";

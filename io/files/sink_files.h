@@ -10,8 +10,8 @@
 #include <mutex>
 #include <thread>
 
-#include "io/contract/frame_mailbox.h"
 #include "io/contract/frame_fates.h"
+#include "io/contract/frame_mailbox.h"
 #include "io/contract/output_shape.h"
 #include "io/contract/run_folder.h"
 #include "io/contract/when_slow.h"

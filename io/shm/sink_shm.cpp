@@ -147,9 +147,9 @@ void ShmSink::stop() noexcept {
     segment_.remove();
 }
 
-SinkReport ShmSink::report() const { 
+SinkReport ShmSink::report() const {
     return {.name = "shm " + config_.name, .frames = published_.load(), .dropped = dropped_.load()};
- }
+}
 
 std::unique_ptr<FrameSink> make_sink(const ShmConfig& config, const SinkContext& context,
                                      const OutputShape& shape) {

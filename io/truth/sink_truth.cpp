@@ -113,7 +113,7 @@ void TruthSink::run() {
     write_settled_lines(true);
 }
 
-// What throws was lost.
+// Counts what the action delivers, and as lost what throws.
 template <class Action>
 void TruthSink::count(const Action& action) {
     try {

@@ -40,9 +40,10 @@ inline constexpr const char* kTruthThreadName = "truth";
 
 // The other outputs of the camera as far as they matter to its truth; all of it outlives the sink.
 struct TruthSurroundings {
-    TruthListener* listener = nullptr;  // gets the lines of the frames that it wants, whatever outputs.truth says
-    FrameFates* fates = nullptr;        // knows what becomes of frames' files; null: there are none
-    bool has_live_output = false;       // another output hands frames to clients while they are made
+    TruthListener* listener =
+        nullptr;                   // gets the lines of the frames that it wants, whatever outputs.truth says
+    FrameFates* fates = nullptr;   // knows what becomes of frames' files; null: there are none
+    bool has_live_output = false;  // another output hands frames to clients while they are made
 };
 
 class TruthSink : public FrameSink {

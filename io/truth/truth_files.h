@@ -48,7 +48,8 @@ class TruthFiles {
     // line: without a newline; it is there for readers when this returns.
     void add_line(std::string_view line);
     // Writes the layers that were asked for.
-    void write_layers(const FrameTruth& truth, std::uint64_t frame, std::span<const std::string> legend) const;
+    void write_layers(const FrameTruth& truth, std::uint64_t frame,
+                      std::span<const std::string> legend) const;
 
   private:
     std::filesystem::path folder_;

@@ -108,11 +108,12 @@ TEST_F(CheckScenario, AMeshBesideItsOriginIsSaid) {
 }
 
 TEST_F(CheckScenario, ActionsForThingsThatAreNotThereAreSaid) {
-    EXPECT_THAT(warnings({"events=[{at_s: 1, do: lamp on}, {at_s: 1, do: joint --object 9 --joint 1 "
-                          "--angle-deg 3}, {at_s: 1, do: joint --object 1 --joint 2 --angle-deg 3}]"}),
-                ElementsAre(HasSubstr("events.0.do: will be refused: it is for lamp 1, and there are 0"),
-                            HasSubstr("events.1.do: will be refused: it is for object 9, and there are 1"),
-                            HasSubstr("events.2.do: will be refused: it is for joint 2 of 'plate', which has 0")));
+    EXPECT_THAT(
+        warnings({"events=[{at_s: 1, do: lamp on}, {at_s: 1, do: joint --object 9 --joint 1 "
+                  "--angle-deg 3}, {at_s: 1, do: joint --object 1 --joint 2 --angle-deg 3}]"}),
+        ElementsAre(HasSubstr("events.0.do: will be refused: it is for lamp 1, and there are 0"),
+                    HasSubstr("events.1.do: will be refused: it is for object 9, and there are 1"),
+                    HasSubstr("events.2.do: will be refused: it is for joint 2 of 'plate', which has 0")));
     EXPECT_THAT(warnings({"events=[{at_s: 1, do: lamp on}]",
                           "lamps=[{name: flash, intensity_w_sr_um: 1, lit: false}]"}),
                 IsEmpty());
@@ -132,8 +133,9 @@ TEST_F(CheckScenario, AModelInMillimetresIsSaid) {
         Contains(HasSubstr(
             "the camera is inside the mesh of object 'plate', which is 2000 x 2000 x 2000 m; the file is "
             "probably in millimetres: scale: 0.001")));
-    EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=10"}),
-                Contains(HasSubstr("the camera is inside the mesh of object 'plate', which is 20 x 20 x 20 m")));
+    EXPECT_THAT(
+        warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=10"}),
+        Contains(HasSubstr("the camera is inside the mesh of object 'plate', which is 20 x 20 x 20 m")));
     // An asteroid from where all of it is seen.
     EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=1000",
                           "objects.0.pose.position_m=[0, 0, 30000]"}),
@@ -167,9 +169,10 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
                 ElementsAre(HasSubstr("mode: triggered, and nobody can trigger a frame")));
     EXPECT_THAT(warnings({"mode=triggered", "commands.tcp.port=15999"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=triggered", "events=[{at_s: 1, do: mode free-run}]"}), IsEmpty());
-    EXPECT_THAT(warnings({"faults=[{kind: packet_drop}, {kind: packet_drop, from_frame: 9}]"}),
-                ElementsAre(HasSubstr("faults: nothing can show the fault 'packet_drop' (stream packets are not "
-                                      "sent): that takes outputs.gige")));
+    EXPECT_THAT(
+        warnings({"faults=[{kind: packet_drop}, {kind: packet_drop, from_frame: 9}]"}),
+        ElementsAre(HasSubstr("faults: nothing can show the fault 'packet_drop' (stream packets are not "
+                              "sent): that takes outputs.gige")));
     EXPECT_THAT(warnings({"faults=[{kind: image_black}]"}),
                 ElementsAre(HasSubstr("that takes any of outputs")));
     EXPECT_THAT(
@@ -194,8 +197,9 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
     EXPECT_THAT(
         warnings({"objects=[{name: a, mesh: " + mesh + ", pose: {position_m: [0, 0, 4]}, " + rules +
                   "}, {name: b, mesh: " + mesh + ", pose: {position_m: [0.1, 0, 4]}, " + rules + "}]"}),
-        ElementsAre(HasSubstr("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
-                              "surfaces: 'DefaultMaterial'")));
+        ElementsAre(
+            HasSubstr("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
+                      "surfaces: 'DefaultMaterial'")));
 }
 
 TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {

@@ -31,15 +31,14 @@ TEST(OutputSummary, OneLineSaysWhatHasBecomeOfTheFrames) {
 class OutputsOfARun : public PlateTest {};
 
 TEST_F(OutputsOfARun, NoFileIsLostInAFreeRunAndTheReportHasEveryOutputsCounts) {
-    const auto file = scenario(", frame_rate_hz: 500, frame_rate_range_hz: [1, 1000], exposure_range_ms: [0.01, 1]",
-                               "");
+    const auto file =
+        scenario(", frame_rate_hz: 500, frame_rate_range_hz: [1, 1000], exposure_range_ms: [0.01, 1]", "");
     RunLimits limits;
     limits.frames = 40;
-    Emulator emulator(
-        load_scenario(file, {{"camera.exposure_ms=0.1",
-                              "outputs.files.folder=" + (folder_ / "frames").string(),
-                              "outputs.truth.folder=" + (folder_ / "frames").string()}}),
-        limits);
+    Emulator emulator(load_scenario(file, {{"camera.exposure_ms=0.1",
+                                            "outputs.files.folder=" + (folder_ / "frames").string(),
+                                            "outputs.truth.folder=" + (folder_ / "frames").string()}}),
+                      limits);
     emulator.run([] {});
     EXPECT_TRUE(run_outcome(emulator).faults.empty());
     const nlohmann::json report = run_report(emulator);
@@ -65,7 +64,8 @@ TEST_F(OutputsOfARun, AFaultOfAnyCameraIsTheRuns) {
     std::filesystem::create_directories(frames);
     emulator.run([&] {
         for (int i = 1; i < 9; ++i)
-            std::filesystem::create_symlink("/dev/full", frames / ("frame_0000000" + std::to_string(i) + ".png"));
+            std::filesystem::create_symlink("/dev/full",
+                                            frames / ("frame_0000000" + std::to_string(i) + ".png"));
     });
     ASSERT_EQ(run_outcome(emulator).faults.size(), 1u);
     EXPECT_NE(run_outcome(emulator).faults[0].find("cannot be written"), std::string::npos);

@@ -3,9 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "emulator/check/check_command.h"
+#include "emulator/check/scenario_verdict.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
@@ -45,14 +49,16 @@ struct Mistake {
     const char* text;   // in that line's place
     const char* place;  // "2:11": where the message finds it; empty: a warning
     const char* words;
+    std::vector<std::pair<int, const char*>> others = {};  // further lines
 };
 
-constexpr Mistake kMistakes[] = {
+const Mistake kMistakes[] = {
     // YAML itself.
     {"Tab", 5, "\twidth_px: 64", "5:10", "tabs are not allowed"},
     {"Indent", 6, "    height_px: 64", "6:14", "the keys of one mapping begin in one column"},
     {"Colon", 7, "  pitch_um:10", "8:18", "a space comes after the colon"},
-    {"OpenBracket", 16, "  position_m: [4, 0, 0", "17:11", "not YAML: end of sequence flow not found"},
+    {"OpenBracket", 16, "  position_m: [4, 0, 0", "17:11",
+     "not YAML: end of sequence flow not found; the [ of line 16 is not closed"},
     // Keys.
     {"UnknownKey", 9, "  f_numbr: 8", "9:3", "camera.f_numbr: unknown key; nearest known key: f_number"},
     {"OtherUnit", 8, "  focal_length_m: 0.0064", "8:3", "its unit here is another: focal_length_mm"},
@@ -165,7 +171,8 @@ constexpr Mistake kMistakes[] = {
      "none.csv: no such file; accepted: a star catalogue in CSV"},
     {"StarsWithoutACatalogue", 24, "stars: {faintest_magnitude: 6}", "", "stars: there are none without"},
     {"ExposureLongerThanThePeriod", 14, "  bits: 12\n  exposure_ms: 200", "",
-     "camera.frame_rate_hz is 30, and camera.exposure_ms with the shutter's rows leaves 5"},
+     "camera.frame_rate_hz is 30: camera.exposure_ms of 200 with the shutter's rows allows 5 frames/s at "
+     "most"},
     {"GainAHundredTimesTooHigh", 13, "  gain_dn_e: 20", "", "camera.gain_dn_e or gain_db is too high"},
     {"GainAHundredTimesTooLow", 13, "  gain_dn_e: 0.002", "", "camera.gain_dn_e or gain_db is too low"},
     {"FullWellInThousands", 12, "  full_well_e: 20", "", "does the data sheet count in ke-?"},
@@ -173,20 +180,176 @@ constexpr Mistake kMistakes[] = {
      "camera.offset_dn is 0, and the noise in the dark 4 DN"},
     {"NoSuchInterface", 25, "outputs: {gige: {interface: nowhere0}}", "",
      "interface 'nowhere0' does not exist"},
+    // Values and places that are in range, and not meant.
+    {"NadirWithoutOrigin",
+     3,
+     "seed: 1",
+     "23:11",
+     "objects.0.pose: the attitude nadir looks at the centre of the body",
+     {{23, "    pose: {attitude: nadir}"}}},
+    {"BlackLevelNearTheEnd", 13, "  gain_dn_e: 0.2\n  offset_dn: 4000", "",
+     "camera.offset_dn of 4000 leaves 95 DN of 4095 for light"},
+    {"EventMisspelt", 24, "events: [{at_s: 1, do: expos}]", "24:24",
+     "events.0.do: found 'expos': unknown subcommand 'expos'; nearest:"},
+    {"EventWithAnOptionAsKey", 24, "events: [{at_s: 1, object: 1, do: joint}]", "24:20",
+     "events.0.object: unknown key; an option of a command stands in its"},
+    {"FocalLengthThousandfold", 8, "  focal_length_mm: 6400", "",
+     "object 'plate' fills the picture: it is 2.03 deg large"},
+    {"PitchWithoutItsPoint", 7, "  pitch_um: 58.6", "",
+     "camera.pitch_um is 58.6: pixels of cameras have 0.5 to 40 um"},
+    {"ExposureHundredthOfIt", 14, "  bits: 12\n  exposure_ms: 0.1", "",
+     "object 'plate' is dark: about 41 DN of 4095, 1 % of full scale"},
+    {"ExposureHundredfold", 14, "  bits: 12\n  exposure_ms: 1000", "",
+     "object 'plate' saturates: about 102 times what a pixel takes"},
+    {"HeightInMetres", 3, "origin: {kind: earth_fixed, longitude_deg: 0, height_km: 35786000}", "",
+     "that is 0.24 au from the body 'earth'; in metres? here it would be 35786"},
+    {"FolderThatCannotBeWritten", 25, "outputs: {files: {folder: /proc/x}}", "",
+     "outputs.files.folder: found '/proc/x', and nothing can be written in '/proc'"},
+    {"TwoDocuments", 25, "outputs: {files: {folder: frames}}\n---\nname: two", "27:1",
+     "a second document ('---') begins here; accepted: one a file"},
+    {"InsideOut", 22, "    mesh: inside.obj", "", "objects.0.mesh: 'inside.obj' is inside out"},
+    {"NoSuchMtl", 22, "    mesh: grey.obj", "", "names the materials 'grey.mtl', and there is no such file"},
+    // Units, missing parts, swapped words.
+    {"PoseInKilometres",
+     3,
+     "origin: {kind: earth_center}",
+     "",
+     "give positions in metres if these are kilometres",
+     {{16, "  position_m: [42164, 0, 0]"}}},
+    {"OrbitInMetres",
+     15,
+     "camera_motion: {kind: kepler, kepler: {semi_major_axis_km: 7000000, true_anomaly_deg: 0}}",
+     "",
+     "camera_motion.kepler.semi_major_axis_km is 7000000: that is 0.047 au from the body 'earth'; in metres?",
+     {{16, ""}, {17, ""}, {18, ""}, {19, ""}}},
+    {"EveryWithoutAStart", 24, "events: [{every_s: 5, do: ping}]", "24:10",
+     "events.0: an event has one of 'at_s', 'at_utc', 'at_frame', 'after'"},
+    {"LookAtWithoutUnit", 18, "  look_at: [0, 0, 0]", "18:3",
+     "camera_pose.look_at: unknown key; nearest known key: look_at_m"},
+    {"EulerWithoutSequence",
+     17,
+     "  attitude_euler_deg: [90, 0, 0]",
+     "17:23",
+     "camera_pose.attitude_euler_deg: has no 'euler_sequence'; accepted:",
+     {{18, ""}, {19, ""}}},
+    {"FolderForAMesh", 22, "    mesh: .", "22:11", "found a file of kind ''; accepted: .glb .gltf .obj"},
+    {"EmptyMesh", 22, "    mesh: empty.obj", "22:11", "does not parse: OBJ-file is too small"},
+    {"DateOfTheCountry", 2, "time_utc: 20/03/2026", "2:11",
+     "time_utc: time '20/03/2026' is not a date and time; accepted: UTC as"},
+    {"YearWithASlip", 2, "time_utc: 2206-03-20T12:00:00Z", "2:11",
+     "time_utc: time '2206-03-20T12:00:00Z' is out of range; accepted: UTC"},
+    {"Sensitivity0", 10, "  quantum_efficiency: 0", "", "the camera sees no light"},
+    {"ObjectWithoutMesh", 22, "", "21:5",
+     "objects.0: an object has either 'mesh' or 'generate'; found neither"},
+    {"FolderForASection", 25, "outputs: {files: frames}", "25:18",
+     "outputs.files: found 'frames'; accepted: a mapping, or the path of a file that holds it"},
+    {"OutputMisspelt", 25, "outputs: {file: {folder: frames}}", "25:11",
+     "outputs.file: unknown key; nearest known key: files"},
+    {"PortTooLarge", 25, "outputs: {preview: {port: 80800}}", "25:27",
+     "outputs.preview.port: found '80800'; accepted: a whole number, 1 to"},
+    {"LocalhostByName", 25, "outputs: {preview: {address: localhost}}", "25:20",
+     "outputs.preview: outputs.preview.address: found 'localhost';"},
+    {"PortForASection", 24, "commands: {udp: 5010}", "24:17",
+     "commands.udp: found '5010'; accepted: a mapping, or the path of a file that holds it"},
+    {"OthersAddress", 25, "outputs: {gige: {interface: 10.1.2.3}}", "",
+     "interface '10.1.2.3' does not exist"},
+    {"AfterNothing", 24, "events: [{after: start, do: expose}]", "24:10", "after: there is no event 'start'"},
+    {"RateInPercent", 24, "faults: [{kind: image_black, rate: 5}]", "24:36",
+     "faults.0.rate: found '5'; accepted: a number, 0 to 1"},
+    {"KeyframesBackwards", 23,
+     "    motion: {kind: keyframes, keyframes: [{at_s: 5, position_m: [0, 0, 0]}, {at_s: 1, position_m: [1, "
+     "0, 0]}]}",
+     "23:13", "motion of 'plate': keyframes: times do not rise at number 2"},
+    {"NoTle", 23, "    motion: {kind: tle, tle: {file: none.tle}}", "23:13",
+     "no such file; accepted: a file of two-line element sets"},
+    {"CatalogueOfAnotherKind", 24, "stars: {catalogue: table.csv}", "24:20",
+     "found 'a,b'; accepted: the names of the columns"},
+    {"SeedByWord", 24, "seed: random", "24:7", "seed: found 'random'; accepted: a whole number, 0 to 9e+15"},
+    {"BinsInTheDark", 24, "spectrum_edges_um: [0.2, 0.25]", "24:20",
+     "spectrum_edges_um: the solar spectrum begins at 0.28 um; found"},
+    {"TwiceAtOnePlace", 23,
+     "    pose: {position_m: [0, 0, 0]}\n  - {name: again, mesh: plate.obj, pose: {position_m: [0, 0, 0]}}",
+     "", "object 'again' stands where 'plate' of the same mesh does"},
+    {"NoCameraPose",
+     15,
+     "",
+     "",
+     "nothing that is lit is in the picture: it will be black",
+     {{16, ""}, {17, ""}, {18, ""}, {19, ""}}},
+    {"NoAttitude",
+     17,
+     "",
+     "",
+     "object 'plate' is outside the field: 90.00 deg off the boresight",
+     {{18, ""}, {19, ""}}},
+    {"SamplesAsPercent", 24, "quality: {samples_per_axis: 100}", "24:29",
+     "quality.samples_per_axis: found '100'; accepted: a whole number, 1 to"},
+    {"TimeStands", 24, "clock: {scale: 0}", "24:16",
+     "clock.scale: found '0'; accepted: a number, 0.001 to 1000"},
+    {"NameWithoutANumber", 25, "outputs: {files: {folder: frames, name: frame.png}}", "25:18",
+     "outputs.files: name: found 'frame.png'; each frame would be written"},
+    {"LayerMisspelt", 25, "outputs: {truth: {folder: t, layers: [depht]}}", "25:18",
+     "outputs.truth: layers: found 'depht'; accepted: object, range, depth,"},
+    {"TruthToNobody", 25, "outputs: {truth: {visibility: true}}", "25:18",
+     "outputs.truth: outputs.truth goes nowhere; accepted: one of port,"},
+    {"Backslashes", 22, "    mesh: \"C:\\models\\plate.obj\"", "22:16",
+     "not YAML: unknown escape character: m"},
+    {"CommaInANumber", 8, "  focal_length_mm: 6,4", "8:20",
+     "camera.focal_length_mm: found '6,4'; accepted: a number, 0.1 to 100000"},
+    {"YesForTrue", 24, "moon: {visible: yes}", "24:17", "moon.visible: found 'yes'; accepted: true or false"},
+    {"Kelvin", 14, "  bits: 12\n  temperature_c: 293", "15:18",
+     "camera.temperature_c: found '293'; accepted: a number, -200 to 150"},
+    {"ReadNoiseAboveTheWell", 14, "  bits: 12\n  read_noise_e: 9000\n  offset_dn: 500", "",
+     "object 'plate' is lost in the noise"},
+    {"RowsThatTakeAnHour", 14, "  bits: 12\n  shutter: {kind: rolling, line_time_us: 1000000}", "",
+     "with the shutter's rows allows 0.01562 frames/s at most"},
+    {"LocalWithoutASite",
+     3,
+     "origin: {kind: earth_center}",
+     "23:19",
+     "objects.0.pose.frame: found 'local', and no site for its axes;",
+     {{23, "    pose: {frame: local, position_m: [0, 0, 0]}"}}},
+    {"AlbedoMissing", 23, "    albedo_file: none.tab", "23:18", "no such file; accepted: a table of albedos"},
+    {"ScaleNegative", 22, "    mesh: plate.obj\n    scale: -1", "23:12",
+     "objects.0.scale: found '-1'; accepted: a number, 1e-06 to 1000000"},
+    {"InsideTheEarth", 23, "    pose: {position_m: [-40000000, 0, 0]}", "",
+     "object 'plate' is inside the body 'earth', 2723.23 km from its centre"},
+    {"LampWithoutLight", 24, "lamps: [{name: a, intensity_w_sr_um: 0}]", "",
+     "lamp 'a' is lit and gives no light"},
+    {"PositionAsMapping", 16, "  position_m: {x: 4, y: 0, z: 0}", "16:15",
+     "camera_pose.position_m: found a mapping; accepted: a list of 3 numbers"},
+    {"Capitals", 24, "Mode: free_run", "24:1", "Mode: unknown key; nearest known key: mode"},
+    {"FilesFolderAFile", 25, "outputs: {files: {folder: plate.obj}}", "", "outputs.files.folder: found '"},
+    {"TimeNoZone", 2, "time_utc: 2026-03-20 12:00", "2:11",
+     "time_utc: time '2026-03-20 12:00' is not a date and time; accepted:"},
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+constexpr const char* kPlate =
+    "v 0 -0.05 -0.05\nv 0 0.05 -0.05\nv 0 0.05 0.05\nv 0 -0.05 0.05\nf 1 2 3\nf 1 3 4\n";
+
+std::string with(const Mistake& mistake) {
+    std::map<int, std::string> edits(mistake.others.begin(), mistake.others.end());
+    edits[mistake.line] = mistake.text;
+    std::istringstream in(kScenario);
+    std::string text, line;
+    for (int number = 1; std::getline(in, line); ++number)
+        text += (edits.contains(number) ? edits[number] : line) + "\n";
+    return text;
+}
 
 class ScenarioMistakes : public FilesTest, public testing::WithParamInterface<Mistake> {};
 
 TEST_P(ScenarioMistakes, AreTold) {
     const Mistake& mistake = GetParam();
-    write("plate.obj", "v 0 -0.05 -0.05\nv 0 0.05 -0.05\nv 0 0.05 0.05\nv 0 -0.05 0.05\nf 1 2 3\nf 1 3 4\n");
-    std::istringstream in(kScenario);
-    std::string text, line;
-    for (int number = 1; std::getline(in, line); ++number)
-        text += (number == mistake.line ? mistake.text : line) + std::string("\n");
-    const auto file = write("scenario.yaml", text);
+    const std::string plate = kPlate;
+    write("plate.obj", plate);
+    write("grey.obj", "mtllib grey.mtl\n" + plate);
+    write("inside.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+    write("empty.obj", "");
+    write("table.csv", "a,b\n1,2\n");
+    const auto file = write("scenario.yaml", with(mistake));
     CheckReport report;
     const std::string error = error_of([&] { report = check_scenario(load_scenario(file, {})); });
     if (*mistake.place) {
@@ -195,6 +358,7 @@ TEST_P(ScenarioMistakes, AreTold) {
     } else {
         EXPECT_EQ(error, "no error");
         EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr(mistake.words)));
+        EXPECT_THAT(report.warnings, testing::Each(testing::StartsWith(file.string())));
     }
 }
 
@@ -214,6 +378,28 @@ TEST_F(FilesTest, AMistakeOfTheCommandLineIsNamedByIt) {
                 testing::StartsWith("--set camera.window_px: found 0.5; accepted: whole pixels"));
     EXPECT_THAT(error("camera.offset_dn=5000"), testing::StartsWith("--set camera.offset_dn: 5000 leaves"));
     EXPECT_THAT(error("stars.catalogue=none.csv"), testing::StartsWith("--set stars.catalogue: "));
+}
+
+// What concerns a run alone is no picture's, and frames for nobody are a run's affair.
+TEST_F(FilesTest, APictureAndARunAreWarnedOfWhatConcernsThem) {
+    using testing::Contains;
+    using testing::HasSubstr;
+    write("plate.obj", kPlate);
+    const auto warnings = [&](VerdictOn on, const std::vector<std::string>& set) {
+        return early_verdict(load_scenario(write("scenario.yaml", kScenario), set), on);
+    };
+    const std::vector<std::string> silent = {"outputs={}"}, nobody = {"mode=lockstep"},
+                                   far = {"origin.height_km=35786000"};
+    const auto none = HasSubstr("outputs: there are none, so nobody gets the frames of a run");
+    EXPECT_THAT(warnings(VerdictOn::kRun, silent), Contains(none));
+    EXPECT_THAT(warnings(VerdictOn::kPicture, silent), testing::IsEmpty());
+    EXPECT_THAT(warnings(VerdictOn::kAll, silent), testing::IsEmpty());
+    for (const VerdictOn on : {VerdictOn::kRun, VerdictOn::kAll})
+        EXPECT_THAT(warnings(on, nobody), Contains(HasSubstr("nobody can ask for a frame")));
+    EXPECT_THAT(warnings(VerdictOn::kPicture, nobody), testing::IsEmpty());
+    for (const VerdictOn on : {VerdictOn::kRun, VerdictOn::kPicture, VerdictOn::kAll})
+        EXPECT_THAT(warnings(on, far),
+                    Contains(HasSubstr("--set origin.height_km: origin.height_km is 35786000")));
 }
 
 class ScenarioWithoutMistakes : public FilesTest {};

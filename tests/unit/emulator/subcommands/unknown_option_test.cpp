@@ -3,9 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "emulator/subcommands/subcommands.h"
+#include "tests/support/files.h"
 
 namespace hilcam {
 namespace {
+
+// Any file will do: the line is not carried out.
+class UnknownOption : public FilesTest {
+  protected:
+    std::string run() { return "run " + write("bench.yaml", "name: bench\n").string() + " "; }
+};
 
 std::string told(const std::string& line) {
     CLI::App app("hilcam");
@@ -22,19 +29,20 @@ std::string told(const std::string& line) {
     return "no error";
 }
 
-TEST(UnknownOption, AKeyIsToldToBeSet) {
-    EXPECT_EQ(told("run geo_inspection --seed 1"),
+TEST_F(UnknownOption, AKeyIsToldToBeSet) {
+    EXPECT_EQ(told(run() + "--seed 1"),
               "run: not expected: '--seed 1'; 'seed' is a key of the scenario: --set seed=1");
-    EXPECT_EQ(told("run geo_inspection --seed=7"),
+    EXPECT_EQ(told(run() + "--seed=7"),
               "run: not expected: '--seed=7'; 'seed' is a key of the scenario: --set seed=7");
-    EXPECT_EQ(told("run geo_inspection --focal-length-mm 5"),
-              "run: not expected: '--focal-length-mm 5'; 'camera.focal_length_mm' is a key of the scenario: --set "
-              "camera.focal_length_mm=5");
+    EXPECT_EQ(
+        told(run() + "--focal-length-mm 5"),
+        "run: not expected: '--focal-length-mm 5'; 'camera.focal_length_mm' is a key of the scenario: --set "
+        "camera.focal_length_mm=5");
 }
 
-TEST(UnknownOption, ASlipOfThePenHasTheNearestOption) {
-    EXPECT_EQ(told("run geo_inspection --frame 5"), "run: not expected: '--frame 5'; nearest: --frames");
-    EXPECT_EQ(told("run geo_inspection --colour"),
+TEST_F(UnknownOption, ASlipOfThePenHasTheNearestOption) {
+    EXPECT_EQ(told(run() + "--frame 5"), "run: not expected: '--frame 5'; nearest: --frames");
+    EXPECT_EQ(told(run() + "--colour"),
               "run: not expected: '--colour'; 'hilcam run --help' lists what is accepted");
     EXPECT_EQ(told("mesh a.obj --seed 1"),
               "mesh: not expected: '--seed 1'; 'hilcam mesh --help' lists what is accepted");

@@ -85,9 +85,9 @@ TEST_F(FilesSinkTest, FramesThatComeTooFastAreAFaultUnlessTheyMayBeDropped) {
         if (when_slow == WhenSlow::kDrop)
             EXPECT_EQ(report.fault, "");
         else
-            EXPECT_THAT(report.fault,
-                        HasSubstr("outputs.files: 2 of 10 frames came too fast for '" + config.folder.string() +
-                                  "' and were lost; accepted: outputs.files.when_slow: wait"));
+            EXPECT_THAT(report.fault, HasSubstr("outputs.files: 2 of 10 frames came too fast for '" +
+                                                config.folder.string() +
+                                                "' and were lost; accepted: outputs.files.when_slow: wait"));
     }
 }
 

@@ -64,7 +64,8 @@ struct TruthOut : FilesTest {
     std::unique_ptr<TruthSink> sink;
 
     void make() {
-        sink = std::make_unique<TruthSink>(config, source(), [this] { return slot(config); }, surroundings);
+        sink = std::make_unique<TruthSink>(
+            config, source(), [this] { return slot(config); }, surroundings);
     }
     // As the loop does it; false: dropped.
     bool frame(std::uint64_t id, std::size_t stars = 0) {
