@@ -67,11 +67,13 @@ bool has_key(const Fields& known, std::string_view key) {
     return std::any_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; });
 }
 
-// Says what a word of a data sheet is here; empty: it is none, or this is no place of a camera's keys.
-std::string sheet_advice(std::string_view key, const Fields& known) {
+// Says what a word of a data sheet is here; empty: it is none, it is a key of ours elsewhere, or this is no
+// place of a camera's keys.
+std::string sheet_advice(std::string_view key, const Fields& known, const Fields& root) {
     const DataSheetWord* const word = data_sheet_word(key);
     const bool inside = has_key(known, "full_well_e"), outside = has_key(known, "camera");
     if (!word || (!inside && !outside)) return {};
+    if (!inside && !places_of(key, root).empty()) return {};
     if (word->key.empty()) return "; " + std::string(word->how);
     const std::string_view here = inside ? word->key.substr(word->key.rfind('.') + 1) : word->key;
     return "; a data sheet's word? here it is " + std::string(here) + ": " + std::string(word->how);
@@ -98,7 +100,7 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
         keys.push_back(field.key);
         list += " " + field.key;
     }
-    if (std::string of_sheet = sheet_advice(key, known); !of_sheet.empty()) return of_sheet;
+    if (std::string of_sheet = sheet_advice(key, known, root); !of_sheet.empty()) return of_sheet;
     const std::string nearest = nearest_of(key, keys);
     if (!nearest.empty()) return "; nearest known key: " + nearest + "; known keys:" + list;
     // A section with commands: their options are words of theirs.

@@ -3,6 +3,7 @@
 
     preview_test.py HILCAM SOURCE_DIR [--screenshot FILE.png]
 """
+import contextlib
 import datetime
 import http.server
 import io
@@ -483,8 +484,9 @@ class PageInBrowser(unittest.TestCase):
                 self.send_response(200 if answer is not None else 204)
                 for word, value in (("Content-Length", len(answer or b"")), ("Content-Type", mimetypes.guess_type(name or "a.html")[0] or "application/json")):
                     self.send_header(word, str(value))
-                self.end_headers()
-                self.wfile.write(answer or b"")
+                with contextlib.suppress(BrokenPipeError):  # the page has gone meanwhile
+                    self.end_headers()
+                    self.wfile.write(answer or b"")
 
             def log_message(self, *_):
                 pass

@@ -104,7 +104,8 @@ TEST(CommandDispatch, ARefusedSettingNamesItsLimitsAndATriggerTheRunsEnd) {
         EXPECT_EQ(dispatch.handle(command, {1, 0, 0, &notes}), expected);
         return notes.why;
     };
-    EXPECT_EQ(why(SettingsCommand{5000, {}, {}}, CommandStatus::kBadArgument), "exposure_s: found 5000; accepted: 1e-06 to 10");
+    EXPECT_EQ(why(SettingsCommand{5000, {}, {}}, CommandStatus::kBadArgument),
+              "exposure_s: found 5000; accepted: 1e-06 to 10");
     EXPECT_EQ(why(SettingsCommand{0.002, {}, {}}, CommandStatus::kAccepted), "");
     EXPECT_EQ(why(TriggerModeCommand{false, 0}, CommandStatus::kNotNow),
               "triggered: in lockstep each 'expose' takes a frame, and stays so");

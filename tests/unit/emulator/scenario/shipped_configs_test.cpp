@@ -91,7 +91,7 @@ TEST(Configs, AColourFilterThatIsNoneSaysWhatIs) {
         }
         return std::string("taken");
     };
-    EXPECT_THAT(message("color_filter: RGBG"), HasSubstr("'hilcam list filters'); nearest: RGGB; "));
+    EXPECT_THAT(message("color_filter: RGGX"), HasSubstr("'hilcam list filters'); nearest: RGGB; "));
     // Stripes, where a mosaic was meant.
     EXPECT_THAT(
         message("color_filter: {pattern: RGGB, filters: generic_rgb}"),
