@@ -29,6 +29,7 @@
 #include "render/frame/plugin.h"
 #include "render/ground/terrain_patch.h"
 #include "render/scene/brdf.h"
+#include "render/sky/motion_bounds.h"
 #include "render/sky/own_bodies.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/check.h"
@@ -155,8 +156,6 @@ SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioCon
                         const SpectralGrid& grid, LoadedObject& found) {
     SceneObject object;
     object.mesh = std::move(mesh);
-    const auto scale = static_cast<float>(config.scale);
-    for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
     const double brightest = paint(object.mesh, config);
     // A level's vertices would each have the albedo of one of many facets, not their mean.
     if (wants_levels_of_detail(scenario) && !config.has_albedo_file) {
@@ -178,6 +177,21 @@ std::string make_of(const ObjectConfig& config, const std::filesystem::path& mes
     return make + section_listing(section_of(materials));
 }
 
+// Brings a mesh to its object's scale. Throws InputError for one that is larger than the Sun: the squares of its facets' areas would leave
+// single precision.
+void scale_mesh(Mesh& mesh, const ObjectConfig& config, const std::filesystem::path& file) {
+    constexpr double kLargest_m = 1e9;
+    const auto scale = static_cast<float>(config.scale);
+    for (Vec3f& vertex : mesh.vertices_m) {
+        vertex = scale * vertex;
+        if (!is_within(to_double(vertex), kLargest_m))
+            throw refused(file.string(),
+                          fmt::format("a vertex {:g} m from the mesh's origin, by the object's scale",
+                                      length(to_double(vertex))),
+                          "at most 1e9 m");
+    }
+}
+
 // An error in a file stands where the scenario names it.
 template <class Load>
 auto loaded_for(const std::string& key_where, const Load& load) {
@@ -193,9 +207,11 @@ std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem:
                               const std::vector<std::string>& nodes) {
     const Progress progress("mesh " + file.filename().string());
     return loaded_for(config.mesh_where, [&] {
-        return load_mesh_parts(
+        std::vector<Mesh> meshes = load_mesh_parts(
             file, nodes,
             config.has_mesh_surface ? std::optional(static_cast<int>(config.mesh_surface)) : std::nullopt);
+        for (Mesh& mesh : meshes) scale_mesh(mesh, config, file);
+        return meshes;
     });
 }
 
@@ -317,9 +333,7 @@ void load_air_and_earth(const ScenarioConfig& scenario, const SpectralGrid& grid
 }  // namespace
 
 Mesh load_whole_mesh(const ObjectConfig& config) {
-    Mesh mesh = std::move(load_meshes(config, mesh_file_of(config), {}).front());
-    for (Vec3f& vertex : mesh.vertices_m) vertex = static_cast<float>(config.scale) * vertex;
-    return mesh;
+    return std::move(load_meshes(config, mesh_file_of(config), {}).front());
 }
 
 BodyId ground_body_id(const ScenarioConfig& s) { return body_named(s, s.terrain->globe->body); }
