@@ -4,6 +4,7 @@
 #include <array>
 
 #include "emulator/send/command_words.h"
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
 #include "render/vocabulary/quoted.h"
@@ -132,8 +133,16 @@ std::string_view refusal_of(const Command& command) {
                 return s.exposure_s || s.gain_db || s.frame_rate_hz ? ""sv : "names no setting"sv;
             },
             [](const OneOf<PingCommand, SubscribeCommand> auto&) { return "does nothing to a camera"sv; },
-            [](const OneOf<PoseCommand, StartCommand, StopCommand, JointCommand, FaultCommand, ExposeCommand,
-                           TriggerModeCommand, ClockCommand, LampCommand> auto&) { return ""sv; },
+            [](const PoseCommand& p) {
+                return is_possible(p.motion) ? ""sv : "is out of the bounds of motion (docs/motion.md)"sv;
+            },
+            [](const JointCommand& j) {
+                return is_possible_turn_of_joint(j.angle_rad, j.rate_rad_s)
+                           ? ""sv
+                           : "is out of the bounds of motion (docs/motion.md)"sv;
+            },
+            [](const OneOf<StartCommand, StopCommand, FaultCommand, ExposeCommand, TriggerModeCommand,
+                           ClockCommand, LampCommand> auto&) { return ""sv; },
         },
         command);
 }

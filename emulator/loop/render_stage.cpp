@@ -112,6 +112,7 @@ void RenderStage::render(FrameSlot& slot) {
     const ExposureRenderer::Result result =
         exposures_.render(world_, {slot.use.shown_at, slot.use.moving}, {seed_, record.id}, slot.radiance,
                           slot.points, slot.exposure, truth);
+    tell_impossible(slot);
     exposures_.look_beside(slot.beside);
     record.camera = exposures_.middle_world().camera;
     tell_commands(result.shown, slot);
@@ -133,6 +134,15 @@ void RenderStage::tell_pose_tags(FrameSlot& slot) {
     slot.use.faults |= kTagsWentBackBit;
     slot.record.faults = slot.use.faults;
     flagged_ = flagged;
+}
+
+void RenderStage::tell_impossible(FrameSlot& slot) {
+    const std::uint64_t impossible = world_.impossible();
+    if (impossible == impossible_) return;
+    slot.use.faults |= kImpossibleMotionBit;
+    slot.record.faults = slot.use.faults;
+    counters_.impossible.fetch_add(1, std::memory_order_relaxed);
+    impossible_ = impossible;
 }
 
 void RenderStage::tell_commands(const ShownCommand& shown, FrameSlot& slot) {

@@ -45,6 +45,7 @@ class RenderStage {
     void latch(FrameSlot& slot);
     void render(FrameSlot& slot);
     void tell_pose_tags(FrameSlot& slot);
+    void tell_impossible(FrameSlot& slot);
     void tell_commands(const ShownCommand& shown, FrameSlot& slot);
     void count_budget();
 
@@ -64,7 +65,8 @@ class RenderStage {
     std::uint32_t level_ = 0;
     bool ends_order_ = false;  // the frame is its order's last
     std::int64_t shown_arrival_ns_ = 0;
-    std::uint64_t flagged_ = 0;  // time tags that went back, as frames have told of them
+    std::uint64_t flagged_ = 0;     // time tags that went back, as frames have told of them
+    std::uint64_t impossible_ = 0;  // WorldState::impossible(), likewise
 };
 
 }  // namespace hilcam

@@ -33,7 +33,8 @@ class SpiceAttitude final : public AttitudeLaw {
     MotionValidity validity(TimeTai time) const override { return coverage_.validity(time); }
     AttitudeState at(const MotionContext& context, const OwnMotion&) const override {
         FrameTurn turn;
-        kernels_->frames.turn(frame_, coverage_.et_s(context.frame.time()), turn);
+        if (!kernels_->frames.turn(frame_, coverage_.et_s(context.frame.time()), turn))
+            return kUnknownAttitude;
         const Quat world_from_body = normalized(to_quat(turn.reference_from_frame) * frame_from_body_);
         return {world_from_body, transposed(to_matrix(world_from_body)) * turn.rate_rad_s};
     }

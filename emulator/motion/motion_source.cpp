@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -30,7 +31,7 @@ auto at_valid(const MotionContext& context, const MotionValidity& validity, F&& 
 
 }  // namespace
 
-MotionStatus MotionSource::place(const MotionContext& context, Motion& out) const {
+MotionStatus MotionSource::given_place(const MotionContext& context, Motion& out) const {
     const MotionValidity where = trajectory_->validity(context.frame.time());
     const StateVector state =
         at_valid(context, where, [&](const MotionContext& c) { return trajectory_->at(c); });
@@ -40,7 +41,7 @@ MotionStatus MotionSource::place(const MotionContext& context, Motion& out) cons
     return where.status;
 }
 
-MotionStatus MotionSource::turn(const MotionContext& context, Motion& out) const {
+MotionStatus MotionSource::given_attitude(const MotionContext& context, Motion& out) const {
     const TimeTai time = context.frame.time();
     const bool stands = trajectory_->validity(time).status != MotionStatus::kOk;
     const OwnMotion self({out.pose.position_world_m, out.velocity_world_m_s}, stands,
@@ -53,6 +54,25 @@ MotionStatus MotionSource::turn(const MotionContext& context, Motion& out) const
     out.pose.world_from_body = attitude.world_from_body;
     out.rate_body_rad_s = attitude.rate_body_rad_s;
     return how.status;
+}
+
+MotionStatus MotionSource::place(const MotionContext& context, Motion& out) const {
+    Motion found = out;
+    const MotionStatus status = given_place(context, found);
+    return take_possible(found, out) ? status : MotionStatus::kImpossible;
+}
+
+MotionStatus MotionSource::turn(const MotionContext& context, Motion& out) const {
+    Motion found = out;
+    const MotionStatus status = given_attitude(context, found);
+    return take_possible(found, out) ? status : MotionStatus::kImpossible;
+}
+
+void MotionSource::begin(const MotionContext& context, bool attitude, Motion& out) const {
+    attitude ? given_attitude(context, out) : given_place(context, out);
+    if (const std::string what = impossible_part(out); !what.empty())
+        throw InputError((attitude ? attitude_->name() : trajectory_->name()) + ": at " +
+                         format_utc(context.frame.time()) + ": found " + what);
 }
 
 std::string MotionSource::gap_at(TimeTai time) const {
@@ -75,7 +95,7 @@ void MotionSource::require(TimeTai time) const {
 
 MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
                              std::span<const std::string> names)
-    : sources_(std::move(sources)) {
+    : names_(names.begin(), names.end()), sources_(std::move(sources)) {
     // done[0]: positions, done[1]: attitudes.
     std::array<std::vector<std::uint8_t>, 2> done;
     for (auto& part : done)
@@ -111,23 +131,35 @@ std::string MotionSources::gap_at(TimeTai time) const {
     return {};
 }
 
-std::uint64_t MotionSources::evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
-                                      std::span<Motion> motions, std::span<std::uint8_t> standing) const {
-    std::uint64_t held = 0;
+MotionSources::Held MotionSources::evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
+                                            std::span<Motion> motions,
+                                            std::span<std::uint8_t> standing) const {
+    Held held;
     std::fill(standing.begin(), standing.end(), std::uint8_t{0});
     for (const MotionNeed& part : order_) {
         if (live[part.thing]) continue;
         const MotionSource& source = *sources_[part.thing];
         Motion& out = motions[part.thing];
         const MotionContext context{frame, motions, standing};
-        if ((part.attitude ? source.turn(context, out) : source.place(context, out)) == MotionStatus::kOk)
-            continue;
-        ++held;
+        const MotionStatus status = part.attitude ? source.turn(context, out) : source.place(context, out);
+        if (status == MotionStatus::kOk) continue;
+        if (status == MotionStatus::kImpossible && held.impossible++ == 0) held.first_impossible = part.thing;
+        if (status != MotionStatus::kImpossible) ++held.unknown;
         if (!part.attitude) standing[part.thing] = 1;
     }
     for (std::size_t i = 0; i < motions.size(); ++i)
         if (standing[i] != 0) motions[i].velocity_world_m_s = {};
     return held;
+}
+
+void MotionSources::begin(const WorldFrame& frame, std::span<Motion> motions) const {
+    std::vector<std::uint8_t> standing(motions.size());
+    for (const MotionNeed& part : order_) try {
+            const MotionContext context{frame, motions, standing};
+            sources_[part.thing]->begin(context, part.attitude, motions[part.thing]);
+        } catch (const InputError& error) {
+            throw InputError("motion of " + in_quotes(names_[part.thing]) + ": " + error.what());
+        }
 }
 
 }  // namespace hilcam

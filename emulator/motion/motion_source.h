@@ -4,9 +4,11 @@
 // follows.
 //
 // Outside the instants that a part knows (an ephemeris's end, a gap in it) it stands still as it was at the
-// nearest one that it knows, and says so. Axes of its orbit stand with it.
+// nearest one that it knows, and says so. Axes of its orbit stand with it. Where what a part gives is no number, or out of the
+// bounds of motion (motion_bounds.h), its thing stays as it was when it was last asked for, and that is said, too.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,13 +20,21 @@
 
 namespace hilcam {
 
-enum class MotionStatus : std::uint8_t { kOk, kBefore, kAfter, kGap };
+enum class MotionStatus : std::uint8_t {
+    kOk,
+    kBefore,
+    kAfter,
+    kGap,
+    kImpossible  // it gives what cannot be (motion_bounds.h); no validity() has this
+};
 
 // Says whether a part knows an instant, and the nearest that it knows.
 struct MotionValidity {
     MotionStatus status = MotionStatus::kOk;
     TimeTai nearest;
 };
+// A part gives this of an instant inside its span that it turns out not to know: no numbers, which no thing takes over.
+inline constexpr StateVector kUnknownState{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {}};
 // Returns the validity of a span whose ends count.
 MotionValidity validity_of(TimeTai time, TimeTai first, TimeTai last);
 
@@ -74,6 +84,7 @@ struct AttitudeState {
     Quat world_from_body;
     Vec3d rate_body_rad_s;
 };
+inline constexpr AttitudeState kUnknownAttitude{{0, 0, 0, 0}, {}};  // likewise: no rotation
 
 class AttitudeLaw {
   public:
@@ -91,10 +102,12 @@ class MotionSource {
     MotionSource(std::unique_ptr<Trajectory> trajectory, std::unique_ptr<AttitudeLaw> attitude,
                  AttitudeJitter jitter = {});
 
-    // Position and velocity of `out`, the latter also where it stands; then, from them, attitude and rate.
-    // Loop.
+    // Position and velocity of `out`, the latter also where it stands; then, from them, attitude and rate. `out` keeps what it
+    // has in place of what cannot be. Loop.
     MotionStatus place(const MotionContext& context, Motion& out) const;
     MotionStatus turn(const MotionContext& context, Motion& out) const;
+    // Does so at the scenario's start, place or attitude. Throws InputError for what cannot be.
+    void begin(const MotionContext& context, bool attitude, Motion& out) const;
     std::vector<MotionNeed> place_needs() const { return trajectory_->needs(); }
     std::vector<MotionNeed> turn_needs() const { return attitude_->needs(); }
     // Says which part does not know the instant, and the nearest that it knows; empty: all know it. Not for the loop.
@@ -106,6 +119,10 @@ class MotionSource {
     std::unique_ptr<Trajectory> trajectory_;
     std::unique_ptr<AttitudeLaw> attitude_;
     AttitudeJitter jitter_;
+
+    // These take over what the parts give, whether it can be or not.
+    MotionStatus given_place(const MotionContext& context, Motion& out) const;
+    MotionStatus given_attitude(const MotionContext& context, Motion& out) const;
 };
 
 // The sources of a scenario's things, in an order in which each part comes after what it needs. Two things
@@ -119,15 +136,23 @@ class MotionSources {
 
     bool empty() const { return order_.empty(); }
     bool has(std::size_t thing) const { return thing < sources_.size() && sources_[thing]; }
+    // Counts the parts that stood still because they do not know the instant, and those that gave what cannot be.
+    struct Held {
+        std::uint64_t unknown = 0, impossible = 0;
+        std::size_t first_impossible = 0;  // thing
+    };
     // Fills the motions of all things with a source for which live[thing] is 0. motions: those of the others
-    // are right. standing: room for a flag of each thing. Gives how many parts stood still. Loop.
-    std::uint64_t evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
-                           std::span<Motion> motions, std::span<std::uint8_t> standing) const;
+    // are right, and those of things with a source as they were last. standing: room for a flag of each thing. Loop.
+    Held evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live, std::span<Motion> motions,
+                  std::span<std::uint8_t> standing) const;
 
     // Says what the first source that does not know the instant lacks; empty: all know it. Any thread but the loop's.
     std::string gap_at(TimeTai time) const;
+    // Evaluates all of them at the scenario's start. Throws InputError for what cannot be. Owner thread.
+    void begin(const WorldFrame& frame, std::span<Motion> motions) const;
 
   private:
+    std::vector<std::string> names_;
     std::vector<std::unique_ptr<MotionSource>> sources_;
     std::vector<MotionNeed> order_;
 };

@@ -1,7 +1,9 @@
 #include "emulator/motion/spice_sky.h"
 
 #include "emulator/motion/spice_coverage.h"
+#include "render/sky/body_bounds.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 namespace {
@@ -41,13 +43,12 @@ class SpiceSky final : public BodySource {
     std::optional<StateVector> from_sun(BodyId id, TimeTai time) const override {
         const int code = codes_[index_of(id)];
         StateVector s;
-        if (code == 0 || !kernels_->bodies.state(code, kSun, kernels_->set.time.et_s(time), s)) return {};
+        if (code == 0 || !knows(code, kSun, kernels_->set.time.et_s(time), s)) return {};
         return s;
     }
     std::optional<StateVector> sun_from_barycenter(TimeTai time) const override {
         StateVector s;
-        if (!has_sun_ || !kernels_->bodies.state(kSun, kBarycentre, kernels_->set.time.et_s(time), s))
-            return {};
+        if (!has_sun_ || !knows(kSun, kBarycentre, kernels_->set.time.et_s(time), s)) return {};
         return s;
     }
     std::optional<Mat3d> fixed_from_icrf(BodyId id, TimeTai time) const override {
@@ -59,7 +60,8 @@ class SpiceSky final : public BodySource {
     StateVector origin_from_sun(TimeTai time) const override {
         const MotionValidity validity = origin_coverage_.validity(time);
         StateVector s;
-        kernels_->bodies.state(origin_, kSun, origin_coverage_.et_s(validity.nearest), s);
+        if (!knows(origin_, kSun, origin_coverage_.et_s(validity.nearest), s))
+            return {origin_at_start_.position_m, {}};
         if (validity.status != MotionStatus::kOk) s.velocity_m_s = {};
         return s;
     }
@@ -71,7 +73,12 @@ class SpiceSky final : public BodySource {
     bool has_sun_ = false;
     int origin_ = 0;
     SpiceCoverage origin_coverage_;
+    StateVector origin_at_start_;
 
+    // What the kernels say that cannot be, they do not know. Loop.
+    bool knows(int body, int center, double et_s, StateVector& out) const {
+        return kernels_->bodies.state(body, center, et_s, out) && is_possible(out);
+    }
     void require_both(int body, const std::string& key) {
         kernels_->bodies.require(body, key);
         if (kernels_->bodies.has(kSun)) kernels_->bodies.require(kSun, key);
@@ -80,13 +87,13 @@ class SpiceSky final : public BodySource {
         StateVector s;
         if (kernels_->bodies.has(kSun)) {
             kernels_->bodies.require(kSun, "sun");
-            has_sun_ = kernels_->bodies.state(kSun, kBarycentre, et_s, s);
+            has_sun_ = knows(kSun, kBarycentre, et_s, s);
         }
         for (std::size_t i = 0; i < kBodyCount; ++i) {
             const int code = naif_code_in(*kernels_, static_cast<BodyId>(i));
             if (kernels_->bodies.has(code)) {
                 require_both(code, std::string(kBodyNames[i]));
-                if (kernels_->bodies.state(code, kSun, et_s, s)) codes_[i] = code;
+                if (knows(code, kSun, et_s, s)) codes_[i] = code;
             }
             const auto frame = frame_of(kernels_->set, kCodes[i]);
             FrameTurn turn;
@@ -109,6 +116,11 @@ class SpiceSky final : public BodySource {
             throw InputError(key + ": the kernels do not know where " + std::to_string(code) +
                              " is at the scenario's start; the nearest instant they know is " +
                              format_utc(validity.nearest));
+        if (!knows(code, kSun, origin_coverage_.et_s(start), origin_at_start_))
+            throw InputError(key + ": where " + std::to_string(code) +
+                             " is about the Sun at the scenario's start cannot be; accepted: at most " +
+                             plain(kFarthestPlace_m) + " m away and " + plain(kFastestMotion_m_s) +
+                             " m/s fast");
     }
 };
 

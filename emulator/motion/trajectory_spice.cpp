@@ -25,8 +25,8 @@ class SpiceTrajectory final : public Trajectory {
     MotionValidity validity(TimeTai time) const override { return coverage_.validity(time); }
     StateVector at(const MotionContext& context) const override {
         StateVector s;
-        // What is valid is known.
-        kernels_->bodies.state(place_.object, place_.about, coverage_.et_s(context.frame.time()), s);
+        if (!kernels_->bodies.state(place_.object, place_.about, coverage_.et_s(context.frame.time()), s))
+            return kUnknownState;
         if (!place_.center) return s;
         const StateVector center = context.frame.center(*place_.center);
         return {center.position_m + s.position_m, center.velocity_m_s + s.velocity_m_s};

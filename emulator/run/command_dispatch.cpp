@@ -5,6 +5,7 @@
 #include "emulator/recording/recorder.h"
 #include "emulator/run/event_director.h"
 #include "io/contract/refused_settings.h"
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/overloaded.h"
 
 namespace hilcam {
@@ -186,6 +187,7 @@ CommandStatus CommandDispatch::move(const C& command, PoseWatch::Subject subject
 
 CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSource& source) {
     if (!cameras_.front().world->thing_of(pose.object)) return CommandStatus::kUnknownObject;
+    if (!is_possible(pose.motion)) return CommandStatus::kBadArgument;
     PoseCommand resolved = pose;
     return move(resolved, {pose.object, 0}, resolved.motion.time, source, pose.alone,
                 [&](WorldState& world, const ShownCommand& shown, bool anew) {
@@ -195,6 +197,7 @@ CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSo
 
 CommandStatus CommandDispatch::turn(const JointCommand& joint, const CommandSource& source) {
     if (!cameras_.front().world->thing_of(joint.object, joint.joint)) return CommandStatus::kUnknownObject;
+    if (!is_possible_turn_of_joint(joint.angle_rad, joint.rate_rad_s)) return CommandStatus::kBadArgument;
     JointCommand resolved = joint;
     return move(resolved, {joint.object, joint.joint}, resolved.time, source, false,
                 [&](WorldState& world, const ShownCommand& shown, bool anew) {

@@ -273,6 +273,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         for (const auto& station : stations_) station->serve_faults(seconds_);
         print_level_changes();
         print_held_motion();
+        print_impossible_motion();
         print_light();
         silence_log_.look();
         print_output_faults(now_ns);
@@ -333,6 +334,16 @@ void Emulator::print_held_motion() {
     spdlog::warn(
         "a source of motion does not know the simulated time any more: {}; what it moves stands still there",
         first().world().first_gap());
+}
+
+// Once: what a source of motion or a command leads to cannot be.
+void Emulator::print_impossible_motion() {
+    if (told_impossible_motion_ || first().world().impossible() == 0) return;
+    told_impossible_motion_ = true;
+    spdlog::warn(
+        "the motion of {} is no number or out of its bounds (docs/motion.md): it stays as it was, and frames "
+        "have the flag impossible_motion",
+        first().world().first_impossible());
 }
 
 // Once, when all cameras have the light that was made beside the run.

@@ -66,6 +66,7 @@ class Emulator {
     void print_line();
     void print_level_changes();
     void print_held_motion();
+    void print_impossible_motion();
     void print_light();
     void print_output_faults(std::int64_t now_ns);
     bool finished() const;
@@ -90,7 +91,7 @@ class Emulator {
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;
     double seconds_ = 0;
     std::uint64_t frames_printed_ = 0;
-    bool told_held_motion_ = false, told_light_ = false;
+    bool told_held_motion_ = false, told_impossible_motion_ = false, told_light_ = false;
     std::int64_t next_fault_look_ns_ = 0;
     std::int64_t next_missed_line_ns_ = 0;
     std::uint64_t missed_told_ = 0;

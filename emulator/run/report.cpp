@@ -120,6 +120,7 @@ json camera_report(CameraStation& station, double seconds) {
         {"deadline_misses", loop.counters().deadline_misses.load()},
         {"stale_frames", loop.counters().stale.load()},
         {"standing_frames", loop.counters().standing.load()},
+        {"impossible_motion_frames", loop.counters().impossible.load()},
         {"latency_ms",
          {{"first_packet", percentiles_of(delivery.command_to_first)},
           {"last_packet", percentiles_of(delivery.command_to_last)},

@@ -3,6 +3,9 @@
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/site.h"
+#include "render/sky/motion_bounds.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 
@@ -55,6 +58,11 @@ WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai
     world.objects.resize(state.placed_objects());
     ShownCommand shown;
     state.sample(time, world, shown);
+    if (const std::string what = state.first_impossible(); !what.empty())
+        throw InputError("the motion of " + what +
+                         " is no number or out of its bounds; accepted: places up to " +
+                         plain(kFarthestPlace_m) + " m from the origin, velocities up to " +
+                         plain(kFastestMotion_m_s) + " m/s");
     return world;
 }
 

@@ -11,6 +11,7 @@
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/site.h"
 #include "io/spice/kernel_names.h"
+#include "render/sky/motion_bounds.h"
 #include "render/sky/own_bodies.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -57,7 +58,9 @@ class Builder {
                     scenario_.places.at(key, "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
             }
         }
-        return {std::move(sources), names_};
+        MotionSources out(std::move(sources), names_);
+        begin(out);
+        return out;
     }
 
   private:
@@ -67,6 +70,15 @@ class Builder {
     std::optional<PlaceConfig> site_;
     std::vector<std::optional<MotionConfig>> local_;  // local source of each thing whose pose is local
     std::vector<std::size_t> asked_;                  // things on the way to the one whose orbit is asked for
+
+    // Refuses a scenario that begins with what cannot be.
+    void begin(const MotionSources& sources) const {
+        std::vector<Motion> motions = initial_motions(scenario_, start_);
+        for (std::size_t thing = 0; thing < motions.size(); ++thing)
+            if (const std::string what = impossible_part(motions[thing]); !what.empty())
+                throw InputError("pose of " + in_quotes(names_[thing]) + ": found " + what);
+        sources.begin({start_, scenario_.origin}, motions);
+    }
 
     const MotionConfig* config_of(std::size_t thing) const {
         if (local_[thing]) return &*local_[thing];

@@ -4,6 +4,7 @@
 
 #include "io/files/leap_seconds_file.h"
 #include "render/sky/bodies.h"
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 
@@ -28,9 +29,10 @@ constexpr const char* kOf = "thing that the frames lvlh and object belong to: an
 Fields fields(KeyframeConfig& k) {
     Fields list = {
         required(number("at_s", k.at_s, 1, {-1e9, 1e9}, "time after the scenario's start")),
-        vector3("position_m", k.position_m, 1, {-1e13, 1e13}, "position in the motion's frame"),
+        vector3("position_m", k.position_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
+                "position in the motion's frame"),
         optional(
-            vector3("velocity_m_s", k.velocity_m_s, 1, {-1e9, 1e9},
+            vector3("velocity_m_s", k.velocity_m_s, 1, {-kFastestMotion_m_s, kFastestMotion_m_s},
                     "velocity in the motion's frame; left out: worked out from the neighbouring keyframes"),
             k.has_velocity),
     };
@@ -159,8 +161,10 @@ Fields fields(MotionConfig& m) {
         text("of", m.of, kOf),
         choice("center", m.center, center_names(),
                "body at the centre of the orbit or of lvlh, or the body of body_fixed"),
-        vector3("position_m", m.position_m, 1, {-1e13, 1e13}, "position at the start, for fixed and cw"),
-        vector3("velocity_m_s", m.velocity_m_s, 1, {-1e9, 1e9}, "velocity in the frame, for fixed and cw"),
+        vector3("position_m", m.position_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
+                "position at the start, for fixed and cw"),
+        vector3("velocity_m_s", m.velocity_m_s, 1, {-kFastestMotion_m_s, kFastestMotion_m_s},
+                "velocity in the frame, for fixed and cw"),
         sections("keyframes", m.keyframes, "places on the way, in order of time"),
         section("kepler", m.kepler, "elements of an unperturbed orbit"),
         section("tle", m.tle, "two-line element set, propagated by SGP4"),

@@ -1,5 +1,6 @@
 #include "emulator/scenario/object_config.h"
 
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 
@@ -10,7 +11,8 @@ Fields fields(PoseConfig& p) {
         choice("frame", p.frame, {"world", "local"},
                "axes in which everything here is given. local: x east, y north, z up at the site, turning "
                "with it"),
-        vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "position in the frame"),
+        vector3("position_m", p.position_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
+                "position in the frame"),
         optional(choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
                         "way to give the attitude. quaternion: by attitude_wxyz or another form; look_at: +z "
                         "points to a point, -y is near up; nadir: +z points to the centre of nadir_of, +y "
@@ -23,12 +25,14 @@ Fields fields(PoseConfig& p) {
             choice("nadir_of", p.nadir_of, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
                    "body that nadir looks at; left out: the origin's, or with frame local the site's"),
             p.has_nadir_of),
-        optional(vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "point in the frame that +z looks at"),
+        optional(vector3("look_at_m", p.look_at_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
+                         "point in the frame that +z looks at"),
                  p.has_look_at),
         optional(
             vector3("up", p.up, 1, {-1e13, 1e13}, "direction in the frame that is near up in the picture"),
             p.has_up),
-        optional(vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "velocity in the frame"),
+        optional(vector3("velocity_m_s", p.velocity_m_s, 1, {-kFastestMotion_m_s, kFastestMotion_m_s},
+                         "velocity in the frame"),
                  p.has_velocity),
         optional(vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5},
                          "rate of turn about the body axes"),

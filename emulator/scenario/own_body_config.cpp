@@ -10,6 +10,7 @@
 #include "io/files/oem_file.h"
 #include "io/spice/kernel_names.h"
 #include "render/sky/earth_frames.h"
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
@@ -86,8 +87,8 @@ void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernel
             (coverage.empty() ? "" : "; the nearest instant they know is " + format_utc(validity.nearest)));
     body.orbit = [kernels, coverage, code, about](TimeTai time) {
         StateVector s;
-        kernels->bodies.state(code, about, coverage.et_s(coverage.validity(time).nearest), s);
-        return s;
+        const double et_s = coverage.et_s(coverage.validity(time).nearest);
+        return kernels->bodies.state(code, about, et_s, s) ? s : kUnknownState;
     };
     const std::string id = std::to_string(code);
     if (c.has_pole || c.has_synchronous || !kernels->set.pool.find("BODY" + id + "_POLE_RA")) return;
@@ -97,6 +98,11 @@ void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernel
         kernels->frames.turn(frame, kernels->set.time.et_s(time), turn);
         return transposed(turn.reference_from_frame);
     };
+}
+
+void require_possible(const StateVector& s, TimeTai start) {
+    const std::string what = impossible_part({start, {s.position_m, {}}, s.velocity_m_s, {}});
+    if (!what.empty()) throw InputError("about its center at the scenario's start: found " + what);
 }
 
 }  // namespace
@@ -176,6 +182,7 @@ std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig
                 take_from_kernels(c, kernels, start, body);
             else
                 body.orbit = c.kepler ? kepler_orbit(c, start) : ephemeris_orbit(c, start);
+            require_possible(body.orbit(start), start);
         } catch (const InputError& error) {
             throw InputError("body " + in_quotes(c.name) + ": " + error.what());
         }

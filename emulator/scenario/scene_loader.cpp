@@ -29,6 +29,7 @@
 #include "render/frame/plugin.h"
 #include "render/ground/terrain_patch.h"
 #include "render/scene/brdf.h"
+#include "render/sky/motion_bounds.h"
 #include "render/sky/own_bodies.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/check.h"
@@ -109,95 +110,15 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
-// An error in a file stands where the scenario names it.
-template <class Load>
-auto loaded_for(const std::string& key_where, const Load& load) {
-    try {
-        return load();
-    } catch (const InputError& error) {
-        if (key_where.empty()) throw;
-        throw InputError(key_where + ": " + error.what());
-    }
-}
-
-// Puts the object's table of albedos onto the mesh. Returns what its materials are to be multiplied with.
-double paint(Mesh& mesh, const ObjectConfig& config) {
-    if (!config.has_albedo_file) return 1;
-    const Progress progress("albedos of " + config.name);
-    const auto reference =
-        config.has_albedo_reference ? std::optional(config.albedo_reference) : std::nullopt;
-    return loaded_for(config.albedo_where, [&] {
-        return paint_albedos(mesh, read_albedos(config.albedo_file), reference, config.albedo_file.string());
-    });
-}
-
-// Refuses a factor with which a surface would send back more light than it gets: by its material's own rule, else by
-// what it reflects.
-void require_darkness(const MeshSurface& surface, const Material& material, double factor,
-                      const ObjectConfig& config, const SpectralGrid& grid) {
-    const auto refuse = [&](const std::string& why) {
-        throw InputError(
-            fmt::format("{}: its greatest albedo is {:.4g} times the reference, which is too bright "
-                        "for the material of the surface {}: {}; accepted: a darker material, or "
-                        "another albedo_reference",
-                        config.albedo_where, factor, in_quotes(surface.name), why));
-    };
-    if (factor * reflectance_of(material, grid) > 1) refuse("it would create light");
-    const SurfaceConfig* const rule = find_surface(config.materials.surfaces, surface.name);
-    if (!rule) return;
-    MaterialConfig scaled = rule->material;
-    for (double& value : scaled.reflectance.value) value *= factor;
-    try {
-        validate(scaled);
-    } catch (const InputError& problem) {
-        refuse(problem.what());
-    }
-}
-
-void brighten(SceneObject& object, double factor, const ObjectConfig& config, const SpectralGrid& grid) {
-    for (std::size_t s = 0; s < object.materials.size(); ++s) {
-        Material& material = object.materials[s];
-        require_darkness(object.mesh.surfaces[s], material, factor, config, grid);
-        const auto scale = static_cast<float>(factor);
-        material.base = scale * material.base;
-        if (material.is_bare()) material.highlight = scale * material.highlight;
-    }
-}
-
-SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
-                        const SpectralGrid& grid, LoadedObject& found) {
-    SceneObject object;
-    object.mesh = std::move(mesh);
-    const auto scale = static_cast<float>(config.scale);
-    for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
-    const double brightest = paint(object.mesh, config);
-    // A level's vertices would each have the albedo of one of many facets, not their mean.
-    if (wants_levels_of_detail(scenario) && !config.has_albedo_file) {
-        const Progress progress("levels of detail of " + config.name);
-        object.levels = cached_levels(object.mesh, cache_folder());
-    }
-    object.materials = load_materials(object.mesh, config.materials, grid);
-    tell(object.mesh, object.materials, config, grid, found);
-    if (config.has_albedo_file) brighten(object, brightest, config, grid);
-    return object;
-}
-
-// Objects of one make have the same meshes and the same looks, wherever they are and however they turn.
-std::string make_of(const ObjectConfig& config, const std::filesystem::path& mesh) {
-    std::string make = fmt::format("{}\n{}\n{}\n{}\n{}\n", mesh.string(), config.scale, config.mesh_surface,
-                                   config.albedo_file.string(), config.albedo_reference);
-    for (const JointConfig& joint : config.joints) make += joint.node + "\n";
-    MaterialSet materials = config.materials;
-    return make + section_listing(section_of(materials));
-}
-
 std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem::path& file,
                               const std::vector<std::string>& nodes) {
     const Progress progress("mesh " + file.filename().string());
     return loaded_for(config.mesh_where, [&] {
-        return load_mesh_parts(
+        std::vector<Mesh> meshes = load_mesh_parts(
             file, nodes,
             config.has_mesh_surface ? std::optional(static_cast<int>(config.mesh_surface)) : std::nullopt);
+        for (Mesh& mesh : meshes) scale_mesh(mesh, config, file);
+        return meshes;
     });
 }
 
@@ -319,9 +240,7 @@ void load_air_and_earth(const ScenarioConfig& scenario, const SpectralGrid& grid
 }  // namespace
 
 Mesh load_whole_mesh(const ObjectConfig& config) {
-    Mesh mesh = std::move(load_meshes(config, mesh_file_of(config), {}).front());
-    for (Vec3f& vertex : mesh.vertices_m) vertex = static_cast<float>(config.scale) * vertex;
-    return mesh;
+    return std::move(load_meshes(config, mesh_file_of(config), {}).front());
 }
 
 BodyId ground_body_id(const ScenarioConfig& s) { return body_named(s, s.terrain->globe->body); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/sky/body_bounds.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -78,6 +79,7 @@ WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& orig
       sources_(std::move(sources)),
       lamps_(lamps),
       now_(motions.begin(), motions.end()),
+      bodies_(bodies_at(motions.front().time, origin)),
       live_(motions.size()),
       standing_(motions.size()) {
     HILCAM_CHECK(mount.thing <= objects_);
@@ -92,6 +94,7 @@ WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& orig
         add({motions.front().time, {{joint.angle_rad, 0, 0}, {}}, {joint.rate_rad_s, 0, 0}, {}});
     HILCAM_CHECK(!things_.empty());
     for (const LampMount& lamp : lamps) HILCAM_CHECK(lamp.thing <= placed_objects());
+    sources_.evaluate({motions.front().time, origin_}, live_, now_, standing_);
 }
 
 std::optional<std::size_t> WorldState::thing_of(std::size_t object) const {
@@ -164,31 +167,73 @@ void WorldState::evaluate_sources(TimeTai time) const {
     if (sources_.empty()) return;
     for (std::size_t i = 0; i <= objects_; ++i) {
         live_[i] = things_[i]->sampled->command.arrival_monotonic_ns != 0;
-        if (!follows_source(i)) now_[i] = things_[i]->sampled->motion_at(time);
+        if (!follows_source(i)) commanded(i, time);
     }
-    const std::uint64_t held = sources_.evaluate({time, origin_}, live_, now_, standing_);
-    if (held == 0) return;
+    const MotionSources::Held held = sources_.evaluate({time, origin_}, live_, now_, standing_);
+    count_impossible(held.first_impossible, time, held.impossible);
+    if (held.unknown == 0) return;
     if (held_.load(std::memory_order_relaxed) == 0) first_held_.store(time, std::memory_order_relaxed);
-    held_.fetch_add(held, std::memory_order_release);
+    held_.fetch_add(held.unknown, std::memory_order_release);
+}
+
+// One writer: the loop.
+void WorldState::count_impossible(std::size_t thing, TimeTai time, std::uint64_t times) const {
+    if (times == 0) return;
+    if (impossible_.load(std::memory_order_relaxed) == 0) {
+        first_impossible_.store(time, std::memory_order_relaxed);
+        first_impossible_thing_.store(thing, std::memory_order_relaxed);
+    }
+    impossible_.fetch_add(times, std::memory_order_release);
+}
+
+std::string WorldState::first_impossible() const {
+    if (impossible() == 0) return {};
+    const std::size_t thing = first_impossible_thing_.load(std::memory_order_relaxed);
+    std::string what = "a body of the sky";
+    if (thing == 0)
+        what = "the camera's body";
+    else if (thing < things_.size())
+        what = thing <= objects_ ? "object " + std::to_string(thing) : "a joint";
+    return what + " at " + format_utc(first_impossible_.load(std::memory_order_relaxed));
+}
+
+void WorldState::take_bodies(TimeTai time) const {
+    if (!take_possible(bodies_at(time, origin_), bodies_)) count_impossible(things_.size(), time);
+}
+
+// Returns where a thing is that commands move, or the scenario's pose.
+const Motion& WorldState::commanded(std::size_t thing, TimeTai time) const {
+    if (!take_possible(things_[thing]->sampled->motion_at(time), now_[thing])) count_impossible(thing, time);
+    return now_[thing];
+}
+
+const Pose& WorldState::commanded_pose(std::size_t thing, TimeTai time) const {
+    const Motion found{time, things_[thing]->sampled->at(time), {}, {}};
+    if (!take_possible(found, now_[thing])) count_impossible(thing, time);
+    return now_[thing].pose;
 }
 
 void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const {
     world.time = time;
-    if (with_bodies) world.bodies = bodies_at(time, origin_);
+    if (with_bodies) take_bodies(time), world.bodies = bodies_;
     evaluate_sources(time);
-    const auto motion = [&](std::size_t thing) {
-        return follows_source(thing) ? now_[thing] : things_[thing]->sampled->motion_at(time);
+    // What sources may follow has been taken in by evaluate_sources().
+    const auto motion = [&](std::size_t thing) -> const Motion& {
+        return sources_.empty() ? commanded(thing, time) : now_[thing];
     };
     const Motion camera = mounted(motion(mount_.thing), mount_);
     world.camera = camera.pose;
     world.camera_velocity_m_s = world.rows_velocity_m_s = camera.velocity_world_m_s;
     world.camera_rate_rad_s = camera.rate_body_rad_s;
     for (std::size_t i = 0; i < objects_; ++i)
-        world.objects[i] = follows_source(1 + i) ? now_[1 + i].pose : things_[1 + i]->sampled->at(time);
+        world.objects[i] = sources_.empty() ? commanded_pose(1 + i, time) : now_[1 + i].pose;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         const Joint& joint = joints_[i];
         const double angle_rad = things_[1 + objects_ + i]->sampled->at(time).position_world_m.x;
-        world.objects[objects_ + i] = turned(world.objects[joint.object], joint, angle_rad);
+        const Pose part = turned(world.objects[joint.object], joint, angle_rad);
+        const bool can_be = is_possible(part);
+        world.objects[objects_ + i] = can_be ? part : world.objects[joint.object];
+        count_impossible(1 + objects_ + i, time, can_be ? 0 : 1);
     }
     lamps_.place(time, lamps_.size() > 0 ? motion(0).pose : Pose{}, world);
 }
@@ -204,8 +249,10 @@ Vec3d WorldState::nearest_velocity_m_s(const WorldSnapshot& world) const {
     }
     if (nearest == objects_) return {};
     const std::size_t thing = 1 + nearest;
-    return follows_source(thing) ? now_[thing].velocity_world_m_s
-                                 : things_[thing]->sampled->motion_at(world.time).velocity_world_m_s;
+    if (follows_source(thing)) return now_[thing].velocity_world_m_s;
+    Motion kept = now_[thing];
+    take_possible(things_[thing]->sampled->motion_at(world.time), kept);
+    return kept.velocity_world_m_s;
 }
 
 }  // namespace hilcam

@@ -6,6 +6,9 @@
 // or, when all known ones lie after t, the first of them backwards. The last 8 motions of each thing are
 // kept. A thing with a source of motion (motion_source.h) is where that says until its first command. Lamps
 // (world_lamps.h) ride on things.
+//
+// This is the door into frames: what is no number or out of the bounds of motion (motion_bounds.h), from whatever source, does not get
+// in. The thing stays as it was when it was last asked for, and that is counted.
 
 #include <atomic>
 #include <cstdint>
@@ -85,6 +88,10 @@ class WorldState {
     void shown_numbers(std::span<std::uint64_t> numbers) const;
     // Returns how often a source was asked for an instant that it does not know, and stood still. Any thread.
     std::uint64_t held() const { return held_.load(std::memory_order_acquire); }
+    // Returns how often something in the world could not be, and stayed as it was. Any thread.
+    std::uint64_t impossible() const { return impossible_.load(std::memory_order_acquire); }
+    // Says what that was at first, and when; empty: there was nothing. Any thread but the loop's.
+    std::string first_impossible() const;
     // Says which source did not know the first such instant, and why; empty: there was none. Any thread but the loop's.
     std::string first_gap() const {
         return held() == 0 ? std::string() : sources_.gap_at(first_held_.load());
@@ -115,14 +122,22 @@ class WorldState {
     Mount mount_;
     MotionSources sources_;
     WorldLamps lamps_;
-    // The loop's: where all things are at the instant that is being sampled, which are commanded, and which
-    // stand because their source does not know the instant.
+    // The loop's: where all things are at the instant that is being sampled, or were when they could be last; which are commanded,
+    // and which stand because their source does not know the instant; the bodies likewise.
     mutable std::vector<Motion> now_;
+    mutable Bodies bodies_;
     mutable std::vector<std::uint8_t> live_, standing_;
     mutable std::atomic<std::uint64_t> held_{0};
     mutable std::atomic<TimeTai> first_held_{};
+    mutable std::atomic<std::uint64_t> impossible_{0};
+    mutable std::atomic<TimeTai> first_impossible_{};
+    mutable std::atomic<std::size_t> first_impossible_thing_{0};  // after the things: the bodies
 
     void evaluate_sources(TimeTai time) const;
+    void count_impossible(std::size_t thing, TimeTai time, std::uint64_t times = 1) const;
+    void take_bodies(TimeTai time) const;
+    const Motion& commanded(std::size_t thing, TimeTai time) const;
+    const Pose& commanded_pose(std::size_t thing, TimeTai time) const;
     bool follows_source(std::size_t thing) const { return sources_.has(thing) && !live_[thing]; }
     bool write(Thing& thing, const Motion& motion, ShownCommand command, bool alone = false);
 };

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/sky/motion_bounds.h"
+
 namespace hilcam {
 namespace {
 
@@ -53,13 +55,8 @@ Refusal read(ByteReader& in, PoseCommand& pose) {
     if (!is_finite(pose.motion.pose.position_world_m) || !is_finite(pose.motion.velocity_world_m_s) ||
         !is_finite(pose.motion.rate_body_rad_s))
         return bad("position, velocity or rate is not finite");
-    // 10 000 au, light speed, a thousand turns a second: beyond these a number is a mistake, and squares stay
-    // finite.
-    if (length(pose.motion.pose.position_world_m) > 1.5e15 || length(pose.motion.velocity_world_m_s) > 3e8 ||
-        length(pose.motion.rate_body_rad_s) > 6300)
-        return bad("position, velocity or rate is out of range");
-    const double n = norm(q);
-    if (!(std::abs(n - 1) <= 1e-3)) return bad("quaternion's norm is not 1 within 0.001");
+    if (!is_turn(q)) return bad("quaternion's norm is not 1 within 0.001");
+    if (!is_possible(pose.motion)) return bad("position, velocity or rate is out of range");
     q = normalized(q);
     return {};
 }
@@ -111,8 +108,7 @@ Refusal read(ByteReader& in, JointCommand& joint) {
     joint.rate_rad_s = in.f64();
     if (!std::isfinite(joint.angle_rad) || !std::isfinite(joint.rate_rad_s))
         return bad("angle or rate is not finite");
-    // A hundred thousand turns, a thousand a second: beyond these a number is a mistake.
-    if (std::abs(joint.angle_rad) > 6.3e5 || std::abs(joint.rate_rad_s) > 6300)
+    if (!is_possible_turn_of_joint(joint.angle_rad, joint.rate_rad_s))
         return bad("angle or rate is out of range");
     return {};
 }

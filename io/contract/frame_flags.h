@@ -9,6 +9,8 @@
 
 namespace hilcam {
 
+// Something in it could not be, as a place that is no number, and was left as it was (motion_bounds.h).
+inline constexpr std::uint64_t kImpossibleMotionBit = std::uint64_t{1} << 58;
 // It was made before the light between surfaces was kept that its quality asks for (loop.wait_for_light).
 inline constexpr std::uint64_t kNoKeptLightBit = std::uint64_t{1} << 59;
 inline constexpr std::uint64_t kTimeStandsBit = std::uint64_t{1} << 60;    // simulated time stood
@@ -19,7 +21,8 @@ struct FrameFlag {
     std::uint64_t bit;
     std::string_view name;
 };
-inline constexpr std::array<FrameFlag, 4> kFrameFlags = {{
+inline constexpr std::array<FrameFlag, 5> kFrameFlags = {{
+    {kImpossibleMotionBit, "impossible_motion"},
     {kNoKeptLightBit, "no_kept_light"},
     {kTimeStandsBit, "time_stands"},
     {kPosesStaleBit, "poses_stale"},

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/system/input_file.h"
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/units.h"
 
@@ -205,6 +206,7 @@ void read_attitude(const KvnLines& lines, const KvnLine& line, Metadata& m) {
         lines.refuse(epoch, "epochs that rise from line to line");
     Turn turn = turn_of(lines, m, v.data());
     if (m.body_is_a) turn = {conjugate(turn.a_from_b), -(to_matrix(turn.a_from_b) * turn.rate_b_rad_s)};
+    if (!is_within(turn.rate_b_rad_s, kFastestTurn_rad_s)) lines.refuse(line.text, "rates up to 6300 rad/s");
     Quat q = turn.a_from_b;
     if (!samples.empty()) {
         const Quat& p = samples.back().reference_from_body;

@@ -123,7 +123,8 @@ TimeTai ccsds_epoch(const TextLines& lines, std::string_view text, TimeSystem sy
 int interpolation_nodes(const Interpolation& i) {
     switch (i.method) {
         case InterpolationMethod::kHermite:
-            return (i.degree + 1) / 2;
+            // One state has no neighbour to go to: degree 1 is a line between two, here with their slopes.
+            return std::max(2, (i.degree + 1) / 2);
         case InterpolationMethod::kLagrange:
             return i.degree + 1;
         case InterpolationMethod::kLinear:

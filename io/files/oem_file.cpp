@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/system/input_file.h"
+#include "render/sky/motion_bounds.h"
 
 namespace hilcam {
 namespace {
@@ -59,11 +60,11 @@ void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     std::vector<StateSample>& states = m.segment.states;
     if (!states.empty() && time <= states.back().time)
         lines.refuse(epoch, "epochs that rise from line to line");
-    // Nothing that moves leaves 1e13 km or outruns light.
-    if (!(std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]) < 1e13) ||
-        !(std::abs(v[3]) + std::abs(v[4]) + std::abs(v[5]) < 3e5))
-        lines.refuse(line.text, "positions below 1e13 km and velocities below 3e5 km/s");
-    states.push_back({time, kKilometre_m * Vec3d{v[0], v[1], v[2]}, kKilometre_m * Vec3d{v[3], v[4], v[5]}});
+    const StateSample state{time, kKilometre_m * Vec3d{v[0], v[1], v[2]},
+                            kKilometre_m * Vec3d{v[3], v[4], v[5]}};
+    if (!is_within(state.position_m, kFarthestPlace_m) || !is_within(state.velocity_m_s, kFastestMotion_m_s))
+        lines.refuse(line.text, "positions up to 1.5e12 km and velocities up to 3e5 km/s");
+    states.push_back(state);
 }
 
 // Checks that the states reach over the usable span and are enough to interpolate.

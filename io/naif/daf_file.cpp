@@ -79,7 +79,7 @@ void DafFile::open() {
 void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
     const std::size_t summary_bytes = kWordBytes * (2 + (integers + 1) / 2);
     std::array<char, kRecordBytes> summaries{}, names{};
-    std::uint64_t seen = 0;
+    std::uint64_t seen = 0, words = 0;
     for (std::int64_t record = first_record; record > 0;) {
         if (++seen > size_ / kRecordBytes)
             fail("its summary records go in a circle; accepted: a chain that ends");
@@ -95,6 +95,11 @@ void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
             if (arrays_.size() == kMaxArrays) fail("has more than 1000000 arrays");
             arrays_.push_back(array_of(summaries.data() + 24 + i * summary_bytes,
                                        names.data() + i * summary_bytes, integers));
+            words += arrays_.back().size();
+            if (words > size_ / kWordBytes)
+                fail("its first " + std::to_string(arrays_.size()) + " arrays have " + std::to_string(words) +
+                     " words, and the file " + std::to_string(size_ / kWordBytes) +
+                     ": they overlap; accepted: arrays of their own words");
         }
         record = static_cast<std::int64_t>(next);
     }

@@ -30,8 +30,8 @@ struct DafArray {
 
 class DafFile {
   public:
-    // Opens a file and reads its summaries. Throws InputError, one line that names the file, for what is no DAF or is
-    // cut short. Owner thread.
+    // Opens a file and reads its summaries. Throws InputError, one line that names the file, for what is no DAF, is
+    // cut short, or has arrays that overlap: read one by one they would take more memory than the file. Owner thread.
     explicit DafFile(const std::filesystem::path& file);
     // The same from memory; `name` stands for the file in messages.
     DafFile(std::string bytes, std::string name);

@@ -4,12 +4,26 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
+#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
+namespace {
+
+constexpr std::size_t kMostNames = 300'000, kMostNumbers = 10'000'000, kMostTexts = 2'000'000;
+
+}  // namespace
 
 void KernelPool::assign(const std::string& name, KernelVariable value, bool append) {
     KernelVariable& kept = variables_[name];
     const bool empty = kept.numbers.empty() && kept.texts.empty();
+    const std::size_t numbers = numbers_ + value.numbers.size() - (append ? 0 : kept.numbers.size()),
+                      texts = texts_ + value.texts.size() - (append ? 0 : kept.texts.size());
+    if (variables_.size() > kMostNames || numbers > kMostNumbers || texts > kMostTexts)
+        throw InputError(value.where + ": " + in_quotes(name) +
+                         " is more than the kernels' variables may hold; accepted: " +
+                         std::to_string(kMostNames) + " names, " + std::to_string(kMostNumbers) +
+                         " numbers and " + std::to_string(kMostTexts) + " texts at most, in all kernels");
+    numbers_ = numbers, texts_ = texts;
     if (!append || empty) {
         kept = std::move(value);
         return;

@@ -19,6 +19,8 @@ struct KernelVariable {
 
 class KernelPool {
   public:
+    // Throws InputError when the pool would have more than 300 000 names, 10 million numbers or 2 million texts: no set of a mission
+    // has a tenth of that, and it keeps a pool below a gigabyte.
     void assign(const std::string& name, KernelVariable value, bool append);
 
     // Null: there is no such variable. Owner thread, as all of these.
@@ -37,6 +39,7 @@ class KernelPool {
 
   private:
     std::map<std::string, KernelVariable, std::less<>> variables_;
+    std::size_t numbers_ = 0, texts_ = 0;
 };
 
 }  // namespace hilcam

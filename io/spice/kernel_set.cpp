@@ -1,6 +1,9 @@
 #include "io/spice/kernel_set.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <system_error>
 
 #include "io/spice/text_kernel.h"
 #include "render/vocabulary/check.h"
@@ -11,14 +14,19 @@ namespace {
 
 constexpr std::uintmax_t kMaxTextBytes = 256u << 20;
 constexpr int kDeepestMetaKernel = 8;
+// A mission's meta-kernels name some hundred files by a few symbols. A name is no longer than a path of Linux (PATH_MAX).
+constexpr std::size_t kMostNamed = 10'000, kMostSymbols = 1000, kLongestName = 4096;
 
 // The first bytes of a file say what it is.
-enum class Kind { kBinary, kShape, kTransfer, kText };
+enum class Kind { kBinary, kShape, kText, kMeta };
 Kind kind_of(const std::filesystem::path& file) {
     const InputFile in = open_input_file(file, {std::uintmax_t{1} << 34, "a SPICE kernel"});
     std::string word(std::min<std::uintmax_t>(in.bytes, 8), '\0');
     read_input_piece(in, file, 0, word.data(), word.size());
-    if (word.starts_with("DAFETF") || word.starts_with("DASETF")) return Kind::kTransfer;
+    if (word.starts_with("DAFETF") || word.starts_with("DASETF"))
+        throw InputError(file.string() +
+                         ": is a kernel in transfer format; accepted: the binary kernel that "
+                         "NAIF's tobin makes of it");
     if (word.starts_with("DAF/") || word == "NAIF/DAF") return Kind::kBinary;
     if (word.starts_with("DAS/") || word == "NAIF/DAS") return Kind::kShape;
     if (word.find('\0') != std::string::npos)
@@ -27,101 +35,155 @@ Kind kind_of(const std::filesystem::path& file) {
     return Kind::kText;
 }
 
-// Puts the path that a meta-kernel has for a symbol in its place.
-std::string with_paths(std::string name, std::span<const std::string> symbols,
-                       std::span<const std::string> values, const std::string& where) {
-    // The longest symbol first: one may begin as another.
-    std::vector<std::size_t> order(symbols.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return symbols[a].size() > symbols[b].size(); });
-    for (const std::size_t i : order) {
-        const std::string symbol = "$" + symbols[i];
-        if (const std::size_t at = name.find(symbol); at != std::string::npos)
-            name.replace(at, symbol.size(), values[i]);
-    }
-    if (name.find('$') != std::string::npos)
-        throw InputError(where + ": KERNELS_TO_LOAD: found " + in_quotes(name) +
-                         ", whose symbol has no path; accepted: symbols of PATH_SYMBOLS");
-    return name;
-}
-
-class Loader {
+// Puts the paths that a meta-kernel has for its symbols in their places.
+class Symbols {
   public:
-    void load(const std::filesystem::path& file, int depth) {
-        if (depth > kDeepestMetaKernel)
-            throw InputError(file.string() +
-                             ": meta-kernels name each other more than 8 deep; accepted: no circle");
-        set_.files.push_back(file.string());
-        switch (kind_of(file)) {
-            case Kind::kBinary:
-                set_.binaries.push_back(std::make_unique<DafFile>(file));
-                return;
-            case Kind::kShape:
-                // A mission's meta-kernel names shapes beside the rest.
-                if (depth > 0) return;
-                throw InputError(file.string() +
-                                 ": is a shape kernel (DSK); accepted here: SPK, CK, PCK and text "
-                                 "kernels (a shape is an object's mesh)");
-            case Kind::kTransfer:
-                throw InputError(file.string() +
-                                 ": is a kernel in transfer format; accepted: the binary kernel that "
-                                 "NAIF's tobin makes of it");
-            case Kind::kText:
-                load_text(file, depth);
-        }
+    explicit Symbols(const KernelPool& own, std::string where) : where_(std::move(where)) {
+        const auto symbols = own.texts("PATH_SYMBOLS").value_or(std::span<const std::string>());
+        const auto values = own.texts("PATH_VALUES").value_or(std::span<const std::string>());
+        if (symbols.size() != values.size() || symbols.size() > kMostSymbols)
+            throw InputError(where_ + ": has " + std::to_string(symbols.size()) + " PATH_SYMBOLS and " +
+                             std::to_string(values.size()) +
+                             " PATH_VALUES; accepted: one value for each symbol, at most 1000");
+        for (std::size_t i = 0; i < symbols.size(); ++i) paths_.push_back({"$" + symbols[i], values[i]});
+        // The longest symbol first: one may begin as another.
+        std::stable_sort(paths_.begin(), paths_.end(),
+                         [](const Path& a, const Path& b) { return a.symbol.size() > b.symbol.size(); });
     }
-    KernelSet take() {
-        set_.time = ephemeris_time(set_.pool);
-        return std::move(set_);
+    std::string replaced(std::string name) const {
+        for (const Path& path : paths_)
+            if (const std::size_t at = name.find(path.symbol); at != std::string::npos)
+                name.replace(at, path.symbol.size(), path.value);
+        if (name.find('$') != std::string::npos)
+            throw InputError(where_ + ": KERNELS_TO_LOAD: found " + in_quotes(name) +
+                             ", whose symbol has no path; accepted: symbols of PATH_SYMBOLS");
+        return name;
     }
 
   private:
-    KernelSet set_;
-
-    void load_text(const std::filesystem::path& file, int depth) {
-        const std::string text = read_input_file(file, {kMaxTextBytes, "a SPICE kernel"});
-        // A meta-kernel's own variables hold for it alone.
-        KernelPool own;
-        read_text_kernel(text, file.string(), own);
-        if (!own.find("KERNELS_TO_LOAD")) {
-            read_text_kernel(text, file.string(), set_.pool);
-            return;
-        }
-        for (const auto& [name, variable] : own.all())
-            if (name != "KERNELS_TO_LOAD" && name != "PATH_SYMBOLS" && name != "PATH_VALUES")
-                set_.pool.assign(name, variable, false);
-        const auto names = own.texts("KERNELS_TO_LOAD").value();
-        const auto symbols = own.texts("PATH_SYMBOLS").value_or(std::span<const std::string>());
-        const auto values = own.texts("PATH_VALUES").value_or(std::span<const std::string>());
-        const std::string where = own.find("KERNELS_TO_LOAD")->where;
-        if (symbols.size() != values.size())
-            throw InputError(where + ": has " + std::to_string(symbols.size()) + " PATH_SYMBOLS and " +
-                             std::to_string(values.size()) +
-                             " PATH_VALUES; accepted: one value for each symbol");
-        // A name that ends with + goes on in the next one.
-        std::string name;
-        for (const std::string& part : names) {
-            if (part.ends_with('+')) {
-                name += part.substr(0, part.size() - 1);
-                continue;
-            }
-            name = with_paths(name + part, symbols, values, where);
-            const std::filesystem::path path = file.parent_path() / name;
-            if (!std::filesystem::exists(path))
-                throw InputError(where + ": KERNELS_TO_LOAD: no such file " + in_quotes(path.string()));
-            load(path, depth + 1);
-            name.clear();
-        }
-    }
+    struct Path {
+        std::string symbol, value;
+    };
+    std::string where_;
+    std::vector<Path> paths_;
 };
+
+// Says what a file of a set is; each is looked at once, however often it is named.
+struct Looked {
+    std::filesystem::path file;
+    Kind kind = Kind::kText;
+    std::vector<std::filesystem::path> named;  // by a meta-kernel
+    KernelPool own;                            // its own variables that count for all
+};
+
+std::vector<std::filesystem::path> names_of(const std::filesystem::path& file, const KernelPool& own) {
+    const std::string where = own.find("KERNELS_TO_LOAD")->where;
+    const Symbols symbols(own, where);
+    std::vector<std::filesystem::path> out;
+    std::string name;
+    const auto require_short = [&] {
+        if (name.size() > kLongestName)
+            throw InputError(where + ": KERNELS_TO_LOAD: found the name " + in_quotes(name) +
+                             " of more than " + std::to_string(kLongestName) +
+                             " bytes; accepted: a shorter one");
+    };
+    const std::span<const std::string> parts = own.texts("KERNELS_TO_LOAD").value();
+    for (const std::string& part : parts) {
+        // A name that ends with + goes on in the next one.
+        const bool goes_on = part.ends_with('+');
+        name.append(part, 0, part.size() - (goes_on ? 1 : 0));
+        require_short();
+        if (goes_on) continue;
+        name = symbols.replaced(name);
+        require_short();
+        if (out.size() == kMostNamed)
+            throw InputError(where +
+                             ": KERNELS_TO_LOAD: has more than 10000 names; accepted: as many at most");
+        out.push_back(file.parent_path() / name);
+        std::error_code no_reason;
+        if (!std::filesystem::exists(out.back(), no_reason))
+            throw InputError(where + ": KERNELS_TO_LOAD: no such file " + in_quotes(out.back().string()));
+        name.clear();
+    }
+    return out;
+}
+
+Looked look_at(const std::filesystem::path& file) {
+    Looked out{file, kind_of(file), {}, {}};
+    if (out.kind != Kind::kText) return out;
+    KernelPool own;
+    read_text_kernel(read_input_file(file, {kMaxTextBytes, "a SPICE kernel"}), file.string(), own);
+    if (!own.find("KERNELS_TO_LOAD")) return out;
+    out.kind = Kind::kMeta;
+    out.named = names_of(file, own);
+    // Those of a meta-kernel alone hold for it alone.
+    for (const auto& [name, variable] : own.all())
+        if (name != "KERNELS_TO_LOAD" && name != "PATH_SYMBOLS" && name != "PATH_VALUES")
+            out.own.assign(name, variable, false);
+    return out;
+}
+
+// The files of a set in the order in which they count. One that is named again counts where it is named last.
+class KernelList {
+  public:
+    void add(const std::filesystem::path& file, int depth = 0) {
+        if (depth > kDeepestMetaKernel)
+            throw InputError(file.string() +
+                             ": meta-kernels name each other more than 8 deep; accepted: no circle");
+        if (++named_ > kMostNamed)
+            throw InputError(
+                file.string() +
+                ": meta-kernels name each other's files more than 10000 times; accepted: each file once");
+        std::error_code no_such_file;  // which look_at() tells
+        const std::filesystem::path path = std::filesystem::canonical(file, no_such_file);
+        const std::string key = no_such_file ? file.string() : path.string();
+        auto at = looked_.find(key);
+        if (at == looked_.end()) at = looked_.emplace(key, look_at(file)).first;
+        const Looked& looked = at->second;
+        if (looked.kind == Kind::kShape && depth == 0)
+            throw InputError(file.string() +
+                             ": is a shape kernel (DSK); accepted here: SPK, CK, PCK and text "
+                             "kernels (a shape is an object's mesh)");
+        order_.push_back(&looked);
+        for (const std::filesystem::path& name : looked.named) add(name, depth + 1);
+    }
+    std::vector<const Looked*> take() const {
+        std::vector<const Looked*> out;
+        std::set<const Looked*> seen;
+        for (std::size_t i = order_.size(); i-- > 0;)
+            if (seen.insert(order_[i]).second) out.push_back(order_[i]);
+        std::reverse(out.begin(), out.end());
+        return out;
+    }
+
+  private:
+    std::map<std::string, Looked> looked_;
+    std::vector<const Looked*> order_;
+    std::size_t named_ = 0;
+};
+
+void load(const Looked& looked, KernelSet& set) {
+    set.files.push_back(looked.file.string());
+    // A mission's meta-kernel names shapes beside the rest.
+    if (looked.kind == Kind::kShape) return;
+    if (looked.kind == Kind::kBinary)
+        set.binaries.push_back(std::make_unique<DafFile>(looked.file));
+    else if (looked.kind == Kind::kText)
+        read_text_kernel(read_input_file(looked.file, {kMaxTextBytes, "a SPICE kernel"}),
+                         looked.file.string(), set.pool);
+    else
+        for (const auto& [name, variable] : looked.own.all()) set.pool.assign(name, variable, false);
+}
 
 }  // namespace
 
 KernelSet load_kernels(std::span<const std::filesystem::path> files) {
-    Loader loader;
-    for (const std::filesystem::path& file : files) loader.load(file, 0);
-    return loader.take();
+    KernelList list;
+    for (const std::filesystem::path& file : files) list.add(file);
+    KernelSet set;
+    for (const Looked* looked : list.take()) load(*looked, set);
+    set.time = ephemeris_time(set.pool);
+    return set;
 }
 
 }  // namespace hilcam

@@ -3,7 +3,8 @@
 // "Kernel Required Reading" has it.
 //
 // A meta-kernel names others in KERNELS_TO_LOAD, with $SYMBOL in place of a path (PATH_SYMBOLS, PATH_VALUES). Paths that
-// are not absolute start at the folder of the meta-kernel, not at where the program was started.
+// are not absolute start at the folder of the meta-kernel, not at where the program was started. A file that is named more
+// than once is loaded once, where it is named last, as a kernel that NAIF's toolkit loads again goes before all others.
 
 #include <filesystem>
 #include <memory>
@@ -24,8 +25,8 @@ struct KernelSet {
     EphemerisTime time;
 };
 
-// Throws InputError, one line, for a file that is missing, no kernel, cut short, or a meta-kernel that names itself. Shape
-// kernels (DSK) are meshes, not part of a set: refused. Owner thread.
+// Throws InputError, one line, for a file that is missing, no kernel, cut short, or a meta-kernel that names itself or names more
+// than 10 000 files. Shape kernels (DSK) are meshes, not part of a set: refused. Owner thread.
 KernelSet load_kernels(std::span<const std::filesystem::path> files);
 
 }  // namespace hilcam

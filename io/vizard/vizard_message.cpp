@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "io/vizard/vizard_geometry.h"
+#include "render/sky/motion_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
@@ -17,9 +18,6 @@
 namespace hilcam {
 namespace {
 
-// 10 000 au and the speed of light, as in command_payload.cpp: beyond these a number is a mistake, and
-// squares stay finite.
-constexpr double kFarthest_m = 1.5e15, kFastest_m_s = 3e8;
 // 50 years: with any epoch that parse_utc() takes, the sum stays inside TimeTai.
 constexpr double kLongest_ns = 1.6e18;
 constexpr double kRotationTolerance = 1e-6;
@@ -68,9 +66,9 @@ VizardThing thing_of(const std::string& kind, const std::string& name, const Mes
     const std::string what = kind + " " + in_quotes(name) + ": ";
     VizardThing thing;
     thing.name = name;
-    thing.position_n_m = Numbers{m.position(), what + "position"}.vector(kFarthest_m);
+    thing.position_n_m = Numbers{m.position(), what + "position"}.vector(kFarthestPlace_m);
     if (!m.velocity().empty())
-        thing.velocity_n_m_s = Numbers{m.velocity(), what + "velocity"}.vector(kFastest_m_s);
+        thing.velocity_n_m_s = Numbers{m.velocity(), what + "velocity"}.vector(kFastestMotion_m_s);
     thing.n_from_body = Numbers{m.rotation(), what + "rotation"}.attitude();
     return thing;
 }
@@ -81,7 +79,7 @@ VizardCamera camera_of(const hilcam_vizard::CameraConfig& m) {
     camera.id = m.cameraid();
     camera.parent = m.parentname();
     if (!m.camerapos_b().empty())
-        camera.position_body_m = Numbers{m.camerapos_b(), what + "cameraPos_B"}.vector(kFarthest_m);
+        camera.position_body_m = Numbers{m.camerapos_b(), what + "cameraPos_B"}.vector(kFarthestPlace_m);
     camera.body_from_camera = body_from_camera(Numbers{m.cameradir_b(), what + "cameraDir_B"}.vector(1e100));
     if (!std::isfinite(norm(camera.body_from_camera)))
         throw InputError(what + "cameraDir_B: found numbers that are no rotation");

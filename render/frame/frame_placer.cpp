@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "render/light/point_field.h"
+#include "render/sky/body_bounds.h"
 #include "render/sunlit_ground/ground_light.h"
 #include "render/visibility/screen_bounds.h"
 #include "render/vocabulary/check.h"
@@ -35,6 +37,16 @@ constexpr std::size_t kFew = 8, kMostInPicture = 1'000'000;
 // seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
 constexpr std::size_t kManyLike = 16, kMostInSets = 20'000;
 
+// The place of an object that is left out: nowhere for rays, and far behind the camera for all that reckons with places.
+constexpr Vec3d kNowhere_m{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+Vec3d away_m(const Pose& camera) {
+    return camera.position_world_m - kFarthestPlace_m * (to_matrix(camera.world_from_body) * Vec3d{0, 0, 1});
+}
+void move_left_out(std::span<const std::uint8_t> left_out, Vec3d place_m, std::span<Pose> objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (left_out[i] != 0) objects[i].position_world_m = place_m;
+}
+
 }  // namespace
 
 FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
@@ -63,6 +75,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     levels_.resize(objects_.size());
     plans_.resize(objects_.size());
     object_boxes_.resize(objects_.size());
+    is_left_out_.resize(objects_.size());
     for (const ShownObject& object : objects_) {
         triangles_ += object.levels.front()->triangles.size();
         radii_m_.push_back(object.radius_m());
@@ -258,9 +271,26 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     if (frame_.kept) kept_->place(frame_, world_);
 }
 
+// The last guard before the acceleration structure, which ends the program at a place that is no number. The emulator lets
+// none through (WorldState); frames are asked for by others, too.
+void FramePlacer::take_world(const WorldSnapshot& world) {
+    const Pose camera = world_.camera;
+    Bodies bodies = world_.bodies;
+    left_out_ = take_possible(world.bodies, bodies) ? 0 : 1;
+    world_ = world;
+    world_.bodies = bodies;
+    if (!is_possible(world.camera)) world_.camera = camera, ++left_out_;
+    for (Vec3d* rate : {&world_.camera_velocity_m_s, &world_.rows_velocity_m_s, &world_.camera_rate_rad_s})
+        if (!is_finite(*rate)) *rate = {}, ++left_out_;
+    for (std::size_t i = 0; i < world_.objects.size(); ++i) {
+        is_left_out_[i] = !is_possible(world.objects[i]);
+        if (is_left_out_[i]) world_.objects[i] = {away_m(world_.camera), {}}, ++left_out_;
+    }
+}
+
 void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
     HILCAM_CHECK(world.objects.size() + (terrain_ ? 1 : 0) == objects_.size());
-    world_ = world;
+    take_world(world);
     if (terrain_) {
         world_.objects.push_back(terrain_->update(world_, frame_.geometry.focal_length_px,
                                                   half_field_rad(frame_.geometry), objects_.back()));
@@ -275,7 +305,9 @@ void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
     frame_.camera_m = world_.camera.position_world_m - space.origin_world_m;
     frame_.start_before_m = space.start_before_m;
     choose_levels();
+    if (left_out_ > 0) move_left_out(is_left_out_, kNowhere_m, world_.objects);
     embree_.place(world_.objects, levels_, space.origin_world_m);
+    if (left_out_ > 0) move_left_out(is_left_out_, away_m(world_.camera), world_.objects);
     rays_->place(frame_.geometry,
                  {world_.time, world_.camera, world_.rows_velocity_m_s, world_.camera_rate_rad_s});
     place_objects();
@@ -313,8 +345,9 @@ void FramePlacer::place_objects() {
         frame_.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
         plans_[i] = plan_object(frame_.geometry, world_, world_.objects[i], radii_m_[i], density_for(i));
         plans_[i].level = levels_[i];
+        if (is_left_out_[i]) plans_[i].use = ObjectUse::kHidden;
         frame_.is_point[i] = plans_[i].use == ObjectUse::kPoints;
-        if (!frame_.is_point[i] && still &&
+        if (!is_left_out_[i] && !frame_.is_point[i] && still &&
             !object_mask_.add(world_.camera, world_.objects[i], shown_[i]->cluster_bounds_m))
             plans_[i].use = ObjectUse::kHidden;
         if (!frame_.is_point[i] && plans_[i].samples_per_axis > density_.samples_per_axis)

@@ -59,7 +59,8 @@ class FramePlacer {
     void place_visibility();
     // Is also for a path model that is only tried (render_bench.h).
     void set_paths(const PathModel& paths);
-    // Loop; nothing is allocated after the first call.
+    // Places the world. An object that cannot be (motion_bounds.h) is left out of the frame; a camera and bodies that cannot stay as they
+    // were. Loop; nothing is allocated after the first call.
     void place(const WorldSnapshot& world, RandomKey key);
     // Does so without the light that is kept: for what asks where things are, and no more. Loop.
     void place_shapes(const WorldSnapshot& world, RandomKey key);
@@ -76,6 +77,8 @@ class FramePlacer {
     MovingFrame moving() const;
     const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
     bool is_point(std::size_t object) const { return frame_.is_point[object] != 0; }
+    // Returns how much of the world could not be.
+    std::uint64_t left_out() const { return left_out_; }
     // Returns the object as the placed frame shows it.
     VisibilityBuffer::Shown shown(std::size_t object) const;
     // Returns what pictures of single objects need (object_picture.h); empty: there are none.
@@ -153,7 +156,10 @@ class FramePlacer {
     std::optional<VisibilityBuffer::Room> picture_room_;
     FrameView frame_;
     WorldSnapshot world_;
+    std::vector<std::uint8_t> is_left_out_;  // per object
+    std::uint64_t left_out_ = 0;
 
+    void take_world(const WorldSnapshot& world);
     std::unique_ptr<KeptScene> make_kept() const;
     void choose_levels();
     void place_objects();

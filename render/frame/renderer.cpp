@@ -35,6 +35,7 @@ struct Renderer::Implementation {
     FrameTracer tracer;
     ObjectProbes probes;                       // for objects of a few pixels
     std::atomic<std::uint64_t> not_finite{0};  // pixels and points of all frames whose light was no number
+    std::atomic<std::uint64_t> left_out{0};    // places and attitudes that could not be
 
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const std::vector<RenderQuality>& levels, const RenderModels& models,
@@ -135,6 +136,7 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     stats.lit_px = sum.lit_px;
     stats.within_budget_px = sum.within_budget_px;
     stats.not_finite = sum.not_finite;
+    my.left_out.fetch_add(my.placer.left_out(), std::memory_order_relaxed);
     my.not_finite.fetch_add(sum.not_finite, std::memory_order_relaxed);
 }
 
@@ -214,6 +216,9 @@ std::string Renderer::fault() const {
     if (const std::uint64_t count = implementation_->not_finite.load(std::memory_order_relaxed); count > 0)
         fault += (fault.empty() ? "" : "; ") + std::to_string(count) +
                  " pixels or points had light that was no number and were left dark";
+    if (const std::uint64_t count = implementation_->left_out.load(std::memory_order_relaxed); count > 0)
+        fault += (fault.empty() ? "" : "; ") + std::to_string(count) +
+                 " times a place or an attitude could not be and was left out of a frame";
     return fault;
 }
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -77,12 +78,28 @@ void set_valid(int count, int* valid) {
 
 // Rays that do not exist are made harmless: on processors without AVX-512 Embree takes a packet of sixteen
 // apart and looks at all of them, whatever the mask says.
-void blank_rays(int count, RTCRay16& rays) {
-    for (int i = count; i < kPacketSize; ++i) {
-        rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0;
-        rays.dir_x[i] = rays.dir_y[i] = 0, rays.dir_z[i] = 1;
-        rays.tnear[i] = 0, rays.tfar[i] = -std::numeric_limits<float>::infinity();
-    }
+void blank_ray(int i, RTCRay16& rays) {
+    rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0;
+    rays.dir_x[i] = rays.dir_y[i] = 0, rays.dir_z[i] = 1;
+    rays.tnear[i] = 0, rays.tfar[i] = -std::numeric_limits<float>::infinity();
+}
+
+// Embree ends the program at a ray that begins or points beyond the root of the largest float, or is no number. What is let into
+// a frame makes none (motion_bounds.h); should there be one all the same, it meets nothing.
+void stop_wild_rays(RTCRay16& rays) {
+    constexpr float kMost = 1.8e18f;
+    const auto wild = [&rays](int i) {
+        const auto out = [](float v) { return static_cast<int>(!(std::abs(v) < kMost)); };
+        return out(rays.org_x[i]) | out(rays.org_y[i]) | out(rays.org_z[i]) | out(rays.dir_x[i]) |
+               out(rays.dir_y[i]) | out(rays.dir_z[i]) | static_cast<int>(std::isnan(rays.tnear[i])) |
+               static_cast<int>(std::isnan(rays.tfar[i]));
+    };
+    int any = 0;
+    for (int i = 0; i < kPacketSize; ++i) any |= wild(i);
+    if (any == 0) return;
+    for (int i = 0; i < kPacketSize; ++i)
+        if (wild(i) != 0)
+            blank_ray(i, rays), rays.tnear[i] = 1, rays.tfar[i] = 0;  // not -infinity, which is "blocked"
 }
 
 void copy_rays(const RayPacket& from, RTCRay16& to) {
@@ -98,7 +115,8 @@ void copy_rays(const RayPacket& from, RTCRay16& to) {
     std::memset(to.time, 0, sizeof(to.time));
     std::memset(to.flags, 0, sizeof(to.flags));
     std::memset(to.mask, 0xFF, sizeof(to.mask));
-    blank_rays(from.count, to);
+    for (int i = from.count; i < kPacketSize; ++i) blank_ray(i, to);
+    stop_wild_rays(to);
 }
 
 std::uint32_t blocked_in(RTCScene scene, const RayPacket& rays) {
@@ -150,6 +168,7 @@ struct EmbreeScene::Implementation {
     std::vector<std::vector<RTCScene>> levels;  // per object
     std::vector<std::vector<MeshView>> meshes;  // their meshes, where Embree keeps them
     std::vector<std::size_t> shown;             // level of each
+    std::vector<std::uint8_t> absent;           // per object: it is nowhere in this frame
     std::vector<RTCGeometry> instances;
     std::vector<PreparedMesh::Grids> grids;  // per object; of a mesh of triangles none
 
@@ -250,6 +269,7 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
             views.push_back(view_of(scene, *mesh));
         }
         my.shown.push_back(0);
+        my.absent.push_back(0);
         my.grids.emplace_back();
         RTCGeometry instance = rtcNewGeometry(my.device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(instance, scenes.front());
@@ -266,6 +286,11 @@ void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size
     Implementation& my = *implementation_;
     HILCAM_CHECK(objects.size() == my.instances.size() && levels.size() == objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        // One whose place is no number is nowhere.
+        const bool absent = !is_finite(objects[i].position_world_m);
+        if (absent != (my.absent[i] != 0)) (absent ? rtcDisableGeometry : rtcEnableGeometry)(my.instances[i]);
+        my.absent[i] = absent;
+        if (absent) continue;
         if (my.shown[i] != levels[i])
             rtcSetGeometryInstancedScene(my.instances[i], my.levels[i][my.shown[i] = levels[i]]);
         const Mat3d r = to_matrix(objects[i].world_from_body);

@@ -272,12 +272,20 @@ StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     return {at(time), (at(time + kStep_ns) - at(time + -kStep_ns)) / (2 * kStep_ns * kSecondsPerNs)};
 }
 
+// The velocity over that of light, below 1: one that outruns light sees what one sees who nearly does.
+Vec3d beta_of(Vec3d velocity_m_s) {
+    constexpr double kMost = 1 - 1e-6;
+    const Vec3d beta = velocity_m_s / kSpeedOfLight_m_s;
+    const double size = length(beta);
+    return size > kMost ? (kMost / size) * beta : beta;
+}
+
 }  // namespace
 
 Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
     double natural[3] = {dir.x, dir.y, dir.z};
-    double v[3] = {velocity_m_s.x / kSpeedOfLight_m_s, velocity_m_s.y / kSpeedOfLight_m_s,
-                   velocity_m_s.z / kSpeedOfLight_m_s};
+    const Vec3d beta = beta_of(velocity_m_s);
+    double v[3] = {beta.x, beta.y, beta.z};
     const double inverse_lorentz = std::sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     double proper[3];
     // The distance to the Sun only feeds the Sun's light bending (4 mas at most here): as if infinite.
@@ -323,7 +331,7 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
 }
 
 Vec3d seen_in_motion(Vec3d to_body_m, double radius_m, Vec3d velocity_m_s) {
-    const Vec3d beta = velocity_m_s / kSpeedOfLight_m_s;
+    const Vec3d beta = beta_of(velocity_m_s);
     const double beta2 = dot(beta, beta);
     if (!(beta2 > 0)) return to_body_m;
     const double gamma = 1 / std::sqrt(1 - beta2);

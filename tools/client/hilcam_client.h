@@ -194,8 +194,9 @@ typedef struct {
     hilcam_clock_reading clock;
 } hilcam_acknowledgement;
 
-// Bits of `faults` beside those of the faults on demand: light between surfaces is not kept yet, simulated
-// time stood, no poses came, a time tag went back.
+// Bits of `faults` beside those of the faults on demand: some motion was no number or out of its bounds, light between
+// surfaces is not kept yet, simulated time stood, no poses came, a time tag went back.
+#define HILCAM_IMPOSSIBLE_MOTION ((uint64_t)1 << 58)
 #define HILCAM_NO_KEPT_LIGHT ((uint64_t)1 << 59)
 #define HILCAM_TIME_STANDS ((uint64_t)1 << 60)
 #define HILCAM_POSES_STALE ((uint64_t)1 << 61)

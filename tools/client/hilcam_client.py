@@ -39,9 +39,9 @@ FAULTS = {
     "v4l2_format_flip": 62, "usb_detach": 70, "usb_short_transfer": 71, "usb_stall": 72, "usb_bad_crc": 73,
     "image_stuck": 80, "image_black": 81, "image_saturated": 82, "image_bit_flips": 83, "image_tear": 84}
 
-# Bits of FrameReport.faults beside those of FAULTS: light between surfaces is not kept yet, simulated time stood, no
-# poses came, a time tag went back.
-NO_KEPT_LIGHT = 1 << 59
+# Bits of FrameReport.faults beside those of FAULTS: some motion was no number or out of its bounds, light between surfaces is
+# not kept yet, simulated time stood, no poses came, a time tag went back.
+IMPOSSIBLE_MOTION, NO_KEPT_LIGHT = 1 << 58, 1 << 59
 TIME_STANDS, POSES_STALE, TAGS_WENT_BACK = 1 << 60, 1 << 61, 1 << 62
 
 Vector = Tuple[float, float, float]

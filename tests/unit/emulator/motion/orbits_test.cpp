@@ -245,6 +245,64 @@ TEST(Ephemeris, GoesThroughItsSamples) {
     }
 }
 
+constexpr double kTwo53 = 1 / 9007199254740992.0;
+
+// Each degree that a message may have, at both ends and in the middle. No method is worse than a line between neighbours, off by r (n h)^2 / 8;
+// Hermite's, with slopes, than a cubic, off by r (n h)^4 / 384. The last digits grow by 2^degree at the ends (Lebesgue's constant of even
+// steps), of a place half as much for each of the digits.
+TEST(Ephemeris, EveryDegreeOfEveryMethodGivesThePlace) {
+    const double r = 7e6, n = 1.078e-3, h = 60, line_m = r * std::pow(n * h, 2) / 8,
+                 cubic_m = r * std::pow(n * h, 4) / 384;
+    const auto look = [&](const Interpolation& how, double bound_m) {
+        const OemSegment s = circle(r, n, 60, 40, how);
+        const double digits_m = std::ldexp(r * kTwo53, how.degree);
+        for (const std::int64_t t : {0, 7, 30, 61, 1170, 1201, 1230, 2300, 2340}) {
+            const double a = n * static_cast<double>(t);
+            const StateVector found = interpolate_state(s, {t * 1'000'000'000});
+            EXPECT_LT(length(found.position_m - r * Vec3d{std::cos(a), std::sin(a), 0}),
+                      1.01 * bound_m + digits_m)
+                << static_cast<int>(how.method) << ' ' << how.degree << " at " << t;
+            EXPECT_NEAR(length(found.velocity_m_s), r * n, 0.05 * r * n + digits_m) << how.degree;
+        }
+    };
+    look({InterpolationMethod::kUnsaid, 0}, cubic_m);
+    look({InterpolationMethod::kLinear, 1}, line_m);
+    for (int degree = 1; degree <= kMaxInterpolationDegree; ++degree) {
+        look({InterpolationMethod::kLagrange, degree}, line_m);
+        if (degree % 2 == 1) look({InterpolationMethod::kHermite, degree}, cubic_m);
+    }
+}
+
+// Attitudes likewise, whose quaternions turn by half the angle: w h / 2.
+TEST(Ephemeris, EveryDegreeOfEveryMethodGivesTheAttitude) {
+    const Vec3d axis = normalized(Vec3d{1, 2, -1});
+    const double w = 0.005, h = 60, half = 0.5 * w * h, line_rad = 2 * half * half / 8;
+    const auto look = [&](const Interpolation& how, bool rates) {
+        AemSegment s;
+        s.interpolation = how;
+        s.has_rates = rates;
+        for (int i = 0; i < 40; ++i)
+            s.attitudes.push_back({{i * 60'000'000'000}, from_rotation_vector((w * h * i) * axis), w * axis});
+        for (const std::int64_t t : {0, 7, 30, 1170, 1201, 2300, 2340}) {
+            const ReferenceAttitude found = interpolate_attitude(s, {t * 1'000'000'000});
+            const Quat error = conjugate(found.reference_from_body) *
+                               from_rotation_vector((w * static_cast<double>(t)) * axis);
+            const double digits = std::ldexp(kTwo53, how.degree);
+            EXPECT_LT(2 * length(Vec3d{error.x, error.y, error.z}), 1.01 * line_rad + digits)
+                << static_cast<int>(how.method) << ' ' << how.degree << ' ' << rates << " at " << t;
+            EXPECT_LT(length(found.rate_body_rad_s - w * axis), 0.1 * w + digits) << how.degree;
+        }
+    };
+    for (const bool rates : {false, true}) {
+        look({InterpolationMethod::kUnsaid, 0}, rates);
+        look({InterpolationMethod::kLinear, 1}, rates);
+        for (int degree = 1; degree <= kMaxInterpolationDegree; ++degree) {
+            look({InterpolationMethod::kLagrange, degree}, rates);
+            if (degree % 2 == 1) look({InterpolationMethod::kHermite, degree}, rates);
+        }
+    }
+}
+
 TEST(Ephemeris, KnowsItsSpansAndGaps) {
     std::vector<OemSegment> segments(2, circle(7e6, 1e-3, 60, 3, {}));
     for (StateSample& s : segments[1].states) s.time = s.time + 300'000'000'000;

@@ -4,6 +4,7 @@
 
 #include "emulator/run/still_camera.h"
 #include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/motion_builder.h"
 #include "io/spice/text_kernel.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
@@ -238,6 +239,58 @@ TEST_F(SpiceScenario, AnInstrumentKernelGivesTheCamera) {
     EXPECT_NEAR(s.camera.pitch_m, 20e-6, 1e-18);
     EXPECT_EQ(s.camera.width_px, 48);
     EXPECT_EQ(s.camera.height_px, 40);
+}
+
+// A kernel may say anything: what is out of the bounds of motion is refused at the start, and stands later.
+TEST_F(SpiceScenario, AShipOutOfBoundsIsRefusedAtTheStartAndStandsLater) {
+    const auto far = [&](double x_km, double x_km_s) {
+        const double span = 86400, begin = start_et_s_ - span;
+        return write("far.bsp",
+                     SpiceWriter("SPK")
+                         .add({"FAR",
+                               begin,
+                               begin + 2 * span,
+                               {-98, 399, 1, 2},
+                               {begin + span, span, x_km, span * x_km_s, 0, 0, 0, 0, begin, 2 * span, 8, 1}})
+                         .bytes());
+    };
+    const std::string lines =
+        "spice: {kernels: [{file: far.bsp}, {file: planets.bsp}]}\n"
+        "camera_motion: {kind: spice, spice: {object: '-98'}, attitude: {law: nadir}}\n";
+    for (const double x_km : {1e18, -1e300}) {
+        far(x_km, 0);
+        EXPECT_THAT(refusal(lines), HasSubstr("motion of 'camera': spice: -98: at 2026-03-20T14:00:00.000Z: "
+                                              "found a place "));
+        EXPECT_THAT(refusal(lines), HasSubstr(" m from the world's origin; accepted: at most 1.5e+15 m"));
+    }
+    far(1, 4e5);
+    EXPECT_THAT(refusal(lines), HasSubstr("found a velocity 400000000 m/s; accepted: at most 300000000 m/s"));
+
+    far(1.4999e12, 2e5);  // over the bound after 500 s
+    const ScenarioConfig s = scenario(lines);
+    EXPECT_NEAR(at(s).camera.position_world_m.x, 1.4999e15, 1e9);
+    EXPECT_THAT(error_of([&] { at(s, 1000); }),
+                HasSubstr("the motion of the camera's body at 2026-03-20T14:16"));
+    const TimeTai start = parse_utc(s.time_utc);
+    WorldState world(initial_motions(s, start), s.origin, {}, {}, load_motion_sources(s));
+    WorldSnapshot snapshot;
+    ShownCommand shown;
+    for (const std::int64_t t : {400, 1000, 2000}) world.sample(start + t * 1'000'000'000, snapshot, shown);
+    EXPECT_NEAR(snapshot.camera.position_world_m.x, 1.4999e15 + 400 * 2e8, 1e9);
+    EXPECT_EQ(world.impossible(), 2u);
+}
+
+TEST_F(SpiceScenario, PosesAndOrbitsOutOfBoundsAreRefused) {
+    EXPECT_THAT(refusal("camera_pose: {position_m: [1.4e15, 1.4e15, 0]}\n"),
+                HasSubstr("pose of 'camera': found a place 1.979898987e+15 m from the world's origin"));
+    EXPECT_THAT(refusal("camera_motion: {kind: kepler, center: sun, kepler: {semi_major_axis_km: -1, "
+                        "eccentricity: 1.5}}\n"),
+                HasSubstr("motion of 'camera': "));
+    EXPECT_THAT(refusal("bodies: [{name: dart, equatorial_radius_km: 17, center: sun, kepler: "
+                        "{semi_major_axis_km: -1, eccentricity: 1.5}}]\n"),
+                HasSubstr("body 'dart': about its center at the scenario's start: found a velocity "));
+    EXPECT_THAT(refusal("events: [{at_s: 1, do: [pose --position-m 1e16 0 0]}]\n"),
+                HasSubstr("is out of the bounds of motion"));
 }
 
 TEST_F(SpiceScenario, MistakesAreNamed) {
