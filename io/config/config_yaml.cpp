@@ -44,6 +44,14 @@ std::optional<double> to_number(const YAML::Node& node) {
     return node.IsScalar() ? number_of(node.Scalar()) : std::nullopt;
 }
 
+// A word that stands in the place of a number or a list.
+bool is_word(const YAML::Node& node, const std::string& word) {
+    return !word.empty() && node.IsScalar() && node.Scalar() == word;
+}
+std::string in_place_of(const std::string& accepted, const std::string& word) {
+    return word.empty() ? accepted : accepted + ", or '" + word + "'";
+}
+
 struct Override {
     std::string path;
     YAML::Node value;
@@ -271,7 +279,14 @@ class Reader {
         };
         std::visit(
             Overloaded{
-                [&](const NumberField& f) { *f.value = number(node, f.range) * f.si_per_unit; },
+                [&](const NumberField& f) {
+                    if (is_word(node, f.word))
+                        *f.value = f.word_value;
+                    else if (!f.word.empty() && !to_number(node))
+                        refuse(node, in_place_of("a number, " + accepted(f.range), f.word));
+                    else
+                        *f.value = number(node, f.range) * f.si_per_unit;
+                },
                 [&](const IntegerField& f) { *f.value = integer(node, f.range, refuse); },
                 [&](const FlagField& f) {
                     if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false"))
@@ -340,7 +355,9 @@ class Reader {
                 [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
                 [&](const OptionalSectionField& f) { section(node, place, f.open(), path, depth, refuse); },
                 [&](const SectionsField& f) {
-                    if (!node.IsSequence()) refuse(node, "a list of mappings");
+                    if (f.holds_word) *f.holds_word = is_word(node, f.word);
+                    if (is_word(node, f.word)) return;
+                    if (!node.IsSequence()) refuse(node, in_place_of("a list of mappings", f.word));
                     for (std::size_t i = 0; i < node.size(); ++i)
                         section(node[i], place, f.append(), join(path, std::to_string(i)), depth, refuse);
                 },

@@ -36,10 +36,15 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
 };
 
+// A number, or the one word that may stand in its place: the value is `word_value` then, which no number of the range is.
 struct NumberField {
     double* value;
     double si_per_unit;
     Range range;
+    std::string word{};  // empty: there is none
+    double word_value = 0;
+
+    bool holds_word() const { return !word.empty() && *value <= word_value && *value >= word_value; }
 };
 struct IntegerField {
     std::int64_t* value;
@@ -142,6 +147,9 @@ struct SectionsField {
     // The elements that there are, to list them.
     std::function<std::size_t()> count{};
     std::function<SectionField(std::size_t)> at{};
+    // A word that may stand in the list's place, and what is set then; empty: there is none.
+    std::string word{};
+    bool* holds_word = nullptr;
 };
 
 struct Field {
@@ -241,6 +249,18 @@ Field sections(std::string key, std::vector<T>& value, std::string meaning) {
             SectionsField{[&value] { return section_of(value.emplace_back()); },
                           [&value] { return value.size(); },
                           [&value](std::size_t i) { return section_of(value[i]); }}};
+}
+// The word may stand in place of the number, as "auto" does; `word_value` (SI) is out of the number's range.
+inline Field or_word(Field field, std::string word, double word_value) {
+    auto& number = std::get<NumberField>(field.target);
+    number.word = std::move(word), number.word_value = word_value;
+    return field;
+}
+// The word may stand in place of the list of mappings; `holds_word` is set then.
+inline Field or_word(Field field, std::string word, bool& holds_word) {
+    auto& many = std::get<SectionsField>(field.target);
+    many.word = std::move(word), many.holds_word = &holds_word;
+    return field;
 }
 inline Field required(Field field, bool* present = nullptr) {
     field.required = true;
