@@ -2,12 +2,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "emulator/recording/run_seed.h"
 #include "emulator/run/emulator.h"
 #include "emulator/run/report.h"
+#include "emulator/run/run_pace.h"
 #include "emulator/scenario/scenario_warnings.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/subcommands/arguments.h"
@@ -50,8 +52,14 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
         spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
     if (!report_file.empty()) write_json(report_file, run_report(emulator));
     const RunOutcome outcome = run_outcome(emulator);
-    spdlog::info("{} frames in {:.1f} s, {} exposures missed", outcome.frames, emulator.seconds(),
-                 outcome.deadline_misses);
+    spdlog::info(
+        "{} frames in {:.1f} s, {} exposures missed: {:.1f} frames/s on {:.1f} of {} cores, limited by {}",
+        outcome.frames, emulator.seconds(), outcome.deadline_misses,
+        static_cast<double>(outcome.frames) / std::max(1e-9, emulator.seconds()), emulator.used_cores(),
+        given_cores(), words_of(pace_limit(emulator.first(), {outcome.frames, outcome.deadline_misses})));
+    for (const auto& station : emulator.stations())
+        if (const std::string line = quality_line(*station); !line.empty())
+            spdlog::info("{}: {}", station->name(), line);
     for (const std::string& fault : outcome.faults) spdlog::error("{}", fault);
     return outcome.faults.empty() ? 0 : 1;
 }
@@ -63,7 +71,9 @@ int carry_out(const RunArguments& o) {
     ScenarioConfig scenario = load_and_warn(config);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
-    limits.light_beside = limits.frames == 0;  // a limited number of frames is wanted for what they show
+    // A limited number of frames is wanted for what they show. A replay may have frames of any level.
+    limits.light_beside = limits.frames == 0;
+    scenario.loop.holds_rate = limits.frames == 0 || !limits.replay.empty();
     log_info(settle_seed(scenario, limits.replay));
     if (limits.replay.empty()) {
         log_warnings(idle_warnings(scenario));
