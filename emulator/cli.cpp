@@ -22,6 +22,7 @@ namespace {
 // Adds the subcommands in the order of the help.
 void add_subcommands(CLI::App& app, Action& action) {
     add_run_command(app, action);
+    add_prepare_command(app, action);
     add_recording_command(app, action);
     add_render_command(app, action);
     add_check_command(app, action);
