@@ -325,14 +325,22 @@ void Emulator::print_replays() const {
     }
 }
 
+// Allocates nothing, as it comes while frames do.
 void Emulator::print_level_changes() {
     LevelChange change;
     for (const auto& station : stations_)
         while (station->loop().take_level_change(change))
-            spdlog::info("{}: from frame {} on quality level {} instead of {}, whose frames took {:.2f} ms{}",
-                         station->name(), change.frame, change.to, change.from, change.mean_ms,
-                         change.budget_ms > 0 ? fmt::format(" ({:.2f} ms are allowed)", change.budget_ms)
-                                              : " (nothing is asked of them now)");
+            if (change.budget_ms > 0)
+                spdlog::info(
+                    "{}: from frame {} on quality level {} instead of {}, whose frames took {:.2f} ms "
+                    "({:.2f} ms "
+                    "are allowed)",
+                    station->name(), change.frame, change.to, change.from, change.mean_ms, change.budget_ms);
+            else
+                spdlog::info(
+                    "{}: from frame {} on quality level {} instead of {}, as frames may take as long as they "
+                    "like",
+                    station->name(), change.frame, change.to, change.from);
 }
 
 // Once: the simulated time has left what a file of motion knows.

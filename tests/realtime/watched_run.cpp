@@ -34,7 +34,7 @@ RunLimits limits_of(Loop loop, const std::filesystem::path& record) {
 // A rate that no frame holds, and one that all hold, for five frames each.
 void change_rate(Emulator& emulator) {
     SettingsChange change;
-    change.frame_rate_hz = emulator.loop().counters().frames / 5 % 2 == 0 ? 5000 : 20;
+    change.frame_rate_hz = emulator.loop().counters().frames / 5 % 2 == 0 ? 5000 : 2;
     if (emulator.first().settings().settings().frame_rate_hz == *change.frame_rate_hz) return;
     EXPECT_TRUE(emulator.first().settings().change(change));
 }
