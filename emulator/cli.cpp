@@ -81,6 +81,7 @@ void set_up_command_line(CLI::App& app, Action& action) {
     set_examples(&app, {"hilcam list scenarios", "hilcam run small --frames 3",
                         "hilcam run geo_inspection --preview 8080", "hilcam check --help"});
     add_run_command(app, action);
+    add_prepare_command(app, action);
     add_recording_command(app, action);
     add_render_command(app, action);
     add_check_command(app, action);

@@ -104,13 +104,20 @@ std::string loop_line(const ScenarioConfig& s) {
 }
 
 // Says which levels the governor may choose, or why there is none.
-std::vector<std::string> governor_lines(const ScenarioConfig& s) {
+std::vector<std::string> governor_lines(ScenarioConfig s) {
+    s.loop.holds_rate = true;
     const std::string off = governor_off(s);
     if (!off.empty()) return {"governor off (" + off + ")"};
+    const ShutterTiming timing(s.camera);
+    const bool of_rate = s.loop.budget_is_of_rate();
+    const double budget_s =
+        of_rate
+            ? timing.period_s(s.camera.frame_rate_hz, timing.exposure_s(s.camera.exposure_s)) / s.clock.scale
+            : s.loop.frame_budget_s;
     std::vector<std::string> out = {
-        fmt::format("governor: {} may take {:.4g} ms; quality level 0 is as configured",
+        fmt::format("governor: {} may take {:.4g} ms{}; quality level 0 is as configured",
                     s.loop.prefer == LoopPreference::kLatency ? "a frame" : "each of a frame's two stages",
-                    1e3 * s.loop.frame_budget_s)};
+                    1e3 * budget_s, of_rate ? ", until the next exposure is due" : "")};
     RenderQuality last = render_quality_of(s);
     int number = 0;
     for (const RenderQuality& level : lower_levels(s)) {

@@ -117,8 +117,8 @@ void add_frame_time(const CameraReport& c, std::string& out) {
                        : "");
     if (c.is_late())
         out +=
-            "              longer than it has: exposures will be missed here (camera.frame_rate_hz, quality, "
-            "loop.frame_budget_ms)\n";
+            "              longer than it has: a run lowers the quality, or misses exposures here "
+            "(camera.frame_rate_hz, quality, loop.levels)\n";
 }
 
 void add_camera(const CameraReport& c, std::span<const CameraReport> earlier, std::size_t cameras,

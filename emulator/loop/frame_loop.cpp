@@ -46,15 +46,23 @@ void FrameLoop::sense_frames() {
         rendered_.acquire();
         FrameSlot& slot = slot_of(turn);
         if (slot.record.id == 0) break;  // the last release comes without a frame
-        if (sense_.run(slot, stopping_)) count_frame();
+        if (sense_.run(slot, stopping_)) count_frame(slot.record.quality_level);
         slot.record.id = 0;
         free_.release();
     }
     finished_.store(true);
 }
 
-// Times of frames that warm up are not kept.
-void FrameLoop::count_frame() {
+// Adds what the processor did since the frame before was published to this one's level: some of it was for the next frame,
+// which is of the same level but where that changes. Times of frames that warm up are not kept.
+void FrameLoop::count_frame(std::uint32_t level) {
+    const std::int64_t now_ns = processor_ns();
+    if (counted_processor_ns_ != 0) {
+        figures_.counters.processor_ns_at_level[level].fetch_add(now_ns - counted_processor_ns_,
+                                                                 std::memory_order_relaxed);
+        figures_.counters.timed_frames_at_level[level].fetch_add(1, std::memory_order_relaxed);
+    }
+    counted_processor_ns_ = now_ns;
     if (figures_.counters.frames.fetch_add(1, std::memory_order_relaxed) + 1 != limits_.warm_up) return;
     figures_.meters.clear();
     warm_processor_ns_ = processor_ns();

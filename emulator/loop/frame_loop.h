@@ -53,7 +53,7 @@ class FrameLoop {
     FrameSlot& slot_of(std::uint64_t turn) { return slots_[turn % slots_.size()]; }
     void render_frames();
     void sense_frames();
-    void count_frame();
+    void count_frame(std::uint32_t level);
 
     const SimulatedClock& clock_;
     LoopLimits limits_;
@@ -63,6 +63,7 @@ class FrameLoop {
     std::array<FrameSlot, 2> slots_;
     std::counting_semaphore<> free_, rendered_{0};
     std::int64_t warm_processor_ns_ = 0;
+    std::int64_t counted_processor_ns_ = 0;  // when the newest frame was counted; 0: there was none
     std::atomic<bool> stopping_{false}, finished_{false};
     std::mutex joining_;  // for who stops it
     std::thread render_thread_, sense_thread_;

@@ -22,6 +22,7 @@ FramePlanner::FramePlanner(const LoopParts& parts)
       poses_(parts.poses),
       prefer_(parts.limits.prefer),
       starter_(parts.camera, parts.settings, parts.clock, parts.limits, parts.poses),
+      budget_is_of_rate_(is_governed(parts) && parts.limits.governor.is_told()),
       governor_(is_governed(parts) ? parts.limits.governor : GovernorSettings{}) {}
 
 bool FramePlanner::next(const std::atomic<bool>& stopping, FrameSlot& slot, bool& ends_order) {
@@ -51,7 +52,7 @@ void FramePlanner::take_settings(const FrameStarter::Start& start, FrameSlot& sl
     use.test_pattern = s.test_pattern;
     use.reverse_x = s.reverse_x, use.reverse_y = s.reverse_y;
     use.trigger_sequence = start.trigger_sequence;
-    use.quality_level = choose_level(slot, use.id);
+    use.quality_level = choose_level(start, slot, use.id);
     faults_.begin(use.id);
     use.faults = frame_faults(faults_, use.id);
     use.image = image_faults(faults_, use.id);
@@ -91,11 +92,21 @@ double FramePlanner::frame_ms(const FrameSlot& slot) const {
     return static_cast<double>(ns) * 1e-6;
 }
 
-std::uint32_t FramePlanner::choose_level(const FrameSlot& slot, std::uint64_t frame) {
+// Returns the machine's time until the next exposure is due.
+double FramePlanner::budget_ms(const FrameStarter::Start& start) const {
+    if (start.period_ns == 0) return 0;
+    const std::int64_t due_ns = clock_.monotonic_of_camera(start.camera_ns + start.period_ns);
+    return static_cast<double>(due_ns - clock_.monotonic_of_camera(start.camera_ns)) * 1e-6;
+}
+
+std::uint32_t FramePlanner::choose_level(const FrameStarter::Start& start, const FrameSlot& slot,
+                                         std::uint64_t frame) {
     const std::size_t before = governor_.level();
-    std::size_t now = before;
-    if (slot.render_ns > 0) now = governor_.take(slot.use.quality_level, frame_ms(slot));
-    if (now != before) level_changes_.push({frame, before, now, governor_.mean_ms(before)});
+    if (budget_is_of_rate_) governor_.use_budget(budget_ms(start));
+    const std::size_t now =
+        slot.render_ns > 0 ? governor_.take(slot.use.quality_level, frame_ms(slot)) : governor_.level();
+    if (now != before && last_id_ > 0)
+        level_changes_.push({frame, before, now, governor_.mean_ms(before), governor_.budget_ms()});
     return static_cast<std::uint32_t>(now);
 }
 

@@ -20,8 +20,10 @@
 //
 // Quality: with a frame budget the governor (governor.h) chooses each frame's level by what earlier frames
 // took: the longer of the two stages, or with loop.prefer `latency` both, as that is how long the next frame
-// has to wait. It is told of a frame when its slot is taken over. Off in lockstep, where frames must not
-// depend on the machine, and where frames are not paced.
+// has to wait. It is told of a frame when its slot is taken over. A budget of the frame rate is the machine's time until
+// the next exposure is due, as settings and clock have it when the frame begins; a frame that is triggered has none, as
+// nobody knows when the next trigger comes. Off in lockstep, where frames must not depend on the machine, and
+// where frames are not paced.
 
 #include <atomic>
 #include <cstdint>
@@ -39,7 +41,8 @@ namespace hilcam {
 struct LevelChange {
     std::uint64_t frame = 0;
     std::size_t from = 0, to = 0;
-    double mean_ms = 0;  // mean over the frames before it
+    double mean_ms = 0;    // mean over the frames before it
+    double budget_ms = 0;  // 0: frames may take as long as they like from there on
 };
 
 class FramePlanner {
@@ -52,12 +55,15 @@ class FramePlanner {
 
     // False: there is none that was not taken yet. One thread.
     bool take_level_change(LevelChange& change) noexcept { return level_changes_.pop(change); }
+    // Returns how long the planned frame may take [ms]; 0: as long as it likes. Loop.
+    double budget_ms() const { return governor_.budget_ms(); }
 
   private:
     void take_settings(const FrameStarter::Start& start, FrameSlot& slot);
     void place_in_time(const FrameStarter::Start& start, FrameSlot& slot) const;
     double frame_ms(const FrameSlot& slot) const;
-    std::uint32_t choose_level(const FrameSlot& slot, std::uint64_t frame);
+    double budget_ms(const FrameStarter::Start& start) const;
+    std::uint32_t choose_level(const FrameStarter::Start& start, const FrameSlot& slot, std::uint64_t frame);
 
     const CameraModel& camera_;
     ShutterTiming timing_;
@@ -66,6 +72,7 @@ class FramePlanner {
     const PoseWatch* poses_;
     LoopPreference prefer_;
     FrameStarter starter_;
+    bool budget_is_of_rate_;
     Governor governor_;
     BoundedQueue<LevelChange, 64> level_changes_;
     std::uint64_t last_id_ = 0;

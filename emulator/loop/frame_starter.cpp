@@ -94,6 +94,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
         start.camera_ns = arrived_ns;
     }
     start.exposure_s = exposure_of(start.settings);
+    start.period_ns = to_ns(timing_.period_s(start.settings.frame_rate_hz, start.exposure_s));
     return true;
 }
 

@@ -50,8 +50,9 @@ class FrameStarter {
         // Nor, if it was triggered, before the camera is ready again, camera's time: who triggers the next frame
         // when this one has come shall not be too early.
         std::int64_t ready_camera_ns = std::numeric_limits<std::int64_t>::min();
-        std::uint64_t skipped = 0;  // exposures that could not be taken before it
-        bool late = false;          // a triggered frame began more than a period after its time
+        std::int64_t period_ns = 0;  // until the next exposure is due, camera's time; 0: nothing says when
+        std::uint64_t skipped = 0;   // exposures that could not be taken before it
+        bool late = false;           // a triggered frame began more than a period after its time
         std::uint32_t trigger_sequence = 0;
         bool ends_order = false;
         PoseWatch::Silence silence;  // when it begins

@@ -48,6 +48,7 @@ bool RenderStage::begin(FrameSlot& slot, const std::atomic<bool>& stopping) {
     const bool begun = script_ ? script_->next(stopping, slot.use, slot.not_before_ns)
                                : planner_.next(stopping, slot, ends_order_);
     if (!begun) return false;
+    if (!script_) counters_.budget_ms.store(planner_.budget_ms(), std::memory_order_relaxed);
     use_level(slot.use.quality_level);
     take_light(slot.use);
     counters_.deadline_misses.fetch_add(slot.use.skipped + (slot.use.late ? 1 : 0),
@@ -57,10 +58,11 @@ bool RenderStage::begin(FrameSlot& slot, const std::atomic<bool>& stopping) {
 
 void RenderStage::use_level(std::uint32_t level) {
     if (level != level_) {
-        counters_.level_changes.fetch_add(1, std::memory_order_relaxed);
+        // The first frame's level is no change.
+        if (has_begun_) counters_.level_changes.fetch_add(1, std::memory_order_relaxed);
         exposures_.use_level(level);
     }
-    level_ = level;
+    level_ = level, has_begun_ = true;
     counters_.level.store(level, std::memory_order_relaxed);
     counters_.frames_at_level[level].fetch_add(1, std::memory_order_relaxed);
 }

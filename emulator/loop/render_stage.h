@@ -63,6 +63,7 @@ class RenderStage {
     FramePlanner planner_;
     RenderStats stats_;
     std::uint32_t level_ = 0;
+    bool has_begun_ = false;
     bool ends_order_ = false;  // the frame is its order's last
     std::int64_t shown_arrival_ns_ = 0;
     std::uint64_t flagged_ = 0;     // time tags that went back, as frames have told of them

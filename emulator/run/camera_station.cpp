@@ -1,7 +1,10 @@
 #include "emulator/run/camera_station.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 
+#include "emulator/loop/shutter_timing.h"
 #include "emulator/recording/recorder.h"
 #include "emulator/run/picture_run.h"
 #include "emulator/run/truth_source.h"
@@ -22,10 +25,6 @@ LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
 bool begins_without_light(const ScenarioConfig& scenario, const RunLimits& limits) {
     return limits.light_beside && !scenario.loop.wait_for_light && scenario.mode != CameraMode::kLockstep &&
            limits.record.empty() && limits.replay.empty();
-}
-
-GovernorSettings governor_of(const ScenarioConfig& scenario) {
-    return {scenario.loop.frame_budget_s * 1e3, 1 + lower_levels(scenario).size()};
 }
 
 }  // namespace
@@ -100,6 +99,7 @@ void CameraStation::load(const SpectralGrid& grid) {
         truth_ = truth.get();
         sinks_.push_back(std::move(truth));
     }
+    find_level_costs();
 }
 
 void CameraStation::prepare(const StationLinks& links) {
@@ -117,14 +117,48 @@ void CameraStation::prepare(const StationLinks& links) {
         .poses = &links.poses,
         .sinks = sinks(),
         .seed = seed_of_camera(scenario_, number_ - 1),
-        .limits = {limits_.frames, limits_.warm_up, limits_.paced, governor_of(scenario_),
-                   scenario_.loop.prefer},
+        .limits = {limits_.frames, limits_.warm_up, limits_.paced, governor(), scenario_.loop.prefer},
         .script = links.script,
         .observers = {.watcher = links.watcher,
                       .truth = truth_,
                       .recorder = links.recorder,
                       .recorded_camera = static_cast<std::uint16_t>(number_)},
     });
+}
+
+double CameraStation::period_s() const {
+    const CameraSettings settings = settings_.settings();
+    return ShutterTiming(scenario_.camera).period_s(settings.frame_rate_hz, settings.exposure_s) /
+           scenario_.clock.scale;
+}
+
+GovernorSettings CameraStation::governor() const {
+    const LoopConfig& loop = scenario_.loop;
+    GovernorSettings out;
+    out.budget_ms = loop.budget_is_of_rate() ? GovernorSettings::kToldBudget_ms : 1e3 * loop.frame_budget_s;
+    out.levels = 1 + lower_levels(scenario_).size();
+    for (const LevelCost& cost : level_costs_) out.costs_ms.push_back(cost.frame_ms);
+    return out;
+}
+
+// A replay has its frames' levels from its recording.
+void CameraStation::find_level_costs() {
+    std::vector<RenderQuality> levels = lower_levels(scenario_);
+    if (levels.empty() || !limits_.paced || !limits_.replay.empty()) return;
+    levels.insert(levels.begin(), render_quality_of(scenario_));
+    std::vector<double> rays;
+    for (const RenderQuality& level : levels) rays.push_back(primary_rays(scenario_, level));
+    const LoopConfig& loop = scenario_.loop;
+    const double budget_s = loop.budget_is_of_rate() ? period_s() : loop.frame_budget_s;
+    const FrameMachine machine{tbb::this_task_arena::max_concurrency(), 1 + scenario_.more_cameras.size(),
+                               loop.prefer};
+    TrialFrames frames({*exposures_, *chain_, *world_, scenario_, seed_of_camera(scenario_, number_ - 1)});
+    exposures_->take_light();
+    level_costs_ = measure_levels(rays, 1e3 * Governor::kRoom * budget_s, machine, [&](std::size_t level) {
+        exposures_->use_level(level);
+        return frames.take();
+    });
+    exposures_->use_level(0);
 }
 
 void CameraStation::record_changes(Recorder& recorder) {

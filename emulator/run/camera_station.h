@@ -12,6 +12,7 @@
 
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/frame_loop.h"
+#include "emulator/run/level_costs.h"
 #include "emulator/run/status.h"
 #include "emulator/scenario/app_config.h"
 #include "emulator/scenario/scene_loader.h"
@@ -90,11 +91,16 @@ class CameraStation {
     SensorChain& chain() { return *chain_; }
     WorldState& world() { return *world_; }
     LiveSettings& settings() { return settings_; }
+    const LiveSettings& settings() const { return settings_; }
     FaultBoard& faults() { return faults_; }
     const FaultBoard& faults() const { return faults_; }
     // The newest strikes, the first of each frame and kind.
     const std::deque<FaultBoard::Entry>& fault_log() const { return fault_log_; }
     const DeliveryMeter& delivery() const { return delivery_; }
+    // Returns what frames of each quality level cost before the run; none where no governor chooses one.
+    const std::vector<LevelCost>& level_costs() const { return level_costs_; }
+    // Returns how long after an exposure the next one is due, by the settings of now [s of the machine].
+    double period_s() const;
     std::vector<FrameSink*> sinks() const;
     // Why outputs cannot deliver, of each of them once. Allocates nothing while there is nothing to tell.
     // Owner thread.
@@ -105,6 +111,8 @@ class CameraStation {
 
   private:
     void make_sinks();
+    void find_level_costs();
+    GovernorSettings governor() const;
     void record_changes(Recorder& recorder);
     std::string status() const;
 
@@ -126,6 +134,7 @@ class CameraStation {
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
+    std::vector<LevelCost> level_costs_;
     TruthListener* truth_listener_ = nullptr;  // one of the sinks, as is the next; may be null
     TruthSink* truth_ = nullptr;
     std::optional<StationLinks> links_;  // once it is prepared

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 
+#include "emulator/progress/progress_line.h"
 #include "emulator/recording/recording_header.h"
 #include "emulator/recording/run_seed.h"
+#include "emulator/run/run_pace.h"
 #include "io/system/service_manager.h"
 
 namespace hilcam {
@@ -248,6 +251,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     for (const auto& receiver : receivers_) receiver->start();
     const std::int64_t begun_ns = monotonic_ns();
     begun_ns_ = begun_ns;
+    begun_processor_ns_ = processor_printed_ns_ = processor_ns();
     if (recorder_) recorder_->start();
     for (const auto& replay : replays_) replay->start(clock_start_ns_);
     if (events_) events_->start();
@@ -256,10 +260,10 @@ void Emulator::run(const std::function<void()>& on_ready) {
     // It is not raised with the others.
     if (light_maker_) {
         spdlog::info(
-            "light between surfaces is made beside the run (loop.wait_for_light): until then frames have "
-            "random "
-            "paths and the flag no_kept_light");
+            "light between surfaces is made beside the run: until then frames have random paths and the flag "
+            "no_kept_light; `hilcam prepare` makes it before a run");
         light_maker_->start();
+        next_light_line_ns_ = begun_ns + 3'000'000'000;
     }
     on_ready();
     notify_service_manager("READY=1");
@@ -268,13 +272,13 @@ void Emulator::run(const std::function<void()>& on_ready) {
     next_missed_line_ns_ = begun_ns + kBetweenMissedLines_ns;  // first frames are late on every machine
     while (!signalled && !finished()) {
         const std::int64_t now_ns = monotonic_ns();
-        seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
+        note_time(begun_ns);
         if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
         for (const auto& station : stations_) station->serve_faults(seconds_);
         print_level_changes();
         print_held_motion();
         print_impossible_motion();
-        print_light();
+        print_light(now_ns);
         silence_log_.look();
         print_output_faults(now_ns);
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
@@ -292,7 +296,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     if (events_) events_->stop();
     for (const auto& replay : replays_) replay->stop();
     print_level_changes();
-    seconds_ = static_cast<double>(monotonic_ns() - begun_ns) * 1e-9;
+    note_time(begun_ns);
     for (const auto& receiver : receivers_) receiver->stop();
     if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) {
@@ -301,6 +305,13 @@ void Emulator::run(const std::function<void()>& on_ready) {
     }
     if (recorder_) recorder_->stop();
     print_replays();
+}
+
+void Emulator::note_time(std::int64_t begun_ns) {
+    const std::int64_t ns = monotonic_ns() - begun_ns;
+    seconds_ = static_cast<double>(ns) * 1e-9;
+    if (ns > 0)
+        used_cores_ = static_cast<double>(processor_ns() - begun_processor_ns_) / static_cast<double>(ns);
 }
 
 void Emulator::print_replays() const {
@@ -315,16 +326,22 @@ void Emulator::print_replays() const {
     }
 }
 
+// Allocates nothing, as it comes while frames do.
 void Emulator::print_level_changes() {
     LevelChange change;
     for (const auto& station : stations_)
         while (station->loop().take_level_change(change))
-            spdlog::info(
-                "{}: from frame {} on quality level {} instead of {}, whose frames took {:.2f} ms ({:.2f} ms "
-                "are "
-                "allowed)",
-                station->name(), change.frame, change.to, change.from, change.mean_ms,
-                1e3 * scenario_.loop.frame_budget_s);
+            if (change.budget_ms > 0)
+                spdlog::info(
+                    "{}: from frame {} on quality level {} instead of {}, whose frames took {:.2f} ms "
+                    "({:.2f} ms "
+                    "are allowed)",
+                    station->name(), change.frame, change.to, change.from, change.mean_ms, change.budget_ms);
+            else
+                spdlog::info(
+                    "{}: from frame {} on quality level {} instead of {}, as frames may take as long as they "
+                    "like",
+                    station->name(), change.frame, change.to, change.from);
 }
 
 // Once: the simulated time has left what a file of motion knows.
@@ -346,9 +363,21 @@ void Emulator::print_impossible_motion() {
         first().world().first_impossible());
 }
 
+// Says how long that will still take, soon after the begin and then twice a minute.
+void Emulator::print_light_left(std::int64_t now_ns) {
+    if (now_ns < next_light_line_ns_) return;
+    constexpr std::int64_t kBetweenLines_ns = 30'000'000'000;
+    next_light_line_ns_ = now_ns + kBetweenLines_ns;
+    const double share = light_maker_->share();
+    const std::optional<double> left = left_s({"", share, seconds_});
+    spdlog::info("light between surfaces: {:.0f} % made{}", std::floor(100 * share),
+                 left ? ", about " + duration_text(*left) + " left" : "");
+}
+
 // Once, when all cameras have the light that was made beside the run.
-void Emulator::print_light() {
-    if (told_light_ || !light_maker_ || !light_maker_->is_done()) return;
+void Emulator::print_light(std::int64_t now_ns) {
+    if (told_light_ || !light_maker_) return;
+    if (!light_maker_->is_done()) return print_light_left(now_ns);
     for (const auto& station : stations_)
         if (station->loop().counters().lacks_light.load()) return;
     told_light_ = true;
@@ -382,16 +411,22 @@ void Emulator::print_missed(std::int64_t now_ns) {
 
 // Prints the line of the first camera.
 void Emulator::print_line() {
-    const std::uint64_t frames = loop().counters().frames.load();
+    const LoopCounters& counters = loop().counters();
+    const std::uint64_t frames = counters.frames.load(), missed = counters.deadline_misses.load();
+    const std::int64_t processor = processor_ns();
+    const PaceLimit limit = pace_limit(first(), {frames - frames_printed_, missed - misses_printed_});
     const CommandReport commands = command_report();
     const std::uint64_t faults = first().faults().all_strikes();
+    const std::uint32_t level = counters.level.load();
     spdlog::info(
-        "{} frames/s, command to last packet p50 {:.1f} ms p99 {:.1f} ms, {} exposures missed, {} commands "
-        "({} refused){}",
-        frames - frames_printed_, delivery().command_to_last.quantile_ms(0.5),
-        delivery().command_to_last.quantile_ms(0.99), loop().counters().deadline_misses.load(),
+        "{} frames/s on {:.1f} cores, limited by {}{}, command to last packet p50 {:.1f} ms p99 {:.1f} ms, "
+        "{} "
+        "exposures missed, {} commands ({} refused){}",
+        frames - frames_printed_, static_cast<double>(processor - processor_printed_ns_) * 1e-9,
+        words_of(limit), level == 0 ? "" : fmt::format(", quality level {}", level),
+        delivery().command_to_last.quantile_ms(0.5), delivery().command_to_last.quantile_ms(0.99), missed,
         commands.received, commands.refused, faults == 0 ? "" : fmt::format(", {} fault strikes", faults));
-    frames_printed_ = frames;
+    frames_printed_ = frames, misses_printed_ = missed, processor_printed_ns_ = processor;
 }
 
 }  // namespace hilcam

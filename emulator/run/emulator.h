@@ -42,6 +42,8 @@ class Emulator {
     const SimulatedClock& clock() const { return clock_; }
     const PoseWatch& poses() const { return poses_; }
     double seconds() const { return seconds_; }
+    // Returns how many cores the program has used on average since the loops began.
+    double used_cores() const { return used_cores_; }
     // Truth and report name the run so; no other run has the name.
     const std::string& run_id() const { return limits_.run_id; }
     CommandReport command_report() const;
@@ -67,7 +69,9 @@ class Emulator {
     void print_level_changes();
     void print_held_motion();
     void print_impossible_motion();
-    void print_light();
+    void print_light(std::int64_t now_ns);
+    void print_light_left(std::int64_t now_ns);
+    void note_time(std::int64_t begun_ns);
     void print_output_faults(std::int64_t now_ns);
     bool finished() const;
 
@@ -89,11 +93,14 @@ class Emulator {
     std::unique_ptr<LightMaker> light_maker_;  // gives to renderers; null: no table is made beside the run
     std::unique_ptr<CommandDispatch> dispatch_;
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;
-    double seconds_ = 0;
-    std::uint64_t frames_printed_ = 0;
+    double seconds_ = 0, used_cores_ = 0;
+    std::int64_t begun_processor_ns_ = 0;
+    std::uint64_t frames_printed_ = 0, misses_printed_ = 0;
+    std::int64_t processor_printed_ns_ = 0;
     bool told_held_motion_ = false, told_impossible_motion_ = false, told_light_ = false;
     std::int64_t next_fault_look_ns_ = 0;
     std::int64_t next_missed_line_ns_ = 0;
+    std::int64_t next_light_line_ns_ = 0;
     std::uint64_t missed_told_ = 0;
     std::atomic<std::int64_t> begun_ns_{0};
     HousekeepingFigures housekeeping_before_;  // telemetry's thread

@@ -5,6 +5,7 @@
 
 #include "emulator/recording/machine_report.h"
 #include "emulator/run/output_summary.h"
+#include "emulator/run/run_pace.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
 
@@ -81,6 +82,27 @@ json strikes_report(const CameraStation& station) {
     return {{"counts", counts}, {"log", log}};
 }
 
+// Processor time of a frame of each level; null: none was timed.
+json core_ms_at_level(const CameraStation& station) {
+    const LoopCounters& counters = station.loop().counters();
+    json out = json::array();
+    for (std::size_t i = 0; i <= lower_levels(station.scenario()).size(); ++i) {
+        const std::uint64_t frames = counters.timed_frames_at_level[i].load();
+        const double core_ms = 1e-6 * static_cast<double>(counters.processor_ns_at_level[i].load());
+        out.push_back(frames == 0 ? json(nullptr) : json(rounded(core_ms / static_cast<double>(frames))));
+    }
+    return out;
+}
+
+json full_quality_report(const CameraStation& station) {
+    const std::optional<FullQuality> full = full_quality(station);
+    if (!full) return nullptr;
+    return {{"core_ms", rounded(full->core_ms)},
+            {"frame_rate_hz", rounded(full->rate_hz)},
+            {"cores", rounded(full->cores())},
+            {"cores_given", given_cores()}};
+}
+
 json quality_report(CameraStation& station) {
     RenderQuality quality = render_quality_of(station.scenario());
     const LoopCounters& counters = station.loop().counters();
@@ -90,7 +112,9 @@ json quality_report(CameraStation& station) {
     json report = {{"rays_outside_atmosphere", station.renderer().rays_outside_air()},
                    {"motion_limited_frames", counters.motion_limited.load()},
                    {"frames_without_kept_light", counters.without_light.load()},
-                   {"frame_budget_ms", station.scenario().loop.frame_budget_s * 1e3},
+                   {"frame_budget_ms", rounded(counters.budget_ms.load())},
+                   {"full_quality", full_quality_report(station)},
+                   {"core_ms_at_level", core_ms_at_level(station)},
                    {"level", counters.level.load()},
                    {"level_changes", counters.level_changes.load()},
                    {"frames_at_level", frames_at_level},
@@ -118,6 +142,7 @@ json camera_report(CameraStation& station, double seconds) {
         {"frames", frames},
         {"frame_rate_hz", rounded(static_cast<double>(frames) / std::max(1e-9, seconds))},
         {"deadline_misses", loop.counters().deadline_misses.load()},
+        {"limited_by", words_of(pace_limit(station, {frames, loop.counters().deadline_misses.load()}))},
         {"stale_frames", loop.counters().stale.load()},
         {"standing_frames", loop.counters().standing.load()},
         {"impossible_motion_frames", loop.counters().impossible.load()},
@@ -154,6 +179,7 @@ json run_report(const Emulator& emulator) {
     report["run"] = emulator.run_id();
     report["seed"] = emulator.first().scenario().seed;
     report["seconds"] = rounded(emulator.seconds());
+    report["cores_used"] = rounded(emulator.used_cores());
     report["commands"] = {
         {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};
     report["poses"] = {{"went_back", emulator.poses().went_back()}};

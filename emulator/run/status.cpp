@@ -148,7 +148,7 @@ json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters
     json quality = {{"level", counters.level.load()},
                     {"levels", 1 + lower_levels(scenario).size()},
                     {"level_changes", counters.level_changes.load()},
-                    {"frame_budget_ms", scenario.loop.frame_budget_s * 1e3},
+                    {"frame_budget_ms", counters.budget_ms.load()},
                     {"noise_budget", scenario.quality.render.noise_budget},
                     {"within_noise_budget", nullptr},
                     {"light_made", nullptr}};

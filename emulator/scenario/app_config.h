@@ -108,8 +108,8 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
 // The seed of its noise: cameras of one bench draw different noise.
 std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index);
 
-// Why the governor does not run, or empty: it has no budget, or frames must not depend on how fast the
-// machine is.
+// Says why the governor does not run, or empty: it has no budget, it is not wanted, or frames must not depend on how fast
+// the machine is.
 std::string governor_off(const ScenarioConfig& scenario);
 // The qualities below the configured one that it may choose; none when it does not run.
 std::vector<RenderQuality> lower_levels(const ScenarioConfig& scenario);

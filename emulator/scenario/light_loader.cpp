@@ -42,8 +42,9 @@ void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder ord
     if (object.transfer) {
         ++light.found;
     } else if (!light.later) {
-        const Progress progress("light kept on " + object.name);
-        object.transfer = cached_transfer(object.mesh, order.glass, order.settings, cache_folder());
+        Progress progress("light kept on " + object.name, 1);
+        object.transfer = cached_transfer(object.mesh, order.glass, order.settings, cache_folder(),
+                                          [&progress](double share) { progress.done(share); });
         ++light.made;
     } else {
         order.mesh = object.mesh;

@@ -5,6 +5,7 @@
 #include "io/config/config_manual.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 
@@ -36,12 +37,18 @@ Fields fields(LoopConfig& l) {
                  "are rendered by random paths and have the flag no_kept_light. true: no frame comes before. "
                  "Counts for free_run and triggered with quality.path_model kept; lockstep, --frames, "
                  "--record, --replay and all other commands always wait")),
-        number("frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
-               "time that a frame may take (with throughput: the longer of its two stages); the governor "
-               "lowers the quality until it is kept, and raises it again; 0: no governor"),
-        sections("levels", l.levels,
-                 "levels of quality that the governor may choose, best first: mappings of what differs from "
-                 "`quality` (or files with them); left out: the program's own"),
+        or_word(number("frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
+                       "time that a frame may take (with throughput: the longer of its two stages); the "
+                       "governor lowers the quality until it is kept, and raises it again. auto: in "
+                       "`hilcam run` without --frames the time until the next exposure is due by the frame "
+                       "rate, which clients may change; triggered frames may take as long as they like. 0: "
+                       "no governor"),
+                "auto", LoopConfig::kBudgetOfRate_s),
+        or_word(sections("levels", l.levels,
+                         "levels of quality that the governor may choose, best first: mappings of what "
+                         "differs from `quality` (or files with them); left out: the program's own. fixed: "
+                         "every frame has `quality`, and the rate is what the machine makes of it"),
+                "fixed", l.levels_fixed),
     };
     for (Field& field : fields(l.real_time)) list.push_back(beside_frames(std::move(field)));
     return list;
@@ -50,6 +57,11 @@ Fields fields(LoopConfig& l) {
 void validate(const LoopConfig& l) {
     if (l.levels.size() >= kMaxLevels)
         throw refused("levels", std::to_string(l.levels.size()), "at most " + std::to_string(kMaxLevels - 1));
+    if (l.levels_fixed && l.frame_budget_s > 0)
+        throw KeyError("levels",
+                       "found 'fixed' beside a frame_budget_ms of " + plain(1e3 * l.frame_budget_s) +
+                           ", which only a governor keeps; accepted beside it: a list of levels, or "
+                           "nothing");
 }
 
 namespace {
@@ -99,7 +111,6 @@ struct Limits {
     double contribution_threshold, lod_error_px;
     double budget_factor;  // on the noise budget; 0: none any more
     bool direct;
-    bool rays;
 };
 
 RenderQuality limited(const RenderQuality& from, const RenderQuality& configured, const Limits& to) {
@@ -112,7 +123,6 @@ RenderQuality limited(const RenderQuality& from, const RenderQuality& configured
     q.noise_budget = to.budget_factor * configured.noise_budget;
     q.sun_disk = false;
     if (to.direct) q.path_model = "direct";
-    if (to.rays) q.visibility = "rays";
     return q;
 }
 
@@ -127,9 +137,11 @@ std::vector<RenderQuality> levels_of_ground(RenderQuality quality) {
 
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
     if (configured.sees_ground()) return levels_of_ground(configured);
-    const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false, false}, {1, 2, 0.5, 0.5, 4, false, false},
-                            {1, 2, 0.5, 1, 0, false, false},      {1, 1, 1, 1, 0, false, false},
-                            {1, 1, 1, 2, 0, true, false},         {1, 1, 1, 2, 0, true, true}};
+    const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false},
+                            {1, 2, 0.5, 0.5, 4, false},
+                            {1, 2, 0.5, 1, 0, false},
+                            {1, 1, 1, 1, 0, false},
+                            {1, 1, 1, 2, 0, true}};
     std::vector<RenderQuality> levels;
     RenderQuality last = configured;
     for (const Limits& step : steps) {

@@ -29,11 +29,19 @@ inline constexpr std::size_t kMaxLevels = 16;  // includes level 0
 enum class LoopPreference { kThroughput, kLatency };
 
 struct LoopConfig {
+    static constexpr double kBudgetOfRate_s = -1;
+
     LoopPreference prefer = LoopPreference::kThroughput;
     bool wait_for_light = false;
-    double frame_budget_s = 0;  // 0: no governor
+    double frame_budget_s = kBudgetOfRate_s;  // 0: no governor
     std::vector<QualityLevelConfig> levels;
+    bool levels_fixed = false;  // every frame has the configured quality
     RealTime real_time;
+    // No key, but for who runs the scenario: frames have to come at the camera's rate, so that a budget of the rate
+    // counts.
+    bool holds_rate = false;
+
+    bool budget_is_of_rate() const { return frame_budget_s < 0; }
 };
 Fields fields(LoopConfig& loop);
 void validate(const LoopConfig& loop);
@@ -43,9 +51,9 @@ Fields per_frame_fields(RenderQuality& quality);
 
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& level);
 
-// Steps down from a quality, each as far as it makes anything faster: towards configs/quality/realtime.yaml,
-// then coarser meshes and no noise budget, no bounce, direct light alone. For ground that is alone in the scene: to every second
-// pixel of it.
+// Steps down from a quality, each as far as it makes anything faster: towards configs/quality/fast.yaml,
+// then coarser meshes and no noise budget, no bounce, direct light alone. Sixteen samples a pixel stay where there is a
+// visibility buffer. For ground that is alone in the scene: to every second pixel of it.
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured);
 
 // Returns how that quality places its rays in a pixel.

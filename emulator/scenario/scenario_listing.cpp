@@ -58,7 +58,7 @@ std::string file_text(const std::filesystem::path& file) {
 std::string value_of(const Field& field) {
     return std::visit(
         Overloaded{
-            [](const NumberField& f) { return exact(*f.value / f.si_per_unit); },
+            [](const NumberField& f) { return f.holds_word() ? f.word : exact(*f.value / f.si_per_unit); },
             [](const IntegerField& f) { return std::to_string(*f.value); },
             [](const FlagField& f) { return std::string(*f.value ? "true" : "false"); },
             [](const TextField& f) { return *f.value; },
@@ -94,6 +94,7 @@ void list(const SectionField& section, const std::string& prefix, std::string& o
         } else if (const std::optional<SectionField> nested = section_in(field)) {
             list(*nested, key + ".", out);
         } else if (const auto* many = std::get_if<SectionsField>(&field.target)) {
+            if (many->holds_word && *many->holds_word) out += key + " = " + many->word + "\n";
             for (std::size_t i = 0; i < many->count(); ++i)
                 list(many->at(i), key + "." + std::to_string(i) + ".", out);
         } else {

@@ -12,6 +12,7 @@
 #include "emulator/run/emulator.h"
 #include "emulator/run/output_summary.h"
 #include "emulator/run/report.h"
+#include "emulator/run/run_pace.h"
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/send/command_examples.h"
@@ -94,8 +95,14 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
         spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
     if (!report_file.empty()) write_json(report_file, run_report(emulator));
     const RunOutcome outcome = run_outcome(emulator);
-    spdlog::info("{} frames in {:.1f} s{}, {} exposures missed", outcome.frames, emulator.seconds(),
-                 waits_text(emulator), outcome.deadline_misses);
+    spdlog::info(
+        "{} frames in {:.1f} s{}, {} exposures missed: {:.1f} frames/s on {:.1f} of {} cores, limited by {}",
+        outcome.frames, emulator.seconds(), waits_text(emulator), outcome.deadline_misses,
+        static_cast<double>(outcome.frames) / std::max(1e-9, emulator.seconds()), emulator.used_cores(),
+        given_cores(), words_of(pace_limit(emulator.first(), {outcome.frames, outcome.deadline_misses})));
+    for (const auto& station : emulator.stations())
+        if (const std::string line = quality_line(*station); !line.empty())
+            spdlog::info("{}: {}", station->name(), line);
     say_outputs(emulator);
     for (const std::string& fault : outcome.faults) spdlog::error("{}", fault);
     return outcome.faults.empty() ? 0 : 1;
@@ -108,7 +115,9 @@ int carry_out(const RunArguments& o) {
     ScenarioConfig scenario = load_scenario(config.file, config.overrides);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
-    limits.light_beside = limits.frames == 0;  // a limited number of frames is wanted for what they show
+    // A limited number of frames is wanted for what they show. A replay may have frames of any level.
+    limits.light_beside = limits.frames == 0;
+    scenario.loop.holds_rate = limits.frames == 0 || !limits.replay.empty();
     log_info(settle_seed(scenario, limits.replay));
     log_warnings(limits.replay.empty() ? early_verdict(scenario, VerdictOn::kRun, !limits.record.empty())
                                        : scenario.warnings);

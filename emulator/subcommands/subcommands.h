@@ -14,6 +14,7 @@ namespace hilcam {
 using Action = std::function<int()>;
 
 void add_run_command(CLI::App& app, Action& action);
+void add_prepare_command(CLI::App& app, Action& action);
 void add_recording_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);

@@ -14,9 +14,16 @@
 namespace hilcam {
 namespace {
 
+std::string or_word(const std::string& accepted, const std::string& word) {
+    return word.empty() ? accepted : word + ", or " + accepted;
+}
+std::string number_text(const NumberField& f) {
+    return f.holds_word() ? f.word : plain(*f.value / f.si_per_unit);
+}
+
 std::string accepted_text(const Field& field) {
     return std::visit(Overloaded{
-                          [](const NumberField& f) { return accepted(f.range); },
+                          [](const NumberField& f) { return or_word(accepted(f.range), f.word); },
                           [](const IntegerField& f) { return "whole, " + accepted(f.range); },
                           [](const FlagField&) { return std::string("true, false"); },
                           [](const TextField&) { return std::string("text"); },
@@ -35,7 +42,7 @@ std::string accepted_text(const Field& field) {
                           [](const OneOf<SectionField, OptionalSectionField> auto&) {
                               return std::string("mapping or file");
                           },
-                          [](const SectionsField&) { return std::string("list of mappings, or file"); },
+                          [](const SectionsField& f) { return or_word("list of mappings, or file", f.word); },
                       },
                       field.target);
 }
@@ -43,7 +50,7 @@ std::string accepted_text(const Field& field) {
 // Returns the value as YAML would have it; empty where it has no short text.
 std::string present_text(const Field& field) {
     return std::visit(Overloaded{
-                          [](const NumberField& f) { return plain(*f.value / f.si_per_unit); },
+                          [](const NumberField& f) { return number_text(f); },
                           [](const IntegerField& f) { return std::to_string(*f.value); },
                           [](const FlagField& f) { return std::string(*f.value ? "true" : "false"); },
                           [](const TextField& f) { return *f.value; },

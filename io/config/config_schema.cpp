@@ -43,9 +43,18 @@ Json section_of_field(const SectionField& section) {
     return {{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, mapping_of(section)}}};
 }
 
+// Adds the word that may stand in the place of what is accepted.
+Json or_word(const Json& accepted, const std::string& word) {
+    return word.empty() ? accepted : Json{{"anyOf", {Json{{"enum", {word}}}, accepted}}};
+}
+Json list_of_mappings(const SectionsField& f) {
+    const Json list = {{"type", "array"}, {"items", section_of_field(f.append())}};
+    return {{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, list}}};
+}
+
 Json type_of(const Field& field) {
     return std::visit(Overloaded{
-                          [](const NumberField& f) { return number_in(f.range); },
+                          [](const NumberField& f) { return or_word(number_in(f.range), f.word); },
                           [](const IntegerField& f) { return number_in(f.range, "integer"); },
                           [](const FlagField&) {
                               return Json{{"type", "boolean"}};
@@ -75,10 +84,7 @@ Json type_of(const Field& field) {
                           [](const TableField& f) { return pairs_of(f.x_range, f.y_range); },
                           [](const SectionField& f) { return section_of_field(f); },
                           [](const OptionalSectionField& f) { return section_of_field(f.open()); },
-                          [](const SectionsField& f) {
-                              const Json list = {{"type", "array"}, {"items", section_of_field(f.append())}};
-                              return Json{{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, list}}};
-                          },
+                          [](const SectionsField& f) { return list_of_mappings(f); },
                       },
                       field.target);
 }
@@ -86,7 +92,9 @@ Json type_of(const Field& field) {
 // Returns the value that holds without the key, where that is one value.
 std::optional<Json> default_of(const Field& field) {
     if (field.required) return {};
-    if (const auto* f = std::get_if<NumberField>(&field.target))
+    const auto* number = std::get_if<NumberField>(&field.target);
+    if (number && number->holds_word()) return number->word;
+    if (const auto* f = number)
         if (const double value = *f->value / f->si_per_unit; std::isfinite(value)) {
             // Twelve digits, as what is read and divided again is not quite what was written.
             char text[32];

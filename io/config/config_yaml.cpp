@@ -46,6 +46,14 @@ std::optional<double> to_number(const YAML::Node& node) {
     return node.IsScalar() ? number_of(node.Scalar()) : std::nullopt;
 }
 
+// A word that stands in the place of a number or a list.
+bool is_word(const YAML::Node& node, const std::string& word) {
+    return !word.empty() && node.IsScalar() && node.Scalar() == word;
+}
+std::string in_place_of(const std::string& accepted, const std::string& word) {
+    return word.empty() ? accepted : accepted + ", or '" + word + "'";
+}
+
 struct Override {
     std::string path;
     YAML::Node value;
@@ -302,7 +310,14 @@ class Reader {
         };
         std::visit(
             Overloaded{
-                [&](const NumberField& f) { *f.value = number(node, f.range) * f.si_per_unit; },
+                [&](const NumberField& f) {
+                    if (is_word(node, f.word))
+                        *f.value = f.word_value;
+                    else if (!f.word.empty() && !to_number(node))
+                        refuse(node, in_place_of("a number, " + accepted(f.range), f.word));
+                    else
+                        *f.value = number(node, f.range) * f.si_per_unit;
+                },
                 [&](const IntegerField& f) { *f.value = integer(node, f.range, refuse); },
                 [&](const FlagField& f) {
                     if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false"))
@@ -371,9 +386,12 @@ class Reader {
                 [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
                 [&](const OptionalSectionField& f) { section(node, place, f.open(), path, depth, refuse); },
                 [&](const SectionsField& f) {
+                    if (f.holds_word) *f.holds_word = is_word(node, f.word);
+                    if (is_word(node, f.word)) return;
                     if (node.IsScalar()) return list_in_file(node, place, field, path, depth);
                     if (!node.IsSequence())
-                        refuse(node, "a list of mappings, or the path of a file that holds it");
+                        refuse(node, in_place_of("a list of mappings, or the path of a file that holds it",
+                                                 f.word));
                     for (std::size_t i = 0; i < node.size(); ++i)
                         section(node[i], place, f.append(), join(path, std::to_string(i)), depth, refuse);
                 },

@@ -86,6 +86,18 @@ Field sections_field(std::string_view key, SectionsField sections, std::string_v
     return {key, meaning, std::move(sections)};
 }
 
+Field or_word(Field field, std::string_view word, double word_value) {
+    auto& number = std::get<NumberField>(field.target);
+    number.word = word, number.word_value = word_value;
+    return field;
+}
+
+Field or_word(Field field, std::string_view word, bool& holds_word) {
+    auto& many = std::get<SectionsField>(field.target);
+    many.word = word, many.holds_word = &holds_word;
+    return field;
+}
+
 Field required(Field field, bool* present) {
     field.required = true;
     field.present = present;

@@ -39,10 +39,15 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
 };
 
+// A number, or the one word that may stand in its place: the value is `word_value` then, which no number of the range is.
 struct NumberField {
     double* value;
     double si_per_unit;
     Range range;
+    std::string word{};  // empty: there is none
+    double word_value = 0;
+
+    bool holds_word() const { return !word.empty() && *value <= word_value && *value >= word_value; }
 };
 struct IntegerField {
     std::int64_t* value;
@@ -145,6 +150,9 @@ struct SectionsField {
     // The elements that there are, to list them.
     std::function<std::size_t()> count{};
     std::function<SectionField(std::size_t)> at{};
+    // A word that may stand in the list's place, and what is set then; empty: there is none.
+    std::string word{};
+    bool* holds_word = nullptr;
 };
 
 using FieldTarget = std::variant<NumberField, IntegerField, FlagField, TextField, TextsField, PathField,
@@ -239,6 +247,10 @@ Field sections(std::string_view key, std::vector<T>& value, std::string_view mea
          [&value](std::size_t i) { return section_of(value[i]); }},
         meaning);
 }
+// The word may stand in place of the number, as "auto" does; `word_value` (SI) is out of the number's range.
+Field or_word(Field field, std::string_view word, double word_value);
+// The word may stand in place of the list of mappings; `holds_word` is set then.
+Field or_word(Field field, std::string_view word, bool& holds_word);
 Field required(Field field, bool* present = nullptr);
 Field optional(Field field, bool& present);
 // A key, with all below it, that a replay may have otherwise than the recording (docs/recording.md).

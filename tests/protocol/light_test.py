@@ -98,6 +98,20 @@ class Light(unittest.TestCase):
             self.assertNotIn("no_kept_light", Image.open(picture).text.get("faults", ""))
         self.assertEqual(len(list(run.frames.glob("*.png"))), 3)
 
+    def test_what_is_prepared_is_there_when_the_run_begins(self):
+        with tempfile.TemporaryDirectory(prefix="hilcam_prepare_") as folder:
+            def hilcam(*arguments):
+                return subprocess.run(
+                    [HILCAM, *arguments, "--set", "quality.path_model=kept", "--set", "quality.kept_nodes=15000"], capture_output=True,
+                    text=True, timeout=280, env=os.environ | {"HILCAM_CACHE": folder})
+            first = hilcam("prepare", SCENARIO)
+            self.assertEqual(first.returncode, 0, first.stderr)
+            self.assertIn("protocol_test is ready: 1 tables of light made, 0 were on disk", first.stdout)
+            self.assertIn("0 tables of light made, 1 were on disk", hilcam("prepare", SCENARIO).stdout)
+            run = hilcam("run", SCENARIO, "--duration", "0.5")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertNotIn("beside the run", run.stderr)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

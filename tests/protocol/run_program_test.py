@@ -58,6 +58,46 @@ class Running:
             self.process.communicate()
 
 
+class Rate(unittest.TestCase):
+    """A run lowers its quality until it holds the camera's rate, and says so. No machine makes 5000 frames a second."""
+    FAST = ("--set", "camera.frame_rate_range_hz=[1, 5000]", "--set", "camera.frame_rate_hz=5000", "--set", "camera.exposure_ms=0.05")
+
+    def run_for(self, seconds, *sets):
+        with tempfile.TemporaryDirectory() as folder:
+            report = pathlib.Path(folder) / "report.json"
+            result = hilcam("run", SCENARIO, *self.FAST, "--duration", seconds, "--report", report, *sets)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return json.loads(report.read_text()), result.stderr
+
+    def test_quality_goes_down_where_the_rate_is_not_held(self):
+        report, log = self.run_for(2, "--set", "loop.levels=[{path_model: direct}, {path_model: direct, max_depth: 1}]")
+        quality = report["quality"]
+        self.assertEqual(quality["frame_budget_ms"], 0.2)
+        self.assertEqual(quality["frames_at_level"][:2], [0, 0])
+        self.assertGreaterEqual(quality["frames_at_level"][2], report["frames"])
+        self.assertIsNone(quality["core_ms_at_level"][0])
+        self.assertGreater(quality["core_ms_at_level"][2], 0)
+        full = quality["full_quality"]
+        self.assertAlmostEqual(full["cores"], full["core_ms"] * full["frame_rate_hz"] / 1000, delta=0.01 * full["cores"])
+        self.assertGreater(full["cores"], full["cores_given"])
+        self.assertIn(report["limited_by"], ("rendering", "sensor"))
+        self.assertGreater(report["cores_used"], 0)
+        self.assertRegex(log, r"[1-9]\d* frames in 2\.\d s, \d+ exposures missed: \d+\.\d frames/s on \d+\.\d of \d+ cores, limited by (rendering|sensor)")
+        self.assertRegex(log, r"frames at level 2 \(0: full quality\); full quality takes \d+ core-ms a frame, \d+\.\d cores at 5000 frames/s, and the machine gives \d+")
+
+    def test_a_fixed_quality_and_a_limited_number_of_frames_stay_as_configured(self):
+        for sets in (("--set", "loop.levels=fixed"), ("--set", "loop.levels=[{max_depth: 1}]", "--frames", 5)):
+            report, log = self.run_for(2, *sets)
+            self.assertEqual(len(report["quality"]["frames_at_level"]), 1)
+            self.assertEqual(report["quality"]["frame_budget_ms"], 0)
+            self.assertNotIn("loop.levels: fixed keeps it", log)
+
+    def test_keys_that_contradict_each_other_are_refused_where_they_stand(self):
+        result = hilcam("check", SCENARIO, "--set", "loop.frame_budget_ms=20")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"minimal_scenario.yaml:\d+:\d+: loop.levels: found 'fixed' beside a frame_budget_ms of 20")
+
+
 class ExitCodes(unittest.TestCase):
     def refused(self, needle, *arguments):
         result = hilcam(*arguments)

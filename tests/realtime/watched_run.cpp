@@ -31,6 +31,14 @@ RunLimits limits_of(Loop loop, const std::filesystem::path& record) {
     return limits;
 }
 
+// A rate that no frame holds, and one that all hold, for five frames each.
+void change_rate(Emulator& emulator) {
+    SettingsChange change;
+    change.frame_rate_hz = emulator.loop().counters().frames / 5 % 2 == 0 ? 5000 : 2;
+    if (emulator.first().settings().settings().frame_rate_hz == *change.frame_rate_hz) return;
+    EXPECT_TRUE(emulator.first().settings().change(change));
+}
+
 // Those who take a run's frames; made, they have got some.
 class Readers {
   public:
@@ -77,8 +85,8 @@ class Readers {
 
 Seen watch_run(const std::vector<std::string>& overrides, Loop loop, const std::filesystem::path& record,
                const char* scenario_file) {
-    const ScenarioConfig scenario =
-        load_scenario(std::string(HILCAM_SOURCE_DIR) + "/" + scenario_file, overrides);
+    ScenarioConfig scenario = load_scenario(std::string(HILCAM_SOURCE_DIR) + "/" + scenario_file, overrides);
+    scenario.loop.holds_rate = loop == Loop::kGoverned;
     Emulator emulator(scenario, limits_of(loop, record));
     std::thread runner([&] { emulator.run([] {}); });
     const LoopCounters& counters = emulator.loop().counters();
@@ -94,6 +102,7 @@ Seen watch_run(const std::vector<std::string>& overrides, Loop loop, const std::
         motion.time = emulator.clock().now();
         motion.rate_body_rad_s = scenario.camera_pose.rate_body_rad_s;
         if (!scenario.camera_motion) emulator.world().set(0, motion, {i, monotonic_ns()});
+        if (loop == Loop::kGoverned) change_rate(emulator);
         readers.take();
         std::this_thread::yield();
     }

@@ -11,7 +11,8 @@ namespace hilcam {
 enum class Loop {
     kUnpaced,    // as fast as it goes, without outputs
     kTold,       // the same, with the outputs that the scenario has
-    kPaced,      // at the camera's rate, as the governor needs it
+    kPaced,      // at the camera's rate
+    kGoverned,   // the same, and the governor holds a rate that becomes another one every few frames
     kStreaming,  // the same, with a GigE Vision camera whose frames an application takes
     kLookedAt,   // with a preview whose pictures and their truth somebody looks at
 };

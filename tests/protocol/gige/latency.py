@@ -9,7 +9,7 @@ that a frame is the first to show: the time from the pose's arrival to that fram
 own report) and from its sending to the frame in the hands of an Aravis program. The time includes the wait for the next
 exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. For every frame: from the middle of its exposure to
 those hands. Prints a Markdown table with a row for each `loop.prefer`, or for the one asked for. The run waits for its kept
-light. The camera's circle begins where the scenario has it.
+light, and all frames have the scenario's quality. The camera's circle begins where the scenario has it.
 """
 import argparse
 import math
@@ -90,7 +90,7 @@ class Sender(threading.Thread):
 
 def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=None, address="127.0.23.11"):
     """Latencies and times from an exposure's middle [ms, sorted], frames, of them failed, the emulator's report."""
-    sets = (f"loop.prefer={prefer}", "loop.wait_for_light=true", *sets)
+    sets = (f"loop.prefer={prefer}", "loop.wait_for_light=true", "loop.levels=fixed", *sets)
     start = start or yaml.safe_load(scenario.read_text())["camera_pose"]["position_m"]
     with tempfile.TemporaryDirectory() as folder, Emulator(hilcam, address, folder, *sets, scenario=scenario) as emulator:
         camera = Aravis.Camera.new(address)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Plant {
     std::function<double(std::size_t level, int frame)> cost_ms;
     std::size_t levels = 4;
     int delay = 2;  // frames until the governor is told
+    std::vector<double> costs_ms{};
 
     struct Outcome {
         std::vector<std::size_t> level;  // of each frame
@@ -34,7 +36,7 @@ struct Plant {
         }
     };
     Outcome run(int frames) const {
-        Governor governor({kBudget_ms, levels});
+        Governor governor({kBudget_ms, levels, costs_ms});
         Outcome out;
         std::vector<double> took_ms;
         for (int i = 0; i < frames; ++i) {
@@ -154,9 +156,112 @@ TEST(Governor, AnAlternatingLoadIsFollowedEverLessOften) {
     }
 }
 
+// --- with the costs of levels measured before the run
+
+TEST(Governor, TheFirstFrameHasTheBestLevelWhoseCostLeavesRoom) {
+    const Plant plant{
+        [](std::size_t level, int) { return 40.0 / static_cast<double>(1 << level); }, 4, 2, {40, 20, 10, 5}};
+    const Plant::Outcome out = plant.run(1000);
+    EXPECT_EQ(out.level.front(), 2u);
+    EXPECT_EQ(out.changes, 0);
+    EXPECT_EQ(out.misses, 0);
+    // Of 16 ms a cost of 14 leaves no room.
+    EXPECT_EQ(Governor({kBudget_ms, 3, {40, 14, 5}}).level(), 2u);
+    EXPECT_EQ(Governor({kBudget_ms, 3, {40, 13, 5}}).level(), 1u);
+    // Where nothing holds the rate the last level comes nearest.
+    EXPECT_EQ(Governor({kBudget_ms, 3, {400, 300, 200}}).level(), 2u);
+    // One that took too long to be measured is none to begin with; one below those that were measured may be.
+    EXPECT_EQ(Governor({kBudget_ms, 3, {std::numeric_limits<double>::infinity(), 13, 0}}).level(), 1u);
+    EXPECT_EQ(Governor({kBudget_ms, 3, {40, 20, 0}}).level(), 2u);
+}
+
+TEST(Governor, GoesUpWhenFramesAreCheaperThanBeforeTheRun) {
+    // Half of what was measured, when the machine had more to do: 20, 10, 5, 2.5 ms.
+    const Plant plant{
+        [](std::size_t level, int) { return 20.0 / static_cast<double>(1 << level); }, 4, 2, {40, 20, 10, 5}};
+    const Plant::Outcome out = plant.run(900);
+    EXPECT_EQ(out.level.front(), 2u);
+    const std::int64_t climbs_at = Governor::kWarmUp + Governor::kMinStay + plant.delay;
+    EXPECT_EQ(out.level[static_cast<std::size_t>(climbs_at)], 1u);
+    EXPECT_EQ(out.level.back(), 1u);
+    EXPECT_EQ(out.misses, 0);  // level 0 is not even tried: it would take 20 ms
+}
+
+TEST(Governor, ALevelThatShouldBeTooSlowIsTriedLate) {
+    for (const double best_ms : {20.0, std::numeric_limits<double>::infinity()}) {
+        const Plant plant{
+            [&](std::size_t level, int) { return level == 0 ? 20.0 : 10.0; }, 2, 2, {best_ms, 10}};
+        const Plant::Outcome out = plant.run(4000);
+        EXPECT_EQ(out.changes_in(0, Governor::kDoubtfulStay), 0) << best_ms;
+        EXPECT_GT(out.changes, 0) << best_ms;
+        EXPECT_LE(out.misses, 3 * (3 + plant.delay)) << best_ms;
+        EXPECT_EQ(out.level.back(), 1u) << best_ms;
+    }
+}
+
+// Three times the load: by what the levels cost those are known that would be too slow as well.
+TEST(Governor, FallsPastLevelsThatShouldBeTooSlow) {
+    const Plant plant{[](std::size_t level, int frame) {
+                          return (frame < 500 ? 1 : 3) * 12.0 / static_cast<double>(1 << level);
+                      },
+                      5,
+                      2,
+                      {12, 11.9, 11.9, 6, 3}};
+    const Plant::Outcome out = plant.run(520);
+    EXPECT_EQ(out.level[499], 0u);
+    EXPECT_EQ(out.level.back(), 3u);
+    EXPECT_EQ(out.changes, 1);
+}
+
+// --- with the budget of a frame rate that clients change
+
+TEST(Governor, AnotherFrameRateIsAnotherChoice) {
+    Governor governor({GovernorSettings::kToldBudget_ms, 3, {80, 40, 20}});
+    EXPECT_EQ(governor.level(), 0u);
+    governor.use_budget(33);
+    EXPECT_EQ(governor.level(), 2u);
+    governor.use_budget(100);
+    EXPECT_EQ(governor.level(), 0u);
+    governor.use_budget(50);
+    EXPECT_EQ(governor.level(), 1u);
+    // Nearly the same budget is no reason to change what runs; that it counts is another thing.
+    governor.use_budget(46);
+    EXPECT_EQ(governor.level(), 1u);
+    EXPECT_EQ(governor.budget_ms(), 46);
+}
+
+TEST(Governor, RestsAtTheBestLevelWhileFramesMayTakeAsLongAsTheyLike) {
+    Governor governor({GovernorSettings::kToldBudget_ms, 3, {80, 40, 20}});
+    governor.use_budget(33);
+    governor.use_budget(0);
+    for (int i = 0; i < 1000; ++i) EXPECT_EQ(governor.take(0, 1e6), 0u);
+    governor.use_budget(33);
+    EXPECT_EQ(governor.level(), 2u);
+}
+
+TEST(Governor, NeverLeavesTheLadder) {
+    std::mt19937 engine(3);
+    const auto draw = [&](double most) { return std::uniform_real_distribution<double>(0, most)(engine); };
+    for (int run = 0; run < 200; ++run) {
+        const auto levels = static_cast<std::size_t>(2 + draw(14));
+        std::vector<double> costs_ms(static_cast<std::size_t>(draw(20)));
+        for (double& cost : costs_ms)
+            cost = draw(1) < 0.1 ? std::numeric_limits<double>::infinity() : std::max(0.0, draw(60) - 5);
+        Governor governor({GovernorSettings::kToldBudget_ms, levels, costs_ms});
+        for (int frame = 0; frame < 500; ++frame) {
+            if (frame % 50 == 0) governor.use_budget(draw(1) < 0.2 ? 0 : draw(50));
+            const std::size_t level = governor.take(governor.level(), draw(60));
+            ASSERT_LT(level, levels);
+            ASSERT_EQ(level, governor.level());
+        }
+    }
+}
+
 TEST(Governor, OffWithoutABudgetOrLevels) {
-    for (const GovernorSettings settings : {GovernorSettings{0, 4}, GovernorSettings{16, 1}}) {
+    for (const GovernorSettings& settings :
+         {GovernorSettings{0, 4}, GovernorSettings{16, 1}, GovernorSettings{0, 4, {100, 1}}}) {
         Governor governor(settings);
+        governor.use_budget(10);
         for (int i = 0; i < 1000; ++i) EXPECT_EQ(governor.take(0, 1e6), 0u);
     }
 }
@@ -202,6 +307,59 @@ TEST_F(GovernedLoopTest, FramesThatAreTooSlowGoDownTheLadderAndSaySo) {
         EXPECT_EQ(first->record.id, change.frame);
     }
     EXPECT_FALSE(rig.loop.take_level_change(change));
+}
+
+// The camera's rate is the budget, by what settings and triggers make of it while the loop runs.
+TEST_F(GovernedLoopTest, ABudgetOfTheRateFollowsTheRateThatAClientSets) {
+    const auto file =
+        scenario(", frame_rate_hz: 100, frame_rate_range_hz: [0.5, 100], exposure_range_ms: [0.1, 20]",
+                 "loop: {frame_budget_ms: 1000, levels: [{max_depth: 1}, {path_model: direct}]}\n");
+    const std::vector<std::string> shorter = {"camera.exposure_ms=1"};
+    // Costs that no frame here has: only what is chosen by them matters.
+    LoopRig rig(file, {.governor = {GovernorSettings::kToldBudget_ms, 3, {600, 300, 1}}}, shorter);
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(3));
+    EXPECT_NEAR(rig.loop.counters().budget_ms.load(), 10, 1e-6);
+    SettingsCommand slower;
+    slower.frame_rate_hz = 1;
+    EXPECT_EQ(rig.send(slower), CommandStatus::kAccepted);
+    const std::size_t before = rig.collector.count();
+    ASSERT_TRUE(rig.collector.wait_for(before + 2));
+    EXPECT_NEAR(rig.loop.counters().budget_ms.load(), 1000, 1e-6);
+    rig.loop.stop();
+    EXPECT_EQ(rig.collector.frames.front().record.quality_level, 2u);
+    EXPECT_EQ(rig.collector.frames.back().record.quality_level, 0u);
+    LevelChange change;
+    ASSERT_TRUE(rig.loop.take_level_change(change));
+    EXPECT_EQ(change.from, 2u);
+    EXPECT_EQ(change.to, 0u);
+    EXPECT_NEAR(change.budget_ms, 1000, 1e-6);
+    EXPECT_FALSE(rig.loop.take_level_change(change));
+}
+
+TEST_F(GovernedLoopTest, TriggeredFramesHaveNoBudgetOfARate) {
+    const auto file =
+        scenario("", "mode: triggered\nloop: {frame_budget_ms: 1000, levels: [{max_depth: 1}]}\n");
+    LoopRig rig(file, {.governor = {GovernorSettings::kToldBudget_ms, 2, {1e6, 1}}});
+    rig.loop.start();
+    EXPECT_EQ(rig.send(ExposeCommand{{}, 3}), CommandStatus::kAccepted);
+    ASSERT_TRUE(rig.collector.wait_for(3));
+    rig.loop.stop();
+    for (const auto& frame : rig.collector.frames) EXPECT_EQ(frame.record.quality_level, 0u);
+    EXPECT_EQ(rig.loop.counters().budget_ms.load(), 0);
+}
+
+// Ten times slower: a frame has ten times as long.
+TEST_F(GovernedLoopTest, TheBudgetIsInTheMachinesTime) {
+    const auto file =
+        scenario(", frame_rate_hz: 100, frame_rate_range_hz: [0.5, 100]",
+                 "clock: {scale: 0.1}\nloop: {frame_budget_ms: 1000, levels: [{max_depth: 1}]}\n");
+    const std::vector<std::string> shorter = {"camera.exposure_ms=1"};
+    LoopRig rig(file, {.governor = {GovernorSettings::kToldBudget_ms, 2}}, shorter);
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(2));
+    rig.loop.stop();
+    EXPECT_NEAR(rig.loop.counters().budget_ms.load(), 100, 1e-5);
 }
 
 // With latency frames are made one after the other: none begins before the one before is out. Their pixels

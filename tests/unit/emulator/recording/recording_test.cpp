@@ -282,7 +282,11 @@ TEST(ScenarioListing, HasNothingOfHowTheMachineIsUsed) {
     EXPECT_EQ(listing_difference(scenario_listing(there), scenario_listing(here)), "");
     there.loop.frame_budget_s = 0.01;
     EXPECT_THAT(listing_difference(scenario_listing(there), scenario_listing(here)),
-                HasSubstr("loop.frame_budget_ms: '10' there"));
+                HasSubstr("loop.frame_budget_ms: '10' there, 'auto' here"));
+    there.loop.frame_budget_s = here.loop.frame_budget_s;
+    there.loop.levels_fixed = true;
+    EXPECT_THAT(listing_difference(scenario_listing(there), scenario_listing(here)),
+                HasSubstr("loop.levels: 'fixed' there"));
 }
 
 TEST(CheckRecording, NamesWhatIsAnother) {

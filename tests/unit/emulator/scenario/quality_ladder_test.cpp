@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "emulator/scenario/app_config.h"
 #include "io/config/config_yaml.h"
 #include "render/vocabulary/check.h"
@@ -50,6 +52,54 @@ TEST_F(LadderTest, WhatCannotChangeBetweenFramesIsRefused) {
     EXPECT_THROW(loop(many + "]\n"), InputError);
 }
 
+std::string refusal_of(const std::function<void()>& read) {
+    try {
+        read();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST_F(LadderTest, TheBudgetIsOfTheRateUnlessItIsANumber) {
+    EXPECT_TRUE(loop("prefer: latency\n").budget_is_of_rate());
+    EXPECT_TRUE(loop("frame_budget_ms: auto\n").budget_is_of_rate());
+    EXPECT_FALSE(loop("frame_budget_ms: 0\n").budget_is_of_rate());
+    EXPECT_THAT(
+        refusal_of([&] { loop("prefer: latency\nframe_budget_ms: often\n"); }),
+        HasSubstr("loop.yaml:2:18: frame_budget_ms: found 'often'; accepted: a number, 0 to 1000000, or "
+                  "'auto'"));
+    EXPECT_THAT(refusal_of([&] { loop("frame_budget_ms: -1\n"); }), HasSubstr("found '-1'"));
+}
+
+TEST_F(LadderTest, FixedLevelsTakeNoBudget) {
+    EXPECT_TRUE(loop("levels: fixed\n").levels_fixed);
+    EXPECT_TRUE(loop("levels: fixed\nframe_budget_ms: 0\n").levels_fixed);
+    EXPECT_FALSE(loop("levels: [{max_depth: 1}]\n").levels_fixed);
+    EXPECT_THAT(refusal_of([&] { loop("frame_budget_ms: 20\nlevels: fixed\n"); }),
+                HasSubstr("loop.yaml:2:9: levels: found 'fixed' beside a frame_budget_ms of 20"));
+    EXPECT_THAT(refusal_of([&] { loop("levels: free\n"); }),
+                HasSubstr("loop.yaml:1:9: levels: found 'free'; accepted: a list of mappings, or 'fixed'"));
+}
+
+// A rate is held by who runs in real time, and where frames may depend on the machine.
+TEST(QualityLadder, ABudgetOfTheRateIsForRunsThatHoldOne) {
+    ScenarioConfig s;
+    s.quality.render = shipped("realtime.yaml");
+    EXPECT_THAT(governor_off(s), HasSubstr("auto"));
+    EXPECT_TRUE(lower_levels(s).empty());
+    s.loop.holds_rate = true;
+    EXPECT_EQ(governor_off(s), "");
+    EXPECT_FALSE(lower_levels(s).empty());
+    ScenarioConfig fixed = s, without = s, lockstep = s;
+    fixed.loop.levels_fixed = true;
+    EXPECT_THAT(governor_off(fixed), HasSubstr("fixed"));
+    without.loop.frame_budget_s = 0;
+    EXPECT_THAT(governor_off(without), HasSubstr("is 0"));
+    lockstep.mode = CameraMode::kLockstep;
+    EXPECT_THAT(governor_off(lockstep), HasSubstr("lockstep"));
+}
+
 TEST(QualityLadder, ALevelMayLeaveTheBufferAndNotTakeOne) {
     QualityLevelConfig rays, buffer;
     rays.values.visibility = "rays", rays.given["visibility"] = true;
@@ -67,6 +117,7 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
     for (const std::string name :
          {"reference.yaml", "still.yaml", "balanced.yaml", "realtime.yaml", "fast.yaml"}) {
         RenderQuality last = shipped(name);
+        const std::string visibility = last.visibility;
         last.noise_budget = name == "reference.yaml" ? 0.1 : 0;
         const std::vector<RenderQuality> levels = built_in_levels(last);
         EXPECT_GE(levels.size(), 3u) << name;
@@ -84,7 +135,9 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
             last = q;
         }
         EXPECT_EQ(last.path_model, "direct");
-        EXPECT_EQ(last.visibility, "rays");
+        // A ray a pixel is hardly faster, and flickers.
+        EXPECT_EQ(last.visibility, visibility);
+        EXPECT_LE(last.buffer_samples, 16);
         EXPECT_TRUE(built_in_levels(last).empty());
     }
 }

@@ -47,6 +47,32 @@ json schema(std::string_view prefix = {}) {
     return json::parse(config_schema(section_of(sky), prefix, "sky"));
 }
 
+struct Worded {
+    double budget_s = -1;
+    std::vector<Ball> steps;
+    bool stays = false;
+};
+Fields fields(Worded& w) {
+    return {or_word(number("budget_ms", w.budget_s, 1e-3, {0, 100}, "time"), "auto", -1.0),
+            or_word(sections("steps", w.steps, "steps"), "fixed", w.stays)};
+}
+
+TEST(ConfigManual, AWordThatStandsInAValuesPlaceIsAccepted) {
+    Worded worded;
+    const std::string table = config_manual(section_of(worded), "");
+    EXPECT_THAT(table, HasSubstr("| `budget_ms` | auto, or 0 to 100 | auto | time |\n"));
+    EXPECT_THAT(table, HasSubstr("| `steps` | fixed, or list of mappings |"));
+    worded.budget_s = 0.02;
+    EXPECT_THAT(config_manual(section_of(worded), ""), HasSubstr("| `budget_ms` | auto, or 0 to 100 | 20 |"));
+    worded.budget_s = -1;
+    const json keys = json::parse(config_schema(section_of(worded), "", "worded"))["properties"];
+    EXPECT_EQ(keys["budget_ms"]["default"], "auto");
+    EXPECT_EQ(keys["budget_ms"]["anyOf"][0], json({{"enum", {"auto"}}}));
+    EXPECT_EQ(keys["budget_ms"]["anyOf"][1], json({{"type", "number"}, {"minimum", 0}, {"maximum", 100}}));
+    EXPECT_EQ(keys["steps"]["anyOf"][0], json({{"enum", {"fixed"}}}));
+    EXPECT_EQ(keys["steps"]["anyOf"][1]["type"], "array");
+}
+
 TEST(ConfigManual, ASectionLikeAnEarlierOneIsFoldedWithItsOtherDefaults) {
     EXPECT_THAT(manual(), HasSubstr("| `earth.radius_km` | 0 to 100 | 6378 | how large |\n"));
     EXPECT_THAT(manual(),

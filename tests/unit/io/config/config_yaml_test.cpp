@@ -80,6 +80,47 @@ TEST(ConfigYaml, NumbersOfListsCountInEachPlaceThatAnAliasGivesThem) {
         "list.24.qe: the configuration has more than 1000000 numbers in its lists");
 }
 
+// A word in place of a number, and one in place of a list.
+struct Worded {
+    double budget_s = -1;
+    std::vector<Inner> steps;
+    bool stays = false;
+};
+Fields fields(Worded& w) {
+    return {or_word(number("budget_ms", w.budget_s, 1e-3, {0, 100}, "time"), "auto", -1.0),
+            or_word(sections("steps", w.steps, "steps"), "fixed", w.stays)};
+}
+
+TEST(ConfigYaml, AWordMayStandInPlaceOfANumberOrAList) {
+    const auto read_worded = [](const std::string& text, std::vector<std::string> overrides = {}) {
+        Worded out;
+        read_config_text(text, "test.yaml", ".", section_of(out), overrides);
+        return out;
+    };
+    const auto refused_as = [&](const std::string& text) -> std::string {
+        try {
+            read_worded(text);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(read_worded("budget_ms: 20\n").budget_s, 0.02);
+    EXPECT_EQ(read_worded("budget_ms: 20\n", {"budget_ms=auto"}).budget_s, -1);
+    EXPECT_TRUE(read_worded("steps: fixed\n").stays);
+    EXPECT_EQ(read_worded("steps: fixed\n", {"steps=[{exposure_ms: 5}, {}]"}).steps.size(), 2u);
+    EXPECT_FALSE(read_worded("steps: fixed\n", {"steps=[{exposure_ms: 5}, {}]"}).stays);
+    EXPECT_EQ(refused_as("budget_ms: sometimes\n"),
+              "test.yaml:1:12: budget_ms: found 'sometimes'; accepted: a number, 0 to 100, or 'auto' (time)");
+    EXPECT_THAT(refused_as("budget_ms: 101\n"), HasSubstr("accepted: a number, 0 to 100"));
+    EXPECT_EQ(refused_as("steps: some\n"),
+              "test.yaml:1:8: steps: found 'some'; accepted: a list of mappings, or 'fixed' (steps)");
+    // Without a word none is taken.
+    EXPECT_THAT(error_of("name: x\nlist: fixed\n"), HasSubstr("accepted: a list of mappings (many)"));
+    EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: auto}\n"),
+                HasSubstr("accepted: a number, 0.01 to 1000 ("));
+}
+
 TEST(ConfigYaml, ReadsEveryKindAndConvertsUnits) {
     const Outer o = read(
         "name: x\ncount: 3\non: true\nmode: b\nposition_m: [1, 2, 3]\nattitude_wxyz: [1, 0, 0, 0]\n"

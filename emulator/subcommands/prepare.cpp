@@ -1,0 +1,55 @@
+// `hilcam prepare`: makes what a run would make beside its first frames.
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include "emulator/run/camera_station.h"
+#include "emulator/subcommands/arguments.h"
+#include "emulator/subcommands/scenario_use.h"
+#include "render/vocabulary/stopwatch.h"
+
+namespace hilcam {
+namespace {
+
+struct PrepareArguments {
+    ConfigArguments config;
+};
+
+// Loads what a camera loads for a run, and makes what of it is not on disk.
+LightLoading prepare_camera(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid) {
+    ScenarioConfig own = scenario_of_camera(bench, index);
+    own.loop.holds_rate = true;  // levels of quality that a run may have
+    RunLimits limits;
+    limits.outputs = limits.paced = false;
+    CameraStation station(own, index + 1, limits);
+    station.load(grid);
+    return std::move(station.light());
+}
+
+int carry_out(const PrepareArguments& o) {
+    const ScenarioConfig scenario = load_and_warn(o.config);
+    const auto threads = limit_threads(scenario);
+    const SpectralGrid grid(scenario.spectrum_edges_um);
+    const Stopwatch watch;
+    std::size_t made = 0, found = 0;
+    // One after the other: the scene of each is large.
+    for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
+        const LightLoading light = in_memory(scenario, [&] { return prepare_camera(scenario, i, grid); });
+        made += light.made, found += light.found;
+    }
+    fmt::print("{} is ready: {} tables of light made, {} were on disk; {:.1f} s\n", scenario.name, made,
+               found, watch.seconds());
+    return 0;
+}
+
+}  // namespace
+
+void add_prepare_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<PrepareArguments>();
+    CLI::App* prepare = app.add_subcommand(
+        "prepare", "make what a run needs and keeps on disk, so that its first frame has the best light");
+    add_config(prepare, o->config);
+    when_named(prepare, action, o, carry_out);
+}
+
+}  // namespace hilcam
