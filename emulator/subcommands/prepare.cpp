@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "emulator/run/camera_station.h"
+#include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "render/vocabulary/stopwatch.h"
@@ -49,6 +50,7 @@ void add_prepare_command(CLI::App& app, Action& action) {
     CLI::App* prepare = app.add_subcommand(
         "prepare", "make what a run needs and keeps on disk, so that its first frame has the best light");
     add_config(prepare, o->config);
+    set_examples(prepare, {"hilcam prepare geo_inspection"});
     when_named(prepare, action, o, carry_out);
 }
 
