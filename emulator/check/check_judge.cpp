@@ -44,7 +44,7 @@ std::string origin_advice(const SeenObject& o) {
     return fmt::format("; that is its origin, and the middle of its mesh is {:.4g} m from there", off_m);
 }
 
-// What fills the picture with one of its details: a focal length in other units, a place that is too near.
+// Tells of objects of which the picture has one detail: a focal length in other units, a place that is too near.
 void judge_filling(const SeenObject& o, const CameraReport& camera, std::vector<std::string>& out) {
     constexpr double kAll = 0.999;
     const double fields = 2 * o.angular_radius_rad / camera.sheet.field_diagonal_rad;

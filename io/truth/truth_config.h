@@ -31,7 +31,7 @@ struct TruthConfig {
     double ground_px = 0;  // 0: no craters and boulders
     std::int64_t every_nth = 1;
     bool overwrite = false;
-    WhenSlow when_slow = WhenSlow::kAuto;  // how the folder treats truth that comes too fast
+    WhenSlow when_slow = WhenSlow::kAuto;  // treatment of truth that comes too fast for the folder
 };
 Fields fields(TruthConfig& config);
 void validate(const TruthConfig& config);
