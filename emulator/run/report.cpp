@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/recording/machine_report.h"
+#include "emulator/run/picture_fault.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
 
@@ -62,7 +63,7 @@ std::vector<std::string> faults_of(const CameraStation& station) {
     std::vector<std::string> out;
     for (const FrameSink* sink : station.sinks())
         if (const std::string fault = sink->report().fault; !fault.empty()) out.push_back(fault);
-    if (const std::string fault = station.renderer().fault(); !fault.empty()) out.push_back(fault);
+    if (const std::string fault = picture_fault(station.renderer()); !fault.empty()) out.push_back(fault);
     return out;
 }
 

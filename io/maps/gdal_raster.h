@@ -1,6 +1,6 @@
 #pragma once
-// Maps in the formats and projections of GDAL: GeoTIFF, PDS3, ISIS, ENVI. The one unit that knows it. Only files of this
-// machine are opened, by these formats' drivers and no others: nothing is looked for in the network.
+// Maps in the formats and projections of GDAL: GeoTIFF, PDS3, ISIS, ENVI. A part of hilcam-read-map (map_service.h), not of hilcam. Only
+// files of this machine are opened, by these formats' drivers and no others: nothing is looked for in the network.
 
 #include "io/maps/ground_map_file.h"
 
