@@ -195,6 +195,18 @@ void start_gdal() {
     });
 }
 
+std::vector<fs::path> gdal_folders() {
+    start_gdal();
+    std::vector<fs::path> out;
+    char** const proj = OSRGetPROJSearchPaths();
+    for (char** one = proj; one && *one; ++one) out.emplace_back(*one);
+    CSLDestroy(proj);
+    // Any of GDAL's files tells where all are.
+    if (const char* const own = CPLFindFile("gdal", "gdalvrt.xsd"))
+        out.push_back(fs::path(own).parent_path());
+    return out;
+}
+
 GdalFile open_gdal_file(const MapFiles& files, const std::string& name) {
     start_gdal();
     GdalFile file = opened(files, name, false);

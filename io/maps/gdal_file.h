@@ -5,8 +5,10 @@
 #include <cpl_error.h>
 #include <gdal_priv.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "io/maps/map_files.h"
 
@@ -33,6 +35,8 @@ class QuietErrors {
 
 // Makes GDAL ready, once for the process; open_gdal_file() does so, too.
 void start_gdal();
+// Returns the folders in which GDAL and PROJ have their own data.
+std::vector<std::filesystem::path> gdal_folders();
 // Throws InputError, one line that begins with `name`.
 GdalFile open_gdal_file(const MapFiles& files, const std::string& name);
 

@@ -22,9 +22,10 @@ struct DestroyTransformation {
 
 class GdalRaster final : public GroundRaster {
   public:
-    GdalRaster(const GroundMapConfig& config, const MappedBody& body) : config_(config) {
+    GdalRaster(const GroundMapConfig& config, const MappedBody& body, const MapFiles& files)
+        : config_(config) {
         const QuietErrors quiet;
-        open();
+        open(files);
         find_bands();
         if (config.bounds_deg.empty())
             find_projection(body);
@@ -86,13 +87,12 @@ class GdalRaster final : public GroundRaster {
     std::vector<int> success_;
     std::vector<float> raw_;
 
-    std::string name() const {
-        return (config_.where.empty() ? "" : config_.where + ": ") + config_.file.string();
+    [[noreturn]] void refuse(const std::string& what) const {
+        throw InputError(map_name(config_) + ": " + what);
     }
-    [[noreturn]] void refuse(const std::string& what) const { throw InputError(name() + ": " + what); }
 
-    void open() {
-        file_ = open_gdal_file(find_map_files(config_.file, name()), name());
+    void open(const MapFiles& files) {
+        file_ = open_gdal_file(files, map_name(config_));
         shape_.columns = file_->GetRasterXSize(), shape_.rows = file_->GetRasterYSize();
         if (shape_.columns < 2 || shape_.rows < 2)
             refuse("found " + std::to_string(shape_.columns) + " x " + std::to_string(shape_.rows) +
@@ -239,8 +239,17 @@ class GdalRaster final : public GroundRaster {
 
 }  // namespace
 
+std::unique_ptr<GroundRaster> open_gdal_raster(const GroundMapConfig& config, const MappedBody& body,
+                                               const MapFiles& files) {
+    return std::make_unique<GdalRaster>(config, body, files);
+}
+
 std::unique_ptr<GroundRaster> open_gdal_raster(const GroundMapConfig& config, const MappedBody& body) {
-    return std::make_unique<GdalRaster>(config, body);
+    return open_gdal_raster(config, body, find_map_files(config.file, map_name(config)));
+}
+
+std::string map_name(const GroundMapConfig& config) {
+    return (config.where.empty() ? "" : config.where + ": ") + config.file.string();
 }
 
 }  // namespace hilcam

@@ -6,16 +6,21 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "io/maps/gdal_file.h"
 #include "io/maps/gdal_raster.h"
+#include "io/maps/map_files.h"
 #include "io/maps/map_messages.h"
 #include "io/system/child_watch.h"
+#include "io/system/confinement.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -25,6 +30,16 @@ namespace {
 constexpr std::uint64_t kMemory_bytes = std::uint64_t{1} << 30;
 
 [[noreturn]] void end(ChildStatus status) { _exit(static_cast<int>(status)); }
+
+// Ends the process when whoever asks has gone, whatever else it does.
+void watch_over(int socket) {
+    std::thread([socket] {
+        for (;;) {
+            pollfd hang_up{socket, 0, 0};
+            if (poll(&hang_up, 1, -1) > 0) end(ChildStatus::kBroken);
+        }
+    }).detach();
+}
 
 class MapService {
   public:
@@ -81,7 +96,9 @@ class MapService {
         config.holes = static_cast<MapHoles>(r.holes);
         config.scale = r.scale, config.offset = r.offset;
         config.bounds_deg.assign(r.bounds_deg, r.bounds_deg + r.bounds);
-        raster_ = open_gdal_raster(config, body);
+        const MapFiles files = find_map_files(config.file, map_name(config));
+        confine(files);
+        raster_ = open_gdal_raster(config, body, files);
         const GroundRaster::Shape& shape = raster_->shape();
         answer.columns = shape.columns, answer.rows = shape.rows;
         answer.channels = shape.channels, answer.bands = shape.bands;
@@ -89,6 +106,23 @@ class MapService {
         answer.pole_above_first_row = shape.pole_above_first_row;
         answer.pole_below_last_row = shape.pole_below_last_row;
         answer.spacing_m = shape.spacing_m;
+    }
+
+    // Leaves the process what this one map needs, before anybody has looked into it.
+    void confine(const MapFiles& files) const {
+        const std::filesystem::path folder = files.file.parent_path();
+        std::vector<std::filesystem::path> readable = gdal_folders();
+        readable.push_back(folder);
+        // Links lead elsewhere.
+        for (const auto* const names : {&files.beside, &files.pointed_at})
+            for (const std::string& name : *names) {
+                std::error_code error;
+                const std::filesystem::path real = std::filesystem::canonical(folder / name, error);
+                if (!error && real.parent_path() != folder) readable.push_back(real);
+            }
+        restrict_files(readable);
+        watch_over(socket_);
+        restrict_calls();
     }
 
     void read(const MapRequest& r, MapAnswer& answer) {
@@ -101,22 +135,12 @@ class MapService {
     }
 };
 
-// Ends the process when whoever asks has gone, whatever else it does.
-void watch_over(int socket) {
-    std::thread([socket] {
-        for (;;) {
-            pollfd hang_up{socket, 0, 0};
-            if (poll(&hang_up, 1, -1) > 0) end(ChildStatus::kBroken);
-        }
-    }).detach();
-}
-
 }  // namespace
 
 void serve_map(int socket, int memory) {
     void* const mapped = mmap(nullptr, kMapMemory_bytes, PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0);
     if (mapped == MAP_FAILED) end(ChildStatus::kBroken);
-    watch_over(socket);
+    close_all_but(std::array{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO, socket, memory});
     limit_own_memory(kMemory_bytes);
     MapService service(socket, static_cast<std::uint8_t*>(mapped));
     try {

@@ -16,6 +16,7 @@
 #include <new>
 
 #include "io/system/child_watch.h"
+#include "io/system/confinement.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -43,17 +44,26 @@ void limit_child(const ConfinedLimits& limits) {
     _exit(static_cast<int>(status));
 }
 
-[[noreturn]] void be_child(pid_t parent, int fd, const ConfinedLimits& limits,
+// Leaves the child what it works with: /dev/null in the terminal's place, its results, and the pipe's end by
+// which its death is seen.
+void keep_only(int results, int alive) {
+    const int nowhere = open("/dev/null", O_RDWR);
+    for (const int terminal : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, terminal);
+    close_all_but(std::array{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO, results, alive});
+}
+
+[[noreturn]] void be_child(pid_t parent, int fd, int alive, const ConfinedLimits& limits,
+                           std::span<const std::filesystem::path> readable,
                            const std::function<void(ConfinedOutput&)>& work) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(static_cast<int>(Status::kBroken));  // it died before it was asked for
     // No handler of the parent's (a sanitizer's, a test's) shall take an abort for its own.
     for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGXCPU})
         std::signal(signal, SIG_DFL);
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
+    keep_only(fd, alive);
     limit_child(limits);
+    restrict_files(readable);
+    restrict_calls();
     ConfinedOutput out(fd);
     try {
         work(out);
@@ -103,13 +113,14 @@ void ConfinedResult::refuse() const {
 }
 
 ConfinedResult run_confined(const std::string& name, const ConfinedLimits& limits,
+                            std::span<const std::filesystem::path> readable,
                             const std::function<void(ConfinedOutput&)>& work) {
     const Fd results(memfd_create("hilcam", MFD_CLOEXEC));
     std::array<int, 2> ends{-1, -1};
     const pid_t parent = getpid();
     const pid_t child = results && pipe2(ends.data(), O_CLOEXEC) == 0 ? fork() : -1;
     const Fd alive(ends[0]);
-    if (child == 0) be_child(parent, results.get(), limits, work);
+    if (child == 0) be_child(parent, results.get(), ends[1], limits, readable, work);
     Fd(ends[1]).reset();  // the child alone holds it
     if (child < 0) throw DeviceError("no process can be made to read " + name);
     const bool worked = wait_while_it_works(child, alive.get(), limits.waiting_s);

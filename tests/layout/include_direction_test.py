@@ -54,6 +54,7 @@ ONLY_IN = {
     "gdal": {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_raster.cpp"},
     "ogr_": {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_raster.cpp"},
     "cpl_": {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_raster.cpp"},
+    "seccomp": {"io/system/confinement.cpp"},
     "libusb": {"io/commands/command_link_usb.cpp", "io/commands/commands_usb.cpp", "io/commands/usb_device.cpp"},
     "erfa": {"render/sky/bodies.cpp", "render/sky/earth_frames.cpp", "render/sky/stars.cpp", "render/vocabulary/time.cpp",
              "render/vocabulary/time_system.cpp"},

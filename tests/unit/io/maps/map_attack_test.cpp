@@ -72,6 +72,17 @@ TEST_F(MapAttack, TheLabelsOfThisTestAreReadWhereTheyAreHonest) {
     EXPECT_EQ(refusal_of(write("map.tif", tiff({}))), "no error");
 }
 
+// The reader may look where they lead, although it sees no other folder than the map's.
+TEST_F(MapAttack, LinksToAMapAndItsHeaderAreFollowed) {
+    std::filesystem::create_directories(folder_ / "store");
+    write("store/1", tiff({}));
+    write("store/2", kEnvi);
+    std::filesystem::create_symlink("store/1", folder_ / "map.tif");
+    std::filesystem::create_symlink(folder_ / "store/2", folder_ / "envi.hdr");
+    EXPECT_EQ(refusal_of(folder_ / "map.tif"), "no error");
+    EXPECT_EQ(refusal_of(write("envi.img", std::string(16, 'a'))), "no error");
+}
+
 TEST_F(MapAttack, ALabelPointsAtNothingOutsideItsFolder) {
     std::filesystem::create_directories(folder_ / "in");
     write("secret.dat", std::string(16, 'x'));

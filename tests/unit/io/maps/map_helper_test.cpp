@@ -2,6 +2,7 @@
 
 #include "io/maps/map_helper.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -10,6 +11,7 @@
 #include <csignal>
 
 #include "io/maps/map_messages.h"
+#include "io/system/confinement.h"
 #include "io/system/program_files.h"
 #include "tests/support/files.h"
 #include "tests/support/tiff_files.h"
@@ -126,26 +128,49 @@ TEST_F(MapHelper, AForkedProcessReadsByItself) {
     EXPECT_EQ(raster->failed_reads(), 0u);
 }
 
-// Returns how many processes have `name` for theirs and this one for their parent.
-int readers_of(pid_t parent) {
-    int count = 0;
+// Returns the readers that a process has started.
+std::vector<pid_t> readers_of(pid_t parent) {
+    std::vector<pid_t> out;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
         std::ifstream in(entry.path() / "stat");
         std::string number, name, state;
         pid_t of = 0;
-        if (in >> number >> name >> state >> of)
-            count += name.starts_with("(hilcam-read-map") && of == parent;
+        if (in >> number >> name >> state >> of && name.starts_with("(hilcam-read-map") && of == parent)
+            out.push_back(std::stoi(number));
     }
-    return count;
+    return out;
 }
 
 TEST_F(MapHelper, TheReaderEndsWithTheMap) {
     GroundMapConfig config = map();
     config.bounds_deg = {-180, -90, 180, 90};
     auto raster = open_map_by_helper(config, moon_);
-    EXPECT_EQ(readers_of(getpid()), 1);
+    EXPECT_EQ(readers_of(getpid()).size(), 1u);
     raster.reset();
-    EXPECT_EQ(readers_of(getpid()), 0);
+    EXPECT_EQ(readers_of(getpid()).size(), 0u);
+}
+
+// It is under a filter of calls that it cannot leave, and has nothing open but its own, the map and PROJ's table.
+TEST_F(MapHelper, TheReaderIsConfined) {
+    GroundMapConfig config = map();
+    config.bounds_deg = {-180, -90, 180, 90};
+    const int foreign = open("/etc/passwd", O_RDONLY);  // as one that is not closed when programs start
+    const auto raster = open_map_by_helper(config, moon_);
+    close(foreign);
+    const std::vector<pid_t> readers = readers_of(getpid());
+    ASSERT_EQ(readers.size(), 1u);
+    const std::filesystem::path process = "/proc/" + std::to_string(readers[0]);
+    for (const auto& fd : std::filesystem::directory_iterator(process / "fd")) {
+        const std::string target = std::filesystem::read_symlink(fd.path()).string();
+        EXPECT_TRUE(target == "/dev/null" || target.starts_with("socket:") ||
+                    target.starts_with("/memfd:hilcam") || target.starts_with(folder_.string()) ||
+                    target.ends_with("/proj.db"))
+            << target;
+    }
+    if (!confinement_here().seccomp) GTEST_SKIP() << "this kernel has no seccomp";
+    std::ifstream status(process / "status");
+    const std::string text{std::istreambuf_iterator<char>(status), {}};
+    EXPECT_THAT(text, AllOf(HasSubstr("Seccomp:\t2"), HasSubstr("NoNewPrivs:\t1")));
 }
 
 }  // namespace
