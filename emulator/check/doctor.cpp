@@ -57,7 +57,7 @@ void look_at_processor(const BenchNeeds& n, const MachineFacts& m, Findings& out
         out.good("real-time rights", m.root ? "root" : fmt::format("rtprio limit {}", m.realtime_priority));
 }
 
-// What keeps the readers of meshes, pictures and maps, should a file break one of them.
+// The kernel's means that keep the readers of meshes, pictures and maps, should a file break one of them.
 void look_at_confinement(const MachineFacts& m, Findings& out) {
     const std::string found = (m.confinement.landlock > 0 ? fmt::format("Landlock {}", m.confinement.landlock)
                                                           : std::string("no Landlock")) +

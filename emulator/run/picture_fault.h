@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with the pictures of a run so far, in one line: of the renderer's work, and of the maps that it looks at.
+// Says in one line what is wrong with the pictures of a run so far: with the renderer's work, and with the maps that it looks at.
 
 #include <string>
 

@@ -24,7 +24,7 @@ constexpr const char* kDrivers[] = {"GTiff", "PDS", "ISIS3", "ENVI", nullptr};
 constexpr GIntBig kCacheBytes = 64 << 20;
 // A block is read whole, whatever is wanted of it.
 constexpr double kMostBlock_bytes = 64 << 20;
-// Of a TIFF's blocks so many are looked at, over all of it.
+// The number of a TIFF's blocks that are looked at, over all of it.
 constexpr int kBlocksLookedAt = 1 << 16;
 // A file of more overviews than halvings of its size has none that is of use.
 constexpr int kMostOverviews = 64;

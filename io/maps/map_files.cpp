@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string_view>
 
 #include "io/system/input_file.h"
@@ -26,62 +25,46 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) || c == '\0'; }
+bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+bool is_of_key(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '^'; }
 
-// Returns where the text goes on after blanks and comments.
-std::size_t after_blanks(std::string_view text, std::size_t at) {
-    for (;;) {
-        while (at < text.size() && is_blank(text[at])) ++at;
-        if (text.substr(at, 2) != "/*") return at;
-        const std::size_t end = text.find("*/", at + 2);
-        if (end == std::string_view::npos) return text.size();
-        at = end + 2;
+// Takes out comments that no quotation can begin or end in, which may have slashes.
+std::string without_comments(std::string_view text) {
+    std::string out(text);
+    for (std::size_t at = out.find("/*"); at != std::string::npos; at = out.find("/*", at)) {
+        const std::size_t end = out.find("*/", at + 2);
+        if (end == std::string::npos || out.substr(at, end - at).find_first_of("\"'") != std::string::npos)
+            ++at;
+        else
+            out.replace(at, end + 2 - at, " ");
     }
+    return out;
 }
 
-// Returns the value at a place of a label: a text between quotes, a list between brackets, or a word.
-std::string_view value_at(std::string_view text, std::size_t at) {
-    at = after_blanks(text, at);
-    if (at >= text.size()) return {};
-    const char first = text[at];
-    const char last = first == '"' || first == '\'' ? first : first == '(' ? ')' : first == '{' ? '}' : '\0';
-    std::size_t end = at + 1;
-    while (end < text.size() && (last == '\0' ? !is_blank(text[end]) : text[end] != last)) ++end;
-    return text.substr(at, end - at);
-}
-
-// Calls take(key, value) for each "KEY = value" of a label.
+// Calls take(key, value) for each "KEY = value" of a label. A value goes on to the next statement's key and includes that, so that no
+// reader of labels, whatever it makes of brackets and quotes, finds more in it.
 template <class Take>
 void visit_statements(std::string_view text, const Take& take) {
     for (std::size_t at = text.find('='); at != std::string_view::npos; at = text.find('=', at + 1)) {
         std::size_t end = at;
         while (end > 0 && is_blank(text[end - 1])) --end;
         std::size_t begin = end;
-        while (begin > 0 && (is_word(text[begin - 1]) || text[begin - 1] == '^')) --begin;
-        take(text.substr(begin, end - begin), value_at(text, at + 1));
+        while (begin > 0 && is_of_key(text[begin - 1])) --begin;
+        take(text.substr(begin, end - begin), text.substr(at + 1, text.find('=', at + 1) - at - 1));
     }
 }
 
-// Returns the name in a pointer's value, which may also have a place in the file, or be nothing but that.
-std::optional<std::string> pointed_name(std::string_view value) {
-    const auto is_outside = [](char c) {
-        return is_blank(c) || std::string_view("\"'(){},<>").find(c) != std::string_view::npos;
+// Adds what may be the name of a file: what stands between quotes, and each word.
+void add_names(std::string_view value, std::vector<std::string>& names) {
+    const auto add_pieces = [&](std::string_view separators) {
+        for (std::size_t at = 0; at < value.size();) {
+            const std::size_t end = std::min(value.find_first_of(separators, at), value.size());
+            if (end > at) names.emplace_back(value.substr(at, end - at));
+            at = end + 1;
+        }
     };
-    std::size_t begin = 0, end = 0;
-    while (begin < value.size() && is_outside(value[begin])) ++begin;
-    const std::size_t quote = value.find_first_of("\"'");
-    if (quote != std::string_view::npos) {
-        begin = quote + 1;
-        end = std::min(value.find_first_of("\"'", begin), value.size());
-    } else {
-        end = begin;
-        while (end < value.size() && !is_outside(value[end])) ++end;
-    }
-    const std::string name(value.substr(begin, end - begin));
-    const bool is_number =
-        std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); });
-    return is_number ? std::nullopt : std::optional(name);
+    add_pieces("\"'");
+    add_pieces("\"'(){},<> \t\r\n\f\v");
 }
 
 // Opens what a map's reader would open, and so says what is wrong with it.
@@ -96,10 +79,24 @@ bool is_label(const std::string& text) {
            begin.find("IsisCube") != std::string_view::npos;
 }
 
-std::string first_bytes(const fs::path& file) {
+// Returns a label's text up to its end, as readers look for it; nothing of a file that is no label.
+std::string label_of(const fs::path& file, const std::string& name) {
     const InputFile in = open_input_file(file, {kMostBytes, "a map"});
     std::string text(std::min<std::uintmax_t>(in.bytes, kLabel_bytes), '\0');
     read_input_piece(in, file, 0, text.data(), text.size());
+    if (!is_label(text)) return {};
+    std::size_t end = text.size();
+    for (const char* const mark : {"\nEND\n", "\nEND\r\n", "\nEnd\n", "\nEnd\r\n"})
+        end = std::min(end, text.find(mark));
+    if (end == text.size() && in.bytes > kLabel_bytes)
+        throw InputError(name + ": its label has no line END within " + std::to_string(kLabel_bytes) +
+                         " bytes; accepted: a label that has");
+    const std::size_t zero = text.find('\0');
+    if (zero < end)
+        throw InputError(name + ": its label has bytes that are no text; accepted: text up to the line END");
+    // Readers take the rest of a block with it, and go on in there where that line was a comment's.
+    constexpr std::size_t kBlock_bytes = 520;
+    text.resize(std::min({text.size(), end + kBlock_bytes, zero}));
     return text;
 }
 
@@ -107,31 +104,27 @@ std::string first_bytes(const fs::path& file) {
 
 std::vector<std::string> label_pointers(const std::string& text, const std::string& name) {
     std::vector<std::string> out;
-    visit_statements(text, [&](std::string_view key, std::string_view value) {
+    visit_statements(without_comments(text), [&](std::string_view key, std::string_view value) {
         const std::string word = lower(key);
         if (word == "format" && lower(value).find("geotiff") != std::string::npos)
             throw InputError(name +
                              ": its label has the values in a GeoTIFF; accepted: that file by its own name");
-        if ((word == "object" || word == "group") && lower(value).find("compressed_file") == 0)
+        if ((word == "object" || word == "group") &&
+            lower(value).find("compressed_file") != std::string::npos)
             throw InputError(name + ": its label has compressed values; accepted: such as they are");
         if (!word.starts_with('^')) return;
-        const std::optional<std::string> file = pointed_name(value);
-        if (!file) return;
-        // A pointer may not lead elsewhere in any part of its value.
-        if (value.find('/') != std::string_view::npos || value.find('\\') != std::string_view::npos ||
-            *file == "." || *file == "..")
-            throw InputError(name + ": its label points at " + in_quotes(value) +
+        if (value.find_first_of("/\\") != std::string_view::npos)
+            throw InputError(name + ": its label points at " +
+                             in_quotes(value.substr(value.find_first_not_of(" \t\r\n"))) +
                              "; accepted: the name of a file beside it, without folders");
-        out.push_back(*file);
+        add_names(value, out);
     });
     return out;
 }
 
 MapFiles find_map_files(const fs::path& file, const std::string& name) {
     MapFiles out{fs::absolute(file).lexically_normal(), {}};
-    const std::string text = first_bytes(out.file);
-    const std::vector<std::string> pointers =
-        is_label(text) ? label_pointers(text, name) : std::vector<std::string>();
+    const std::vector<std::string> pointers = label_pointers(label_of(out.file, name), name);
     const std::string stem = lower(out.file.stem().string());
     std::error_code error;
     for (fs::directory_iterator at(out.file.parent_path(), error), end; !error && at != end;

@@ -19,8 +19,8 @@ struct MapFiles {
 // whoever opens it, a device has no end, and a label may not name what lies elsewhere.
 MapFiles find_map_files(const std::filesystem::path& file, const std::string& name);
 
-// Returns the files that the text of a PDS3 or ISIS label points at. Throws InputError, which begins with `name`, where one of them is
-// no plain name, and where the values are in a file of another format.
+// Returns all that may be the name of a file which the text of a PDS3 or ISIS label points at; words that are none are among it. Throws
+// InputError, which begins with `name`, where a pointer is no plain name, and where the values are in a file of another format.
 std::vector<std::string> label_pointers(const std::string& text, const std::string& name);
 
 }  // namespace hilcam

@@ -20,7 +20,7 @@
 namespace hilcam {
 namespace {
 
-// To look at some hundred thousand posts of a map without overviews takes the longest.
+// The longest request looks at some hundred thousand posts of a map without overviews.
 constexpr HelperProcess::Limits kOpening{60, 30}, kReading{30, 30};
 
 std::string name_of(const GroundMapConfig& config) {

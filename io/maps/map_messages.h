@@ -1,5 +1,5 @@
 #pragma once
-// What hilcam and hilcam-read-map say to each other. A request and its answer are a struct each; lists and texts lie in the memory
+// The words between hilcam and hilcam-read-map. A request and its answer are a struct each; lists and texts lie in the memory
 // that both have. The order is: one kOpen, then kFind and kRead as often as wanted.
 
 #include <cstddef>

@@ -26,7 +26,7 @@
 namespace hilcam {
 namespace {
 
-// What a map may take beside the libraries: GDAL's cache, a block as it is stored and as it is read, overviews.
+// The memory that a map may take beside the libraries: GDAL's cache, a block as it is stored and as it is read, overviews.
 constexpr std::uint64_t kMemory_bytes = std::uint64_t{1} << 30;
 
 [[noreturn]] void end(ChildStatus status) { _exit(static_cast<int>(status)); }

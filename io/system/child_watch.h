@@ -1,6 +1,6 @@
 #pragma once
-// What parents and children have in common where a child process works on bytes that nobody vouches for (confined.h, helper_process.h):
-// its limits, how its parent waits for it, and what its end means.
+// Parents and their children that work on bytes which nobody vouches for (confined.h, helper_process.h) have this in common: a child's
+// limits, how its parent waits for it, and what its end means.
 
 #include <sys/types.h>
 

@@ -29,7 +29,7 @@ constexpr unsigned kAskVersion = 1;
 constexpr int kPathBeneath = 1;
 constexpr std::uint64_t kReadFile = 1u << 2, kReadFolder = 1u << 3;
 struct LandlockRules {
-    std::uint64_t files;  // what is forbidden unless a rule allows it
+    std::uint64_t files;  // bits of what is forbidden unless a rule allows it
     std::uint64_t network;
     std::uint64_t scope;
 };
@@ -168,7 +168,7 @@ void allow_reading(Filter& filter) {
     filter.deny_as_unknown(SCMP_SYS(openat2));
 }
 
-// What is open is all that there is: the results' memory, and the helper's socket.
+// Answers go to what is open, the results' memory and the helper's socket, as nothing else can be opened for it.
 void allow_answering(Filter& filter) {
     filter.allow({SCMP_SYS(write), SCMP_SYS(writev), SCMP_SYS(pwrite64), SCMP_SYS(ftruncate)});
     filter.allow_if(SCMP_SYS(recvfrom), {equal(4, 0)});

@@ -19,7 +19,7 @@ inline constexpr int kHelperSocket = 3, kHelperMemory = 4;
 // One thread at a time.
 class HelperProcess {
   public:
-    // What a request may take before the helper is ended.
+    // The time that a request may take before the helper is ended.
     struct Limits {
         double cpu_s;
         unsigned waiting_s;  // without any processor time

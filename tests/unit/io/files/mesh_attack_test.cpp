@@ -150,7 +150,6 @@ TEST_F(MeshAttack, FilesOutsideTheFolderAreRefused) {
     write("a.mtl", "newmtl a\nKd 1 0 0\n");
     write("a.png", "no picture");
     expect_refused(write("in/m.obj", "mtllib ../a.mtl\n" + shape), "lies outside the mesh's folder");
-    expect_refused(write("in/m.obj", "mtllib " + (folder_ / "a.mtl").string() + "\n" + shape), "m.obj");
     write("in/t.mtl", texture + "../a.png\n");
     expect_refused(write("in/t.obj", "mtllib t.mtl\n" + shape), "lies outside the mesh's folder");
     std::filesystem::create_symlink("../a.png", folder_ / "in/link.png");
