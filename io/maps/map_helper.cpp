@@ -55,10 +55,15 @@ EndedReaders& ended_readers() {
 class HelpedRaster final : public GroundRaster {
   public:
     HelpedRaster(std::filesystem::path program, const GroundMapConfig& config, const MappedBody& body)
-        : program_(std::move(program)), config_(config), body_(body) {
+        : program_(std::move(program)),
+          config_(config),
+          file_(std::filesystem::absolute(config.file)),
+          body_(body) {
         if (!config.bounds_deg.empty())
             bounds_ = {config.bounds_deg[0], config.bounds_deg[1], config.bounds_deg[2],
                        config.bounds_deg[3]};
+        constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 50;  // a petabyte is no map
+        open_input_file(config.file, {kMostBytes, "a map"});
         shape_ = opened();
     }
 
@@ -102,6 +107,7 @@ class HelpedRaster final : public GroundRaster {
 
     std::filesystem::path program_;
     GroundMapConfig config_;
+    std::filesystem::path file_;  // absolute: a reader may be started later, from another folder
     MappedBody body_;
     std::optional<MapBounds> bounds_;
     std::unique_ptr<HelperProcess> helper_;  // null: it has ended, and is not started again
@@ -113,8 +119,6 @@ class HelpedRaster final : public GroundRaster {
 
     // Starts a reader and has it open the map. Throws InputError.
     Shape opened() {
-        constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 50;  // a petabyte is no map
-        open_input_file(config_.file, {kMostBytes, "a map"});
         std::error_code error;
         if (!std::filesystem::is_regular_file(program_, error))
             refuse(std::string("is read by ") + kMapProgram +
@@ -132,7 +136,7 @@ class HelpedRaster final : public GroundRaster {
 
     MapRequest written_request() {
         MapRequest out;
-        const std::string file = std::filesystem::absolute(config_.file).string();
+        const std::string file = file_.string();
         out.file_bytes = static_cast<std::uint32_t>(file.size());
         out.where_bytes = static_cast<std::uint32_t>(config_.where.size());
         out.body_bytes = static_cast<std::uint32_t>(body_.name.size());
@@ -155,7 +159,7 @@ class HelpedRaster final : public GroundRaster {
         const std::size_t size = std::min<std::size_t>(answer.refused_bytes, kMostText_bytes);
         const std::string text = harmless({reinterpret_cast<const char*>(helper_->memory().data()), size});
         GroundMapConfig absolute = config_;
-        absolute.file = std::filesystem::absolute(config_.file);
+        absolute.file = file_;
         const std::string begin = name_of(absolute);
         return text.starts_with(begin) ? name_of(config_) + text.substr(begin.size()) : text;
     }

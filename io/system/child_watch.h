@@ -18,7 +18,7 @@ void limit_own_memory(std::uint64_t bytes);
 
 // Returns the processor time that a process has taken so far.
 double cpu_s_of(pid_t process);
-// Waits until `fd` can be read or its other end is closed, which the child's death does. False: for so long the child took no
+// Waits until `fd` can be read or its other end is closed, which the child's death does. False: for so long the child took next to no
 // processor time, so it only waits, which a limit of processor time does not see. It is not ended here.
 bool wait_while_it_works(pid_t child, int fd, unsigned waiting_s);
 // Ends a child that has no more to say, and returns how it ended (waitpid()).

@@ -107,6 +107,9 @@ TEST_F(MapHelper, PostsAndValuesOfALiarLeadNowhere) {
     raster->find_posts(places, posts);
     EXPECT_TRUE(std::isnan(values[2]) && std::isnan(posts[2].x));
     EXPECT_EQ(raster->failed_reads(), 3u);
+    EXPECT_THAT(ended_map_readers(),
+                AllOf(HasSubstr("maps.0.file: "), HasSubstr("map.tif: does not parse: it is broken"),
+                      HasSubstr("what lies below it is shown")));
 }
 
 // What a forked process asks for comes from a reader of its own, and both go on.
