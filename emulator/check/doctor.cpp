@@ -57,6 +57,17 @@ void look_at_processor(const BenchNeeds& n, const MachineFacts& m, Findings& out
         out.good("real-time rights", m.root ? "root" : fmt::format("rtprio limit {}", m.realtime_priority));
 }
 
+// The kernel's means that keep the readers of meshes, pictures and maps, should a file break one of them.
+void look_at_confinement(const MachineFacts& m, Findings& out) {
+    const std::string found = (m.confinement.landlock > 0 ? fmt::format("Landlock {}", m.confinement.landlock)
+                                                          : std::string("no Landlock")) +
+                              (m.confinement.seccomp ? ", seccomp" : ", no seccomp");
+    if (m.confinement.landlock > 0 && m.confinement.seccomp) return out.good("confinement", found);
+    out.note("confinement", found,
+             "files of others are read with fewer bounds (SECURITY.md); Linux 5.13 or later has both, with "
+             "'landlock' among the kernel's lsm= where that is set");
+}
+
 void look_at_interface(const BenchNeeds::Gige& need, const InterfaceFacts& i, const MachineFacts& m,
                        Findings& out) {
     if (!i.fault.empty())
@@ -267,6 +278,7 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
 std::vector<Finding> diagnose(const BenchNeeds& needs, const MachineFacts& facts) {
     Findings out;
     look_at_processor(needs, facts, out);
+    look_at_confinement(facts, out);
     look_at_network(needs, facts, out);
     look_at_v4l2(needs, facts, out);
     look_at_usb(needs, facts, out);

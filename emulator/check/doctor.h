@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/scenario/app_config.h"
+#include "io/system/confinement.h"
 #include "io/v4l2/v4l2_module.h"
 
 namespace hilcam {
@@ -65,6 +66,7 @@ struct MachineFacts {
     std::uint64_t memory_lock_bytes = 0;  // RLIMIT_MEMLOCK
     bool root = false;
     std::string kernel;  // release
+    Confinement confinement;
     // Network.
     std::uint64_t receive_buffer_bytes = 0, send_buffer_bytes = 0;  // net.core.rmem_max, wmem_max
     std::vector<InterfaceFacts> interfaces;                         // for each of BenchNeeds::gige

@@ -95,6 +95,7 @@ void look_at_processor(MachineFacts& m) {
     utsname name{};
     uname(&name);
     m.kernel = name.release;
+    m.confinement = confinement_here();
 }
 
 void look_at_network(const BenchNeeds& needs, MachineFacts& m) {

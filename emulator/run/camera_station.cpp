@@ -6,6 +6,7 @@
 
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/recording/recorder.h"
+#include "emulator/run/picture_fault.h"
 #include "emulator/run/picture_run.h"
 #include "emulator/run/truth_source.h"
 #include "emulator/scenario/initial_world.h"
@@ -190,7 +191,7 @@ std::vector<std::string> CameraStation::new_faults() {
     for (const auto& sink : sinks_)
         if (sink->has_fault() && told_faults_.insert(sink.get()).second) out.push_back(sink->report().fault);
     if (!told_render_fault_)
-        if (const std::string fault = renderer().fault(); !fault.empty()) {
+        if (const std::string fault = picture_fault(renderer()); !fault.empty()) {
             out.push_back(fault);
             told_render_fault_ = true;
         }

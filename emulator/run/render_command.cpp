@@ -7,6 +7,7 @@
 
 #include "emulator/progress/progress.h"
 #include "emulator/recording/run_seed.h"
+#include "emulator/run/picture_fault.h"
 #include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
@@ -119,7 +120,7 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
                                      [&] { return renderer.share_traced(); });
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
     progress.emplace("sensor and files");
-    if (const std::string fault = renderer.fault(); !fault.empty()) spdlog::error("{}", fault);
+    if (const std::string fault = picture_fault(renderer); !fault.empty()) spdlog::error("{}", fault);
     const FrameRecord record = record_of(scenario, camera);
     if (truth)
         write_truth(picture_truth_files(files.truth, files.out),

@@ -5,6 +5,7 @@
 
 #include "emulator/recording/machine_report.h"
 #include "emulator/run/output_summary.h"
+#include "emulator/run/picture_fault.h"
 #include "emulator/run/run_pace.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
@@ -63,7 +64,7 @@ std::vector<std::string> faults_of(const CameraStation& station) {
     std::vector<std::string> out;
     for (const SinkReport& output : output_reports(station))
         if (!output.fault.empty()) out.push_back(output.fault);
-    if (const std::string fault = station.renderer().fault(); !fault.empty()) out.push_back(fault);
+    if (const std::string fault = picture_fault(station.renderer()); !fault.empty()) out.push_back(fault);
     return out;
 }
 

@@ -156,7 +156,8 @@ ConfinedResult read_confined(const std::filesystem::path& file, std::optional<in
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
     const ConfinedLimits limits{kMinMemory_bytes + kMeshMemoryPerByte * bytes,
                                 kMinCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
-    return run_confined(file.string(), limits, [&](ConfinedOutput& out) { work(kind, out); });
+    return run_confined(file.string(), limits, mesh_folders(file),
+                        [&](ConfinedOutput& out) { work(kind, out); });
 }
 
 }  // namespace

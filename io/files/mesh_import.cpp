@@ -36,6 +36,19 @@ constexpr std::uint64_t kBytesPerTriangle = 250;
     throw InputError(file.string() + ": " + what);
 }
 
+// Throws InputError, which begins with `what`, where a file lies outside the folders of the mesh that names it.
+void require_in_folders(const std::filesystem::path& mesh, const std::filesystem::path& file,
+                        const std::string& what) {
+    std::error_code error;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
+    for (const std::filesystem::path& folder : mesh_folders(mesh)) {
+        const std::filesystem::path inside = real.lexically_relative(folder);
+        if (!inside.empty() && *inside.begin() != "..") return;
+    }
+    throw InputError(what + " lies outside the mesh's folder, at " + real.string() +
+                     "; accepted: files in that folder or below it");
+}
+
 class Loader {
   public:
     // part: which of `nodes` to take, or -1 for what none of them takes.
@@ -125,6 +138,7 @@ class Loader {
             std::error_code error;
             if (!std::filesystem::exists(beside, error))
                 throw InputError(what + " is missing; expected at " + beside.string());
+            require_in_folders(file_, beside, what);
             const std::string bytes = read_input_file(beside, picture_kind());
             return decode_texture({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, what);
         }
@@ -239,8 +253,9 @@ class Loader {
 // The files that assimp opens: the mesh is in memory already, others are opened as every file is.
 class MeshFiles final : public Assimp::IOSystem {
   public:
-    // `bytes` stand for the file `path`.
-    MeshFiles(std::string path, std::string_view bytes) : path_(std::move(path)), bytes_(bytes) {
+    // `bytes` are those of `mesh`, and stand for the file `path`.
+    MeshFiles(std::filesystem::path mesh, std::string path, std::string_view bytes)
+        : mesh_(std::move(mesh)), path_(std::move(path)), bytes_(bytes) {
         if (path_.ends_with(".obj")) materials_.add(bytes_, path_);
     }
 
@@ -259,6 +274,7 @@ class MeshFiles final : public Assimp::IOSystem {
             return nullptr;
         }
         try {
+            require_in_folders(mesh_, file, mesh_.string() + ": " + in_quotes(file));
             beside_.push_back(read_input_file(file, mesh_kind()));
             const std::string& text = beside_.back();
             allow_more(kMeshMemoryPerByte * text.size(), kMeshCpu_s_byte * static_cast<double>(text.size()));
@@ -285,6 +301,7 @@ class MeshFiles final : public Assimp::IOSystem {
 
   private:
     std::vector<std::string> missing_;
+    std::filesystem::path mesh_;
     std::string path_;
     std::string_view bytes_;
     std::optional<InputError> refused_;
@@ -375,7 +392,8 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, cons
                           std::vector<std::string>* missing_materials = nullptr) {
     keep_importer_of(std::filesystem::path(source.path).extension().string(), importer);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    auto* const files = new MeshFiles(source.path, source.bytes);  // the importer's from the next line on
+    auto* const files =
+        new MeshFiles(file, source.path, source.bytes);  // the importer's from the next line on
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(source.path, 0);
     if (files->refused()) throw InputError(*files->refused());
@@ -391,6 +409,15 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, cons
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> mesh_folders(const std::filesystem::path& file) {
+    std::error_code error;
+    std::vector<std::filesystem::path> out{
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error)};
+    const std::filesystem::path real = std::filesystem::canonical(file, error).parent_path();
+    if (!error && real != out.front()) out.push_back(real);
+    return out;
+}
 
 const InputKind& mesh_kind() {
     static const InputKind kind{std::uintmax_t{4} << 30, "a mesh file, or what one names beside it"};

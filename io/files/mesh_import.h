@@ -20,6 +20,10 @@ inline constexpr double kMeshCpu_s_byte = 3e-6;
 // A line of an OBJ becomes objects some tens of times its size.
 inline constexpr std::uint64_t kMeshMemoryPerByte = 64;
 
+// Returns the folders in and below which a mesh and what it names have to lie: the one that the file is named in, and the one that it is in
+// where that is a link.
+std::vector<std::filesystem::path> mesh_folders(const std::filesystem::path& file);
+
 // A node of a file's tree, in the order of the file, parents first.
 struct MeshNode {
     std::string name;

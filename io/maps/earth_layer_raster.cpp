@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/maps/gdal_raster.h"
+#include "io/maps/map_helper.h"
 #include "io/maps/picture_raster.h"
 #include "render/scene/color_bands.h"
 #include "render/sky/bodies.h"
@@ -13,10 +13,20 @@
 namespace hilcam {
 namespace {
 
-const MappedBody kEarthBody{"earth", kFigures[index_of(BodyId::kEarth)]};
+std::unique_ptr<GroundRaster> opened(const EarthLayerConfig& layer) {
+    const GroundMapConfig map = map_of_layer(layer);
+    return is_picture(map.file) ? open_picture_raster(map, earth_body())
+                                : open_map_by_helper(map, earth_body());
+}
 
-// Coding, scale and offset stay with us, as they count for all formats alike.
-GroundMapConfig raster_config(const EarthLayerConfig& layer) {
+}  // namespace
+
+const MappedBody& earth_body() {
+    static const MappedBody earth{"earth", kFigures[index_of(BodyId::kEarth)]};
+    return earth;
+}
+
+GroundMapConfig map_of_layer(const EarthLayerConfig& layer) {
     GroundMapConfig out;
     out.file = layer.file, out.where = layer.where;
     out.kind = layer.kind == EarthLayerConfig::Kind::kLand ? GroundKind::kAlbedo : GroundKind::kHeights;
@@ -27,18 +37,17 @@ GroundMapConfig raster_config(const EarthLayerConfig& layer) {
     return out;
 }
 
-}  // namespace
-
 std::string EarthLayerRaster::name() const {
     return (config_.where.empty() ? "" : config_.where + ": ") + config_.file.string();
 }
 
 void EarthLayerRaster::refuse(const std::string& what) const { throw InputError(name() + ": " + what); }
 
-EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config) : config_(config) {
-    const GroundMapConfig file = raster_config(config);
-    raster_ =
-        is_picture(file.file) ? open_picture_raster(file, kEarthBody) : open_gdal_raster(file, kEarthBody);
+EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config)
+    : EarthLayerRaster(config, opened(config)) {}
+
+EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config, std::unique_ptr<GroundRaster> raster)
+    : config_(config), raster_(std::move(raster)) {
     require_whole_earth();
     const GroundRaster::Shape& shape = raster_->shape();
     const std::string channels = std::to_string(shape.bands) + (shape.bands == 1 ? " channel" : " channels");
@@ -58,6 +67,7 @@ EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config) : config_(con
     const Vec3d date_line{-1, 0, 0};
     Vec2d post;
     raster_->find_posts({&date_line, 1}, {&post, 1});
+    if (!std::isfinite(post.x)) refuse("has no column at 180 W; accepted: the whole Earth");
     first_column_ = post.x + 0.5;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "io/maps/ground_map_file.h"
 #include "render/earth/earth_config.h"
-#include "render/ground/ground_raster.h"
 
 namespace hilcam {
 
@@ -18,11 +18,18 @@ struct LayerWindow {
     int column, row, columns, rows;  // columns beyond the grid's wrap around, rows are held
 };
 
+// Returns the map that a layer's file is: coding, scale and offset stay with the layer, as they count for all formats alike.
+GroundMapConfig map_of_layer(const EarthLayerConfig& layer);
+// The body that layers lie on.
+const MappedBody& earth_body();
+
 class EarthLayerRaster {
   public:
     // Throws InputError, one line that names the key and the file: it is missing, of no known format, projection or size, not of the
     // whole Earth, of another number of channels.
     explicit EarthLayerRaster(const EarthLayerConfig& config);
+    // The same of a file that is open, by the map that map_of_layer() makes of the layer.
+    EarthLayerRaster(const EarthLayerConfig& config, std::unique_ptr<GroundRaster> raster);
 
     const EarthLayerConfig& config() const { return config_; }
     int columns() const { return raster_->shape().columns; }

@@ -1,12 +1,9 @@
 #include "io/maps/earth_layers.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "io/maps/earth_layer_raster.h"
 #include "render/earth/cloud_table.h"
 #include "render/earth/land_colors.h"
 #include "render/vocabulary/check.h"
@@ -97,7 +94,6 @@ class LayerDetail final : public EarthDetail {
     }
 
     bool read(const DetailKey& key, const EarthMap& below, std::span<EarthMap::Texel> texels) override {
-        if (!is_open_here()) return false;
         const LayerGrid grid{std::ldexp(shape_.columns, -key.level), std::ldexp(shape_.rows, -key.level)};
         const LayerWindow window{key.column * kTile, key.row * kTile, kSide, kSide};
         const bool whole = values_.read(layers_, grid, window);
@@ -120,19 +116,6 @@ class LayerDetail final : public EarthDetail {
   private:
     std::vector<EarthLayerRaster> layers_;
     LayerValues values_;
-    pid_t opened_by_ = getpid();
-
-    // A forked process opens the files anew, as open files share the place at which they are read. False: they are gone.
-    bool is_open_here() {
-        if (opened_by_ == getpid()) return true;
-        try {
-            for (EarthLayerRaster& layer : layers_) layer = EarthLayerRaster(layer.config());
-        } catch (const InputError&) {
-            return false;
-        }
-        opened_by_ = getpid();
-        return true;
-    }
 };
 
 // The map with the layers on it, a strip of rows at a time.
@@ -163,13 +146,15 @@ EarthMap overlaid(const EarthMap& map, std::vector<EarthLayerRaster>& layers) {
 }  // namespace
 
 LayeredEarth with_layers(EarthMap map, const std::vector<EarthLayerConfig>& configs) {
-    if (configs.empty()) return {std::move(map), nullptr};
     std::vector<EarthLayerRaster> layers;
+    for (const EarthLayerConfig& config : configs) layers.emplace_back(config);
+    return with_layers(std::move(map), std::move(layers));
+}
+
+LayeredEarth with_layers(EarthMap map, std::vector<EarthLayerRaster> layers) {
+    if (layers.empty()) return {std::move(map), nullptr};
     int rows = 0;
-    for (const EarthLayerConfig& config : configs) {
-        layers.emplace_back(config);
-        rows = std::max(rows, layers.back().rows());
-    }
+    for (const EarthLayerRaster& layer : layers) rows = std::max(rows, layer.rows());
     LayeredEarth out{overlaid(map, layers), nullptr};
     const EarthDetail::Shape shape = EarthDetail::shape_above(2 * rows, rows, out.map.height());
     if (shape.levels > 0) out.detail = std::make_shared<LayerDetail>(std::move(layers), shape);

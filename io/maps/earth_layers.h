@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "io/maps/earth_layer_raster.h"
 #include "render/earth/earth_config.h"
 #include "render/earth/earth_detail.h"
 
@@ -17,5 +18,7 @@ struct LayeredEarth {
 
 // Opens the layers. Throws InputError, see EarthLayerRaster, and where a layer cannot be read as far as the map has its texels.
 LayeredEarth with_layers(EarthMap map, const std::vector<EarthLayerConfig>& layers);
+// The same for layers that are open.
+LayeredEarth with_layers(EarthMap map, std::vector<EarthLayerRaster> layers);
 
 }  // namespace hilcam

@@ -1,20 +1,14 @@
 #include "io/maps/gdal_raster.h"
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
-#include <gdal_frmts.h>
-#include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <mutex>
 #include <optional>
 
+#include "io/maps/gdal_file.h"
 #include "io/maps/longitude_latitude.h"
-#include "io/system/input_file.h"
 #include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
@@ -22,62 +16,16 @@
 namespace hilcam {
 namespace {
 
-// A petabyte is no map.
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 50;
-constexpr const char* kDrivers[] = {"GTiff", "PDS", "ISIS3", "ENVI", nullptr};
-
-// GDAL's own cache of blocks, beside the pages that are kept.
-constexpr GIntBig kCacheBytes = 64 << 20;
-
-void start_gdal() {
-    static std::once_flag once;
-    std::call_once(once, [] {
-        // No addresses of the network, neither in a file's own words nor for PROJ's grids; nothing beside a map but
-        // its overviews.
-        CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_EXTENSIONS", "{none}");
-        CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");
-        OSRSetPROJEnableNetwork(false);
-        // PROJ prints what a damaged file's projection lacks, unless it is told not to.
-        setenv("PROJ_DEBUG", "0", 0);
-        GDALSetCacheMax64(kCacheBytes);
-        GDALRegister_GTiff();
-        GDALRegister_PDS();
-        GDALRegister_ISIS3();
-        GDALRegister_ENVI();
-    });
-}
-
-// Nothing is printed; the last message is asked for.
-class QuietErrors {
-  public:
-    QuietErrors() {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-        CPLErrorReset();
-    }
-    ~QuietErrors() { CPLPopErrorHandler(); }
-    QuietErrors(const QuietErrors&) = delete;
-    QuietErrors& operator=(const QuietErrors&) = delete;
-    static std::string last() {
-        std::string text = CPLGetLastErrorMsg();
-        std::replace_if(
-            text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-        if (constexpr std::size_t kMost = 200; text.size() > kMost) text.resize(kMost);
-        return text;
-    }
-};
-
-struct CloseDataset {
-    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
 struct DestroyTransformation {
     void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
 };
 
 class GdalRaster final : public GroundRaster {
   public:
-    GdalRaster(const GroundMapConfig& config, const MappedBody& body) : config_(config) {
+    GdalRaster(const GroundMapConfig& config, const MappedBody& body, const MapFiles& files)
+        : config_(config) {
         const QuietErrors quiet;
-        open();
+        open(files);
         find_bands();
         if (config.bounds_deg.empty())
             find_projection(body);
@@ -122,7 +70,7 @@ class GdalRaster final : public GroundRaster {
 
   private:
     GroundMapConfig config_;
-    std::unique_ptr<GDALDataset, CloseDataset> file_;
+    GdalFile file_;
     struct Band {
         GDALRasterBand* band;
         double scale, offset;
@@ -140,20 +88,11 @@ class GdalRaster final : public GroundRaster {
     std::vector<float> raw_;
 
     [[noreturn]] void refuse(const std::string& what) const {
-        throw InputError((config_.where.empty() ? "" : config_.where + ": ") + config_.file.string() + ": " +
-                         what);
+        throw InputError(map_name(config_) + ": " + what);
     }
 
-    void open() {
-        start_gdal();
-        const InputFile there = open_input_file(config_.file, {kMostBytes, "a map"});
-        file_.reset(static_cast<GDALDataset*>(
-            GDALOpenEx(config_.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers, nullptr, nullptr)));
-        if (!file_) {
-            const std::string said = QuietErrors::last();
-            refuse("is no map that can be read" + (said.empty() ? "" : " (" + said + ")") +
-                   "; accepted: GeoTIFF, PDS3, ISIS, ENVI, or a picture (.png) with bounds_deg");
-        }
+    void open(const MapFiles& files) {
+        file_ = open_gdal_file(files, map_name(config_));
         shape_.columns = file_->GetRasterXSize(), shape_.rows = file_->GetRasterYSize();
         if (shape_.columns < 2 || shape_.rows < 2)
             refuse("found " + std::to_string(shape_.columns) + " x " + std::to_string(shape_.rows) +
@@ -162,7 +101,6 @@ class GdalRaster final : public GroundRaster {
 
     void find_bands() {
         const int count = file_->GetRasterCount();
-        if (count < 1) refuse("has no values; accepted: a map with one channel or more");
         shape_.channels = config_.kind == GroundKind::kAlbedo && count >= 3 ? 3 : 1;
         shape_.bands = count;
         for (int i = 1; i <= shape_.channels; ++i) {
@@ -301,8 +239,17 @@ class GdalRaster final : public GroundRaster {
 
 }  // namespace
 
+std::unique_ptr<GroundRaster> open_gdal_raster(const GroundMapConfig& config, const MappedBody& body,
+                                               const MapFiles& files) {
+    return std::make_unique<GdalRaster>(config, body, files);
+}
+
 std::unique_ptr<GroundRaster> open_gdal_raster(const GroundMapConfig& config, const MappedBody& body) {
-    return std::make_unique<GdalRaster>(config, body);
+    return open_gdal_raster(config, body, find_map_files(config.file, map_name(config)));
+}
+
+std::string map_name(const GroundMapConfig& config) {
+    return (config.where.empty() ? "" : config.where + ": ") + config.file.string();
 }
 
 }  // namespace hilcam

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/maps/gdal_raster.h"
+#include "io/maps/map_helper.h"
 #include "io/maps/picture_raster.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
@@ -83,7 +83,8 @@ GroundMap open_ground_map(const GroundMapConfig& config, const MappedBody& body)
     GroundMap map;
     map.kind = config.kind;
     map.between = config.between;
-    map.raster = is_picture(config.file) ? open_picture_raster(config, body) : open_gdal_raster(config, body);
+    map.raster =
+        is_picture(config.file) ? open_picture_raster(config, body) : open_map_by_helper(config, body);
     refuse_beyond(config, *map.raster);
     map.blend_m = config.blend_posts * map.raster->shape().spacing_m;
     return map;

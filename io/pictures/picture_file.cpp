@@ -74,7 +74,7 @@ ConfinedResult confine(const std::filesystem::path& file,
     const std::string bytes = read_input_file(file, picture_kind());
     // The rest is allowed by the picture's header.
     const ConfinedLimits limits{(std::uint64_t{256} << 20) + bytes.size(), 10};
-    return run_confined(file.string(), limits, [&](ConfinedOutput& out) { work(bytes, out); });
+    return run_confined(file.string(), limits, {}, [&](ConfinedOutput& out) { work(bytes, out); });
 }
 
 }  // namespace

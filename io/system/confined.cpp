@@ -1,7 +1,6 @@
 #include "io/system/confined.h"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -14,46 +13,23 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <ctime>
 #include <new>
 
+#include "io/system/child_watch.h"
+#include "io/system/confinement.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
 namespace {
 
-// The status with which a child ends. Others are those of libraries and sanitizers.
-enum class Status : int { kDone = 0, kRefused = 100, kMemory = 101, kDevice = 102, kBroken = 103 };
-
-std::uint64_t page_bytes() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
-
-// The address space that the program has, in bytes; nothing where the kernel does not say.
-std::uint64_t mapped_bytes() {
-    const Fd statm(open("/proc/self/statm", O_RDONLY | O_CLOEXEC));
-    std::array<char, 128> text{};
-    unsigned long pages = 0;  // the first number of statm (proc(5))
-    if (read(statm.get(), text.data(), text.size() - 1) <= 0 || std::sscanf(text.data(), "%lu", &pages) != 1)
-        return 0;
-    return pages * page_bytes();
-}
+using Status = ChildStatus;
 
 void limit_child(const ConfinedLimits& limits) {
     rlimit cpu{};
     getrlimit(RLIMIT_CPU, &cpu);
     cpu.rlim_cur = std::min(cpu.rlim_max, static_cast<rlim_t>(std::ceil(limits.cpu_s)));
     setrlimit(RLIMIT_CPU, &cpu);
-    const rlimit core{0, 0};
-    setrlimit(RLIMIT_CORE, &core);
-    const std::uint64_t mapped = mapped_bytes();
-    if (mapped == 0) return;
-    rlimit space{};
-    getrlimit(RLIMIT_AS, &space);
-    // Half of the machine's memory at most, since what is found is copied once on its way out.
-    const std::uint64_t half = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) / 2 * page_bytes();
-    space.rlim_max = std::min<rlim_t>(space.rlim_max, mapped + half);
-    space.rlim_cur = std::min<rlim_t>(space.rlim_max, mapped + limits.memory_bytes);
-    setrlimit(RLIMIT_AS, &space);
+    limit_own_memory(limits.memory_bytes);
 }
 
 [[noreturn]] void end_child(ConfinedOutput& out, int fd, Status status, const std::string& message = {}) {
@@ -68,17 +44,26 @@ void limit_child(const ConfinedLimits& limits) {
     _exit(static_cast<int>(status));
 }
 
-[[noreturn]] void be_child(pid_t parent, int fd, const ConfinedLimits& limits,
+// Leaves the child what it works with: /dev/null in the terminal's place, its results, and the pipe's end by
+// which its death is seen.
+void keep_only(int results, int alive) {
+    const int nowhere = open("/dev/null", O_RDWR);
+    for (const int terminal : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, terminal);
+    close_all_but(std::array{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO, results, alive});
+}
+
+[[noreturn]] void be_child(pid_t parent, int fd, int alive, const ConfinedLimits& limits,
+                           std::span<const std::filesystem::path> readable,
                            const std::function<void(ConfinedOutput&)>& work) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(static_cast<int>(Status::kBroken));  // it died before it was asked for
     // No handler of the parent's (a sanitizer's, a test's) shall take an abort for its own.
     for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGXCPU})
         std::signal(signal, SIG_DFL);
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
+    keep_only(fd, alive);
     limit_child(limits);
+    restrict_files(readable);
+    restrict_calls();
     ConfinedOutput out(fd);
     try {
         work(out);
@@ -92,42 +77,6 @@ void limit_child(const ConfinedLimits& limits) {
         end_child(out, fd, Status::kBroken);
     }
     end_child(out, fd, Status::kDone);
-}
-
-double cpu_s_of(pid_t child) {
-    clockid_t clock = 0;
-    timespec time{};
-    if (clock_getcpuclockid(child, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-// Waits until the child's end of the pipe is closed, which its death does. False after it was ended because
-// it only waited: RLIMIT_CPU does not see that.
-bool wait_while_it_works(pid_t child, const Fd& alive, unsigned waiting_s) {
-    constexpr int kLook_ms = 500;
-    double worked_s = 0, idle_s = 0;
-    for (;;) {
-        pollfd poll_fd{alive.get(), POLLIN, 0};
-        const int ready = poll(&poll_fd, 1, kLook_ms);
-        if (ready > 0) return true;
-        if (ready < 0) continue;  // a signal
-        const double now_s = cpu_s_of(child);
-        idle_s = now_s > worked_s ? 0 : idle_s + 1e-3 * kLook_ms;
-        worked_s = now_s;
-        if (idle_s < waiting_s) continue;
-        kill(child, SIGKILL);
-        return false;
-    }
-}
-
-// Says what a child's end means for the file. worked: it was not ended for waiting.
-std::string reason_of(int status, bool worked) {
-    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (!worked) return "its reader waits for something that does not come";
-    if (signal == SIGXCPU) return "its reader found no end";
-    if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(Status::kMemory))
-        return "it asks for more memory than a file of its size may, or than half of this machine's";
-    return "it is broken in a way that ends its reader; export it anew";
 }
 
 }  // namespace
@@ -164,23 +113,22 @@ void ConfinedResult::refuse() const {
 }
 
 ConfinedResult run_confined(const std::string& name, const ConfinedLimits& limits,
+                            std::span<const std::filesystem::path> readable,
                             const std::function<void(ConfinedOutput&)>& work) {
     const Fd results(memfd_create("hilcam", MFD_CLOEXEC));
     std::array<int, 2> ends{-1, -1};
     const pid_t parent = getpid();
     const pid_t child = results && pipe2(ends.data(), O_CLOEXEC) == 0 ? fork() : -1;
     const Fd alive(ends[0]);
-    if (child == 0) be_child(parent, results.get(), limits, work);
+    if (child == 0) be_child(parent, results.get(), ends[1], limits, readable, work);
     Fd(ends[1]).reset();  // the child alone holds it
     if (child < 0) throw DeviceError("no process can be made to read " + name);
-    const bool worked = wait_while_it_works(child, alive, limits.waiting_s);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const bool worked = wait_while_it_works(child, alive.get(), limits.waiting_s);
+    const int status = end_of_child(child);
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     const auto is = [&](Status s) { return worked && code == static_cast<int>(s); };
     if (!is(Status::kDone) && !is(Status::kRefused) && !is(Status::kDevice))
-        throw InputError(name + ": does not parse: " + reason_of(status, worked));
+        throw InputError(name + ": does not parse: " + reason_of_end(status, worked));
     ConfinedResult result(results, name);
     if (is(Status::kRefused)) throw InputError(result.text());
     if (is(Status::kDevice)) throw DeviceError(result.text());

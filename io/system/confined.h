@@ -4,7 +4,9 @@
 // Libraries that read pictures and meshes allocate what a header promises, compute for minutes, or abort. In
 // a child such a file costs a bounded amount and ends in a message. The child has limits of memory (of its
 // address space), of processor time, and of the time that it may wait for anything; it dies with its parent
-// and says nothing on the terminal. What it found comes back as bytes.
+// and says nothing on the terminal. Of the parent's descriptors it has none, and as far as the kernel can see
+// to it (confinement.h) it reads what it is given to read and nothing else, writes nowhere, and makes neither
+// sockets nor processes. What it found comes back as bytes.
 
 #include <cstdint>
 #include <cstring>
@@ -87,10 +89,11 @@ class ConfinedResult {
     const std::uint8_t* take(std::uint64_t count, std::uint64_t size_each);
 };
 
-// Does the work in a child and returns what it wrote. An InputError of the work is thrown here with the same
+// Does the work in a child, which may read below these folders, and returns what it wrote. An InputError of the work is thrown here with the same
 // words; InputError that begins with `name`, too, when it takes more than it may or ends otherwise. Owner
 // thread.
 ConfinedResult run_confined(const std::string& name, const ConfinedLimits& limits,
+                            std::span<const std::filesystem::path> readable,
                             const std::function<void(ConfinedOutput&)>& work);
 
 // Raises the limits of the child that calls it, since there is reason for more: a header that promises so

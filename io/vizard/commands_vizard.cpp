@@ -2,15 +2,14 @@
 
 #include <unistd.h>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <thread>
-#include <zmq.hpp>
 
 #include "io/pictures/picture_codecs.h"
 #include "io/system/fd.h"
 #include "io/system/monotonic.h"
 #include "io/system/wire_format.h"
+#include "io/vizard/reply_socket.h"
 #include "io/vizard/vizard_conversation.h"
 #include "io/vizard/zmq_guard.h"
 #include "render/vocabulary/check.h"
@@ -64,8 +63,7 @@ class VizardReceiver : public CommandReceiver {
 
     void listen_behind_guard();
     void run();
-    void serve();
-    VizardParts receive();
+    void serve(ReplySocket& socket);
     Picture photograph(const VizardShot& shot);
     CommandStatus command(const Command& command, std::uint16_t camera);
     bool wait_for(VizardSink& sink) const;
@@ -77,8 +75,7 @@ class VizardReceiver : public CommandReceiver {
     VizardWorld::Remark remark_;
     VizardWorld world_;
     VizardConversation conversation_;
-    zmq::context_t context_{1};
-    zmq::socket_t socket_;
+    std::unique_ptr<ReplySocket> socket_;
     std::unique_ptr<ZmqGuard> guard_;  // guards connections by TCP
     Fd wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false}, over_{false};
@@ -88,20 +85,12 @@ class VizardReceiver : public CommandReceiver {
 };
 
 void VizardReceiver::start() {
-    const auto fail = [this](const std::exception& error) {
+    socket_ = std::make_unique<ReplySocket>(kMaxMessageBytes);
+    try {
+        config_.address.starts_with("tcp://") ? listen_behind_guard() : socket_->listen(config_.address);
+    } catch (const DeviceError& error) {
         throw DeviceError("commands.vizard.address: " + config_.address +
                           " cannot be listened at: " + error.what());
-    };
-    try {
-        socket_ = zmq::socket_t(context_, zmq::socket_type::rep);
-        socket_.set(zmq::sockopt::linger, 0);
-        socket_.set(zmq::sockopt::maxmsgsize, kMaxMessageBytes);
-        socket_.set(zmq::sockopt::rcvhwm, 1);  // a simulator waits for its answer
-        config_.address.starts_with("tcp://") ? listen_behind_guard() : socket_.bind(config_.address);
-    } catch (const zmq::error_t& error) {
-        fail(error);
-    } catch (const DeviceError& error) {
-        fail(error);
     } catch (const InputError& error) {
         throw InputError(std::string("commands.vizard.address: ") + error.what());
     }
@@ -121,9 +110,8 @@ void VizardReceiver::listen_behind_guard() {
                             // Once: whoever does it may go on and on.
                             if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);
                         }};
-    // The C function: the wrapper does not know the option. Others would pass the guard by.
-    zmq_setsockopt(socket_.handle(), ZMQ_IPC_FILTER_PID, &own, sizeof own);
-    socket_.bind("ipc://@" + setup.inner);
+    socket_->admit_only(own);  // others would pass the guard by
+    socket_->listen("ipc://@" + setup.inner);
     guard_ = std::make_unique<ZmqGuard>(std::move(setup));
     guard_->start();
 }
@@ -135,46 +123,31 @@ void VizardReceiver::stop() noexcept {
         wake(wakeup_);
         thread_.join();
     }
-    socket_.close();
+    socket_.reset();
 }
 
 void VizardReceiver::run() {
-    zmq::pollitem_t watched[] = {{socket_.handle(), 0, ZMQ_POLLIN, 0},
-                                 {nullptr, wakeup_.get(), ZMQ_POLLIN, 0}};
     while (!stopping_) {
-        // The C function: the wrapper throws when a signal interrupts it.
-        if (zmq_poll(watched, 2, -1) < 0 && zmq_errno() != EINTR)
-            return world_.remark(std::string("ends, as its socket cannot be waited for: ") +
-                                 zmq_strerror(zmq_errno()));
-        if (stopping_ || !(watched[0].revents & ZMQ_POLLIN)) continue;
         try {
-            serve();
-        } catch (const zmq::error_t& error) {
-            if (error.num() != EINTR) world_.remark(std::string("a request was lost: ") + error.what());
+            if (!socket_->wait(wakeup_.get()) || stopping_) continue;
+        } catch (const DeviceError& error) {
+            return world_.remark(std::string("ends, as its socket cannot be waited for: ") + error.what());
+        }
+        try {
+            serve(*socket_);
+        } catch (const DeviceError& error) {
+            world_.remark(std::string("a request was lost: ") + error.what());
         }
     }
 }
 
-void VizardReceiver::serve() {
-    const VizardParts asked = receive();
+void VizardReceiver::serve(ReplySocket& socket) {
+    const VizardParts asked = socket.receive(kMaxParts);
     received_.fetch_add(1, std::memory_order_relaxed);
     const VizardConversation::Answer answer = conversation_.answer(asked);
     if (answer.refused) refused_.fetch_add(1, std::memory_order_relaxed);
-    for (std::size_t i = 0; i < answer.parts.size(); ++i)
-        socket_.send(zmq::buffer(answer.parts[i]),
-                     i + 1 < answer.parts.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
+    socket.send(answer.parts);
     if (conversation_.is_over() && !config_.stay) over_ = true;
-}
-
-// All parts of a message arrive together.
-VizardParts VizardReceiver::receive() {
-    VizardParts parts;
-    zmq::message_t part;
-    do {
-        if (!socket_.recv(part, zmq::recv_flags::none)) break;
-        if (parts.size() < kMaxParts) parts.push_back(part.to_string());
-    } while (part.more());
-    return parts;
 }
 
 CommandStatus VizardReceiver::command(const Command& command, std::uint16_t camera) {

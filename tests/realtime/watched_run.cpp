@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <thread>
@@ -14,11 +15,19 @@
 namespace hilcam {
 namespace {
 
-// Bytes that the process has read so far (proc(5), /proc/pid/io).
+// Bytes that the process has read so far (proc(5), /proc/pid/io), and the readers of maps that it has started.
 std::uint64_t bytes_read() {
-    std::string name;
-    std::uint64_t bytes = 0;
-    std::ifstream("/proc/self/io") >> name >> bytes;  // "rchar:", the first line
+    const auto read_by = [](const std::string& process) {
+        std::string name;
+        std::uint64_t bytes = 0;
+        std::ifstream("/proc/" + process + "/io") >> name >> bytes;  // "rchar:", the first line
+        return bytes;
+    };
+    std::uint64_t bytes = read_by("self");
+    for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+        std::ifstream children(thread.path() / "children");
+        for (std::string child; children >> child;) bytes += read_by(child);
+    }
     return bytes;
 }
 

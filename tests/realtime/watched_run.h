@@ -20,7 +20,7 @@ enum class Loop {
 struct Seen {
     int allocations = 0;           // of the program's own
     int terrain_allocations = 0;   // of the thread that makes the ground's meshes
-    std::uint64_t bytes_read = 0;  // by the process, out of files
+    std::uint64_t bytes_read = 0;  // by the process and its readers of maps, out of files
     std::uint32_t level_changes = 0;
 };
 

@@ -1,4 +1,4 @@
-# Debian packages by CPack: `hilcam`, `hilcam-examples` and `python3-hilcam`. tools/package makes them.
+# Debian packages by CPack: `hilcam`, `hilcam-maps` (with GDAL), `hilcam-examples` and `python3-hilcam`. tools/package makes them.
 file(STRINGS /etc/os-release release REGEX "^(ID|VERSION_ID)=")
 foreach(line ${release})
     if(line MATCHES "^ID=\"?([a-z]+)")
@@ -25,7 +25,7 @@ if(GIT AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
         OUTPUT_STRIP_TRAILING_WHITESPACE)
 endif()
 set(debian ${CMAKE_BINARY_DIR}/debian)
-foreach(package hilcam hilcam-examples python3-hilcam)
+foreach(package hilcam hilcam-maps hilcam-examples python3-hilcam)
     set(changelog "${package} (${PROJECT_VERSION}-${release_tag}) unstable; urgency=medium\n\n  * Version ${PROJECT_VERSION}; see changelog.gz of hilcam.\n\n -- ${HILCAM_MAINTAINER}  ${now}\n")
     file(WRITE ${debian}/${package}/changelog.Debian "${changelog}")
     configure_file(CHANGELOG.md ${debian}/${package}/changelog COPYONLY)
@@ -46,6 +46,10 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program examples python)
+if(HILCAM_GDAL)
+    list(APPEND CPACK_COMPONENTS_ALL maps)
+    set(maps_package ", hilcam-maps")
+endif()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE ${release_tag})
@@ -55,7 +59,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME hilcam)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 # Plots are made by Python.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "hilcam-examples, python3-matplotlib")
+# ZeroMQ is loaded when a scenario has Basilisk for its simulator (io/vizard/reply_socket.cpp).
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "hilcam-examples${maps_package}, libzmq5, python3-matplotlib")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "aravis-tools, aravis-tools-cli")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "spacecraft's visible camera for the test bench
 hilcam stands in for a spacecraft's visible camera in hardware-in-the-loop
@@ -63,6 +68,14 @@ tests. A real-time loop takes poses over UDP, TCP or USB, ray-traces what the
 camera would see, puts it through a model of optics, detector and electronics,
 and publishes the frames as a GigE Vision camera, a V4L2 device or a USB video
 camera.")
+set(CPACK_DEBIAN_MAPS_PACKAGE_NAME hilcam-maps)
+set(CPACK_DEBIAN_MAPS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_MAPS_PACKAGE_DEPENDS "hilcam (= ${PROJECT_VERSION}-${release_tag})")
+set(CPACK_COMPONENT_MAPS_DESCRIPTION "maps of the ground for hilcam, by GDAL
+The program by which hilcam, a spacecraft's camera for the test bench, reads
+GeoTIFF, PDS3, ISIS and ENVI maps in any projection: heights, albedo and other
+figures of the ground, and layers of the Earth. Only scenarios that name such
+files need it.")
 set(CPACK_DEBIAN_EXAMPLES_PACKAGE_NAME hilcam-examples)
 set(CPACK_DEBIAN_EXAMPLES_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_EXAMPLES_PACKAGE_DEPENDS "hilcam (= ${PROJECT_VERSION}-${release_tag})")

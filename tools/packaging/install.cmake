@@ -18,6 +18,10 @@ add_custom_target(pages ALL DEPENDS ${pages}/hilcam.bash)
 install(TARGETS hilcam RUNTIME COMPONENT program)
 install(PROGRAMS tools/hilcam-plot-campaign tools/hilcam-plot-characterise tools/hilcam-plot-soak tools/hilcam-plot-tradeoff
     DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT program)
+if(HILCAM_GDAL)
+    # A package of its own, as GDAL brings a hundred libraries.
+    install(TARGETS hilcam-read-map RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT maps)
+endif()
 install(DIRECTORY configs/cameras configs/filters configs/maps configs/materials configs/quality configs/schema configs/stars
     DESTINATION ${data} COMPONENT program)
 install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")

@@ -16,6 +16,7 @@ MachineFacts good_machine() {
     MachineFacts m;
     m.cores = 8;
     m.kernel = "6.1.0";
+    m.confinement = {7, true};
     m.realtime_priority = 80;
     m.receive_buffer_bytes = 64'000'000;
     m.interfaces = {{"", "eth1", 9000, true, ""}};
@@ -54,6 +55,18 @@ TEST(Doctor, AGoodMachineHasNothingToDo) {
         EXPECT_EQ(f.level, Finding::Level::kGood) << f.topic << ": " << f.found;
         EXPECT_EQ(f.advice, "");
     }
+}
+
+TEST(Doctor, WhatKeepsReadersOfFilesIsToldAndMissed) {
+    const auto found = [](int landlock, bool seccomp) {
+        MachineFacts m = good_machine();
+        m.confinement = {landlock, seccomp};
+        return about("confinement", all_needs(), m, kNote);
+    };
+    EXPECT_EQ(found(1, true), "");
+    EXPECT_THAT(found(0, true), HasSubstr("no Landlock, seccomp -> "));
+    EXPECT_THAT(found(3, false), HasSubstr("Landlock 3, no seccomp -> "));
+    EXPECT_THAT(found(0, false), HasSubstr("5.13"));
 }
 
 TEST(Doctor, TheCacheHasASizeAndALargeOneAnAdvice) {

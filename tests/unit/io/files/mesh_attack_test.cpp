@@ -143,6 +143,27 @@ TEST_F(MeshAttack, FilesBesideTheMeshAreRegularFilesToo) {
                    "pipe: cannot be read: it is a pipe");
 }
 
+// A mesh in `in/` names files beside that folder, by a path or by a link.
+TEST_F(MeshAttack, FilesOutsideTheFolderAreRefused) {
+    std::filesystem::create_directories(folder_ / "in/below");
+    const std::string shape = "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", texture = "newmtl a\nmap_Kd ";
+    write("a.mtl", "newmtl a\nKd 1 0 0\n");
+    write("a.png", "no picture");
+    expect_refused(write("in/m.obj", "mtllib ../a.mtl\n" + shape), "lies outside the mesh's folder");
+    write("in/t.mtl", texture + "../a.png\n");
+    expect_refused(write("in/t.obj", "mtllib t.mtl\n" + shape), "lies outside the mesh's folder");
+    std::filesystem::create_symlink("../a.png", folder_ / "in/link.png");
+    write("in/l.mtl", texture + "link.png\n");
+    expect_refused(write("in/l.obj", "mtllib l.mtl\n" + shape), "lies outside the mesh's folder");
+    // What lies below is read: this one is no picture, and a link to the mesh is as good as the mesh.
+    write("in/below/a.png", "no picture");
+    write("in/b.mtl", texture + "below/a.png\n");
+    expect_refused(write("in/b.obj", "mtllib b.mtl\n" + shape), "texture 'below/a.png'");
+    std::filesystem::create_symlink("in/b.obj", folder_ / "link.obj");
+    write("b.mtl", "newmtl a\nKd 1 0 0\n");
+    EXPECT_EQ(load_mesh(folder_ / "link.obj").triangles.size(), 1u);
+}
+
 TEST_F(MeshAttack, AGlbMayHaveItsBufferAsText) {
     const json buffer = {{"byteLength", 36}, {"uri", kTriangleUri}};
     const std::string text = padded(document({{{"mesh", 0}}}, buffer).dump());
