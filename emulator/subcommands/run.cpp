@@ -42,6 +42,14 @@ void say_that_it_runs(const ScenarioConfig& scenario) {
     spdlog::info("running; Ctrl-C ends it");
 }
 
+// Says how late frames went out, which a count of missed exposures does not tell; nothing where none went out, or where
+// frames have no time to be late for.
+std::string lateness(const Emulator& emulator) {
+    const DurationHistogram& late = emulator.first().delivery().exposure_to_last;
+    if (late.count() == 0 || emulator.first().settings().limits().lockstep) return "";
+    return fmt::format(", mid-exposure to last packet p99 {:.1f} ms", late.quantile_ms(0.99));
+}
+
 // Writes and says how the run went; returns the exit status.
 int conclude(const Emulator& emulator, const std::filesystem::path& report_file) {
     std::uint64_t outside = 0;
@@ -50,8 +58,8 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
         spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
     if (!report_file.empty()) write_json(report_file, run_report(emulator));
     const RunOutcome outcome = run_outcome(emulator);
-    spdlog::info("{} frames in {:.1f} s, {} exposures missed", outcome.frames, emulator.seconds(),
-                 outcome.deadline_misses);
+    spdlog::info("{} frames in {:.1f} s, {} exposures missed{}", outcome.frames, emulator.seconds(),
+                 outcome.deadline_misses, lateness(emulator));
     for (const std::string& fault : outcome.faults) spdlog::error("{}", fault);
     return outcome.faults.empty() ? 0 : 1;
 }
