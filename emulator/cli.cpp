@@ -11,8 +11,10 @@
 #include "emulator/recording/program_version.h"
 #include "emulator/run/log_setup.h"
 #include "emulator/send/choice_option.h"
+#include "emulator/send/number_options.h"
 #include "emulator/send/send_command.h"
 #include "emulator/subcommands/subcommands.h"
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -64,7 +66,7 @@ int carry_out(const Action& action) {
             "than 'ulimit -v' allows");
         return 1;
     } catch (const std::exception& error) {
-        spdlog::error("{}", error.what());
+        spdlog::error("{}", plain_words(error));
         return 1;
     }
 }
@@ -78,6 +80,7 @@ int run_command_line(int argc, char** argv) {
     app.require_subcommand(1);
     Action action;
     add_subcommands(app, action);
+    read_numbers_strictly(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -15,6 +15,7 @@
 
 #include "io/maps/longitude_latitude.h"
 #include "io/system/input_file.h"
+#include "io/system/plain_words.h"
 #include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
@@ -58,7 +59,7 @@ class QuietErrors {
     QuietErrors(const QuietErrors&) = delete;
     QuietErrors& operator=(const QuietErrors&) = delete;
     static std::string last() {
-        std::string text = CPLGetLastErrorMsg();
+        std::string text = without_success(CPLGetLastErrorMsg());
         std::replace_if(
             text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
         if (constexpr std::size_t kMost = 200; text.size() > kMost) text.resize(kMost);

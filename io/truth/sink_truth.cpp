@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 #include "sensor/published_frame.h"
 
@@ -109,7 +110,7 @@ void TruthSink::run() {
         } catch (const std::exception& error) {
             dropped_.fetch_add(1, std::memory_order_relaxed);
             const std::lock_guard lock(mutex_);
-            fault_ = error.what();
+            fault_ = plain_words(error);
         }
         done_.store(done + 1, std::memory_order_release);
     }
