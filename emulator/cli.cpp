@@ -12,9 +12,11 @@
 #include "emulator/run/log_setup.h"
 #include "emulator/send/choice_option.h"
 #include "emulator/send/command_examples.h"
+#include "emulator/send/number_options.h"
 #include "emulator/send/send_command.h"
 #include "emulator/subcommands/subcommands.h"
 #include "emulator/subcommands/unknown_option.h"
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -65,7 +67,7 @@ int carry_out(const Action& action) {
             "than 'ulimit -v' allows");
         return 1;
     } catch (const std::exception& error) {
-        spdlog::error("{}", error.what());
+        spdlog::error("{}", plain_words(error));
         return 1;
     }
 }
@@ -103,6 +105,7 @@ int run_command_line(int argc, char** argv) {
     CLI::App app;
     Action action;
     set_up_command_line(app, action);
+    read_numbers_strictly(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

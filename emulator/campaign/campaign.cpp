@@ -16,6 +16,7 @@
 #include "emulator/campaign/worker_pool.h"
 #include "emulator/progress/progress.h"
 #include "io/system/durable_file.h"
+#include "io/system/plain_words.h"
 #include "render/vocabulary/stopwatch.h"
 #include "render/vocabulary/time.h"
 
@@ -115,7 +116,7 @@ class CampaignMaker {
         } catch (const std::bad_alloc&) {
             record = failed_record(number, "not enough memory");
         } catch (const std::exception& problem) {
-            record = failed_record(number, problem.what());
+            record = failed_record(number, plain_words(problem));
         }
         record.begun_utc = begun;
         record.host = host_name();

@@ -2,6 +2,7 @@
 
 #include "io/system/durable_file.h"
 #include "io/system/input_file.h"
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -73,7 +74,7 @@ std::optional<CaseRecord> read_record(const std::filesystem::path& folder, std::
         if (r.plan.number != number) throw InputError("is of case " + std::to_string(r.plan.number));
         return r;
     } catch (const std::exception& problem) {
-        throw InputError(file.string() + ": is no record of a case (" + problem.what() +
+        throw InputError(file.string() + ": is no record of a case (" + plain_words(problem) +
                          "); remove it, and the case is made again");
     }
 }

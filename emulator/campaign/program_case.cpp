@@ -18,6 +18,7 @@
 #include "emulator/scenario/app_config.h"
 #include "io/system/fd.h"
 #include "io/system/input_file.h"
+#include "io/system/plain_words.h"
 #include "io/system/program_files.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/stopwatch.h"
@@ -154,7 +155,7 @@ void read_results(const std::filesystem::path& file, CaseRecord& record) {
             record.figures["result." + name] = value;
         }
     } catch (const std::exception& problem) {
-        throw InputError("result.json: " + std::string(problem.what()));
+        throw InputError("result.json: " + plain_words(problem));
     }
 }
 

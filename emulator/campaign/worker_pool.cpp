@@ -15,6 +15,7 @@
 
 #include "emulator/progress/progress.h"
 #include "io/system/monotonic.h"
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -70,7 +71,7 @@ void WorkerPool::be_child(std::size_t slot, int line, pid_t parent) {
     try {
         work = begin_(slot);
     } catch (const std::exception& problem) {
-        reason = problem.what();
+        reason = plain_words(problem);
     }
     const std::string greeting = reason.empty() ? " " : "!" + reason.substr(0, kLongestProblem);
     if (write(line, greeting.data(), greeting.size()) < 0) _exit(1);

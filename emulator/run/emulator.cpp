@@ -37,8 +37,9 @@ void on_signal(int number) {
     }
 }
 
-// Stops on SIGINT and SIGTERM while it lives, and on SIGHUP (the terminal closes) unless that is ignored, as
-// nohup does. Where one has come, the program is about to end and goes on listening to more of them.
+// Stops while it lives on every signal by which a person, a shell or a job scheduler ends a program (SIGUSR1 and SIGUSR2
+// are a batch system's word before the time is up), and on SIGHUP (the terminal closes) unless that is ignored, as nohup
+// does. Where one has come, the program is about to end and goes on listening to more of them.
 class SignalGuard {
   public:
     SignalGuard() {
@@ -54,7 +55,7 @@ class SignalGuard {
     }
 
   private:
-    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM};
     static constexpr std::size_t kHangUp = 2;
     std::array<struct sigaction, kSignals.size()> before_{};
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "emulator/progress/progress.h"
+#include "io/system/plain_words.h"
 #include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
@@ -46,7 +47,7 @@ void LightMaker::run() {
         done_.store(true, std::memory_order_release);
     } catch (const GivenUp&) {
     } catch (const std::exception& error) {
-        spdlog::error("light between surfaces cannot be kept ({}): frames stay without", error.what());
+        spdlog::error("light between surfaces cannot be kept ({}): frames stay without", plain_words(error));
     }
 }
 

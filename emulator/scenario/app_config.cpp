@@ -37,7 +37,9 @@ EventWorld event_world(const ScenarioConfig& s) {
 }
 
 Fields fields(PluginConfig& p) {
-    return {required(path("file", p.file, "shared library that adds models (render/frame/plugin.h)"))};
+    return {required(path("file", p.file,
+                          "shared library that adds models (render/frame/plugin.h); its code runs by check, "
+                          "too"))};
 }
 
 ScenarioConfig::ScenarioConfig() {

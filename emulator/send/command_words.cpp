@@ -8,6 +8,7 @@
 
 #include "emulator/send/choice_option.h"
 #include "emulator/send/command_examples.h"
+#include "emulator/send/number_options.h"
 #include "io/contract/fault.h"
 #include "render/vocabulary/attitude.h"
 #include "render/vocabulary/check.h"
@@ -349,6 +350,7 @@ Command command_of_words(const std::string& words) {
     app.set_help_flag();
     Command command;
     add_command_words(app, [&](const Command& c) { command = c; });
+    read_numbers_strictly(app);
     try {
         app.parse(words, false);
     } catch (const CLI::ParseError&) {

@@ -87,6 +87,14 @@ std::string waits_text(const Emulator& emulator) {
     return most_s < kWorthTelling_s ? "" : fmt::format(", {:.1f} s of it waiting for outputs", most_s);
 }
 
+// Says how late frames went out, which a count of missed exposures does not tell; nothing where none went out, or where
+// frames have no time to be late for.
+std::string lateness(const Emulator& emulator) {
+    const DurationHistogram& late = emulator.first().delivery().exposure_to_last;
+    if (late.count() == 0 || emulator.first().settings().limits().lockstep) return "";
+    return fmt::format(", mid-exposure to last packet p99 {:.1f} ms", late.quantile_ms(0.99));
+}
+
 // Writes and says how the run went; returns the exit status.
 int conclude(const Emulator& emulator, const std::filesystem::path& report_file) {
     std::uint64_t outside = 0;
@@ -96,8 +104,9 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
     if (!report_file.empty()) write_json(report_file, run_report(emulator));
     const RunOutcome outcome = run_outcome(emulator);
     spdlog::info(
-        "{} frames in {:.1f} s{}, {} exposures missed: {:.1f} frames/s on {:.1f} of {} cores, limited by {}",
-        outcome.frames, emulator.seconds(), waits_text(emulator), outcome.deadline_misses,
+        "{} frames in {:.1f} s{}, {} exposures missed{}: {:.1f} frames/s on {:.1f} of {} cores, limited by "
+        "{}",
+        outcome.frames, emulator.seconds(), waits_text(emulator), outcome.deadline_misses, lateness(emulator),
         static_cast<double>(outcome.frames) / std::max(1e-9, emulator.seconds()), emulator.used_cores(),
         given_cores(), words_of(pace_limit(emulator.first(), {outcome.frames, outcome.deadline_misses})));
     for (const auto& station : emulator.stations())

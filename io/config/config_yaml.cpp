@@ -243,20 +243,35 @@ class Reader {
         } catch (const KeyError& error) {
             fail_at_key(place, map, path, error);
         } catch (const InputError& error) {
-            fail(place, map, path, error.what());
+            const std::string what = error.what();
+            const std::size_t said = said_of_path(path, what), colon = what.find(": ", said);
+            if (said == 0 || colon == std::string::npos) fail(place, map, path, what);
+            fail_at_key(place, map, path, {what.substr(said, colon - said), what.substr(colon + 2)});
         }
+    }
+
+    // A check that names its key from the top says the way to it already. Returns how many letters of the text are that way:
+    // all of the path, or of a further camera's its end ("outputs.preview." of "cameras.0.outputs.preview").
+    static std::size_t said_of_path(std::string_view path, std::string_view text) {
+        while (!path.empty()) {
+            if (text.starts_with(path) && text.substr(path.size()).starts_with('.')) return path.size() + 1;
+            const std::size_t dot = path.find('.');
+            path = dot == path.rfind('.') ? std::string_view() : path.substr(dot + 1);
+        }
+        return 0;
     }
 
     // Fails where the key stands, or at as much of the way to it as there is in this file or on the command
     // line.
     [[noreturn]] void fail_at_key(const Place& place, const YAML::Node& map, const std::string& path,
                                   const KeyError& error) {
-        const std::string whole = join(path, error.key());
+        const std::string key = error.key().substr(said_of_path(path, error.key()));
+        const std::string whole = join(path, key);
         for (const Override& o : overrides_)
             if (whole == o.path || whole.starts_with(o.path + "."))
                 throw InputError("--set " + whole + ": " + error.reason());
         std::vector<YAML::Node> way = {map};
-        std::istringstream words(error.key());
+        std::istringstream words(key);
         for (std::string word; std::getline(words, word, '.');) {
             const YAML::Node& at = way.back();
             const YAML::Node next = at.IsMap()        ? at[word]

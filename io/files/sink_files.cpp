@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -87,7 +88,7 @@ void FilesSink::run() {
             written_.fetch_add(1);
         } catch (const std::exception& error) {
             const std::lock_guard lock(mutex_);
-            if (failed_++ == 0) first_failure_ = error.what();
+            if (failed_++ == 0) first_failure_ = plain_words(error);
         }
         if (fates_) fates_->settle(item->record.id, written);
         mailbox_.done();

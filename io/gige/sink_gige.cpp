@@ -80,6 +80,7 @@ struct GigeSink::Implementation {
     std::atomic<std::uint32_t> address;  // for reports; net is the control thread's
     std::atomic<std::uint32_t> acquisitions{0};
     std::atomic<std::uint64_t> strange_datagrams{0};  // that came in by another interface
+    std::atomic<std::uint64_t> foreign_resend_requests{0};
 
     Implementation(const GigeConfig& c, const SinkContext& context, const CameraLimits& limits,
                    std::size_t payload_bytes)
@@ -89,7 +90,7 @@ struct GigeSink::Implementation {
           net(find_interface(c.interface)),
           ring(slots_for(camera.settings().frame_rate_hz, payload_bytes), payload_bytes),
           writer(ring, faults, limits.color_pattern, limits.width),
-          sender(ring, faults, context.listener, {c.rate_bytes_s, c.spread_fraction},
+          sender(ring, faults, context.listener, {c.rate_bytes_s, c.spread_fraction, !limits.lockstep},
                  [this](std::uint64_t acquisition) { finish(acquisition); }),
           address(net.address) {}
 
@@ -227,7 +228,7 @@ void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
         device->acquisition_finished(static_cast<std::uint32_t>(last));
     const GigeSender::Counts& c = sender.counts();
     device->set_statistics({.frames = c.frames,
-                            .frames_dropped = writer.dropped(),
+                            .frames_dropped = writer.dropped() + c.frames_given_up,
                             .packets = c.packets,
                             .packets_dropped = c.packets_dropped,
                             .resend_requests = c.resend_requests,
@@ -237,6 +238,7 @@ void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
     device->tick(now_ns);
     sender.set_frame_rate(camera.settings().frame_rate_hz);
     controlled.store(device->controlled());
+    foreign_resend_requests.store(device->foreign_resend_requests());
 }
 
 // --- the sink
@@ -269,12 +271,13 @@ void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept
     if (outcome.finished) my.finish(now.acquisition);
 }
 
-// A sender waits for no client for long, so a full ring has a place soon.
+// A sender waits for no client for long, so there is a place soon; with one frame less than the ring takes, the sender
+// gives no late one up.
 bool GigeSink::has_room() const noexcept {
     Implementation& my = *implementation_;
     const GigeStreamState& s = my.for_loop.read().state;
     const bool taken = s.open && s.acquiring && my.running.load(std::memory_order_relaxed);
-    return !taken || my.ring.has_room();
+    return !taken || my.ring.waiting() <= FrameSpacing::kMostQueued;
 }
 
 void GigeSink::happened(const CameraEvent& event) noexcept {
@@ -305,7 +308,7 @@ SinkReport GigeSink::report() const {
     const auto n = [](std::uint64_t count) { return static_cast<double>(count); };
     return {.name = "gige " + format_ipv4(my.address.load()),
             .frames = c.frames,
-            .dropped = my.writer.dropped() + my.writer.of_other_size(),
+            .dropped = my.writer.dropped() + my.writer.of_other_size() + c.frames_given_up,
             .unwanted = my.writer.unwanted(),
             .figures = {{"clients", my.controlled ? 1.0 : 0.0},
                         {"acquisitions", n(my.acquisitions)},
@@ -318,6 +321,9 @@ SinkReport GigeSink::report() const {
                         {"packets_refused", n(c.packets_refused)},
                         {"packets_over_resend_limit", n(c.packets_over_limit)},
                         {"resend_requests_unanswered", n(c.requests_unanswered)},
+                        {"resend_requests_from_others", n(my.foreign_resend_requests)},
+                        {"frames_spaced", n(c.frames_spaced)},
+                        {"frames_given_up", n(c.frames_given_up)},
                         {"test_packets", n(c.test_packets)},
                         {"commands_from_other_interfaces", n(my.strange_datagrams)},
                         {"frames_of_other_size", n(my.writer.of_other_size())},

@@ -1,4 +1,5 @@
 #include "io/maps/gdal_file.h"
+#include "io/system/plain_words.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -169,7 +170,7 @@ GdalFile opened(const MapFiles& files, const std::string& name, bool by_rows) {
 }  // namespace
 
 std::string QuietErrors::last() {
-    std::string text = CPLGetLastErrorMsg();
+    std::string text = without_success(CPLGetLastErrorMsg());
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
     if (constexpr std::size_t kMost = 200; text.size() > kMost) text.resize(kMost);

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "io/system/monotonic.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -17,9 +18,28 @@ namespace {
 
 constexpr mode_t kReadByAll = 0644;
 constexpr int kTries = 8;  // others may start and end meanwhile
+constexpr std::int64_t kReadersLook_ns = 1'000'000;
 
 std::string megabytes(double bytes) {
     return std::to_string(static_cast<std::int64_t>(bytes / 1e6 + 0.5)) + " MB";
+}
+
+// A reader that asks whether the writer lives holds a lock for a moment (tools/client/hilcam_shm.h).
+bool is_held_by_a_writer(const Fd& memory) {
+    for (int i = 0; i < kTries; ++i) {
+        if (flock(memory.get(), LOCK_EX | LOCK_NB) == 0) return false;
+        sleep_until_monotonic_ns(monotonic_ns() + kReadersLook_ns);
+    }
+    return true;
+}
+
+// False also when there is no such name.
+bool names(const std::string& path, const Fd& memory) {
+    const Fd found(shm_open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC, 0));
+    struct stat theirs {};
+    struct stat ours {};
+    return found && fstat(found.get(), &theirs) == 0 && fstat(memory.get(), &ours) == 0 &&
+           theirs.st_dev == ours.st_dev && theirs.st_ino == ours.st_ino;
 }
 
 // Removes a memory that a killed program has left, and tells its readers. InputError when it is another's.
@@ -38,7 +58,7 @@ void take_over(const std::string& path) {
             : mmap(nullptr, sizeof(ShmHeader), PROT_READ | PROT_WRITE, MAP_SHARED, old.get(), 0);
     auto* const header = mapped == MAP_FAILED ? nullptr : static_cast<ShmHeader*>(mapped);
     const bool is_ours = facts.st_size == 0 || (header && (header->magic == kShmMagic || header->magic == 0));
-    const bool is_held = flock(old.get(), LOCK_EX | LOCK_NB) != 0;
+    const bool is_held = is_held_by_a_writer(old);
     const std::uint32_t pid = header ? header->writer_pid : 0;
     if (is_ours && !is_held) {
         if (header) header->ended.store(1);
@@ -111,7 +131,8 @@ void ShmSegment::create(const std::string& name, std::size_t bytes) {
 void ShmSegment::remove() noexcept {
     if (data_) munmap(data_, bytes_);
     data_ = nullptr, bytes_ = 0;
-    if (!path_.empty()) shm_unlink(path_.c_str());
+    // Somebody may have removed the name, and another program have taken it.
+    if (!path_.empty() && names(path_, fd_)) shm_unlink(path_.c_str());
     path_.clear();
     fd_.reset();
 }

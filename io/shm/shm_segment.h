@@ -23,7 +23,8 @@ class ShmSegment {
     // Owner thread. All bytes are 0. Throws InputError when the name is another's, DeviceError when there is no
     // room.
     void create(const std::string& name, std::size_t bytes);
-    // Takes the name away; who has the memory mapped keeps it. Idempotent. Owner thread.
+    // Takes the name away where it is still this memory's; who has the memory mapped keeps it. Idempotent. Owner
+    // thread.
     void remove() noexcept;
 
     std::byte* data() const { return data_; }

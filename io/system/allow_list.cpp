@@ -29,24 +29,26 @@ AllowList::AllowList(const std::vector<std::string>& entries, const std::string&
             const char* const last = entry.data() + entry.size();
             const auto [end, error] = std::from_chars(entry.data() + slash + 1, last, bits);
             if (error != std::errc{} || end != last || bits > 32)
-                throw InputError(key + ".allow: found " + in_quotes(entry) + kAccepted);
+                throw KeyError(key + ".allow", "found " + in_quotes(entry) + kAccepted);
         }
         Network network;
         try {
             network.address = parse_ipv4(entry.substr(0, slash), key);
         } catch (const InputError&) {
-            throw InputError(key + ".allow: found " + in_quotes(entry) + kAccepted);
+            throw KeyError(key + ".allow", "found " + in_quotes(entry) + kAccepted);
         }
         network.mask = bits == 0 ? 0 : ~std::uint32_t{0} << (32 - bits);
         if ((network.address & ~network.mask) != 0)
-            throw InputError(key + ".allow: found " + in_quotes(entry) + "; its network is " +
-                             format_ipv4(network.address & network.mask) + "/" + std::to_string(bits));
+            throw KeyError(key + ".allow", "found " + in_quotes(entry) + "; its network is " +
+                                               format_ipv4(network.address & network.mask) + "/" +
+                                               std::to_string(bits));
         networks_.push_back(network);
     }
     if (!entries.empty()) return;
     if (!is_loopback(parse_ipv4(address, key + ".address")))
-        throw InputError(key + ".address: found " + in_quotes(address) + ", which others can reach; give '" +
-                         key + ".allow' too: addresses and networks that may send, or [any]");
+        throw KeyError(key + ".address", "found " + in_quotes(address) + ", which others can reach; give '" +
+                                             key +
+                                             ".allow' too: addresses and networks that may send, or [any]");
     any_ = true;
 }
 

@@ -13,7 +13,8 @@ namespace hilcam {
 class AllowList {
   public:
     // Entries: "10.0.0.5", "10.0.0.0/8", "any". Empty: any sender that reaches the socket, for loopback
-    // addresses only. `key` names the transport in messages ("commands.udp"). Throws InputError.
+    // addresses only. `key` names the transport in messages ("commands.udp"). Throws InputError, mostly a KeyError
+    // whose key begins with `key`.
     AllowList(const std::vector<std::string>& entries, const std::string& address, const std::string& key);
 
     // Host order. Any thread.

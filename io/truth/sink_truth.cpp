@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 #include "sensor/published_frame.h"
 
@@ -121,7 +122,7 @@ void TruthSink::count(const Action& action) {
     } catch (const std::exception& error) {
         dropped_.fetch_add(1, std::memory_order_relaxed);
         const std::lock_guard lock(mutex_);
-        fault_ = error.what();
+        fault_ = plain_words(error);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
@@ -90,6 +91,19 @@ void ZmqGuard::run() {
     connections_.clear();
 }
 
+std::size_t ZmqGuard::peers() const {
+    return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(),
+                                                  [](const Connection& c) { return c.meter.greeted(); }));
+}
+
+// The oldest connection stands first.
+void ZmqGuard::make_room_for_a_stranger() {
+    if (connections_.size() - peers() < kMaxStrangers) return;
+    connections_.erase(std::find_if(connections_.begin(), connections_.end(),
+                                    [](const Connection& c) { return !c.meter.greeted(); }));
+    setup_.ended("its peer has not greeted, and others wait");
+}
+
 void ZmqGuard::accept_connection() {
     Fd outer(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     if (!outer) {
@@ -97,8 +111,7 @@ void ZmqGuard::accept_connection() {
         if (errno != EAGAIN && errno != ECONNABORTED) poll(nullptr, 0, 10);
         return;
     }
-    if (connections_.size() >= setup_.max_connections)
-        return setup_.ended("there are " + std::to_string(connections_.size()) + " connections already");
+    make_room_for_a_stranger();
     Fd inner = connect_abstract(setup_.inner);
     if (!inner) return;
     const int yes = 1;  // a stream that comes in pieces goes on in pieces
@@ -108,15 +121,7 @@ void ZmqGuard::accept_connection() {
 
 // A side that has ended is noticed once all that it sent is passed on: before that it is not read.
 void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
-    if (c.in.empty() && (outer_events & ~POLLOUT)) {
-        c.gone |= !read_into(c.in, c.outer);
-        if (!c.meter.take({c.in.bytes.data() + c.in.begin, c.in.end - c.in.begin})) {
-            setup_.ended("its peer sends what is no ZMTP 3, or a message above " +
-                         std::to_string(setup_.limits.bytes) + " bytes or " +
-                         std::to_string(setup_.limits.parts) + " parts");
-            c.gone = true;
-        }
-    }
+    if (c.in.empty() && (outer_events & ~POLLOUT)) take_from_outside(c);
     if (c.out.empty() && (inner_events & ~POLLOUT)) c.gone |= !read_into(c.out, c.inner);
     c.gone |= !write_from(c.in, c.inner) || !write_from(c.out, c.outer);
     // A connection that cannot pass anything on now never will; poll() would come back with it at once, again
@@ -124,6 +129,20 @@ void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
     const bool stuck =
         (!c.in.empty() && (outer_events & POLLHUP)) || (!c.out.empty() && (inner_events & POLLHUP));
     c.gone |= stuck || ((outer_events | inner_events) & (POLLERR | POLLNVAL)) != 0;
+}
+
+void ZmqGuard::take_from_outside(Connection& c) {
+    const bool stranger = !c.meter.greeted();
+    c.gone |= !read_into(c.in, c.outer);
+    if (!c.meter.take({c.in.bytes.data() + c.in.begin, c.in.end - c.in.begin})) {
+        setup_.ended("its peer sends what is no ZMTP 3, or a message above " +
+                     std::to_string(setup_.limits.bytes) + " bytes or " +
+                     std::to_string(setup_.limits.parts) + " parts");
+        c.gone = true;
+    } else if (stranger && c.meter.greeted() && peers() > setup_.max_connections) {
+        setup_.ended("there are " + std::to_string(setup_.max_connections) + " connections already");
+        c.gone = true;
+    }
 }
 
 // False: the other side has ended.

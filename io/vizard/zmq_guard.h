@@ -4,6 +4,9 @@
 // whole messages that wait (ZMQ_RCVHWM), but neither the parts of one message nor connections: a peer that
 // goes on with one more part takes all memory there is.
 //
+// A peer that has not sent ZeroMQ's greeting is a stranger yet. Strangers take no peer's place: there may be kMaxStrangers
+// of them besides, and for one more the one that has been silent longest is ended.
+//
 // Connections come in by TCP and go on to an abstract Unix socket of this process. A thread of its own passes
 // on; for each connection it holds 2 x 64 KiB.
 
@@ -22,13 +25,15 @@ namespace hilcam {
 struct ZmqGuardSetup {
     std::string address;  // "tcp://ADDRESS:PORT", with an address or interface of this machine, or *
     std::string inner;    // the abstract Unix socket's name, without ZeroMQ's "@"
-    std::size_t max_connections = 8;
+    std::size_t max_connections = 8;  // connections of peers
     ZmtpMeter::Limits limits{};
     std::function<void(const std::string&)> ended;  // told, in its thread, why a connection was ended
 };
 
 class ZmqGuard {
   public:
+    static constexpr std::size_t kMaxStrangers = 16;
+
     explicit ZmqGuard(ZmqGuardSetup setup) : setup_(std::move(setup)) {}
     ~ZmqGuard() { stop(); }
 
@@ -50,7 +55,10 @@ class ZmqGuard {
         bool gone = false;
     };
     void run();
+    std::size_t peers() const;  // that have greeted
     void accept_connection();
+    void make_room_for_a_stranger();
+    void take_from_outside(Connection& connection);
     void serve(Connection& connection, short outer_events, short inner_events);
     static bool read_into(Way& way, const Fd& from);
     static bool write_from(Way& way, const Fd& to);

@@ -21,6 +21,8 @@ class ZmtpMeter {
     // The next bytes, cut anywhere. False, from then on: they are of no ZMTP 3 peer, or of a message above
     // the limits, which is known before its last part comes.
     bool take(std::span<const std::uint8_t> bytes);
+    // The peer has told that it speaks ZMTP 3.
+    bool greeted() const { return good_ && at_ != At::kGreeting; }
 
   private:
     enum class At { kGreeting, kFlags, kLength, kBody };

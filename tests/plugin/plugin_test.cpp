@@ -1,6 +1,9 @@
 #include "render/frame/plugin.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 #include "render/vocabulary/check.h"
 #include "tests/support/stage.h"
@@ -42,6 +45,44 @@ TEST(Plugin, WhatDoesNotFitIsRefusedWithItsReason) {
     EXPECT_THAT(error_of("no_such_plugin.so"), HasSubstr("no_such_plugin.so: there is no such file"));
     EXPECT_THAT(error_of(HILCAM_NO_PLUGIN), HasSubstr("is no hilcam plug-in"));
     EXPECT_THAT(error_of(__FILE__), HasSubstr("cannot be loaded"));
+}
+
+// A bare name is of the working directory, and not one of the system's libraries.
+TEST(Plugin, ABareNameIsThatOfTheFolderOneStandsIn) {
+    const std::filesystem::path plugin = HILCAM_PLUGIN_DISTANCE, before = std::filesystem::current_path();
+    std::filesystem::current_path(plugin.parent_path());
+    Modules modules;
+    const std::vector<std::filesystem::path> files = {plugin.filename()};
+    EXPECT_NO_THROW(load_plugins(files, modules));
+    std::filesystem::current_path(before);
+    EXPECT_TRUE(modules.paths.make("distance"));
+}
+
+// Wherever it is cut: what is left is refused, and the loader is not left to find the end of it (SIGBUS).
+TEST(Plugin, ACutOneIsRefused) {
+    const std::filesystem::path whole = HILCAM_PLUGIN_DISTANCE;
+    const std::filesystem::path cut =
+        std::filesystem::temp_directory_path() / ("hilcam_cut_" + std::to_string(getpid()) + ".so");
+    const std::uintmax_t bytes = std::filesystem::file_size(whole);
+    std::filesystem::copy_file(whole, cut, std::filesystem::copy_options::overwrite_existing);
+    for (const std::uintmax_t left : {bytes - 1, bytes * 3 / 4, bytes / 2, bytes / 4, std::uintmax_t{4097},
+                                      std::uintmax_t{200}, std::uintmax_t{64}}) {
+        std::filesystem::resize_file(cut, left);
+        EXPECT_THAT(error_of(cut), HasSubstr("found " + std::to_string(left) +
+                                             " bytes, fewer than its headers tell of: it was cut"));
+    }
+    for (const std::uintmax_t left : {std::uintmax_t{63}, std::uintmax_t{10}, std::uintmax_t{0}}) {
+        std::filesystem::resize_file(cut, left);
+        EXPECT_THAT(error_of(cut), HasSubstr("cannot be loaded"));
+    }
+    std::filesystem::remove(cut);
+}
+
+TEST(Plugin, AnEntryThatGivesNothingIsRefused) {
+    EXPECT_THAT(error_of(HILCAM_EMPTY_PLUGIN), HasSubstr("its hilcam_plugin() gives nothing"));
+    setenv("HILCAM_EMPTY_PLUGIN", "1", 1);
+    EXPECT_THAT(error_of(HILCAM_EMPTY_PLUGIN), HasSubstr("it has no function that adds models"));
+    unsetenv("HILCAM_EMPTY_PLUGIN");
 }
 
 TEST(Plugin, ANameIsTakenOnceAndAnUnknownOneListsTheKnown) {

@@ -706,13 +706,14 @@ if case == 4: os.kill(os.getpid(), 11)
 with Client("tcp:127.0.0.1:" + os.environ["HILCAM_TCP_PORT"], timeout_s=30) as camera:
     for n in range(1, 4):
         camera.send(Expose(time_tai_ns=(1774015200 + 37 + n) * 10**9))
-json.dump({{"error_m": case / 10}}, open(os.path.join(sys.argv[2], "result.json"), "w"))
+with open(os.path.join(sys.argv[2], "result.json"), "w") as result:
+    result.write("words" if case == 6 else json.dumps({{"error_m": case / 10}}))
 """)
         cls.result = campaign(f"""
 name: runs
 scenario: {SCENARIO}
 set: [mode=lockstep, commands.tcp.port=5010]
-count: 5
+count: 6
 vary: [{{key: camera.exposure_ms, uniform: [0.1, 0.2]}}]
 run:
   program: [/usr/bin/python3, {program}, "{{case}}", "{{case_folder}}"]
@@ -726,13 +727,15 @@ time_limit_s: 6
         cls.temporary.cleanup()
 
     def test_a_program_that_goes_wrong_is_one_failed_case(self):
-        self.assertEqual([row["outcome"] for row in self.rows], ["done", "failed", "failed", "failed", "done"], self.result.stderr)
+        self.assertEqual([row["outcome"] for row in self.rows], ["done", "failed", "failed", "failed", "done", "failed"],
+                         self.result.stderr)
         self.assertEqual(self.rows[1]["reason"], "the program ended with status 1: controller diverged")
         self.assertEqual(self.rows[2]["reason"], "the program took longer than 6 s (time_limit_s)")
         self.assertRegex(self.rows[3]["reason"], r"the program was ended by signal 11 \(Segmentation fault\)")
+        self.assertEqual(self.rows[5]["reason"], "result.json: is no JSON at line 1, column 1")
 
     def test_results_logs_and_frames_are_kept(self):
-        self.assertEqual([row["result.error_m"] for row in self.rows], ["0.1", "", "", "", "0.5"])
+        self.assertEqual([row["result.error_m"] for row in self.rows], ["0.1", "", "", "", "0.5", ""])
         for n in (1, 5):
             run = self.folder / f"runs/{n:06d}"
             self.assertEqual(json.loads((run / "report.json").read_text())["frames"], 3)

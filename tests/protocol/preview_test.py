@@ -254,7 +254,7 @@ class Requests(unittest.TestCase):
         open_to_all = ("--set", "outputs.preview.address=0.0.0.0")
         refused = run(*open_to_all)
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("outputs.preview.address: found '0.0.0.0', which others can reach; give 'outputs.preview.allow' too",
+        self.assertIn("hilcam: --set outputs.preview.address: found '0.0.0.0', which others can reach; give 'outputs.preview.allow' too",
                       refused.stderr)
         self.assertEqual(run(*open_to_all, "--set", "outputs.preview.allow=[10.0.0.0/8]").returncode, 0)
 

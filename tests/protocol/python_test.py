@@ -161,9 +161,12 @@ class Shared(unittest.TestCase):
             with self.assertRaisesRegex(hilcam.BenchFailed, f"which process {killed.process.pid} writes; accepted: a name of its own"):
                 with hilcam.Bench(SCENARIO, values, program=HILCAM):
                     pass
+            self.assertFalse(old.has_ended)
             killed.process.kill()
             killed.process.wait()
-            self.assertFalse(old.has_ended)
+            self.assertTrue(old.has_ended)
+            self.assertFalse(old.wait(0, timeout_s=60))
+            self.assertEqual(list(old.follow(timeout_s=60)), [])
             with hilcam.Bench(SCENARIO, values, frames=1, program=HILCAM) as bench, hilcam.Client(bench.tcp, timeout_s=30) as camera:
                 self.assertTrue(old.has_ended)
                 with hilcam.SharedFrames(self.NAME) as frames:

@@ -118,6 +118,20 @@ class ExitCodes(unittest.TestCase):
         self.refused("accepted: .exr", "render", SCENARIO, "--out", "x.png", "--stage", "radiance")
         self.assertEqual(hilcam("fly").returncode, 2)
 
+    def test_numbers_are_what_they_look_like_or_refused(self):
+        whole, number = "a whole number, 0 or more", "a number"
+        for value, accepted, *arguments in (
+                ("-1", whole, "run", SCENARIO, "--frames"), ("99999999999999999999", whole, "run", SCENARIO, "--frames"),
+                ("nan", number, "run", SCENARIO, "--duration"), ("-65535", whole, "run", SCENARIO, "--preview"),
+                ("-18446744073709551615", whole, "check", SCENARIO, "--camera"), ("0x1", whole, "render", SCENARIO, "--camera"),
+                ("inf", number, "render", SCENARIO, "--time-offset-s"), ("-1", whole, "campaign", "c.yaml", "--case"),
+                ("1e999", number, "send", "watch", "--duration-s"), ("-1", whole, "send", "watch", "--frames"),
+                ("-4294967295", whole, "send", "expose", "--frames"), ("nan", number, "send", "fault", "image_black", "--rate")):
+            with self.subTest(arguments=arguments, value=value):
+                result = hilcam(*arguments, value)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(result.stderr.splitlines()[0], f"{arguments[-1]}: found '{value}'; accepted: {accepted}")
+
     def test_no_message_commands_the_terminal(self):
         for arguments in (("--set", "camera.\x1b[31mname=3"), ("--set", "time_utc=\x1b]0;title\x07"), ("--\x1b[31m",)):
             result = hilcam("check", SCENARIO, *arguments)
@@ -360,6 +374,22 @@ class Signals(unittest.TestCase):
                 process.communicate()
             self.assertEqual(process.returncode, 0, log)
             self.assertGreater(json.loads(report.read_text())["frames"], 0)
+
+    def test_every_signal_that_asks_for_the_end_gets_a_report(self):
+        for number in (signal.SIGTERM, signal.SIGQUIT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGALRM):
+            with self.subTest(signal=number.name), tempfile.TemporaryDirectory() as folder:
+                report = pathlib.Path(folder) / "report.json"
+                process = subprocess.Popen([HILCAM, "run", str(SCENARIO), "--set", "commands.udp.port=15028", "--report", str(report)],
+                                           stderr=subprocess.PIPE, text=True)
+                try:
+                    self.wait_for_answer()
+                    process.send_signal(number)
+                    log = process.communicate(timeout=30)[1]
+                finally:
+                    process.kill()
+                    process.communicate()
+                self.assertEqual(process.returncode, 0, log)
+                self.assertIn("frames", json.loads(report.read_text()))
 
     def test_a_terminal_that_closes_ends_a_run_in_order(self):
         self.run_and_hang_up(ignored=False)

@@ -15,7 +15,8 @@
 //     hilcam_shm_close(&ring);
 //
 // The writer never waits: a frame that was read too slowly is told by hilcam_shm_is_whole(), and frames that
-// were missed by their numbers. Threads: any number of readers, each with a hilcam_shm of its own or a common one.
+// were missed by their numbers. A writer that was killed says nothing: the kernel's lock on its memory tells that it is
+// gone, and counts as its end. Threads: any number of readers, each with a hilcam_shm of its own or a common one.
 
 // glibc declares syscall() and clock_gettime() under -std=c99 only with this. A program that is compiled so includes this
 // file before any other.
@@ -29,6 +30,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -73,6 +75,7 @@ typedef struct {
     size_t bytes;
     uint64_t slot_bytes;
     uint32_t slots, header_bytes, slot_header_bytes;
+    int file;  // -1: none
 } hilcam_shm;
 
 typedef struct {
@@ -95,8 +98,16 @@ static inline uint64_t hilcam_shm_u64(const unsigned char* at) {
 static inline uint64_t hilcam_shm_newest(const hilcam_shm* ring) {
     return __atomic_load_n((const uint64_t*)(const void*)(ring->base + 192), __ATOMIC_ACQUIRE);
 }
+// 1 when no process writes the memory any more: the writer has let its lock go, by its end or by being killed.
+static inline int hilcam_shm_is_abandoned(const hilcam_shm* ring) {
+    if (ring->file < 0 || flock(ring->file, LOCK_SH | LOCK_NB) != 0) return 0;
+    flock(ring->file, LOCK_UN);
+    return 1;
+}
+// 1 when no more frames come. Two system calls.
 static inline int hilcam_shm_has_ended(const hilcam_shm* ring) {
-    return __atomic_load_n((const uint32_t*)(const void*)(ring->base + 204), __ATOMIC_ACQUIRE) != 0;
+    return __atomic_load_n((const uint32_t*)(const void*)(ring->base + 204), __ATOMIC_ACQUIRE) != 0 ||
+           hilcam_shm_is_abandoned(ring);
 }
 
 // Reads the header of `bytes` bytes at `base`, which are aligned to 8. Returns NULL, or what is wrong with them.
@@ -111,7 +122,7 @@ static inline const char* hilcam_shm_use(hilcam_shm* ring, const void* base, siz
                  (unsigned)hilcam_shm_u32(at + 8), HILCAM_SHM_VERSION);
         return problem;
     }
-    ring->base = at, ring->bytes = bytes;
+    ring->base = at, ring->bytes = bytes, ring->file = -1;
     ring->header_bytes = hilcam_shm_u32(at + 12), ring->slots = hilcam_shm_u32(at + 16);
     ring->slot_header_bytes = hilcam_shm_u32(at + 20), ring->slot_bytes = hilcam_shm_u64(at + 24);
     if (hilcam_shm_u64(at + 32) != bytes || hilcam_shm_u32(at + 48) != 2 || ring->slots < 1 ||
@@ -131,6 +142,7 @@ static inline const char* hilcam_shm_open(hilcam_shm* ring, const char* name) {
     void* base;
     int file;
     memset(ring, 0, sizeof *ring);
+    ring->file = -1;
     if (snprintf(path, sizeof path, "/%s", name) >= (int)sizeof path) return "a name of more than 254 bytes";
     file = shm_open(path, O_RDONLY, 0);
     if (file < 0)
@@ -141,18 +153,22 @@ static inline const char* hilcam_shm_open(hilcam_shm* ring, const char* name) {
         return "not ready yet; try again";
     }
     base = mmap(NULL, (size_t)facts.st_size, PROT_READ, MAP_SHARED, file, 0);
-    close(file);
-    if (base == MAP_FAILED) return strerror(errno);
-    problem = hilcam_shm_use(ring, base, (size_t)facts.st_size);
-    if (problem) {
-        munmap(base, (size_t)facts.st_size);
-        memset(ring, 0, sizeof *ring);
+    problem = base == MAP_FAILED ? strerror(errno) : hilcam_shm_use(ring, base, (size_t)facts.st_size);
+    if (!problem) {
+        ring->file = file;
+        return NULL;
     }
+    if (base != MAP_FAILED) munmap(base, (size_t)facts.st_size);
+    close(file);
+    memset(ring, 0, sizeof *ring);
+    ring->file = -1;
     return problem;
 }
 static inline void hilcam_shm_close(hilcam_shm* ring) {
     if (ring->base) munmap((void*)ring->base, ring->bytes);
+    if (ring->base && ring->file >= 0) close(ring->file);
     memset(ring, 0, sizeof *ring);
+    ring->file = -1;
 }
 
 // 1 while the frame is still what it was; ask after its pixels were read.
@@ -175,7 +191,7 @@ static inline int hilcam_shm_get(const hilcam_shm* ring, uint64_t number, hilcam
                ring->slot_bytes - ring->slot_header_bytes;
 }
 // Waits until there is a frame newer than number `after`: HILCAM_SHM_NEW, HILCAM_SHM_NOTHING when none came in
-// time, HILCAM_SHM_ENDED when none will come.
+// time, HILCAM_SHM_ENDED when none will come. A writer that was killed is missed within a tenth of a second.
 static inline int hilcam_shm_wait(const hilcam_shm* ring, uint64_t after, int timeout_ms) {
     struct timespec now, until, left;
     clock_gettime(CLOCK_MONOTONIC, &until);
@@ -190,6 +206,7 @@ static inline int hilcam_shm_wait(const hilcam_shm* ring, uint64_t after, int ti
         while (left.tv_nsec < 0) left.tv_nsec += 1000000000l, left.tv_sec -= 1;
         while (left.tv_nsec >= 1000000000l) left.tv_nsec -= 1000000000l, left.tv_sec += 1;
         if (left.tv_sec < 0) return HILCAM_SHM_NOTHING;
+        if (left.tv_sec > 0 || left.tv_nsec > 100000000l) left.tv_sec = 0, left.tv_nsec = 100000000l;
         syscall(SYS_futex, word, FUTEX_WAIT, seen, &left, NULL, 0);
     }
 }

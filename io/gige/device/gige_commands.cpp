@@ -233,15 +233,25 @@ GigeDevice::Answer GigeDevice::force_ip(std::span<const std::uint8_t> payload) {
     return {};
 }
 
+// Packets are sent again to the stream's receiver, whoever asks: so only the receiver and the controller may. Aravis asks
+// from the socket that the stream goes to, others from the one that has control. Of a multicast group any member may
+// ask from the group's port.
+bool GigeDevice::may_ask_again() const {
+    const GigeCore& core = parts_->core;
+    const Endpoint& receiver = core.stream.destination;
+    const bool group = receiver.ip >> 28 == 0xE;
+    return core.from == parts_->access.controller() || core.from == receiver ||
+           (group && core.from.port == receiver.port);
+}
+
 void GigeDevice::resend(const Header& header, std::span<const std::uint8_t> payload) {
     const GigeCore& core = parts_->core;
     const auto request = gvcp::read_resend(payload, header.flags & Header::kExtendedFlag);
     if (!request || header.length != payload.size() || request->channel != 0 || !core.stream.open) return;
-    // Aravis asks from its stream socket, not from the controller's. Of a multicast group any member may ask.
-    const bool group = core.stream.destination.ip >> 28 == 0xE;
-    if (!group && core.from.ip != core.stream.destination.ip &&
-        core.from.ip != parts_->access.controller().ip)
+    if (!may_ask_again()) {
+        ++parts_->foreign_resend_requests;
         return;
+    }
     if (core.effects.resend) core.effects.resend(*request, core.from);
 }
 

@@ -104,6 +104,7 @@ void GigeDevice::set_ports(std::uint16_t stream, std::uint16_t message) {
 void GigeDevice::acquisition_finished(std::uint32_t epoch) { parts_->acquisition.finished(epoch); }
 void GigeDevice::set_statistics(const GigeStreamStatistics& s) { parts_->core.statistics = s; }
 bool GigeDevice::controlled() const { return parts_->access.controlled(); }
+std::uint64_t GigeDevice::foreign_resend_requests() const { return parts_->foreign_resend_requests; }
 const GigeStreamState& GigeDevice::stream_state() const { return parts_->core.stream; }
 std::string GigeDevice::xml() const { return parts_->xml; }
 

@@ -58,6 +58,8 @@ class GigeDevice {
     void set_statistics(const GigeStreamStatistics& statistics);
 
     bool controlled() const;
+    // Requests for packets that neither the controller nor the stream's receiver sent; nothing came of them.
+    std::uint64_t foreign_resend_requests() const;
     const GigeStreamState& stream_state() const;
     std::string xml() const;
 
@@ -74,6 +76,7 @@ class GigeDevice {
     Answer write_memory(std::span<const std::uint8_t> payload, std::span<std::uint8_t> out);
     Answer act(const gvcp::Header& header, std::span<const std::uint8_t> payload);
     Answer force_ip(std::span<const std::uint8_t> payload);
+    bool may_ask_again() const;
     void resend(const gvcp::Header& header, std::span<const std::uint8_t> payload);
     void strike_device();
     void reset();

@@ -45,6 +45,7 @@ struct GigeDevice::Parts {
 
     std::int64_t ticked_ns = 0;
     bool reset_wanted = false;
+    std::uint64_t foreign_resend_requests = 0;
     std::uint32_t only = 0;  // for selectors with one entry
     // The latest request, for faults that strike some attempts and not others.
     Endpoint last_from;

@@ -13,7 +13,7 @@ GigeRing::GigeRing(std::size_t slots, std::size_t bytes_each) : slots_(slots) {
 }
 
 GigeSlot* GigeRing::claim() noexcept {
-    if (!has_room()) return nullptr;
+    if (waiting() >= kMaxWaiting) return nullptr;
     for (std::uint64_t after = 0;;) {
         GigeSlot* oldest = nullptr;
         for (GigeSlot& slot : slots_)

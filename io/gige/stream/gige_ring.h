@@ -46,15 +46,20 @@ class GigeRing {
 
     // Loop: the slot with the oldest frame, to be written; null: the sender is too far behind.
     GigeSlot* claim() noexcept;
-    // Loop: claim() would give one.
-    bool has_room() const noexcept {
-        return written_.load(std::memory_order_relaxed) - sent_.load(std::memory_order_acquire) < kMaxWaiting;
+    // Loop: the number of frames that wait to be sent or are being sent.
+    std::size_t waiting() const noexcept {
+        return static_cast<std::size_t>(written_.load(std::memory_order_relaxed) -
+                                        sent_.load(std::memory_order_acquire));
     }
     void publish(GigeSlot& slot) noexcept;
 
     // Sender: the next frame to send, or null; done() when it has been sent.
     GigeSlot* next() noexcept;
     void done(GigeSlot& slot) noexcept;
+    // Sender: the number of frames behind those that next() gave.
+    std::size_t queued() const noexcept {
+        return static_cast<std::size_t>(written_.load(std::memory_order_acquire) - taken_);
+    }
     // Sender: a frame that was sent, to be given back with keep(). Null: it is not here; then `oldest_block`
     // is the oldest one of that acquisition that is, 0: none.
     GigeSlot* find(std::uint64_t acquisition, std::uint64_t block, std::uint64_t& oldest_block) noexcept;

@@ -91,35 +91,74 @@ void GigeSender::run() {
     make_thread_urgent();
     while (!stopping_.load(std::memory_order_relaxed)) {
         const bool busy = serve_orders();
-        if (GigeSlot* const slot = ring_.next()) {
-            send_frame(*slot);
-            ring_.done(*slot);
+        take_frame();
+        if (next_ && (next_begin_ns_ <= monotonic_ns() || !wanted(*next_))) {
+            send_frame(*next_);
+            ring_.done(*next_);
+            next_ = nullptr;
         } else if (!busy) {
-            sleep_until(next_due_ns());
+            sleep_until(next_ ? std::min(next_begin_ns_, next_due_ns()) : next_due_ns());
         }
     }
 }
 
 // --- frames
 
+bool GigeSender::wanted(const GigeSlot& slot) {
+    const GigeStreamNow& now = stream_.read();
+    return now.state.open && now.acquisition == slot.acquisition;
+}
+
+bool GigeSender::receiver_seen(const GigeSlot& slot) const {
+    return room_.free_bytes(address_, address_of(slot.frame.stream.destination)).has_value();
+}
+
+void GigeSender::take_frame() {
+    const std::int64_t now_ns = monotonic_ns();
+    if (!next_) {
+        next_ = ring_.next();
+        if (!next_) return;
+        next_->resent = 0;
+        next_begin_ns_ = now_ns;
+        if (pace_config_.space_late_frames && !receiver_seen(*next_)) {
+            const double hz = frame_rate_hz_.load(std::memory_order_relaxed);
+            next_begin_ns_ = spacing_.earliest_ns(next_->record.exposure_mid_monotonic_ns,
+                                                  hz > 0 ? static_cast<std::int64_t>(1e9 / hz) : 0, now_ns);
+        }
+        if (next_begin_ns_ > now_ns) counts_.frames_spaced.fetch_add(1, std::memory_order_relaxed);
+    }
+    if (next_begin_ns_ > now_ns) give_up_late_frames();
+}
+
+// A frame that waits for its turn makes way for newer ones. Its turn is the next one's then. An acquisition's last frame has
+// none behind it.
+void GigeSender::give_up_late_frames() {
+    while (ring_.queued() > FrameSpacing::kMostQueued && wanted(*next_)) {
+        counts_.frames_given_up.fetch_add(1, std::memory_order_relaxed);
+        ring_.done(*next_);
+        next_ = ring_.next();
+        next_->resent = 0;
+    }
+}
+
 void GigeSender::send_frame(GigeSlot& slot) {
     const GigeStreamState& s = slot.frame.stream;
-    // The client may have gone, or begun anew, since the frame was taken.
-    const auto wanted = [&] {
-        const GigeStreamNow& now = stream_.read();
-        return now.state.open && now.acquisition == slot.acquisition;
-    };
-    if (history_of_ != slot.acquisition) history_.restart(s.long_ids()), history_of_ = slot.acquisition;
+    const std::uint64_t packets = std::uint64_t{trailer_id(s)} + 1;
+    if (history_of_ != slot.acquisition) {
+        history_.restart(s.long_ids()), history_of_ = slot.acquisition;
+        budget_.restart(packets);
+    }
     history_.sent(slot.frame.block);
+    budget_.earn(packets);
+    spacing_.begun(slot.record.exposure_mid_monotonic_ns, monotonic_ns());
     set_do_not_fragment(s.do_not_fragment);
-    slot.resent = 0;
     current_ = &slot;
     std::int64_t first_ns = 0, last_ns = 0;
     pacer_.begin(pace_of(slot), monotonic_ns());
     PacketOrder order(trailer_id(s));
     bool whole = true;
     while (!order.done()) {
-        whole = wanted() && !stopping_.load(std::memory_order_relaxed);
+        whole = wanted(slot) && !stopping_.load(std::memory_order_relaxed);
         if (!whole) break;
         batch_.begin(address_of(s.destination));
         fill_batch(slot, order);
@@ -191,8 +230,7 @@ Pace GigeSender::pace_of(const GigeSlot& slot) {
     if (const auto cap_mb_s = faults_.strikes(FaultKind::kBandwidthCap, slot.record.id))
         rate = std::min(rate, *cap_mb_s * 1e6);
     // A receiver whose buffer can be seen is not overrun by a sender that makes up for lost time.
-    const bool seen = room_.free_bytes(address_, address_of(s.destination)).has_value();
-    return {rate, s.packet_delay_ns, seen ? kCatchUpSeen_ns : Pace{}.catch_up_ns};
+    return {rate, s.packet_delay_ns, receiver_seen(slot) ? kCatchUpSeen_ns : Pace{}.catch_up_ns};
 }
 
 // --- what is asked for
@@ -227,7 +265,8 @@ void GigeSender::serve_resend() {
             r.last);
     const std::uint32_t trailer = trailer_id(slot->frame.stream);
     const std::uint32_t end = std::min(r.last, trailer);
-    const std::uint64_t max_resent = kMaxResent * (std::uint64_t{trailer} + 1);
+    const std::uint64_t max_resent =
+        std::min(kMaxResent * (std::uint64_t{trailer} + 1), slot->resent + budget_.left());
     const bool past_the_end = r.next > end, too_often = slot->resent >= max_resent;
     if (!past_the_end && !too_often) resend_batch(*slot, end, max_resent);
     give_back(slot);
@@ -263,6 +302,7 @@ void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t m
         ++slot.resent;
     } while (r.next <= end && slot.resent < max_resent && !batch_.full() &&
              batch_.bytes() + r.packet_bytes <= max_bytes);
+    budget_.spend(resent + refused);
     counts_.packets_resent.fetch_add(resent, std::memory_order_relaxed);
     counts_.packets_refused.fetch_add(refused, std::memory_order_relaxed);
     // The stream waits for its own receiver alone: another one's buffer is that one's to read.

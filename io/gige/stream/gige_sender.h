@@ -9,8 +9,10 @@
 // A request of twenty bytes can ask for a whole frame, so requests get what the frames leave. Fresh packets
 // keep their schedule whatever is asked for; packets sent again have a schedule of their own, at half of the
 // stream's rate while a frame is on its way and at all of it between frames. Of each block at most
-// kMaxResent times its packets are sent again; the rest is refused (PACKET_UNAVAILABLE). Example: of a block
-// of 73 packets 292 are sent again.
+// kMaxResent times its packets are sent again, and of the whole stream what resend_budget.h allows; the rest is
+// refused (PACKET_UNAVAILABLE). Example: of a block of 73 packets 292 are sent again.
+//
+// Frames that come late are spaced where the receiver's buffer is not seen (frame_spacing.h).
 
 #include <atomic>
 #include <functional>
@@ -18,11 +20,13 @@
 #include <thread>
 #include <vector>
 
+#include "io/gige/stream/frame_spacing.h"
 #include "io/gige/stream/gige_blocks.h"
 #include "io/gige/stream/gige_ring.h"
 #include "io/gige/stream/pacer.h"
 #include "io/gige/stream/packet_batch.h"
 #include "io/gige/stream/receiver_room.h"
+#include "io/gige/stream/resend_budget.h"
 #include "io/system/bounded_queue.h"
 #include "io/system/fd.h"
 #include "render/vocabulary/latest.h"
@@ -32,6 +36,7 @@ namespace hilcam {
 struct GigePaceConfig {
     double rate_bytes_s = 400e6;   // upper limit
     double spread_fraction = 0.5;  // share of the frame period that a frame may take; 0: as fast as the limit
+    bool space_late_frames = true;  // false in lockstep, whose frames have no time to be late for
 };
 
 // The orders of the control side.
@@ -49,6 +54,8 @@ class GigeSender {
   public:
     struct Counts {
         std::atomic<std::uint64_t> frames{0};           // delivered
+        std::atomic<std::uint64_t> frames_spaced{0};    // late ones that waited for their turn
+        std::atomic<std::uint64_t> frames_given_up{0};  // late ones with newer ones behind them
         std::atomic<std::uint64_t> packets{0};          // sent for the first time
         std::atomic<std::uint64_t> packets_dropped{0};  // by faults
         std::atomic<std::uint64_t> packets_failed{0};   // packets that the kernel did not take
@@ -100,6 +107,12 @@ class GigeSender {
     static constexpr std::size_t kMaxDelayed = 4096;
 
     void run();
+    // The client is still there, and has not begun anew since the frame was taken.
+    bool wanted(const GigeSlot& slot);
+    bool receiver_seen(const GigeSlot& slot) const;
+    // Takes the next frame from the ring when there is none at hand, and says when it may begin.
+    void take_frame();
+    void give_up_late_frames();
     void send_frame(GigeSlot& slot);
     void fill_batch(const GigeSlot& slot, PacketOrder& order);
     // Sends the batch, and `pacer` counts it. `wait`: until the receiver's buffer has room for it.
@@ -143,7 +156,11 @@ class GigeSender {
     ReceiverRoom room_;
     Pacer pacer_, resend_pacer_, refusal_pacer_;
     PacketBatch batch_;
+    GigeSlot* next_ = nullptr;  // the next to be sent
+    std::int64_t next_begin_ns_ = 0;
+    FrameSpacing spacing_;
     GigeSlot* current_ = nullptr;  // being sent
+    ResendBudget budget_;
     std::optional<GigeOrder> resend_;
     BlockHistory history_;
     std::uint64_t history_of_ = 0;

@@ -96,6 +96,75 @@ class TwoMachines(unittest.TestCase):
         self.whole(*self.camera_test("--no-packet-socket", seconds=2), 10)
 
 
+# A plain client that looks at its socket every 20 ms; its buffer is the system's default (208 KiB), which takes a frame and
+# a half. Prints how many blocks came whole, and how many did not.
+SLOW_CLIENT = """
+import collections, socket, struct, time
+import gvcp_client as g
+from genicam_client import Features
+from gvsp_client import Packet, TRAILER
+with g.GvcpClient("{camera}", "{client}") as camera, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stream:
+    camera.control()
+    features = Features(camera, camera.description()[0])
+    features.set("PixelFormat", "Mono12")
+    stream.bind(("{client}", 0))
+    stream.setblocking(False)
+    camera.write_register(g.SCPS, 1500)
+    camera.write_registers((g.SCDA, g.ip_number("{client}")), (g.SCP, stream.getsockname()[1]))
+    features.execute("AcquisitionStart")
+    blocks, last = collections.defaultdict(set), {{}}
+    until = time.monotonic() + {seconds}
+    while time.monotonic() < until:
+        time.sleep(0.02)
+        camera.keep_control()
+        try:
+            while True:
+                packet = Packet.of(stream.recv(65535))
+                blocks[packet.block].add(packet.id)
+                if packet.format == TRAILER:
+                    last[packet.block] = packet.id
+        except BlockingIOError:
+            pass
+    features.execute("AcquisitionStop")
+    ended = [block for block in blocks if block < max(blocks)]
+    whole = sum(block in last and len(blocks[block]) == last[block] + 1 for block in ended)
+    print(whole, len(ended) - whole)
+"""
+
+
+class LateFrames(unittest.TestCase):
+    """Where the receiver's buffer is not seen, frames that wait behind a slow one do not leave in a burst after it."""
+
+    @classmethod
+    def setUpClass(cls):
+        try:
+            cls.wire = Wire().open()
+        except NotHere as error:
+            raise unittest.SkipTest(str(error))
+        cls.addClassCleanup(cls.wire.close)
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+
+    def test_a_client_with_a_default_buffer_gets_them_whole(self):
+        # A frame of 98 kB takes 140 ms at this rate: two wait meanwhile.
+        emulator = Emulator(HILCAM, CAMERA, self.folder.name, "camera.frame_rate_hz=20",
+                            "faults=[{kind: bandwidth_cap, value: 0.7, rate: 0.1}]", namespace=self.wire.here)
+        self.addCleanup(emulator.kill)
+        result = self.wire.at_client(sys.executable, "-c", SLOW_CLIENT.format(camera=CAMERA, client=CLIENT, seconds=10),
+                                     cwd=pathlib.Path(__file__).parent)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        whole, broken = map(int, result.stdout.split())
+        report = emulator.stop()
+        slow = report["fault_strikes"]["counts"]["bandwidth_cap"]
+        output = next(output for output in report["outputs"] if output["name"].startswith("gige"))
+        self.assertGreater(slow, 5)
+        self.assertGreater(output["frames_spaced"], slow / 3)
+        # Without the spacing nearly every slow frame breaks one or two behind it.
+        self.assertLess(broken, slow / 2, f"{whole} whole, {broken} broken, {slow} slow")
+        self.assertGreater(whole, 60)
+        self.assertRegex(emulator.log(), r"exposures missed, mid-exposure to last packet p99 \d+\.\d ms")
+
+
 OTHER = "10.25.0.1"
 # Run at one end of the wire: FORCEIP to everybody, from this end's address.
 FORCE_IP = """

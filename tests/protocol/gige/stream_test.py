@@ -3,6 +3,8 @@
 
     stream_test.py HILCAM
 """
+import pathlib
+import subprocess
 import sys
 import unittest
 
@@ -255,6 +257,43 @@ class Chunks(StreamTest):
         for number, tag, mid in shown:
             if number > 77_000:
                 self.assertLess(abs(mid - tag), 3_600_000_000_000)
+
+
+# Asks for whole blocks of the stream again and again, from a socket that has neither control nor the stream.
+STORM = """
+import socket, sys, time
+import gvcp_client as g
+camera, here = sys.argv[1:]
+with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+    stranger.bind((here, 0))
+    while True:
+        for block in range(1, 100):
+            stranger.sendto(g.command_bytes(g.PACKETRESEND, g.resend_payload(block, 0, 0xFFFFFF), 0, 1 + block), (camera, g.PORT))
+        time.sleep(0.01)
+"""
+
+
+class Storm(CameraTest):
+    """Another program of the client's machine asks for packets again."""
+    sets = ("camera.frame_rate_hz=15",)
+
+    def test_the_client_gets_what_it_asks_for_and_nothing_else(self):
+        camera = self.controller()
+        features = Features(camera)
+        storm = subprocess.Popen([sys.executable, "-c", STORM, self.address, CLIENT], cwd=pathlib.Path(__file__).parent)
+        try:
+            with StreamReceiver(camera, CLIENT) as stream:
+                stream.open(1500)
+                features.execute("AcquisitionStart")
+                frames = stream.take(60)
+                features.execute("AcquisitionStop")
+                asked = stream.statistics["resend_packets"]
+        finally:
+            storm.kill()
+            storm.wait()
+        self.assertTrue(all(frame.complete for frame in frames))
+        self.assertEqual([frame.block for frame in frames], list(range(1, 61)))
+        self.assertLessEqual(features.get("StatisticsPacketsResent"), asked)
 
 
 class Lockstep(CameraTest):

@@ -1,11 +1,12 @@
 """Frames from the shared memory of `outputs.shm`, without a copy: docs/shared_memory.md."""
 import dataclasses
+import fcntl
 import mmap
 import os
 import pathlib
 import struct
 import time
-from typing import Any, Iterator, Optional, Tuple
+from typing import Any, BinaryIO, Iterator, Optional, Tuple
 
 import numpy
 
@@ -15,6 +16,7 @@ _HEADER = struct.Struct("=8sIIIIQQIIII8x64s16s")
 _REPORT = struct.Struct("=QqqqdddIIIIIIIIqQIIq3d4d")
 _LEAST_HEADER, _LEAST_SLOT = 208, 184
 _POLL_S = 1e-4
+_LOOK_S = 0.05  # for a writer that was killed
 _REVERSE_X, _REVERSE_Y, _HAS_POSE, _HAS_TRUTH = 1, 2, 4, 8
 
 
@@ -84,21 +86,33 @@ class SharedFrames:
         deadline = time.monotonic() + wait_s
         while True:
             try:
-                return self._open(pathlib.Path("/dev/shm") / name)
+                path = pathlib.Path("/dev/shm") / name
+                self._file = self._opened(path)
+                try:
+                    return self._open(path)
+                except BaseException:
+                    self._file.close()
+                    raise
             except _NotReady as error:
                 if time.monotonic() >= deadline:
                     raise SharedMemoryError(str(error)) from None
             time.sleep(0.01)
 
-    def _open(self, path: pathlib.Path) -> None:
+    @staticmethod
+    def _opened(path: pathlib.Path) -> BinaryIO:
         try:
-            with open(path, "rb") as file:
-                size = os.fstat(file.fileno()).st_size
-                if size < _LEAST_HEADER:
-                    raise _NotReady(f"{path}: not ready yet")
-                self._map: Any = mmap.mmap(file.fileno(), size, prot=mmap.PROT_READ)
+            return open(path, "rb")
         except FileNotFoundError:
             raise _NotReady(f"{path}: there is no such shared memory: does hilcam run with outputs.shm?") from None
+        except OSError as error:
+            raise SharedMemoryError(f"{path}: {error.strerror}") from None
+
+    def _open(self, path: pathlib.Path) -> None:
+        size = os.fstat(self._file.fileno()).st_size
+        if size < _LEAST_HEADER:
+            raise _NotReady(f"{path}: not ready yet")
+        try:
+            self._map: Any = mmap.mmap(self._file.fileno(), size, prot=mmap.PROT_READ)
         except OSError as error:
             raise SharedMemoryError(f"{path}: {error.strerror}") from None
         (magic, version, self._header_bytes, self.slots, self._slot_header_bytes, self._slot_bytes, segment_bytes, self.max_width_px,
@@ -132,8 +146,17 @@ class SharedFrames:
 
     @property
     def has_ended(self) -> bool:
-        """True when hilcam has ended, or another one has taken the name: open it again."""
-        return bool(self._news[51])
+        """True when hilcam has ended or was killed, or another one has taken the name: open it again."""
+        return bool(self._news[51]) or self._is_abandoned()
+
+    def _is_abandoned(self) -> bool:
+        """The writer holds a lock on its memory while it lives, however it ends."""
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        fcntl.flock(self._file, fcntl.LOCK_UN)
+        return True
 
     def get(self, number: int) -> Optional[SharedFrame]:
         """The frame of that number; None when it is not there yet, or no longer."""
@@ -155,12 +178,15 @@ class SharedFrames:
         return SharedFrame(self, number, report, pixels.reshape(height, row_bytes // 2)[:, :width])
 
     def wait(self, after: int, timeout_s: float = 10) -> bool:
-        """Until there is a frame newer than number `after`: True; False when hilcam has ended. TimeoutError."""
-        deadline = time.monotonic() + timeout_s
+        """Until there is a frame newer than number `after`: True; False when hilcam has ended or was killed. TimeoutError."""
+        deadline, looked = time.monotonic() + timeout_s, -_LOOK_S
         while self.newest <= after:
-            if self.has_ended:
-                return self.newest > after
-            if time.monotonic() > deadline:
+            now = time.monotonic()
+            if bool(self._news[51]) or now - looked > _LOOK_S:
+                looked = now
+                if self.has_ended:
+                    return self.newest > after
+            if now > deadline:
                 raise TimeoutError(f"/dev/shm/{self.name}: no frame after number {after} within {timeout_s:g} s")
             time.sleep(_POLL_S)
         return True
@@ -182,6 +208,7 @@ class SharedFrames:
             self._map.close()
         except BufferError:
             pass  # a frame's pixels are held: the memory goes with them
+        self._file.close()
         self._map = None
 
     def __enter__(self) -> "SharedFrames":

@@ -65,6 +65,55 @@ std::string error_of(const std::string& text, std::vector<std::string> overrides
     return "no error";
 }
 
+// A check that several sections share may name its key from the top.
+struct Door {
+    std::string address = "here";
+};
+Fields fields(Door& c) { return {text("address", c.address, "address")}; }
+void validate(const Door& c) {
+    if (c.address == "outside") throw refused("outputs.door.address", "'outside'", "here");
+    if (c.address == "nowhere") throw refused_key("outputs.door.address", "'nowhere'", "here");
+    if (c.address == "bad") throw InputError("the door is shut");
+}
+struct Doors {
+    Door door;
+};
+Fields fields(Doors& c) { return {section("door", c.door, "door")}; }
+struct CameraWithDoor {
+    Doors outputs;
+};
+Fields fields(CameraWithDoor& c) { return {section("outputs", c.outputs, "outputs")}; }
+struct TwoDoors {
+    Doors outputs;
+    std::vector<CameraWithDoor> cameras;
+};
+Fields fields(TwoDoors& c) {
+    return {section("outputs", c.outputs, "outputs"), sections("cameras", c.cameras, "more")};
+}
+std::string error_of_doors(const std::string& text, std::vector<std::string> overrides = {}) {
+    TwoDoors out;
+    try {
+        read_config_text(text, "test.yaml", ".", section_of(out), overrides);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(ConfigYaml, AKeyThatIsNamedFromTheTopIsSaidOnce) {
+    for (const char* word : {"outside", "nowhere"}) {
+        const std::string reason = ": found '" + std::string(word) + "'; accepted: here";
+        EXPECT_EQ(error_of_doors("outputs:\n  door: {address: " + std::string(word) + "}\n"),
+                  "test.yaml:2:19: outputs.door.address" + reason);
+        EXPECT_EQ(error_of_doors("cameras:\n- outputs:\n    door: {address: " + std::string(word) + "}\n"),
+                  "test.yaml:3:21: cameras.0.outputs.door.address" + reason);
+        EXPECT_EQ(error_of_doors("outputs: {}\n", {"outputs.door.address=" + std::string(word)}),
+                  "--set outputs.door.address" + reason);
+    }
+    EXPECT_EQ(error_of_doors("outputs:\n  door: {address: bad}\n"),
+              "test.yaml:2:9: outputs.door: the door is shut");
+}
+
 TEST(ConfigYaml, NumbersOfListsCountInEachPlaceThatAnAliasGivesThem) {
     std::string text = "name: x\ninner: {qe: &c [";
     for (int i = 0; i < 20000; ++i) text.append("[").append(std::to_string(0.1 + 1e-4 * i)).append(", 0.5],");

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -20,6 +21,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const MappedBody kMoonBody{"moon", {kMoonRadius_m, kMoonRadius_m}};
 
@@ -220,6 +222,28 @@ TEST(GroundMapFile, WhatLiesElsewhereIsNamed) {
     EXPECT_THAT(refusal_of(config_of(file_named("absent.tif"))), HasSubstr("absent.tif"));
     EXPECT_THAT(refusal_of(config_of("/vsicurl/http://127.0.0.1:9/map.tif")), HasSubstr("/vsicurl/"));
     EXPECT_THAT(refusal_of(config_of(file_named("picture.png"))), HasSubstr("bounds_deg"));
+}
+
+// GDAL's message ends with the reason of an errno that nobody has set.
+TEST(GroundMapFile, ALabelThatNamesNothingDoesNotCallThatASuccess) {
+    std::ofstream(file_named("nothing.lbl"))
+        << "PDS_VERSION_ID = PDS3\nRECORD_TYPE = FIXED_LENGTH\nRECORD_BYTES = 8\nFILE_RECORDS = 4\n"
+           "^IMAGE = \"absent.img\"\nOBJECT = IMAGE\n LINES = 4\n LINE_SAMPLES = 4\n"
+           " SAMPLE_TYPE = MSB_INTEGER\n SAMPLE_BITS = 16\nEND_OBJECT = IMAGE\nEND\n";
+    std::ofstream(file_named("nothing.cub"))
+        << "Object = IsisCube\n  Object = Core\n    StartByte = 1\n    Format = BandSequential\n"
+           "    ^Core = absent.bin\n    Group = Dimensions\n      Samples = 4\n      Lines = 4\n      Bands "
+           "= 1\n"
+           "    End_Group\n    Group = Pixels\n      Type = SignedWord\n      ByteOrder = Lsb\n      Base = "
+           "0.0\n"
+           "      Multiplier = 1.0\n    End_Group\n  End_Object\nEnd_Object\nEnd\n";
+    for (const char* name : {"nothing.lbl", "nothing.cub"}) {
+        GroundMapConfig config = config_of(file_named(name));
+        config.bounds_deg = {-180, -90, 180, 90};
+        errno = 0;
+        const std::string said = refusal_of(config);
+        EXPECT_THAT(said, AllOf(HasSubstr(name), HasSubstr("accepted: "), Not(HasSubstr("Success"))));
+    }
 }
 
 // A map of 20 GB, all holes of a sparse file but for what was written, is looked at from afar and from near within the

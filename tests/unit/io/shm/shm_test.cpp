@@ -8,6 +8,7 @@
 #include <sys/file.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <thread>
@@ -181,7 +182,6 @@ TEST(Shm, WhatAKilledProgramLeftIsReplacedAndItsReadersAreTold) {
     hilcam_shm old;
     ASSERT_EQ(hilcam_shm_open(&old, name.c_str()), nullptr);
     EXPECT_EQ(hilcam_shm_newest(&old), 1U);
-    EXPECT_FALSE(hilcam_shm_has_ended(&old));
     ShmSink sink = shm_sink(name);
     ASSERT_EQ(start_error(sink), "none");
     EXPECT_TRUE(hilcam_shm_has_ended(&old));
@@ -190,6 +190,55 @@ TEST(Shm, WhatAKilledProgramLeftIsReplacedAndItsReadersAreTold) {
     EXPECT_EQ(hilcam_shm_newest(&ring), 0U);
     hilcam_shm_close(&ring);
     hilcam_shm_close(&old);
+}
+
+TEST(Shm, AReaderThatWaitsLearnsThatTheWriterWasKilled) {
+    const std::string name = own_name("abandoned");
+    std::array<int, 2> started{};
+    ASSERT_EQ(pipe(started.data()), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        ShmSink sink = shm_sink(name);
+        sink.start();
+        sink.publish(even_frame(7), report_record(7));
+        [[maybe_unused]] const auto told = write(started[1], "x", 1);
+        while (true) pause();
+    }
+    char byte = 0;
+    ASSERT_EQ(read(started[0], &byte, 1), 1);
+    hilcam_shm ring;
+    ASSERT_EQ(hilcam_shm_open(&ring, name.c_str()), nullptr);
+    EXPECT_FALSE(hilcam_shm_has_ended(&ring));
+    EXPECT_EQ(hilcam_shm_wait(&ring, 1, 1), HILCAM_SHM_NOTHING);
+    int end = HILCAM_SHM_NOTHING;
+    std::thread reader([&] { end = hilcam_shm_wait(&ring, 1, 600'000); });
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    reader.join();
+    EXPECT_EQ(end, HILCAM_SHM_ENDED);
+    EXPECT_TRUE(hilcam_shm_has_ended(&ring));
+    hilcam_shm_close(&ring);
+    unlink(path_of(name).c_str());
+    for (const int end_of_pipe : started) close(end_of_pipe);
+}
+
+// Whoever cleans /dev/shm (logind does, when a user leaves) takes the name away, and the next camera takes it.
+TEST(Shm, TheEndOfOneLeavesTheMemoryOfAnother) {
+    const std::string name = own_name("reused");
+    ShmSink first = shm_sink(name), second = shm_sink(name);
+    first.start();
+    ASSERT_EQ(unlink(path_of(name).c_str()), 0);
+    second.start();
+    first.stop();
+    hilcam_shm ring;
+    ASSERT_EQ(hilcam_shm_open(&ring, name.c_str()), nullptr) << "the second one's is still there";
+    second.publish(even_frame(1), report_record(1));
+    EXPECT_EQ(hilcam_shm_newest(&ring), 1U);
+    EXPECT_FALSE(hilcam_shm_has_ended(&ring));
+    second.stop();
+    EXPECT_TRUE(hilcam_shm_has_ended(&ring));
+    hilcam_shm_close(&ring);
+    EXPECT_FALSE(std::ifstream(path_of(name)).good());
 }
 
 TEST(Shm, AnothersNameIsRefused) {

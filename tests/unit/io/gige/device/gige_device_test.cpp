@@ -163,8 +163,35 @@ TEST(GigeDevice, TestPacketAndResendReachTheStream) {
     ASSERT_EQ(b.resends.size(), 1u);
     EXPECT_EQ(b.resends[0].block, 7u);
     EXPECT_EQ(b.resends[0].last_packet, 5u);
-    b.send(gvcp::kPacketResend, Bench::words({7, 3, 5}), Endpoint{0x01020304, 50000}, 0, 0);
-    EXPECT_EQ(b.resends.size(), 1u);  // not from a stranger
+}
+
+// Of the receiver's machine or the controller's, others may run other programs.
+TEST(GigeDevice, OnlyTheControllerAndTheReceiverAskForPacketsAgain) {
+    Bench b;
+    constexpr Endpoint kReceiver{0x01020304, 50000}, kGroup{0xEFC01601, 50000};
+    const auto asked = [&](const Endpoint& from) {
+        const std::size_t before = b.resends.size();
+        const std::uint64_t foreign = b.device.foreign_resend_requests();
+        b.send(gvcp::kPacketResend, Bench::words({7, 3, 5}), from, 0, 0);
+        const bool taken = b.resends.size() > before;
+        EXPECT_EQ(b.device.foreign_resend_requests(), foreign + !taken);
+        return taken;
+    };
+    b.take_control();
+    b.write(bootstrap::kStreamAddress, kReceiver.ip);
+    b.write(bootstrap::kStreamPort, kReceiver.port);
+    EXPECT_TRUE(asked(kReceiver));
+    EXPECT_TRUE(asked(kClient));
+    EXPECT_FALSE(asked(kOther));  // on the controller's machine
+    EXPECT_FALSE(asked({kReceiver.ip, static_cast<std::uint16_t>(kReceiver.port + 1)}));  // on the receiver's
+    EXPECT_FALSE(asked({kReceiver.ip + 1, kReceiver.port}));
+    EXPECT_FALSE(asked({kClient.ip, kReceiver.port}));
+    // Members of a group ask from wherever they are, by the port that they listen at.
+    b.write(bootstrap::kStreamAddress, kGroup.ip);
+    EXPECT_TRUE(asked({0x7F000009, kGroup.port}));
+    EXPECT_TRUE(asked(kClient));
+    EXPECT_FALSE(asked(kOther));
+    EXPECT_FALSE(asked({kReceiver.ip, static_cast<std::uint16_t>(kReceiver.port + 1)}));
 }
 
 TEST(GigeDevice, UnknownCommandsGetAnHonestAnswer) {

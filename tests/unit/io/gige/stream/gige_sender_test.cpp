@@ -233,6 +233,93 @@ TEST_P(Sender, ABlockIsSentAgainSoOftenAndThenRefused) {
     EXPECT_GT(sender_.counts().requests_unanswered, 0u);
 }
 
+// Each block of them has a share of its own, but all together have no more than the stream's budget.
+TEST_P(Sender, ManyBlocksAreNotSentAgainMoreOftenThanTheStreamEarns) {
+    for (std::size_t i = 0; i < GigeRing::kMinKept; ++i) send_frame();
+    const std::uint64_t packets = trailer() + 1;
+    for (std::uint64_t block = 1; block <= GigeRing::kMinKept; ++block)
+        for (int i = 0; i < 3; ++i) {
+            ask(block, 0, 0xFFFFFF);
+            take(20);
+        }
+    EXPECT_EQ(sender_.counts().packets_resent, ResendBudget::kSavedFrames * packets);
+    EXPECT_GT(sender_.counts().packets_over_limit, 0u);
+    send_frame();
+    for (int i = 0; i < 3; ++i) {
+        ask(1, 0, 0xFFFFFF);
+        take(20);
+    }
+    EXPECT_EQ(sender_.counts().packets_resent, (ResendBudget::kSavedFrames + 1) * packets);
+}
+
+// Nobody listens there, so nothing is known of the receiver's room, as of one on another machine. Exposures are 1000 s
+// apart: the turn of a late frame never comes in this test.
+class LateFrames : public Sender {
+  protected:
+    static constexpr std::int64_t kApart_ns = 1'000'000'000'000;
+    void SetUp() override {
+        Sender::SetUp();
+        now_.state.destination = {kHere + 8, 40000};
+        ++now_.acquisition;
+        record_.exposure_mid_monotonic_ns = -100 * kApart_ns;
+        sender_.set_stream(now_);
+    }
+    void write_late() {
+        ++record_.id;
+        record_.exposure_mid_monotonic_ns += kApart_ns;
+        ASSERT_TRUE(write().written);
+        sender_.frame_ready();
+    }
+    bool eventually(const std::atomic<std::uint64_t>& count, std::uint64_t wanted) {
+        for (int i = 0; i < kPatience_ms && count < wanted; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return count == wanted;
+    }
+};
+
+TEST_P(LateFrames, OneIsSentOneWaitsForItsTurnAndOneBehindIt) {
+    write_late();
+    ASSERT_TRUE(eventually(sender_.counts().frames, 1));
+    for (std::uint64_t i = 0; i < 10; ++i) {
+        write_late();
+        // Each after the second makes the oldest one go.
+        ASSERT_TRUE(eventually(sender_.counts().frames_given_up, i > 1 ? i - 1 : 0));
+    }
+    EXPECT_EQ(sender_.counts().frames, 1u);
+    EXPECT_EQ(sender_.counts().frames_spaced, 1u);
+    EXPECT_EQ(ring_.waiting(), 1 + FrameSpacing::kMostQueued);
+}
+
+TEST_P(LateFrames, TheyAreNotWaitedForOnceTheClientIsGone) {
+    write_late();
+    ASSERT_TRUE(eventually(sender_.counts().frames, 1));
+    write_late();
+    write_late();
+    ASSERT_TRUE(eventually(sender_.counts().frames_spaced, 1));
+    now_.state.open = false;
+    sender_.set_stream(now_);
+    for (int i = 0; i < kPatience_ms && ring_.waiting() > 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(ring_.waiting(), 0u);
+    EXPECT_EQ(sender_.counts().frames, 1u);
+}
+
+TEST_P(LateFrames, InLockstepNoneIsLate) {
+    GigeSender other(ring_, faults_, nullptr, {.space_late_frames = false}, [](std::uint64_t) {});
+    sender_.close();
+    other.open(kHere);
+    other.set_stream(now_);
+    other.start();
+    for (std::uint64_t i = 1; i <= 5; ++i) {
+        ++record_.id;
+        record_.exposure_mid_monotonic_ns += kApart_ns;
+        ASSERT_TRUE(write().written);
+        other.frame_ready();
+        ASSERT_TRUE(eventually(other.counts().frames, i));
+    }
+    EXPECT_EQ(other.counts().frames_spaced, 0u);
+}
+
 TEST_P(Sender, TestPacketsHaveTheSizeAskedFor) {
     const auto test = [&](std::uint32_t bytes) {
         GigeOrder order;
@@ -292,7 +379,7 @@ TEST_P(Sender, FreshPacketsComeBeforeThoseAskedForAgain) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatience_ms);
     for (std::uint64_t written = 0;
          sender_.counts().frames < kFrames && std::chrono::steady_clock::now() < until;) {
-        if (written < kFrames && ring_.has_room()) {
+        if (written < kFrames && ring_.waiting() < GigeRing::kMaxWaiting) {
             ++record_.id;
             written += write().written;
             sender_.frame_ready();
@@ -348,6 +435,8 @@ TEST_P(Sender, AGroupIsHeardByAllItsListeners) {
 
 INSTANTIATE_TEST_SUITE_P(Ids, Sender, testing::Bool(),
                          [](const auto& p) { return p.param ? "Extended" : "Short"; });
+
+INSTANTIATE_TEST_SUITE_P(Ids, LateFrames, testing::Values(true));
 
 }  // namespace
 }  // namespace hilcam
