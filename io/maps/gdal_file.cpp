@@ -1,5 +1,4 @@
 #include "io/maps/gdal_file.h"
-#include "io/system/plain_words.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -13,6 +12,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
