@@ -128,8 +128,8 @@ void write_bop_models(const std::filesystem::path& folder, const CampaignConfig&
         const auto file_of = [&](std::size_t object) {
             return folder / ("obj_" + case_name(object + 1) + ".ply");
         };
-        const std::string make = fmt::format("{} {} {}", mesh_file_of(objects[i]).string(),
-                                             objects[i].mesh_surface, objects[i].scale);
+        const std::string make =
+            fmt::format("{} {} {}", mesh_name_of(objects[i]), objects[i].mesh_surface, objects[i].scale);
         const auto [first, is_new] = first_of_make.try_emplace(make, i);
         if (is_new) {
             const Model model = model_of(load_whole_mesh(objects[i]));

@@ -7,10 +7,12 @@
 #include <array>
 #include <ctime>
 #include <memory>
+#include <system_error>
 #include <thread>
 
 #include "emulator/campaign/campaign_results.h"
 #include "emulator/campaign/case_record.h"
+#include "emulator/campaign/end_request.h"
 #include "emulator/campaign/picture_case.h"
 #include "emulator/campaign/program_case.h"
 #include "emulator/campaign/worker_pool.h"
@@ -57,12 +59,16 @@ class CampaignMaker {
         WorkerPool pool(workers_, campaign_.time_limit_s, [this](std::size_t slot) { return begin(slot); });
         Progress progress("campaign " + campaign_.name, static_cast<double>(numbers.size()));
         std::uint64_t told = 0;
-        pool.run(numbers, [&](std::uint64_t number, const std::string& problem, bool lost) {
+        const auto tell = [&](std::uint64_t number, std::string problem, WorkerPool::End end) {
             progress.done(static_cast<double>(++told));
-            ++outcome.made;
             // The child had no time to say so itself.
-            if (lost) keep(failed_record(number, problem));
-        });
+            if (end == WorkerPool::End::kCrashed) problem = keep(failed_record(number, problem));
+            if (problem.empty())
+                ++outcome.made;
+            else
+                add_problem(outcome, case_name(number) + ": " + problem);
+        };
+        pool.run(numbers, tell, EndRequest::has_come);
     }
 
   private:
@@ -72,6 +78,7 @@ class CampaignMaker {
     CaseDraw draw_;
     std::unique_ptr<tbb::global_control> threads_;
     std::unique_ptr<PictureCases> pictures_;
+    std::unique_ptr<EndRequest> end_;
 
     void load() { pictures_ = std::make_unique<PictureCases>(campaign_); }
 
@@ -83,6 +90,8 @@ class CampaignMaker {
         threads_ =
             std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
         if (!campaign_.run && !pictures_) load();
+        // Programs that were started are to be ended; pictures are not.
+        if (campaign_.run) end_ = std::make_unique<EndRequest>();
         return [this, slot](std::uint64_t number) { return make(number, slot); };
     }
 
@@ -95,13 +104,29 @@ class CampaignMaker {
         return record;
     }
 
-    // A disk that is full holds no record either: the case is made again next time.
-    bool keep(const CaseRecord& record) const {
+    // Returns why the record cannot be written, or an empty text.
+    std::string keep(const CaseRecord& record) const {
         try {
             write_record(folder_.path(), record);
-            return true;
-        } catch (const std::exception&) {
-            return false;
+            return {};
+        } catch (const std::exception& problem) {
+            return problem.what();
+        }
+    }
+
+    // What the machine lacks is no outcome of the case: it leaves no record, and the same command makes the case anew.
+    CaseRecord outcome_of(std::uint64_t number, std::size_t slot) {
+        try {
+            return campaign_.run ? make_program_case(campaign_, draw_.plan(number, 0), folder_.path(), slot)
+                                 : pictures_->make(number, folder_.path());
+        } catch (const std::bad_alloc&) {
+            throw DeviceError("not enough memory");
+        } catch (const DeviceError&) {
+            throw;
+        } catch (const std::system_error&) {
+            throw;
+        } catch (const std::exception& problem) {
+            return failed_record(number, problem.what());
         }
     }
 
@@ -111,23 +136,31 @@ class CampaignMaker {
         const std::string begun = wall_clock_utc();
         CaseRecord record;
         try {
-            record = campaign_.run ? make_program_case(campaign_, draw_.plan(number, 0), folder_.path(), slot)
-                                   : pictures_->make(number, folder_.path());
-        } catch (const std::bad_alloc&) {
-            record = failed_record(number, "not enough memory");
+            record = outcome_of(number, slot);
         } catch (const std::exception& problem) {
-            record = failed_record(number, plain_words(problem));
+            return plain_words(problem);
         }
         record.begun_utc = begun;
         record.host = host_name();
         record.all_s = watch.seconds();
         record.cpu_s = processor_s() - before_s;
-        if (!keep(record)) return record.reason.empty() ? "its record cannot be written" : record.reason;
-        return record.reason;
+        return keep(record);
     }
 };
 
+std::uint64_t size_of(const CaseRange& range) { return range.last - range.first + 1; }
+
 }  // namespace
+
+void add_problem(CampaignOutcome& outcome, std::string line) {
+    constexpr std::size_t kMost = 20;
+    ++outcome.problems;
+    if (outcome.failures.size() < kMost) outcome.failures.push_back(std::move(line));
+}
+
+std::string interruption_text(std::uint64_t done, std::uint64_t all) {
+    return std::to_string(done) + " of " + std::to_string(all) + " done; the same command goes on";
+}
 
 CampaignOutcome run_campaign(const CampaignConfig& campaign, const CampaignOptions& options) {
     const CaseRange all{1, static_cast<std::uint64_t>(campaign.count)};
@@ -138,10 +171,13 @@ CampaignOutcome run_campaign(const CampaignConfig& campaign, const CampaignOptio
     // What cannot be is told before a folder is made.
     const CaseDraw draw(campaign);
     load_keypoints(campaign.keypoints);
+    EndRequest end;
+    end.end_at_once("hilcam: interrupted; the same command goes on\n");
     const CampaignFolder folder(campaign, options.out, options.cases.has_value());
     CampaignOutcome outcome;
     const std::vector<std::uint64_t> missing =
         options.merge ? std::vector<std::uint64_t>() : folder.missing(range, options.retry);
+    end.end_at_once("hilcam: " + interruption_text(size_of(range) - missing.size(), size_of(range)) + "\n");
     if (!missing.empty()) {
         const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
         const std::size_t workers = std::min(options.jobs > 0 ? options.jobs : cores, missing.size());
@@ -149,8 +185,14 @@ CampaignOutcome run_campaign(const CampaignConfig& campaign, const CampaignOptio
         CampaignMaker maker(campaign, folder, workers);
         outcome.load_s = loading.seconds();
         const Stopwatch working;
+        end.end_at_once("");
         maker.run(missing, outcome);
         outcome.seconds = working.seconds();
+        outcome.before = size_of(range) - missing.size();
+        outcome.all = size_of(range);
+        outcome.interrupted = EndRequest::has_come();
+        if (outcome.interrupted) return outcome;
+        end.end_at_once("hilcam: " + interruption_text(outcome.before + outcome.made, size_of(range)) + "\n");
     }
     write_results(campaign, folder.path(), range, !options.cases, outcome);
     return outcome;

@@ -22,13 +22,21 @@ struct CampaignOptions {
 
 struct CampaignOutcome {
     std::uint64_t done = 0, failed = 0, made = 0;  // records of each outcome; cases that this call has made
-    std::uint64_t absent = 0;                      // cases without a record
+    std::uint64_t absent = 0;                      // cases without a record, or without a file of theirs
+    bool interrupted = false;                      // by a signal; results were not put together
+    std::uint64_t before = 0, all = 0;             // cases that had an outcome before; cases that are wanted
     double seconds = 0;                            // that making them took, loading apart
     double load_s = 0;
     std::vector<std::string> failures;  // "000012: why", some of them
+    std::uint64_t problems = 0;         // number of them all
 };
+// Adds a line to the failures, as long as there are few.
+void add_problem(CampaignOutcome& outcome, std::string line);
 
-// Makes what is missing. Throws InputError, DeviceError: the campaign as a whole cannot be; a case that cannot
+// "31 of 400 done; the same command goes on"
+std::string interruption_text(std::uint64_t done, std::uint64_t all);
+
+// Makes what is missing; SIGINT and SIGTERM end it. Throws InputError, DeviceError: the campaign as a whole cannot be; a case that cannot
 // be has failed, and the rest goes on.
 CampaignOutcome run_campaign(const CampaignConfig& campaign, const CampaignOptions& options);
 

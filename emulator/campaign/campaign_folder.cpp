@@ -69,13 +69,13 @@ void CampaignFolder::check_identity(const CampaignConfig& campaign) const {
 
 std::vector<std::uint64_t> CampaignFolder::missing(const CaseRange& range, bool failed) const {
     std::vector<std::uint64_t> out;
-    std::error_code error;
     for (std::uint64_t n = range.first; n <= range.last; ++n) {
-        if (!std::filesystem::exists(record_file(folder_, n), error)) {
-            out.push_back(n);
-        } else if (failed) {
-            if (const auto record = read_record(folder_, n); record && !record->done) out.push_back(n);
+        std::optional<CaseRecord> record;
+        try {
+            record = read_record(folder_, n);
+        } catch (const InputError&) {
         }
+        if (!record || (record->done ? !lost_file(folder_, *record).empty() : failed)) out.push_back(n);
     }
     return out;
 }

@@ -28,7 +28,8 @@ class CampaignFolder {
     CampaignFolder(const CampaignConfig& campaign, const std::filesystem::path& folder, bool shared);
 
     const std::filesystem::path& path() const { return folder_; }
-    // The cases of the range that have no record; with failed, those that have failed, too.
+    // The cases of the range that have no record, or one that cannot be read, or have lost a file of theirs; with
+    // failed, those that have failed, too.
     std::vector<std::uint64_t> missing(const CaseRange& range, bool failed) const;
 
   private:

@@ -10,11 +10,10 @@
 #include "emulator/scenario/app_config.h"
 #include "io/files/value_table_file.h"
 #include "io/system/durable_file.h"
+#include "render/vocabulary/check.h"
 
 namespace hilcam {
 namespace {
-
-constexpr std::size_t kMostFailures = 20;
 
 std::string figure_text(const nlohmann::ordered_json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
@@ -110,8 +109,21 @@ std::vector<std::unique_ptr<LabelWriter>> label_writers(const LabelContext& cont
 
 void count_record(const CaseRecord& record, CampaignOutcome& outcome) {
     ++(record.done ? outcome.done : outcome.failed);
-    if (!record.done && outcome.failures.size() < kMostFailures)
-        outcome.failures.push_back(record.plan.name + ": " + record.reason);
+    if (!record.done) add_problem(outcome, record.plan.name + ": " + record.reason);
+}
+
+// The record of a case that has all its files; none, and a problem where there was one, for another.
+std::optional<CaseRecord> whole_record(const std::filesystem::path& folder, std::uint64_t number,
+                                       CampaignOutcome& outcome) {
+    try {
+        std::optional<CaseRecord> record = read_record(folder, number);
+        const std::string lost = record ? lost_file(folder, *record) : std::string();
+        if (lost.empty()) return record;
+        add_problem(outcome, record->plan.name + ": " + lost);
+    } catch (const InputError& problem) {
+        add_problem(outcome, problem.what());
+    }
+    return {};
 }
 
 }  // namespace
@@ -124,7 +136,7 @@ void write_results(const CampaignConfig& campaign, const std::filesystem::path& 
     if (complete) labels = label_writers(context_of(campaign, folder));
     for (std::uint64_t n = range.first; n <= range.last; ++n) {
         progress.done(static_cast<double>(n - range.first));
-        const std::optional<CaseRecord> record = read_record(folder, n);
+        const std::optional<CaseRecord> record = whole_record(folder, n, outcome);
         if (!record) {
             ++outcome.absent;
             continue;

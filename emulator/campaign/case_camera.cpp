@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "emulator/scenario/scenario_listing.h"
+#include "io/files/value_table_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -24,6 +26,16 @@ bool depends_on_time(const ScenarioConfig& s) {
            s.spice;
 }
 
+// True for a key on which the names of the cache's files depend, but for a choice of few: an object's mesh, the air,
+// the table of light.
+bool is_kept_by(const std::string& key) {
+    const std::string of_object = below_element(key, "objects");
+    const auto begins = [](const std::string& text, const char* with) { return text.starts_with(with); };
+    return key == "objects" || begins(key, "atmosphere") || begins(key, "spectrum_edges") ||
+           begins(key, "quality.kept_") || begins(of_object, "mesh") || begins(of_object, "generate") ||
+           (begins(of_object, "joints") && !is_taken_over(key, true));
+}
+
 }  // namespace
 
 bool is_taken_over(const std::string& key, bool time_is_free) {
@@ -40,6 +52,17 @@ bool is_taken_over(const std::string& key, bool time_is_free) {
     return below_element(of_object, "joints") == "angle_deg";
 }
 
+bool draws_own_shapes(const CampaignConfig& campaign) {
+    const auto draws = [](const VaryConfig& vary) {
+        const bool comes_again = vary.has_choice || vary.draw.has_choice || vary.draw.has_value;
+        return !comes_again && is_kept_by(vary.key);
+    };
+    if (std::any_of(campaign.vary.begin(), campaign.vary.end(), draws)) return true;
+    if (campaign.table.empty()) return false;
+    const std::vector<std::string> columns = read_value_table(campaign.table).columns;
+    return std::any_of(columns.begin(), columns.end(), is_kept_by);
+}
+
 CaseCamera::CaseCamera(const CampaignConfig& campaign)
     : file_(campaign.scenario),
       number_(static_cast<std::size_t>(campaign.camera)),
@@ -49,6 +72,8 @@ CaseCamera::CaseCamera(const CampaignConfig& campaign)
         throw InputError("target: found " + std::to_string(campaign.target) + "; the scenario has " +
                          std::to_string(scenario.objects.size()) + " objects");
     time_is_free_ = !depends_on_time(scenario);
+    sheet_exposure_s_ = scenario.camera.exposure_s;
+    has_own_shapes_ = draws_own_shapes(campaign);
     load(scenario, scene_of(campaign.set));
 }
 
@@ -72,7 +97,6 @@ std::string CaseCamera::scene_of(const std::vector<std::string>& overrides) cons
 void CaseCamera::load(const ScenarioConfig& scenario, std::string scene) {
     camera_.reset();  // two scenes may not fit
     scene_ = "\n";    // no case's, should loading fail
-    sheet_.reset();
     camera_ = std::make_unique<StillCamera>(scenario);
     camera_->renderer().stop_looking_ahead();
     scenario_ = scenario;
@@ -81,17 +105,24 @@ void CaseCamera::load(const ScenarioConfig& scenario, std::string scene) {
 }
 
 void CaseCamera::take(const std::vector<std::string>& overrides) {
-    const ScenarioConfig scenario = read(overrides);
+    ScenarioConfig scenario = read(overrides);
     std::string scene = scene_of(overrides);
-    if (scene != scene_) return load(scenario, std::move(scene));
+    if (scene != scene_) {
+        scenario.is_used_once = has_own_shapes_;
+        return load(scenario, std::move(scene));
+    }
     camera_->take(scenario);
     scenario_ = scenario;
 }
 
+// A case's exposure is no part of its sheet, which is the same whatever was made before.
 const CameraSheet& CaseCamera::sheet() {
-    if (!sheet_ || sheet_gain_db_ != scenario_.camera.gain_db) {
-        sheet_ = camera_sheet(scenario_.camera);
-        sheet_gain_db_ = scenario_.camera.gain_db;
+    CameraModel camera = scenario_.camera;
+    camera.exposure_s = sheet_exposure_s_;
+    std::string listing = section_listing(section_of(camera));
+    if (!sheet_ || listing != sheet_listing_) {
+        sheet_ = camera_sheet(camera);
+        sheet_listing_ = std::move(listing);
     }
     return *sheet_;
 }

@@ -32,7 +32,8 @@ class CaseCamera {
     const ScenarioConfig& scenario() const { return scenario_; }
     std::size_t number() const { return number_; }
     std::size_t target() const { return target_; }
-    // Returns the data sheet at the gain of the case, whatever its exposure: a sheet takes long to make.
+    // Returns the data sheet of the case's camera at its gain and at the campaign's exposure, whatever its own: a sheet
+    // takes long to make, so one is kept as long as nothing else of the camera changes.
     const CameraSheet& sheet();
     // Returns how often a scene was loaded.
     int loads() const { return loads_; }
@@ -40,19 +41,23 @@ class CaseCamera {
   private:
     std::filesystem::path file_;
     std::size_t number_, target_;
-    bool time_is_free_ = false;
+    bool time_is_free_ = false, has_own_shapes_ = false;
     ScenarioConfig scenario_;
     std::string scene_;  // the overrides that what is loaded depends on
     std::unique_ptr<StillCamera> camera_;
     int loads_ = 0;
     std::optional<CameraSheet> sheet_;
-    double sheet_gain_db_ = 0;
+    std::string sheet_listing_;  // camera of that sheet
+    double sheet_exposure_s_ = 0;
 
     ScenarioConfig read(const std::vector<std::string>& overrides) const;
     std::string scene_of(const std::vector<std::string>& overrides) const;
     void load(const ScenarioConfig& scenario, std::string scene);
 };
 
+// True when cases have shapes, air or settings of light that no other case has: what is made of those is not worth
+// keeping. A size is none: what is made of a mesh serves it in all sizes.
+bool draws_own_shapes(const CampaignConfig& campaign);
 // True for a key that a loaded camera takes over. time_is_free: nothing that was loaded depends on the time.
 bool is_taken_over(const std::string& key, bool time_is_free);
 

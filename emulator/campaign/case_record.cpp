@@ -13,6 +13,8 @@ using OrderedJson = nlohmann::ordered_json;
 OrderedJson json_of_record(const CaseRecord& r) {
     OrderedJson parameters = OrderedJson::object();
     for (const auto& [key, value] : r.plan.parameters) parameters[key] = value;
+    OrderedJson files = OrderedJson::object();
+    for (const auto& [file, bytes] : r.files) files[file] = bytes;
     return {{"version", 1},
             {"case", r.plan.number},
             {"name", r.plan.name},
@@ -25,6 +27,7 @@ OrderedJson json_of_record(const CaseRecord& r) {
             {"parameters", parameters},
             {"figures", r.figures},
             {"frames", r.frames},
+            {"files", files},
             {"took",
              {{"begun_utc", r.begun_utc},
               {"host", r.host},
@@ -67,6 +70,8 @@ std::optional<CaseRecord> read_record(const std::filesystem::path& folder, std::
             r.plan.parameters.emplace_back(key, value.get<std::string>());
         r.figures = json.at("figures");
         r.frames = json.at("frames");
+        for (const auto& [name, bytes] : json.at("files").items())
+            r.files.emplace_back(name, bytes.get<std::uint64_t>());
         const OrderedJson& took = json.at("took");
         r.begun_utc = took.at("begun_utc"), r.host = took.at("host");
         r.all_s = took.at("all_s"), r.draw_s = took.at("draw_s"), r.render_s = took.at("render_s");
@@ -75,8 +80,19 @@ std::optional<CaseRecord> read_record(const std::filesystem::path& folder, std::
         return r;
     } catch (const std::exception& problem) {
         throw InputError(file.string() + ": is no record of a case (" + plain_words(problem) +
-                         "); remove it, and the case is made again");
+                         "); the case is to be made again");
     }
+}
+
+std::string lost_file(const std::filesystem::path& folder, const CaseRecord& record) {
+    for (const auto& [name, bytes] : record.files) {
+        std::error_code error;
+        const std::uintmax_t found = std::filesystem::file_size(folder / name, error);
+        if (error) return name + " is missing";
+        if (found != bytes)
+            return name + " has " + std::to_string(found) + " bytes of " + std::to_string(bytes);
+    }
+    return {};
 }
 
 }  // namespace hilcam

@@ -196,6 +196,8 @@ class PictureMaker {
         }
         const Stopwatch watch;
         files_.commit();
+        for (const std::filesystem::path& name : names_)
+            record_.files.emplace_back(name.string(), std::filesystem::file_size(folder_ / name));
         record_.files_s += 1e-3 * watch.ms();
     }
 
@@ -211,6 +213,7 @@ class PictureMaker {
     VarianceImage variance_;
     DnImage depth_;  // BOP's
     DurableFiles files_;
+    std::vector<std::filesystem::path> names_;  // names of those files in the campaign's folder
 
     void make_picture(std::int64_t index) {
         StillCamera& camera = camera_.camera();
@@ -285,7 +288,10 @@ class PictureMaker {
             {"saturated_fraction", bright.saturated_fraction}};
     }
 
-    std::filesystem::path place(const std::filesystem::path& name) { return files_.begin(folder_ / name); }
+    std::filesystem::path place(const std::filesystem::path& name) {
+        names_.push_back(name);
+        return files_.begin(folder_ / name);
+    }
 
     void write(std::int64_t index, const DnImage& frame, const FrameRecord& record) {
         const PictureNames names = picture_names(campaign_, record_.plan.number, index);

@@ -15,6 +15,8 @@
 #include <ctime>
 #include <map>
 
+#include "emulator/campaign/case_camera.h"
+#include "emulator/campaign/end_request.h"
 #include "emulator/scenario/app_config.h"
 #include "io/system/fd.h"
 #include "io/system/input_file.h"
@@ -75,6 +77,12 @@ class Started {
     // True once it has ended; its status is then known.
     bool has_ended() { return ended_ || wait_for(false); }
     void ask_to_end() const { kill(process_, SIGTERM); }
+    // True when somebody ended it, who may have had no memory left.
+    bool was_ended() const {
+        return WIFSIGNALED(status_) && (WTERMSIG(status_) == SIGKILL || WTERMSIG(status_) == SIGTERM ||
+                                        WTERMSIG(status_) == SIGINT || WTERMSIG(status_) == SIGHUP);
+    }
+    bool has_status(int status) const { return WIFEXITED(status_) && WEXITSTATUS(status_) == status; }
     // Empty: it went well.
     std::string problem(const std::string& name) const {
         if (WIFSIGNALED(status_))
@@ -168,6 +176,8 @@ class BenchRun {
                   {"seed", std::to_string(plan.seed)},
                   {"slot", std::to_string(slot + 1)},
                   {"case_folder", folder.string()}};
+        // What is made of shapes that no other case has is not kept.
+        if (draws_own_shapes(campaign)) words_["cache_mb"] = "0";
         std::vector<std::string> overrides = plan.overrides;
         for (const std::string& own : campaign.run->set) set_override(overrides, with_words(own, words_));
         const ScenarioConfig scenario = load_scenario(campaign.scenario, overrides);
@@ -187,7 +197,7 @@ class BenchRun {
             arguments_.insert(arguments_.end(), {"--duration", exact_number(campaign.run->duration_s)});
     }
 
-    // Throws what went wrong.
+    // Throws what went wrong: CaseFailure, or DeviceError where the machine was at fault.
     void carry_out() {
         Started camera(arguments_, folder_ / "hilcam.log", words_);
         await_camera(camera);
@@ -208,8 +218,9 @@ class BenchRun {
 
     // The parent ends the child at that limit, too; this one knows what was late.
     void wait_within_limit(const char* what) const {
+        if (EndRequest::has_come()) throw DeviceError("interrupted");
         if (watch_.seconds() > 0.95 * campaign_.time_limit_s)
-            throw DeviceError(std::string(what) + " took longer than " +
+            throw CaseFailure(std::string(what) + " took longer than " +
                               std::to_string(static_cast<long>(campaign_.time_limit_s)) +
                               " s (time_limit_s)");
         pause_shortly();
@@ -222,9 +233,24 @@ class BenchRun {
         if (camera.has_ended()) require_good_end(camera);
     }
 
+    // A camera that fails at run time (status 1) lacks something of the machine: a port, a device, room on the disk.
     void require_good_end(const Started& camera) const {
-        if (const std::string problem = camera.problem("hilcam run"); !problem.empty())
-            throw DeviceError(problem + last_error(folder_ / "hilcam.log"));
+        constexpr int kFailedAtRunTime = 1;
+        require_good_end(camera, "hilcam run", "hilcam.log", camera.has_status(kFailedAtRunTime));
+    }
+    void require_good_end(const Started& one, const std::string& name, const char* log,
+                          bool is_machines) const {
+        std::string problem = one.problem(name);
+        if (problem.empty()) return;
+        problem += last_error(folder_ / log);
+        if (is_machines || one.was_ended() || is_disk_full()) throw DeviceError(problem);
+        throw CaseFailure(problem);
+    }
+    bool is_disk_full() const {
+        constexpr std::uintmax_t kLeast_bytes = 1 << 16;
+        std::error_code error;
+        const std::filesystem::space_info room = std::filesystem::space(folder_, error);
+        return !error && room.available < kLeast_bytes;
     }
 
     void run_program(Started& camera) {
@@ -232,8 +258,7 @@ class BenchRun {
         for (std::string& argument : arguments) argument = with_words(argument, words_);
         Started program(arguments, folder_ / "program.log", words_);
         while (!program.has_ended()) wait_within_limit("the program");
-        if (const std::string problem = program.problem("the program"); !problem.empty())
-            throw DeviceError(problem + last_error(folder_ / "program.log"));
+        require_good_end(program, "the program", "program.log", false);
         // The camera has nobody left to wait for.
         if (!camera.has_ended()) camera.ask_to_end();
         while (!camera.has_ended()) wait_within_limit("the end of the camera");

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "io/system/durable_file.h"
+#include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -47,9 +48,30 @@ std::string command_of(const SlurmPlan& plan) {
     return out;
 }
 
+// A file's name as sbatch takes it in a line of a script: it splits words and knows quotes as a shell does, and has
+// patterns with % (sbatch(1), "filename pattern"). log: may have such patterns.
+std::string log_word(const SlurmPlan& plan, const std::string& log) {
+    std::string folder;
+    for (const char c : (plan.folder / "slurm").string())
+        folder += c == '%' ? std::string("%%") : std::string(1, c);
+    return shell_word(folder + "/" + log);
+}
+
 std::string heading(const SlurmPlan& plan, const std::string& name, const std::string& log) {
-    return "#!/bin/sh\n#SBATCH --job-name=" + name +
-           "\n#SBATCH --output=" + (plan.folder / "slurm" / log).string() + "\n";
+    return "#!/bin/sh\n#SBATCH --job-name=" + name + "\n#SBATCH --output=" + log_word(plan, log) + "\n";
+}
+
+// A line feed would end the line of the script that names the folder. A backslash in a log's name turns its patterns
+// off for good.
+void require_plain_folder(const std::filesystem::path& folder) {
+    const std::string name = folder.string();
+    const bool bad = std::any_of(name.begin(), name.end(), [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == '\\';
+    });
+    if (bad)
+        throw InputError("--out " + in_quotes(name) +
+                         ": accepted with --slurm: a folder whose name has no control characters and no "
+                         "backslash");
 }
 
 // Runs a command without a shell's help for its words; gives what it prints.
@@ -106,6 +128,7 @@ std::string merge_script(const SlurmPlan& plan) {
 }
 
 std::vector<std::string> submit_campaign(const SlurmPlan& plan, bool submit) {
+    require_plain_folder(plan.folder);
     const std::filesystem::path array = plan.folder / "slurm" / "array.sh",
                                 merge = plan.folder / "slurm" / "merge.sh";
     write_durably(array, array_script(plan));

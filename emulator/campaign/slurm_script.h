@@ -29,7 +29,8 @@ std::string array_script(const SlurmPlan& plan);
 std::string merge_script(const SlurmPlan& plan);
 
 // Writes slurm/array.sh and slurm/merge.sh into the campaign's folder and hands them to sbatch, where there is
-// one. Returns what it did, a line each. DeviceError when a file cannot be written, or sbatch refuses.
+// one. Returns what it did, a line each. InputError for a folder whose name a script cannot have, DeviceError when
+// a file cannot be written, or sbatch refuses.
 std::vector<std::string> submit_campaign(const SlurmPlan& plan, bool submit);
 
 }  // namespace hilcam

@@ -12,6 +12,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
+#include <utility>
 
 #include "emulator/progress/progress.h"
 #include "io/system/monotonic.h"
@@ -25,12 +27,26 @@ constexpr std::size_t kLongestProblem = 4000;
 
 double now_s() { return 1e-9 * static_cast<double>(monotonic_ns()); }
 
+// A signal that somebody sends, not one that a mistake of the piece raises.
+bool is_from_outside(int status) {
+    if (!WIFSIGNALED(status)) return false;
+    const int signal = WTERMSIG(status);
+    return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
+}
+
 std::string end_of_child(int status, bool is_late, double limit_s) {
     if (is_late)
         return "took longer than " + std::to_string(static_cast<long>(limit_s)) + " s (time_limit_s)";
     if (!WIFSIGNALED(status)) return "its process ended with status " + std::to_string(WEXITSTATUS(status));
     const int signal = WTERMSIG(status);
+    if (is_from_outside(status))
+        return "its process was ended: signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
     return "its process crashed: signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+}
+
+void pause_ms(long ms) {
+    const timespec pause{0, ms * 1'000'000};
+    nanosleep(&pause, nullptr);
 }
 
 }  // namespace
@@ -117,7 +133,7 @@ void WorkerPool::hear(std::size_t slot, const Done& done) {
     const std::uint64_t number = std::exchange(worker.number, 0);
     if (size > 0) {
         if (number != 0)
-            done(number, std::string(text.data() + 1, static_cast<std::size_t>(size) - 1), false);
+            done(number, std::string(text.data() + 1, static_cast<std::size_t>(size) - 1), End::kCameBack);
         return;
     }
     int status = 0;
@@ -125,7 +141,10 @@ void WorkerPool::hear(std::size_t slot, const Done& done) {
     }
     worker.process = -1;
     worker.line.reset();
-    if (number != 0) done(number, end_of_child(status, worker.is_late, time_limit_s_), true);
+    if (number == 0) return;
+    const bool was_ended = is_from_outside(status) && !worker.is_late;
+    done(number, end_of_child(status, worker.is_late, time_limit_s_),
+         was_ended ? End::kWasEnded : End::kCrashed);
 }
 
 void WorkerPool::end_late_ones() {
@@ -137,9 +156,45 @@ void WorkerPool::end_late_ones() {
         }
 }
 
-void WorkerPool::run(const std::vector<std::uint64_t>& numbers, const Done& done) {
+// Children have a moment to end what they have started themselves.
+void WorkerPool::end_all(const Done& done) {
+    constexpr int kPatience_ms = 3000, kLook_ms = 10;
+    for (const Worker& worker : workers_)
+        if (worker.process > 0) kill(worker.process, SIGTERM);
+    for (int waited_ms = 0; waited_ms < kPatience_ms; waited_ms += kLook_ms) {
+        bool all_ended = true;
+        for (Worker& worker : workers_) {
+            if (worker.process > 0 && waitpid(worker.process, nullptr, WNOHANG) == worker.process)
+                worker.process = -1;
+            all_ended = all_ended && worker.process <= 0;
+        }
+        if (all_ended) break;
+        pause_ms(kLook_ms);
+    }
+    for (Worker& worker : workers_) {
+        hear_the_last(worker, done);
+        if (worker.process > 0) kill(worker.process, SIGKILL);
+        end(worker);
+    }
+}
+
+// A piece that was done before its child ended is done.
+void WorkerPool::hear_the_last(Worker& worker, const Done& done) {
+    std::array<char, kLongestProblem + 1> text{};
+    while (worker.number != 0 && worker.line) {
+        const ssize_t size = recv(worker.line.get(), text.data(), text.size(), MSG_DONTWAIT);
+        if (size <= 0) return;
+        if (!std::exchange(worker.is_ready, true)) continue;
+        done(std::exchange(worker.number, 0),
+             std::string(text.data() + 1, static_cast<std::size_t>(size) - 1), End::kCameBack);
+    }
+}
+
+void WorkerPool::run(const std::vector<std::uint64_t>& numbers, const Done& done,
+                     const std::function<bool()>& stops) {
     std::size_t next = 0;
     while (true) {
+        if (stops()) return end_all(done);
         std::vector<pollfd> lines;
         std::vector<std::size_t> slots;
         for (std::size_t slot = 0; slot < workers_.size(); ++slot) {

@@ -18,21 +18,27 @@ namespace hilcam {
 
 class WorkerPool {
   public:
-    // Does one piece; returns an empty text, or why it failed. It runs in the child.
+    // Does one piece; returns an empty text, or why nothing came of it. It runs in the child.
     using Work = std::function<std::string(std::uint64_t number)>;
     // Is called in each child before its first piece; slot: which child, from 0.
     using Begin = std::function<Work(std::size_t slot)>;
-    // Told of each piece, in the parent. lost: the child did not come back from it.
-    using Done = std::function<void(std::uint64_t number, const std::string& problem, bool lost)>;
+    // The end of a piece in its child: the child came back; it crashed or took too long, as it would again; or somebody
+    // ended it, who may have had no memory left (SIGKILL, SIGTERM, SIGINT, SIGHUP).
+    enum class End { kCameBack, kCrashed, kWasEnded };
+    // Told of each piece, in the parent.
+    using Done = std::function<void(std::uint64_t number, const std::string& problem, End end)>;
 
     WorkerPool(std::size_t workers, double time_limit_s, Begin begin);
     ~WorkerPool();
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    // Has all pieces done, in about this order. DeviceError when no child can be made, InputError with what
-    // begin threw in a child. Owner thread.
-    void run(const std::vector<std::uint64_t>& numbers, const Done& done);
+    // Has all pieces done, in about this order. stops: asked often; once it says so, children are ended, and what they
+    // have not done is told to nobody. DeviceError when no child can be made, InputError with what begin threw in
+    // a child. Owner thread.
+    void run(
+        const std::vector<std::uint64_t>& numbers, const Done& done,
+        const std::function<bool()>& stops = [] { return false; });
 
   private:
     struct Worker {
@@ -53,6 +59,8 @@ class WorkerPool {
     [[noreturn]] void be_child(std::size_t slot, int line, pid_t parent);
     void hear(std::size_t slot, const Done& done);
     void end_late_ones();
+    void end_all(const Done& done);
+    void hear_the_last(Worker& worker, const Done& done);
 };
 
 }  // namespace hilcam

@@ -231,15 +231,15 @@ void look_at_time(const MachineFacts& m, Findings& out) {
                  : fmt::format("{}", fmt::join(m.pps, ", ")));
 }
 
-constexpr double kLargeCache_bytes = 10e9;
-
 void look_at_cache(const MachineFacts& m, Findings& out) {
-    const std::string size = fmt::format("{}: {} files, {:.0f} MB", m.cache, m.cache_files,
-                                         static_cast<double>(m.cache_bytes) / kMegabyte);
-    if (static_cast<double>(m.cache_bytes) > kLargeCache_bytes)
-        out.note("cache", size, "hilcam doctor --clear-cache removes it; what is needed again is made again");
-    else
-        out.good("cache", size);
+    if (m.cache.empty())
+        return out.note("cache", "no folder: what takes long to make is made at each start",
+                        "a folder in HILCAM_CACHE, or HOME");
+    if (!m.cache_fault.empty())
+        return out.problem("cache", m.cache_fault, "each command that uses the cache refuses it");
+    out.good("cache", fmt::format("{}: {} files, {:.0f} MB of at most {:.0f} MB (HILCAM_CACHE_MB)", m.cache,
+                                  m.cache_files, static_cast<double>(m.cache_bytes) / kMegabyte,
+                                  static_cast<double>(m.cache_bound_bytes) / kMegabyte));
 }
 
 const char* word_of(Level level) {

@@ -80,10 +80,11 @@ struct MachineFacts {
     std::vector<std::string> controllers;  // for being a device
     bool configfs = false;
     int usb_devices = 0, usb_openable = 0;
-    // Remains of earlier runs (io/files/mesh_cache.h).
-    std::string cache;
+    // Remains of earlier runs (io/cache/cache.h).
+    std::string cache;        // empty: there is no folder for them
+    std::string cache_fault;  // why it cannot be trusted; empty: it can
     std::size_t cache_files = 0;
-    std::uint64_t cache_bytes = 0;
+    std::uint64_t cache_bytes = 0, cache_bound_bytes = 0;
     // Time.
     std::vector<std::string> pps;
     bool clock_synchronised = false;

@@ -15,7 +15,8 @@
 #include <fstream>
 #include <thread>
 
-#include "io/files/mesh_cache.h"
+#include "io/cache/cache.h"
+#include "io/cache/cache_room.h"
 #include "io/system/fd.h"
 #include "io/system/net_interface.h"
 #include "io/uvc/uvc_gadget.h"
@@ -163,6 +164,20 @@ void look_at_time(MachineFacts& m) {
     m.tai_offset_s = state.tai;
 }
 
+void look_at_cache_folder(MachineFacts& m) {
+    const fs::path folder = cache_folder();
+    m.cache = folder.string();
+    m.cache_fault = mistrust_of(folder);
+    const CacheSize size = cache_size(folder);
+    m.cache_files = size.files;
+    m.cache_bytes = size.bytes;
+    try {
+        m.cache_bound_bytes = cache_bound_bytes();
+    } catch (const InputError& problem) {
+        m.cache_fault = problem.what();
+    }
+}
+
 }  // namespace
 
 MachineFacts look_at_machine(const BenchNeeds& needs) {
@@ -172,10 +187,7 @@ MachineFacts look_at_machine(const BenchNeeds& needs) {
     look_at_video(facts);
     look_at_usb(facts);
     look_at_time(facts);
-    const CacheSize cache = cache_size();
-    facts.cache = cache_folder().string();
-    facts.cache_files = cache.files;
-    facts.cache_bytes = cache.bytes;
+    look_at_cache_folder(facts);
     return facts;
 }
 

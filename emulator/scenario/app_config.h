@@ -60,7 +60,8 @@ struct ScenarioConfig {
     std::string time_utc = "2026-01-01T00:00:00Z";
     ClockConfig clock;
     std::int64_t seed = 1;
-    bool has_seed = false;  // stated, or settled by settle_seed()
+    bool has_seed = false;      // stated, or settled by settle_seed()
+    bool is_used_once = false;  // no key: what loading makes of it is not kept in the cache
     std::int64_t threads = 0;
     OriginConfig origin;              // has the key `earth_orientation`, too
     std::optional<PlaceConfig> site;  // where local axes stand (site.h)

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "emulator/progress/progress.h"
-#include "io/files/mesh_cache.h"
-#include "io/files/transfer_cache.h"
+#include "emulator/progress/user_cache.h"
+#include "io/cache/transfer_cache.h"
 #include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
@@ -27,24 +27,27 @@ double area_of(const Mesh& mesh) {
 }
 
 // Makes an order without the mesh, which is copied only for who makes the table later.
-TableOrder order_of(const SceneObject& object, std::size_t nodes, const ScenarioConfig& scenario) {
+TableOrder order_of(const SceneObject& object, float scale, std::size_t nodes,
+                    const ScenarioConfig& scenario) {
     TableOrder order;
     order.name = object.name;
+    order.scale = scale;
     for (const Material& material : object.materials) order.glass.push_back(material.transmits());
     order.settings = {static_cast<int>(scenario.quality.render.kept_directions), nodes,
                       !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
     return order;
 }
 
-void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder order, LightLoading& light) {
+void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder order, const Cache& cache,
+                LightLoading& light) {
     SceneObject& object = objects[i];
-    object.transfer = find_transfer(object.mesh, order.glass, order.settings, cache_folder());
+    const TableSource source{object.mesh, order.glass, order.settings, order.scale};
+    object.transfer = find_transfer(source, cache);
     if (object.transfer) {
         ++light.found;
     } else if (!light.later) {
         Progress progress("light kept on " + object.name, 1);
-        object.transfer = cached_transfer(object.mesh, order.glass, order.settings, cache_folder(),
-                                          [&progress](double share) { progress.done(share); });
+        object.transfer = cached_transfer(source, cache, [&progress](double share) { progress.done(share); });
         ++light.made;
     } else {
         order.mesh = object.mesh;
@@ -54,30 +57,39 @@ void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder ord
     }
 }
 
+// A size to a power of two: objects that become somewhat larger or smaller keep their share of places, and so their
+// table; a scene that grows as a whole does exactly.
+double rough(float scale) { return std::exp2(std::round(std::log2(static_cast<double>(scale)))); }
+
 }  // namespace
 
 // Objects share the places that light is kept at by their areas; each has some.
-void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& light) {
+void load_tables(Scene& scene, const std::vector<float>& scales, const ScenarioConfig& scenario,
+                 LightLoading& light) {
     if (!wants_kept_light(scenario)) return;
     constexpr double kMin = 1000;
     const Stopwatch watch;
     std::vector<SceneObject>& objects = scene.objects;
     std::vector<double> area_m2;
     double all_m2 = 0;
-    for (const SceneObject& object : objects)
-        all_m2 += area_m2.emplace_back(object.like ? area_m2[*object.like] : area_of(object.mesh));
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        all_m2 += area_m2.emplace_back(objects[i].like
+                                           ? area_m2[*objects[i].like]
+                                           : rough(scales[i]) * rough(scales[i]) * area_of(objects[i].mesh));
+    const Cache cache = user_cache(!scenario.is_used_once);
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (objects[i].like || !(area_m2[i] > 0)) continue;
         const auto most = static_cast<double>(scenario.quality.render.kept_nodes);
         const double nodes = std::max(std::min(kMin, most), most * area_m2[i] / all_m2);
-        load_table(objects, i, order_of(objects[i], static_cast<std::size_t>(nodes), scenario), light);
+        load_table(objects, i, order_of(objects[i], scales[i], static_cast<std::size_t>(nodes), scenario),
+                   cache, light);
     }
     scene.light_later = !light.orders.empty();
     light.seconds = watch.seconds();
 }
 
 std::shared_ptr<const TransferTable> make_table(const TableOrder& order, const WorkWatcher& watcher) {
-    return cached_transfer(order.mesh, order.glass, order.settings, cache_folder(), watcher);
+    return cached_transfer({order.mesh, order.glass, order.settings, order.scale}, user_cache(), watcher);
 }
 
 }  // namespace hilcam

@@ -15,8 +15,9 @@ namespace hilcam {
 struct TableOrder {
     std::string name;                  // name of the object, for people
     std::vector<std::size_t> objects;  // objects of the scene that have it: one and those that are like it
-    Mesh mesh;
-    std::vector<std::uint8_t> glass;  // by surface of the mesh
+    Mesh mesh;                         // mesh as its file has it
+    float scale = 1;                   // the objects are so many times as large
+    std::vector<std::uint8_t> glass;   // by surface of the mesh
     TransferSettings settings;
 };
 
@@ -29,8 +30,10 @@ struct LightLoading {
 };
 
 // Gives each object its table, where the scenario's qualities ask for any; objects that are like another have
-// that one's. Throws InputError when memory runs out.
-void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& light);
+// that one's. The scene's meshes are as large as their files have them; scales: by object, brings them to size, as it
+// does their tables. Throws InputError when memory runs out.
+void load_tables(Scene& scene, const std::vector<float>& scales, const ScenarioConfig& scenario,
+                 LightLoading& light);
 // Makes what was ordered, or finds it where another camera had the same one made. Throws InputError, and what
 // the watcher throws. One thread, on oneTBB.
 std::shared_ptr<const TransferTable> make_table(const TableOrder& order, const WorkWatcher& watcher);

@@ -39,9 +39,10 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
                                         std::vector<LoadedObject>* found = nullptr,
                                         LightLoading* light = nullptr);
 
-// Returns the file of an object's mesh, which is made if need be. Throws InputError or DeviceError.
-std::filesystem::path mesh_file_of(const ObjectConfig& object);
-// Loads an object's mesh with all its parts, unturned, in the object's axes and at its scale. Throws as above.
+// Returns a name of the file of an object's mesh: objects of one name have one mesh. Throws InputError.
+std::string mesh_name_of(const ObjectConfig& object);
+// Loads an object's mesh with all its parts, unturned, in the object's axes and at its scale; its file is made if
+// need be. Throws InputError or DeviceError.
 Mesh load_whole_mesh(const ObjectConfig& object);
 // Finds the body whose ground the scenario's terrain.globe is. Throws InputError where there is no such body.
 MappedBody ground_body(const ScenarioConfig& scenario);

@@ -7,12 +7,12 @@
 
 #include "emulator/bench/bench_report.h"
 #include "emulator/bench/soak_report.h"
+#include "emulator/progress/user_cache.h"
 #include "emulator/run/report.h"
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "emulator/tradeoff/error_bench.h"
-#include "io/files/mesh_cache.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -48,7 +48,7 @@ int carry_out(const BenchArguments& o) {
     const auto threads = limit_threads(scenario);
     if (o.error) {
         const ErrorBench result =
-            error_bench({o.config.file, o.config.overrides}, o.errors, cache_folder(), log_info);
+            error_bench({o.config.file, o.config.overrides}, o.errors, user_cache(), log_info);
         print_lines(error_bench_text(result), error_bench_json(result), o.json);
     } else if (o.soak.seconds > 0) {
         return soak_and_write(o, scenario);

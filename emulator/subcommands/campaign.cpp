@@ -16,6 +16,8 @@
 namespace hilcam {
 namespace {
 
+constexpr int kInterrupted = 130;  // status as shells give it: 128 + SIGINT
+
 struct CampaignArguments {
     ConfigArguments config;
     CampaignOptions options;
@@ -37,13 +39,17 @@ CaseRange parsed_cases(const std::string& text) {
 
 void say_outcome(const CampaignOutcome& outcome, const std::filesystem::path& folder) {
     for (const std::string& failure : outcome.failures) spdlog::error("{}", failure);
-    if (outcome.failed > outcome.failures.size())
-        spdlog::error("... and {} more; index.csv has all", outcome.failed - outcome.failures.size());
+    if (outcome.problems > outcome.failures.size())
+        spdlog::error("... and {} more; index.csv has those that have failed",
+                      outcome.problems - outcome.failures.size());
     if (outcome.made > 0)
         spdlog::info("{} cases made in {:.1f} s, {:.2f} a second, after {:.1f} s of loading", outcome.made,
                      outcome.seconds, static_cast<double>(outcome.made) / outcome.seconds, outcome.load_s);
     spdlog::info("{} done, {} failed{}; {}", outcome.done, outcome.failed,
-                 outcome.absent > 0 ? fmt::format(", {} without a record", outcome.absent) : "",
+                 outcome.absent > 0
+                     ? fmt::format(", {} not made, or without a file of theirs: the same command makes them",
+                                   outcome.absent)
+                     : "",
                  folder.string());
 }
 
@@ -55,7 +61,8 @@ double seconds_of_case(const CampaignConfig& campaign, const CampaignOptions& op
         CampaignOptions first = options;
         first.cases = CaseRange{1, 1};
         first.jobs = 1;
-        run_campaign(campaign, first);
+        if (run_campaign(campaign, first).interrupted)
+            throw DeviceError("interrupted; nothing was submitted");
     }
     double sum_s = 0;
     int count = 0;
@@ -92,6 +99,10 @@ int carry_out(const CampaignArguments& o) {
     if (!o.cases.empty()) options.cases = parsed_cases(o.cases);
     if (o.only > 0) options.cases = CaseRange{o.only, o.only};
     const CampaignOutcome outcome = run_campaign(campaign, options);
+    if (outcome.interrupted) {
+        spdlog::info("{}", interruption_text(outcome.before + outcome.made, outcome.all));
+        return kInterrupted;
+    }
     say_outcome(outcome, options.out);
     if (!options.cases) {
         try {

@@ -7,26 +7,16 @@
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
-#include "io/files/mesh_cache.h"
-#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
 
 struct DoctorArguments {
     ConfigArguments config;  // no file: nothing is required
-    bool json = false, clear_cache = false;
+    bool json = false;
 };
 
-int clear_and_say() {
-    const CacheSize gone = clear_cache();
-    fmt::print("{}: {} files removed, {:.0f} MB\n", harmless(cache_folder().string()), gone.files,
-               static_cast<double>(gone.bytes) * 1e-6);
-    return 0;
-}
-
 int carry_out(const DoctorArguments& o) {
-    if (o.clear_cache) return clear_and_say();
     const BenchNeeds needs = o.config.file.empty() ? BenchNeeds{} : needs_of(load_and_warn(o.config));
     const std::vector<Finding> findings = diagnose(needs, look_at_machine(needs));
     fmt::print("{}", o.json ? findings_json(findings) : findings_text(findings));
@@ -46,9 +36,6 @@ void add_doctor_command(CLI::App& app, Action& action) {
         ->transform(name_of_shipped());
     add_overrides(doctor, o->config.overrides, "the scenario");
     doctor->add_flag("--json", o->json, "machine-readable");
-    doctor->add_flag(
-        "--clear-cache", o->clear_cache,
-        "remove what earlier runs have kept ($HILCAM_CACHE, else ~/.cache/hilcam), and do nothing else");
     set_examples(doctor, {"hilcam doctor", "hilcam doctor geo_inspection"});
     when_named(doctor, action, o, carry_out);
 }

@@ -26,6 +26,7 @@ void add_tradeoff_command(CLI::App& app, Action& action);
 void add_campaign_command(CLI::App& app, Action& action);
 void add_characterise_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
+void add_cache_command(CLI::App& app, Action& action);
 void add_manual_command(CLI::App& app, Action& action);
 // Adds `make-pages`, which is hidden: by it the build makes manual pages and the completion out of the
 // command line itself.

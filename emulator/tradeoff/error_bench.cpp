@@ -63,30 +63,31 @@ ViewErrors measure(StillCamera& camera, const PictureJudge& judge, std::uint64_t
 // not.
 class References {
   public:
-    References(const ScenarioConfig& scenario, const ReferenceLimits& limits, std::filesystem::path folder,
+    References(const ScenarioConfig& scenario, const ReferenceLimits& limits, const Cache& cache,
                const Log& log)
-        : scenario_(scenario), limits_(limits), folder_(std::move(folder)), log_(log) {}
+        : scenario_(scenario), limits_(limits), cache_(cache), log_(log) {}
 
     // camera_world: where the view has the camera.
     ReferencePicture of(const View& view, const Pose& camera_world) {
         const std::string key = reference_key(scenario_, view.body.value_or(camera_world), limits_);
-        const std::filesystem::path file = reference_file(folder_, key);
-        if (std::optional<ReferencePicture> kept = kept_reference(file, key)) {
+        const std::filesystem::path file = cache_.folder() / reference_name(key);
+        if (std::optional<ReferencePicture> kept = kept_reference(cache_, key)) {
             log_(fmt::format("reference of {} frames from {}", kept->frames, file.string()));
             return std::move(*kept);
         }
         if (!camera_) camera_.emplace(scenario_);
         if (view.body) camera_->look_from(*view.body);
         ReferencePicture made = render_reference(*camera_, scenario_, limits_, log_);
-        keep_reference(file, key, made);
-        log_(fmt::format("took {:.0f} s; kept as {}", made.seconds, file.string()));
+        keep_reference(cache_, key, made);
+        log_(fmt::format("took {:.0f} s{}", made.seconds,
+                         cache_.writes() ? "; kept as " + file.string() : std::string()));
         return made;
     }
 
   private:
     const ScenarioConfig& scenario_;
     ReferenceLimits limits_;
-    std::filesystem::path folder_;
+    const Cache& cache_;
     const Log& log_;
     std::optional<StillCamera> camera_;
 };
@@ -142,8 +143,8 @@ class AllViews {
 
 }  // namespace
 
-ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
-                       const std::filesystem::path& cache_folder, const Log& log) {
+ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& options, const Cache& cache,
+                       const Log& log) {
     std::vector<std::string> wait;
     if (source.load().terrain) wait.emplace_back("terrain.wait=true");
     const ScenarioConfig scenario = source.load(wait);
@@ -151,7 +152,7 @@ ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& op
         joined_overrides(reference_overrides(scenario), options.reference_set);
     const ScenarioConfig best = source.load(joined_overrides(overrides, wait));
 
-    References references(best, options.reference, cache_folder, log);
+    References references(best, options.reference, cache, log);
     StillCamera camera(scenario);
     AllViews all;
     ErrorBench out;

@@ -15,6 +15,7 @@
 
 #include "emulator/tradeoff/picture_judge.h"
 #include "emulator/tradeoff/tradeoff_knobs.h"
+#include "io/cache/cache.h"
 
 namespace hilcam {
 
@@ -50,8 +51,7 @@ struct ErrorBench {
 };
 
 // Throws InputError, DeviceError. Owner thread.
-ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
-                       const std::filesystem::path& cache_folder,
+ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& options, const Cache& cache,
                        const std::function<void(const std::string&)>& log);
 // Null in it: there is no such thing in the picture.
 nlohmann::json error_bench_json(const ErrorBench& result);

@@ -1,16 +1,13 @@
 #include "emulator/tradeoff/reference_cache.h"
 
 #include <spdlog/fmt/fmt.h>
-#include <unistd.h>
 
 #include <array>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <type_traits>
 
 #include "emulator/scenario/scenario_listing.h"
-#include "io/system/crc32.h"
 #include "render/vocabulary/fnv.h"
 
 namespace hilcam {
@@ -22,11 +19,11 @@ std::uint64_t hash_of(const std::string& text) {
     return hash.value();
 }
 
-// No holes between the members: all bytes are checked.
+// No holes between the members.
 struct Header {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'R', 'P'};
     std::uint32_t version = kReferenceVersion;
-    std::uint32_t crc = 0;  // check of the header, in which it is 0, and of both pictures
+    std::uint32_t unused = 0;
     std::uint64_t hash = 0;
     std::int32_t width = 0, height = 0;
     std::int64_t frames = 0;
@@ -35,30 +32,28 @@ struct Header {
 };
 static_assert(sizeof(Header) == 80 && std::is_trivially_copyable_v<Header>);
 
-std::span<const std::uint8_t> bytes_of(const void* data, std::size_t size) {
-    return {static_cast<const std::uint8_t*>(data), size};
-}
-std::span<const std::uint8_t> bytes_of(const ElectronImage& image) {
-    return bytes_of(image.data(), image.pixels() * sizeof(float));
-}
-
-std::uint32_t crc_of(Header header, const ElectronImage& mean, const ElectronImage& dark) {
-    header.crc = 0;
-    return crc32_of(bytes_of(dark), crc32_of(bytes_of(mean), crc32_of(bytes_of(&header, sizeof header))));
-}
-
-bool read(std::ifstream& in, void* to, std::size_t size) {
-    return static_cast<bool>(in.read(static_cast<char*>(to), static_cast<std::streamsize>(size)));
-}
-
-// The image is as large as the file says, which must be so long.
-bool has_pictures(const Header& header, std::uintmax_t file_size) {
+// A size that no file can have allocates nothing.
+bool is_size(const Header& header) {
     constexpr std::int32_t kMax_px = 1 << 16;
-    if (header.width < 1 || header.height < 1 || header.width > kMax_px || header.height > kMax_px)
+    return header.width >= 1 && header.height >= 1 && header.width <= kMax_px && header.height <= kMax_px;
+}
+
+bool read_picture(CacheReader& in, const std::string& key, std::optional<ReferencePicture>& picture) {
+    const Header expected;
+    Header header;
+    in(header);
+    if (!in.good() || header.magic != expected.magic || header.version != expected.version ||
+        header.hash != hash_of(key) || !is_size(header) ||
+        in.left() != 2 * sizeof(float) * static_cast<std::uint64_t>(header.width) *
+                         static_cast<std::uint64_t>(header.height))
         return false;
-    const auto pixels =
-        static_cast<std::uintmax_t>(header.width) * static_cast<std::uintmax_t>(header.height);
-    return file_size == sizeof header + 2 * pixels * sizeof(float);
+    picture = {ElectronImage(header.width, header.height),
+               ElectronImage(header.width, header.height),
+               {header.p99, header.rms, header.within_half_fraction, header.lit_px},
+               static_cast<int>(header.frames),
+               header.seconds};
+    for (ElectronImage* image : {&picture->mean, &picture->dark}) in.list(image->data(), image->pixels());
+    return in.good();
 }
 
 }  // namespace
@@ -79,33 +74,18 @@ std::string reference_key(const ScenarioConfig& reference, const Pose& body, con
     return key;
 }
 
-std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& key) {
-    return folder / ("reference_" + std::to_string(hash_of(key)) + ".bin");
+std::string reference_name(const std::string& key) {
+    return "reference_" + std::to_string(hash_of(key)) + ".bin";
 }
 
-std::optional<ReferencePicture> kept_reference(const std::filesystem::path& file, const std::string& key) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    std::ifstream in(file, std::ios::binary);
-    const Header expected;
-    Header header;
-    if (error || !read(in, &header, sizeof header) || header.magic != expected.magic ||
-        header.version != expected.version || header.hash != hash_of(key) || !has_pictures(header, size))
-        return std::nullopt;
-    ReferencePicture out{ElectronImage(header.width, header.height),
-                         ElectronImage(header.width, header.height),
-                         {header.p99, header.rms, header.within_half_fraction, header.lit_px},
-                         static_cast<int>(header.frames),
-                         header.seconds};
-    for (ElectronImage* image : {&out.mean, &out.dark})
-        if (!read(in, image->data(), image->pixels() * sizeof(float))) return std::nullopt;
-    if (header.crc != crc_of(header, out.mean, out.dark)) return std::nullopt;
-    return out;
+std::optional<ReferencePicture> kept_reference(const Cache& cache, const std::string& key) {
+    std::optional<ReferencePicture> out;
+    if (cache.read(reference_name(key), [&](CacheReader& in) { return read_picture(in, key, out); }))
+        return out;
+    return std::nullopt;
 }
 
-// Writes beside it first, then renames: two programs may do this at once.
-void keep_reference(const std::filesystem::path& file, const std::string& key, const ReferencePicture& p) {
+void keep_reference(const Cache& cache, const std::string& key, const ReferencePicture& p) {
     Header header;
     header.hash = hash_of(key);
     header.width = p.mean.width(), header.height = p.mean.height();
@@ -113,22 +93,10 @@ void keep_reference(const std::filesystem::path& file, const std::string& key, c
     header.p99 = p.standard_error.p99, header.rms = p.standard_error.rms;
     header.within_half_fraction = p.standard_error.within_half_fraction;
     header.lit_px = p.standard_error.lit_px;
-    header.crc = crc_of(header, p.mean, p.dark);
-
-    std::error_code ignored;
-    std::filesystem::create_directories(file.parent_path(), ignored);
-    const std::filesystem::path beside = file.string() + "." + std::to_string(::getpid());
-    std::ofstream out(beside, std::ios::binary);
-    const auto write = [&out](std::span<const std::uint8_t> bytes) {
-        out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    };
-    write(bytes_of(&header, sizeof header));
-    write(bytes_of(p.mean));
-    write(bytes_of(p.dark));
-    if (out.flush())
-        std::filesystem::rename(beside, file, ignored);
-    else
-        std::filesystem::remove(beside, ignored);
+    cache.write(reference_name(key), [&](CacheWriter& out) {
+        out(header);
+        for (const ElectronImage* image : {&p.mean, &p.dark}) out.list(image->data(), image->pixels());
+    });
 }
 
 }  // namespace hilcam

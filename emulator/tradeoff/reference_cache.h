@@ -1,11 +1,11 @@
 #pragma once
 // Reference pictures kept on disk: one takes minutes.
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "emulator/tradeoff/picture_judge.h"
+#include "io/cache/cache.h"
 #include "render/vocabulary/pose.h"
 
 namespace hilcam {
@@ -19,15 +19,14 @@ std::string reference_key(const ScenarioConfig& reference, const Pose& body, con
 
 // Raised when the same key would give another reference: the path tracer, the sensor's optics, a default, a
 // generated mesh.
-inline constexpr std::uint32_t kReferenceVersion = 2;
+inline constexpr std::uint32_t kReferenceVersion = 3;
 
-// The file of that key in `folder`.
-std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& key);
-// Returns what is kept there, bit by bit. None when there is no file, or it is not whole, or another key's or
+// The name of that key's file in the cache.
+std::string reference_name(const std::string& key);
+// Returns what is kept there, bit by bit. None when there is no file, or it is damaged, or another key's or
 // version's.
-std::optional<ReferencePicture> kept_reference(const std::filesystem::path& file, const std::string& key);
+std::optional<ReferencePicture> kept_reference(const Cache& cache, const std::string& key);
 // A folder that cannot be written is no failure.
-void keep_reference(const std::filesystem::path& file, const std::string& key,
-                    const ReferencePicture& picture);
+void keep_reference(const Cache& cache, const std::string& key, const ReferencePicture& picture);
 
 }  // namespace hilcam

@@ -282,6 +282,15 @@ void LightNodes::keep(std::span<const std::uint32_t> new_number) {
     for (std::size_t c = 0; c < cells_.size(); ++c) take(corners[c], cells_[c]);
 }
 
+void LightNodes::scale(float factor) {
+    if (factor == 1) return;
+    corner_m_ = factor * corner_m_;
+    cube_m_ *= factor;
+    for (LightNode& node : nodes_)
+        for (Vec3f& point_m : node.point_m) point_m = factor * point_m;
+    for (Pair& one : pairs_) one.division.offset_m *= factor;
+}
+
 std::size_t LightNodes::bytes() const {
     return slots_.size() * sizeof(Slot) + cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(LightNode) +
            pairs_.size() * sizeof(Pair);

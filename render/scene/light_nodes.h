@@ -124,10 +124,12 @@ class LightNodes {
     // Returns which nodes are corners of one cell with each. Owner thread.
     NodeNeighbours neighbours() const;
 
+    // Makes them the nodes of a mesh so many times as large.
+    void scale(float factor);
     // Renumbers: new_number[old], or kClosed for nodes that go.
     void keep(std::span<const std::uint32_t> new_number);
 
-    // Gives all its members to files (io/files/transfer_cache.h).
+    // Gives all its members to files (io/cache/transfer_cache.h).
     struct Slot {
         std::uint64_t key = kNone;
         std::uint32_t cell = 0;  // the first of its layers, in the order of their heights

@@ -91,6 +91,8 @@ class TransferTable {
             archive(self.live_), archive(self.counted_), archive(self.turns_);
     }
     bool is_whole() const;
+    // Makes it the table of a mesh so many times as large: what is met does not change with the size.
+    void scale(float factor) { nodes_.scale(factor); }
 
   private:
     LightNodes nodes_;

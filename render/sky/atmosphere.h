@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "render/vocabulary/spectrum.h"
@@ -45,11 +46,21 @@ class Atmosphere {
 struct AtmosphereConfig;  // atmosphere_config.h
 struct AtmosphereTable;   // atmosphere_table.h
 
+// Keeps from run to run what a model has computed.
+class AtmosphereStore {
+  public:
+    virtual ~AtmosphereStore() = default;
+    // Fills `values`, as many as there are, with those that were kept under the key; false: there are none.
+    virtual bool find(std::span<const double> key, std::span<float> values) const = 0;
+    virtual void keep(std::span<const double> key, std::span<const float> values) const = 0;
+};
+
 // The values from which an atmosphere is made.
 struct AtmosphereRequest {
     const AtmosphereConfig& config;
     const SpectralGrid& grid;
     const AtmosphereTable* table = nullptr;  // the contents of config.table
+    const AtmosphereStore* store = nullptr;  // null: nothing is kept
 };
 
 }  // namespace hilcam

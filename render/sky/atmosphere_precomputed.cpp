@@ -8,22 +8,19 @@
 // tests/closed_form/atmosphere_test.cpp, within 5 %.
 
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/atmosphere_models.h"
 #include "render/sky/atmosphere_physics.h"
 #include "render/vocabulary/check.h"
-#include "render/vocabulary/fnv.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -84,7 +81,8 @@ struct Step {
 
 class PrecomputedAtmosphere final : public Atmosphere {
   public:
-    PrecomputedAtmosphere(const AtmosphereConfig& config, const SpectralGrid& grid)
+    PrecomputedAtmosphere(const AtmosphereConfig& config, const SpectralGrid& grid,
+                          const AtmosphereStore* store)
         : air_(config, grid),
           ground_albedo_(static_cast<float>(config.ground_albedo)),
           transmittance_(256, 64),
@@ -93,13 +91,12 @@ class PrecomputedAtmosphere final : public Atmosphere {
           text_("precomputed: Rayleigh, aerosol " +
                 std::to_string(config.aerosol_optical_depth).substr(0, 5) + " at 0.55 um, ozone " +
                 std::to_string(static_cast<int>(config.ozone_du)) + " DU") {
-        const std::vector<char> key = key_of(config, grid);
-        const std::filesystem::path file = cache_file(config, key);
-        if (read(file, key)) return;
+        const std::vector<double> key = key_of(config, grid);
+        if (store && find(*store, key)) return;
         fill_transmittance();
         fill_multiple();
         fill_sky();
-        write(file, key);
+        if (store) store->keep(key, values());
     }
 
     double top_m() const override { return AirPhysics::kTop_m; }
@@ -379,69 +376,48 @@ class PrecomputedAtmosphere final : public Atmosphere {
     // --- on disk
     static constexpr std::uint32_t kFileVersion = 2;
 
-    static std::vector<char> key_of(const AtmosphereConfig& c, const SpectralGrid& grid) {
-        std::vector<double> numbers = {static_cast<double>(kFileVersion),
-                                       c.pressure_pa,
-                                       c.aerosol_optical_depth,
-                                       c.angstrom_exponent,
-                                       c.aerosol_scale_height_m,
-                                       c.aerosol_asymmetry,
-                                       c.aerosol_single_albedo,
-                                       c.ozone_du,
-                                       c.ground_albedo};
-        numbers.insert(numbers.end(), grid.edges_um().begin(), grid.edges_um().end());
-        std::vector<char> bytes(numbers.size() * sizeof(double));
-        std::memcpy(bytes.data(), numbers.data(), bytes.size());
-        return bytes;
-    }
-    static std::filesystem::path cache_file(const AtmosphereConfig& c, const std::vector<char>& key) {
-        std::filesystem::path folder = c.cache;
-        if (folder.empty()) return {};
-        Fnv1a hash;
-        hash.take_bytes(key);
-        return folder / ("atmosphere_" + std::to_string(hash.value()) + ".bin");
+    static std::vector<double> key_of(const AtmosphereConfig& c, const SpectralGrid& grid) {
+        std::vector<double> key = {static_cast<double>(kFileVersion),
+                                   c.pressure_pa,
+                                   c.aerosol_optical_depth,
+                                   c.angstrom_exponent,
+                                   c.aerosol_scale_height_m,
+                                   c.aerosol_asymmetry,
+                                   c.aerosol_single_albedo,
+                                   c.ozone_du,
+                                   c.ground_albedo};
+        key.insert(key.end(), grid.edges_um().begin(), grid.edges_um().end());
+        return key;
     }
     std::array<SpectrumTable*, 3> tables() { return {&transmittance_, &multiple_, &sky_}; }
 
-    // The whole key stands at the head of the file: a hash that collides, or a file cut short, is no hit.
-    bool read(const std::filesystem::path& file, const std::vector<char>& key) {
-        std::error_code error;
-        if (!std::filesystem::is_regular_file(file, error)) return false;
-        std::ifstream in(file, std::ios::binary);
-        std::vector<char> head(key.size());
-        if (!in.read(head.data(), static_cast<std::streamsize>(head.size())) || head != key) return false;
-        for (SpectrumTable* table : tables()) {
-            const auto size = static_cast<std::streamsize>(table->cells().size() * sizeof(Spectrum));
-            if (!in.read(reinterpret_cast<char*>(table->cells().data()), size)) return false;
+    std::vector<float> values() {
+        std::vector<float> out;
+        for (SpectrumTable* table : tables())
             for (const Spectrum& cell : table->cells())
-                for (const float value : cell.bin)
-                    if (!std::isfinite(value)) return false;
-        }
-        return true;
+                out.insert(out.end(), cell.bin.begin(), cell.bin.end());
+        return out;
     }
-    // Beside it first, then renamed: two programs may do this at once. A cache that cannot be written is no
-    // failure.
-    void write(const std::filesystem::path& file, const std::vector<char>& key) {
-        if (file.empty()) return;
-        std::error_code ignored;
-        std::filesystem::create_directories(file.parent_path(), ignored);
-        const std::filesystem::path beside = file.string() + "." + std::to_string(::getpid());
-        {
-            std::ofstream out(beside, std::ios::binary);
-            out.write(key.data(), static_cast<std::streamsize>(key.size()));
-            for (SpectrumTable* table : tables())
-                out.write(reinterpret_cast<const char*>(table->cells().data()),
-                          static_cast<std::streamsize>(table->cells().size() * sizeof(Spectrum)));
-            if (!out.flush()) return static_cast<void>(std::filesystem::remove(beside, ignored));
-        }
-        std::filesystem::rename(beside, file, ignored);
+    // False where the store has none, or what it has is no light.
+    bool find(const AtmosphereStore& store, std::span<const double> key) {
+        std::vector<float> kept = values();
+        if (!store.find(key, kept) ||
+            !std::all_of(kept.begin(), kept.end(), [](float value) { return std::isfinite(value); }))
+            return false;
+        auto next = kept.begin();
+        for (SpectrumTable* table : tables())
+            for (Spectrum& cell : table->cells()) {
+                std::copy_n(next, cell.bin.size(), cell.bin.begin());
+                next += static_cast<std::ptrdiff_t>(cell.bin.size());
+            }
+        return true;
     }
 };
 
 }  // namespace
 
 std::unique_ptr<Atmosphere> make_precomputed_atmosphere(const AtmosphereRequest& request) {
-    return std::make_unique<PrecomputedAtmosphere>(request.config, request.grid);
+    return std::make_unique<PrecomputedAtmosphere>(request.config, request.grid, request.store);
 }
 
 }  // namespace hilcam

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 
@@ -205,25 +203,6 @@ TEST(Atmosphere, AgreesWithMonteCarlo) {
                                                    << " deg, tangent " << tangent_km << " km: " << seen;
             }
         }
-}
-
-TEST(Atmosphere, TablesComeBackFromDiskAndACutFileIsMadeAnew) {
-    AtmosphereConfig config = clear_air();
-    config.cache = std::filesystem::temp_directory_path() / "hilcam_atmosphere_test";
-    std::filesystem::remove_all(config.cache);
-    const auto radiance = [&] {
-        const auto air = make_precomputed_atmosphere({config, kGrid});
-        return air->look({kGround_m + 500e3, 0, 0}, {-1, 0, 0}, 500e3, normalized(Vec3d{1, 1, 0}))
-            .radiance_sr[0];
-    };
-    const float made = radiance();
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(config.cache), {}), 1);
-    EXPECT_EQ(radiance(), made);
-    const auto file = std::filesystem::directory_iterator(config.cache)->path();
-    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
-    EXPECT_EQ(radiance(), made);
-    EXPECT_GT(std::filesystem::file_size(file), 100000u);
-    std::filesystem::remove_all(config.cache);
 }
 
 }  // namespace

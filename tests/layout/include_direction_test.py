@@ -20,7 +20,7 @@ ROOMS = (
     "emulator/tradeoff", "emulator/campaign", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
     "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion", "emulator/progress", "emulator/ground",
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/shm", "io/truth", "io/commands",
-    "io/spice", "io/maps", "io/files", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
+    "io/spice", "io/maps", "io/files", "io/cache", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
     "render/frame", "render/sunlit_ground", "render/light", "render/kept", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/levels", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
 )

@@ -45,6 +45,8 @@ labels: [coco, bop, yolo, speed]
 keypoints: [{{file: points.csv, tolerance_m: 0.5}}]
 shard_samples: 3
 """
+CUBE = "".join(f"v {x} {y} {z}\n" for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)) + \
+    "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
 POINTS = {"origin": (0, 0, 0), "ahead": (1.5, 0, 0), "beside": (0, 6.0, 0.25), "far": (0, -300, 0)}
 
 
@@ -668,7 +670,7 @@ class Failing(unittest.TestCase):
         self.assertIn("holds another campaign (seed: '1' there, '2' here); accepted: another folder", result.stderr)
         self.assertEqual(contents(self.folder), before)
 
-    def test_a_full_disk_fails_what_does_not_fit_and_the_rest_comes_later(self):
+    def test_what_does_not_fit_onto_a_full_disk_comes_later_by_the_same_command(self):
         """On a file system of 400 KB in a name space of its own."""
         disk = self.top / "disk"
         disk.mkdir()
@@ -678,13 +680,161 @@ class Failing(unittest.TestCase):
         (self.top / "campaign.yaml").write_text(text)
         (self.top / "points.csv").write_text("name,x_m,y_m,z_m\na,0,0,0\n")
         script = (f"mount -t tmpfs -o size=400k tmpfs {disk} && {HILCAM} campaign {self.top}/campaign.yaml --out {disk}/out; echo first $? >&2;"
-                  f"ls {disk}/out/cases | wc -l >&2; mount -o remount,size=20m {disk} && {HILCAM} campaign {self.top}/campaign.yaml --out {disk}/out --retry;"
+                  f"ls {disk}/out/cases | wc -l >&2; mount -o remount,size=20m {disk} && {HILCAM} campaign {self.top}/campaign.yaml --out {disk}/out;"
                   f"echo second $? >&2; cp -r {disk}/out {self.top}/copy")
         result = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, timeout=120)
         self.assertIn("first 1", result.stderr, result.stderr)
         self.assertIn("No space left on device", result.stderr)
         self.assertIn("second 0", result.stderr, result.stderr)
         self.assertEqual([row["outcome"] for row in rows(self.top / "copy")], ["done"] * 6)
+
+
+def children_of(process):
+    out = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process)], capture_output=True, text=True).stdout
+    return [int(word) for word in out.split()]
+
+
+def wait_for(what, process, limit_s=100):
+    end = time.monotonic() + limit_s
+    while not what() and process.poll() is None and time.monotonic() < end:
+        time.sleep(0.005)
+
+
+class Interrupted(unittest.TestCase):
+    """What the machine or its user does to a campaign is no outcome of its cases."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name) / "out"
+        self.text = CAMPAIGN.replace("count: 8", "count: 40")
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def begin(self, text):
+        self.folder.parent.mkdir(exist_ok=True)
+        (self.folder.parent / "campaign.yaml").write_text(text)
+        (self.folder.parent / "points.csv").write_text("name,x_m,y_m,z_m\norigin,0,0,0\n")
+        # A session of its own, as a shell in a terminal gives it: a signal to the group is Ctrl-C.
+        return subprocess.Popen([HILCAM, "campaign", self.folder.parent / "campaign.yaml", "--out", self.folder, "--jobs", "2"],
+                                stderr=subprocess.PIPE, text=True, start_new_session=True)
+
+    def records(self):
+        return len(list((self.folder / "cases").glob("0*.json")))
+
+    def again(self):
+        return subprocess.run([HILCAM, "campaign", self.folder.parent / "campaign.yaml", "--out", self.folder],
+                              capture_output=True, text=True, timeout=120)
+
+    def test_a_signal_says_how_to_go_on_and_ends_all(self):
+        for send in (lambda pid: os.killpg(pid, signal.SIGINT), lambda pid: os.kill(pid, signal.SIGTERM)):
+            before = self.records()
+            process = self.begin(self.text)
+            wait_for(lambda: self.records() >= before + 3, process)
+            workers = children_of(process.pid)
+            self.assertEqual(len(workers), 2)
+            send(process.pid)
+            errors = process.communicate(timeout=20)[1]
+            self.assertEqual(process.returncode, 130, errors)
+            self.assertIn(f"{self.records()} of 40 done; the same command goes on", errors)
+            self.assertEqual([pid for pid in workers if os.path.exists(f"/proc/{pid}")], [])
+        result = self.again()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("40 done, 0 failed", result.stderr)
+
+    def test_a_signal_while_it_loads_says_so_too(self):
+        process = self.begin(self.text)
+        wait_for(lambda: (self.folder / "campaign.txt").exists(), process)
+        os.kill(process.pid, signal.SIGINT)
+        errors = process.communicate(timeout=20)[1]
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertRegex(errors, r"(0 of 40 done|interrupted); the same command goes on")
+
+    def test_killed_workers_leave_no_failed_cases(self):
+        process = self.begin(self.text)
+        for _ in range(3):
+            wait_for(lambda: len(children_of(process.pid)) == 2 and self.records() >= 2, process)
+            for worker in children_of(process.pid):
+                os.kill(worker, signal.SIGKILL)
+            wait_for(lambda: False, process, 0.3)
+        errors = process.communicate(timeout=100)[1]
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertIn("its process was ended: signal 9", errors)
+        self.assertRegex(errors, r"\d+ done, 0 failed, \d+ not made")
+        result = self.again()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("40 done, 0 failed", result.stderr)
+
+    def test_lost_pictures_are_noticed_and_made_anew(self):
+        text = CAMPAIGN.replace("count: 8", "count: 4")
+        campaign(text, self.folder)
+        whole = contents(self.folder)
+        (self.folder / "images/000002.png").unlink()
+        (self.folder / "views/000003.png").write_bytes(b"")
+        (self.folder / "cases/000004.json").write_text("{")
+        merged = campaign(text, self.folder, "--merge", expect=1)
+        self.assertIn("000002: images/000002.png is missing", merged.stderr)
+        self.assertRegex(merged.stderr, r"000003: views/000003.png has 0 bytes of \d+")
+        self.assertIn("1 done, 0 failed, 3 not made, or without a file of theirs", merged.stderr)
+        self.assertRegex(merged.stderr, "000004.json: is no record of a case")
+        listed = [image["file_name"] for file in (self.folder / "coco").glob("*.json") for image in json.loads(file.read_text())["images"]]
+        self.assertEqual([pathlib.Path(name).stem for name in listed], ["000001"])
+        campaign(text, self.folder)
+        self.assertEqual(contents(self.folder), whole)
+
+    def test_a_run_that_is_interrupted_ends_its_programs(self):
+        program = self.folder.parent / "program.sh"
+        self.folder.parent.mkdir(exist_ok=True)
+        program.write_text("#!/bin/sh\nsleep 12345.25 &\nwait\n")
+        process = self.begin(f"name: runs\nscenario: {SCENARIO}\nset: [mode=lockstep, commands.tcp.port=5010]\ncount: 2\n"
+                             f"run: {{program: [/bin/sh, {program}]}}\n")
+        asleep = lambda: subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True).stdout.count("sleep 12345.25\n")
+        wait_for(lambda: asleep() >= 2, process)
+        self.assertGreaterEqual(asleep(), 2)
+        os.killpg(process.pid, signal.SIGINT)
+        errors = process.communicate(timeout=20)[1]
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("0 of 2 done; the same command goes on", errors)
+        self.assertEqual(asleep(), 0)
+
+
+class Kept(unittest.TestCase):
+    """What cases leave in the cache."""
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.top = pathlib.Path(self.temporary.name)
+        (self.top / "cube.obj").write_text(CUBE)
+        (self.top / "scenario.yaml").write_text(
+            "time_utc: 2026-12-21T00:00:00Z\n"
+            "camera: {width_px: 64, height_px: 64, pitch_um: 10, focal_length_mm: 6.4, f_number: 8, transmission: 0.01, quantum_efficiency: 0.5,\n"
+            "  full_well_e: 20000, gain_dn_e: 0.2, bits: 12, exposure_ms: 20}\n"
+            "objects:\n  - {name: cube, mesh: cube.obj, pose: {position_m: [0, 0, 10]}}\n"
+            "earth: {visible: false}\nmoon: {visible: false}\nspectrum_edges_um: [0.5, 0.7]\nquality: {path_model: kept, kept_nodes: 1000}\n")
+        self.cache = self.top / "cache"
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def make(self, text, name="out"):
+        (self.top / "campaign.yaml").write_text("name: kept\nscenario: scenario.yaml\n" + text)
+        result = subprocess.run([HILCAM, "campaign", self.top / "campaign.yaml", "--out", self.top / name], capture_output=True, text=True,
+                                timeout=120, env=os.environ | {"HILCAM_CACHE": str(self.cache)})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return sorted(path.name for path in self.cache.glob("transfer_*"))
+
+    def test_cases_of_all_sizes_share_one_table(self):
+        files = self.make("count: 6\nvary: [{key: objects.0.scale, uniform: [0.3, 3]}]\n")
+        self.assertEqual(len(files), 1)
+        frames = [(self.top / f"out/images/{n:06d}.png").read_bytes() for n in range(1, 7)]
+        self.assertEqual(len(set(frames)), 6)
+
+    def test_tables_of_one_case_are_not_kept(self):
+        own = "count: 4\nvary: [{key: quality.kept_nodes, whole: [1500, 2500]}]\n"
+        self.assertEqual(len(self.make(own)), 1)  # the scenario's own
+
+    def test_tables_of_a_choice_are_kept(self):
+        self.assertEqual(len(self.make("count: 4\nseed: 2\nvary: [{key: quality.kept_nodes, choice: [1500, 2500]}]\n")), 3)
 
 
 class Programs(unittest.TestCase):

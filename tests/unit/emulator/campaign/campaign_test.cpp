@@ -3,6 +3,7 @@
 #include "emulator/campaign/campaign.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <set>
 
 #include "emulator/campaign/campaign_config.h"
+#include "emulator/campaign/case_record.h"
 #include "emulator/campaign/case_search.h"
 #include "emulator/campaign/noise_variance.h"
 #include "emulator/campaign/view_draw.h"
@@ -262,6 +264,61 @@ TEST_F(CampaignTest, RenderingWithoutRandomPathsHasNoVariance) {
     for (const double v : noise.variance_e2()) ASSERT_EQ(v, 0);
 }
 
+// One sheet serves all cases of a camera, and no case has that of another's.
+TEST_F(CampaignTest, ACasesSheetIsThatOfItsCamera) {
+    CaseCamera camera(campaign("seed: 1\n"));
+    const double own_e = camera.sheet().dark_total_e;
+    camera.take({"objects.0.scale=2", "camera.exposure_ms=40", "seed=3"});
+    EXPECT_EQ(camera.loads(), 2);
+    EXPECT_EQ(camera.sheet().dark_total_e, own_e);
+    camera.take({"camera.read_noise_e=50", "seed=3"});
+    EXPECT_GT(camera.sheet().dark_total_e, 5 * own_e);
+    camera.take({"seed=3"});
+    EXPECT_EQ(camera.sheet().dark_total_e, own_e);
+}
+
+// A case is missing without a record, with one that is damaged, and when a file of it is gone or another.
+TEST_F(CampaignTest, ACaseThatHasLostAFileIsMissing) {
+    const CampaignConfig c = campaign("count: 6\n");
+    const std::filesystem::path out = folder_ / "out";
+    const CampaignFolder folder(c, out, false);
+    std::filesystem::create_directories(out / "images");
+    for (std::uint64_t n = 1; n <= 5; ++n) {
+        CaseRecord record;
+        record.plan.number = n, record.plan.name = case_name(n);
+        record.done = n != 5;
+        record.files = {{"images/" + case_name(n) + ".png", 5}};
+        write("out/images/" + case_name(n) + ".png", "12345");
+        write_record(out, record);
+    }
+    EXPECT_THAT(folder.missing({1, 6}, false), testing::ElementsAre(6u));
+    EXPECT_THAT(folder.missing({1, 6}, true), testing::ElementsAre(5u, 6u));
+    std::filesystem::remove(out / "images/000001.png");
+    write("out/images/000002.png", "");
+    write("out/cases/000003.json", "{");
+    EXPECT_THAT(folder.missing({1, 6}, false), testing::ElementsAre(1u, 2u, 3u, 6u));
+    EXPECT_EQ(lost_file(out, *read_record(out, 1)), "images/000001.png is missing");
+    EXPECT_EQ(lost_file(out, *read_record(out, 2)), "images/000002.png has 0 bytes of 5");
+    EXPECT_EQ(lost_file(out, *read_record(out, 4)), "");
+}
+
+// What is made of a mesh serves it in all sizes; what no other case has is not worth keeping.
+TEST_F(CampaignTest, ShapesOfOneCaseAreTold) {
+    const auto own = [&](const std::string& vary) {
+        return draws_own_shapes(campaign("vary: [{key: " + vary + "}]\n"));
+    };
+    EXPECT_FALSE(own("objects.0.scale, uniform: [1, 2]"));
+    EXPECT_FALSE(own("objects.0.pose.position_m, sphere: [1, 2]"));
+    EXPECT_FALSE(own("objects.0.joints.0.angle_deg, uniform: [1, 2]"));
+    EXPECT_FALSE(own("camera.focal_length_mm, uniform: [1, 2]"));
+    EXPECT_FALSE(own("objects.0.mesh, choice: [a.obj, b.obj]"));
+    EXPECT_TRUE(own("objects.0.generate.wing_angle_deg, uniform: [1, 2]"));
+    EXPECT_TRUE(own("objects.0.generate.seed, whole: [1, 1000]"));
+    EXPECT_TRUE(own("atmosphere.ozone_du, normal: [300, 20]"));
+    write("table.csv", "objects.0.mesh\na.obj\n");
+    EXPECT_TRUE(draws_own_shapes(campaign("table: table.csv\n")));
+}
+
 TEST_F(CampaignTest, TwoCampaignsDoNotShareAFolder) {
     const CampaignConfig c = campaign("seed: 1\n");
     const std::filesystem::path out = folder_ / "out";
@@ -289,17 +346,22 @@ TEST(WorkerPool, APieceThatCrashesOrHangsIsLostAloneAndNamed) {
             if (n == 3) std::raise(SIGSEGV);
             if (n == 5) pause();
             if (n == 6) _exit(7);
+            if (n == 7) std::raise(SIGKILL);
             return n == 8 ? "does not like it" : "";
         };
     });
     std::map<std::uint64_t, std::string> problems;
-    std::set<std::uint64_t> lost;
-    pool.run({1, 2, 3, 4, 5, 6, 7, 8, 9}, [&](std::uint64_t n, const std::string& problem, bool was_lost) {
-        EXPECT_TRUE(problems.emplace(n, problem).second);
-        if (was_lost) lost.insert(n);
-    });
+    std::set<std::uint64_t> crashed, ended;
+    pool.run({1, 2, 3, 4, 5, 6, 7, 8, 9},
+             [&](std::uint64_t n, const std::string& problem, WorkerPool::End end) {
+                 EXPECT_TRUE(problems.emplace(n, problem).second);
+                 if (end == WorkerPool::End::kCrashed) crashed.insert(n);
+                 if (end == WorkerPool::End::kWasEnded) ended.insert(n);
+             });
     EXPECT_EQ(problems.size(), 9u);
-    EXPECT_EQ(lost, (std::set<std::uint64_t>{3, 5, 6}));
+    EXPECT_EQ(crashed, (std::set<std::uint64_t>{3, 5, 6}));
+    EXPECT_EQ(ended, (std::set<std::uint64_t>{7}));
+    EXPECT_THAT(problems[7], HasSubstr("was ended: signal 9"));
     EXPECT_THAT(problems[3], HasSubstr("crashed: signal 11"));
     EXPECT_THAT(problems[5], HasSubstr("took longer than 0 s (time_limit_s)"));
     EXPECT_THAT(problems[6], HasSubstr("ended with status 7"));
@@ -307,10 +369,28 @@ TEST(WorkerPool, APieceThatCrashesOrHangsIsLostAloneAndNamed) {
     EXPECT_EQ(problems[9], "");
 }
 
+// Children that ignore being asked are ended all the same; what they were at is told to nobody.
+TEST(WorkerPool, StopsWhenItIsAskedTo) {
+    WorkerPool pool(3, 600, [](std::size_t) -> WorkerPool::Work {
+        return [](std::uint64_t n) -> std::string {
+            if (n == 2) std::signal(SIGTERM, SIG_IGN);
+            while (n > 1) pause();
+            return "";
+        };
+    });
+    std::vector<std::uint64_t> told;
+    pool.run(
+        {1, 2, 3, 4, 5}, [&](std::uint64_t n, const std::string&, WorkerPool::End) { told.push_back(n); },
+        [&] { return !told.empty(); });
+    EXPECT_THAT(told, testing::ElementsAre(1u));
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+    EXPECT_EQ(errno, ECHILD);
+}
+
 TEST(WorkerPool, AChildThatCannotBeginEndsAll) {
     WorkerPool pool(2, 10, [](std::size_t) -> WorkerPool::Work { throw InputError("no mesh"); });
     try {
-        pool.run({1, 2, 3}, [](std::uint64_t, const std::string&, bool) { ADD_FAILURE(); });
+        pool.run({1, 2, 3}, [](std::uint64_t, const std::string&, WorkerPool::End) { ADD_FAILURE(); });
         ADD_FAILURE();
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(), "no mesh");

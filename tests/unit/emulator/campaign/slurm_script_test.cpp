@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/files.h"
+
 namespace hilcam {
 namespace {
 
@@ -26,6 +28,26 @@ TEST(SlurmScript, OnlyTasksWithMissingCasesAreInTheArray) {
     EXPECT_THAT(script, HasSubstr("exec '/opt/it'\\''s/hilcam' campaign '/shared/set.yaml' --out "
                                   "'/shared/out' --set 'count=60' --cases "));
     EXPECT_THAT(merge_script(plan), HasSubstr(" --merge\n"));
+}
+
+// sbatch reads the lines before the first command itself: words end at blanks, and %a is the task's number.
+TEST(SlurmScript, TheFoldersNameIsOneWordWithoutPatterns) {
+    SlurmPlan plan{"a", "/opt/hilcam", "/set.yaml", "/x/a b/%a/it's", {}, 60, 10, {0}};
+    EXPECT_THAT(array_script(plan), HasSubstr("#SBATCH --output='/x/a b/%%a/it'\\''s/slurm/task-%a.log'\n"));
+    EXPECT_THAT(merge_script(plan), HasSubstr("#SBATCH --output='/x/a b/%%a/it'\\''s/slurm/merge.log'\n"));
+}
+
+struct SlurmFolder : FilesTest {};
+
+TEST_F(SlurmFolder, ANameThatEndsALineIsRefusedBeforeAnythingIsWritten) {
+    for (const char* name : {"a\ntouch owned", "a\tb", "a\rb", "a\x7F", "a\\b"}) {
+        const SlurmPlan plan{"a", "/opt/hilcam", "/set.yaml", folder_ / name, {}, 60, 10, {0}};
+        const std::string refusal = error_of([&] { submit_campaign(plan, false); });
+        EXPECT_THAT(refusal,
+                    HasSubstr("accepted with --slurm: a folder whose name has no control characters"));
+        EXPECT_EQ(refusal.find('\n'), std::string::npos);
+        EXPECT_TRUE(std::filesystem::is_empty(folder_));
+    }
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ MachineFacts good_machine() {
     m.video = {{"/dev/video42", "hilcam", true, true, true, true, 0}};
     m.controllers = {"fe980000.usb"};
     m.configfs = m.root = true;
+    m.cache = "/home/a/.cache/hilcam";
     m.clock_synchronised = true;
     m.tai_offset_s = 37;
     return m;
@@ -69,15 +70,16 @@ TEST(Doctor, WhatKeepsReadersOfFilesIsToldAndMissed) {
     EXPECT_THAT(found(0, false), HasSubstr("5.13"));
 }
 
-TEST(Doctor, TheCacheHasASizeAndALargeOneAnAdvice) {
+TEST(Doctor, TheCacheHasASizeABoundAndSomebodyToTrust) {
     MachineFacts m = good_machine();
-    m.cache = "/home/a/.cache/hilcam";
     m.cache_files = 12;
-    m.cache_bytes = 116'000'000;
+    m.cache_bytes = 116'000'000, m.cache_bound_bytes = 4'096'000'000;
     EXPECT_THAT(about("cache", {}, m, Finding::Level::kGood),
-                HasSubstr("/home/a/.cache/hilcam: 12 files, 116 MB"));
-    m.cache_bytes = 11'000'000'000;
-    EXPECT_THAT(about("cache", {}, m, kNote), HasSubstr("hilcam doctor --clear-cache"));
+                HasSubstr("/home/a/.cache/hilcam: 12 files, 116 MB of at most 4096 MB (HILCAM_CACHE_MB)"));
+    m.cache_fault = "cache folder /x: belongs to user 7";
+    EXPECT_THAT(about("cache", {}, m, kProblem), HasSubstr("belongs to user 7"));
+    m.cache = m.cache_fault = "";
+    EXPECT_THAT(about("cache", {}, m, kNote), HasSubstr("a folder in HILCAM_CACHE, or HOME"));
 }
 
 TEST(Doctor, WithoutAScenarioNothingIsAProblem) {

@@ -15,9 +15,10 @@ const std::string kKey = "a key\nof two lines\n";
 
 class ReferenceCache : public FilesTest {
   protected:
-    std::filesystem::path file() const { return reference_file(folder_, kKey); }
-    void keep() const { keep_reference(file(), kKey, picture()); }
-    bool is_kept() const { return kept_reference(file(), kKey).has_value(); }
+    Cache cache() const { return Cache(folder_); }
+    std::filesystem::path file() const { return folder_ / reference_name(kKey); }
+    void keep() const { keep_reference(cache(), kKey, picture()); }
+    bool is_kept() const { return kept_reference(cache(), kKey).has_value(); }
 
     // No two pixels alike, one of them as small as floats go.
     static ReferencePicture picture() {
@@ -43,7 +44,7 @@ bool same_bits(const ElectronImage& a, const ElectronImage& b) {
 TEST_F(ReferenceCache, ThePictureComesBackBitByBit) {
     EXPECT_FALSE(is_kept());
     keep();
-    const auto kept = kept_reference(file(), kKey);
+    const auto kept = kept_reference(cache(), kKey);
     ASSERT_TRUE(kept);
     const ReferencePicture expected = picture();
     EXPECT_TRUE(same_bits(kept->mean, expected.mean));
@@ -83,10 +84,10 @@ TEST_F(ReferenceCache, NoByteOfItMayDiffer) {
 TEST_F(ReferenceCache, AnotherKeysFileIsNotTaken) {
     keep();
     const std::string other = kKey + "more\n";
-    EXPECT_NE(reference_file(folder_, other), file());
-    EXPECT_FALSE(kept_reference(file(), other));
-    std::filesystem::rename(file(), reference_file(folder_, other));
-    EXPECT_FALSE(kept_reference(reference_file(folder_, other), other));
+    EXPECT_NE(reference_name(other), reference_name(kKey));
+    EXPECT_FALSE(kept_reference(cache(), other));
+    std::filesystem::rename(file(), folder_ / reference_name(other));
+    EXPECT_FALSE(kept_reference(cache(), other));
 }
 
 TEST_F(ReferenceCache, AnotherVersionsFileIsNotTaken) {
@@ -98,7 +99,7 @@ TEST_F(ReferenceCache, AnotherVersionsFileIsNotTaken) {
 }
 
 TEST_F(ReferenceCache, AFolderThatCannotBeIsNoFailure) {
-    const std::filesystem::path nowhere = reference_file(write("plain", "no folder"), kKey);
+    const Cache nowhere(write("plain", "no folder") / "cache");
     keep_reference(nowhere, kKey, picture());
     EXPECT_FALSE(kept_reference(nowhere, kKey));
 }

@@ -8,13 +8,14 @@
 #include <fstream>
 #include <limits>
 
+#include "io/cache/cache.h"
+#include "io/cache/level_cache.h"
+#include "io/cache/transfer_cache.h"
 #include "io/config/config_yaml.h"
 #include "io/files/brdf_file.h"
-#include "io/files/cache_file.h"
 #include "io/files/height_map_file.h"
-#include "io/files/mesh_level_cache.h"
-#include "io/files/transfer_cache.h"
 #include "render/scene/brdf.h"
+#include "render/scene/packed_normal.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
@@ -189,7 +190,10 @@ TEST_F(MaterialFiles, LevelsComeBackFromDiskAndABrokenFileIsMadeAnew) {
             mesh.triangles.push_back({a + 1, a + kSide + 1, a + kSide});
         }
     mesh.surface_of_triangle.resize(mesh.triangles.size());
-    const std::vector<MeshLevel> made = cached_levels(mesh, folder_);
+    std::vector<std::string> log;
+    const Cache cache(
+        CacheSettings{folder_, 1'000'000'000, true, [&](const std::string& l) { log.push_back(l); }});
+    const std::vector<MeshLevel> made = cached_levels(mesh, cache);
     ASSERT_FALSE(made.empty());
     EXPECT_LT(made.back().mesh.triangles.size(), mesh.triangles.size() / 4);
     // Borders stay: a square of 10 m. No vertex is new, so none is farther from the sheet than its bumps.
@@ -199,38 +203,44 @@ TEST_F(MaterialFiles, LevelsComeBackFromDiskAndABrokenFileIsMadeAnew) {
     EXPECT_NEAR(most.x, 10, 1e-4);
     EXPECT_NEAR(most.y, 10, 1e-4);
     const auto file = std::filesystem::directory_iterator(folder_)->path();
-    EXPECT_EQ(cached_levels(mesh, folder_).back().mesh.triangles, made.back().mesh.triangles);
+    EXPECT_EQ(cached_levels(mesh, cache).back().mesh.triangles, made.back().mesh.triangles);
+    EXPECT_TRUE(log.empty()) << log.front();
     const auto size = std::filesystem::file_size(file);
     for (const std::uintmax_t cut : {size / 2, std::uintmax_t{30}, std::uintmax_t{0}}) {
         std::filesystem::resize_file(file, cut);
-        EXPECT_EQ(cached_levels(mesh, folder_).back().mesh.triangles, made.back().mesh.triangles);
+        EXPECT_EQ(cached_levels(mesh, cache).back().mesh.triangles, made.back().mesh.triangles);
         EXPECT_EQ(std::filesystem::file_size(file), size);
     }
 }
 
 // The bytes of a table, as a file would have them.
-std::string bytes_of(const TransferTable& table, const std::filesystem::path& file) {
-    write_cache_file(file, [&](CacheWriter& out) { TransferTable::list(table, out); });
-    std::ifstream in(file, std::ios::binary);
+std::string bytes_of(const TransferTable& table, const std::filesystem::path& folder) {
+    Cache(folder).write("table", [&](CacheWriter& out) { TransferTable::list(table, out); });
+    std::ifstream in(folder / "table", std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST_F(MaterialFiles, TransferTablesComeBackFromDiskAndABrokenFileIsMadeAnew) {
-    // Two walls of a corner.
+// Two walls of a corner.
+Mesh corner_walls() {
     Mesh mesh;
     mesh.surfaces.resize(1);
     mesh.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1, -1, 2}, {1, 1, 2}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
     mesh.surface_of_triangle.resize(4);
+    return mesh;
+}
+
+TEST_F(MaterialFiles, TransferTablesComeBackFromDiskAndABrokenFileIsMadeAnew) {
+    const Mesh mesh = corner_walls();
     const std::vector<std::uint8_t> glass(1);
-    const TransferSettings settings{60, 1000, false};
-    const std::filesystem::path cache = folder_ / "cache";
-    const auto table = [&] {
-        return bytes_of(*cached_transfer(mesh, glass, settings, cache), folder_ / "table");
-    };
+    const TableSource source{mesh, glass, {60, 1000, false}};
+    const std::filesystem::path folder = folder_ / "cache";
+    const Cache cache(folder);
+    const auto table = [&] { return bytes_of(*cached_transfer(source, cache), folder_); };
     const std::string made = table();
     EXPECT_GT(made.size(), 10'000u);
-    const auto file = std::filesystem::directory_iterator(cache)->path();
+    const auto file = std::filesystem::directory_iterator(folder)->path();
+    EXPECT_TRUE(find_transfer(source, cache));
     EXPECT_EQ(table(), made);
     const auto size = std::filesystem::file_size(file);
     for (const std::uintmax_t cut : {size - 1, size / 2, std::uintmax_t{40}, std::uintmax_t{0}}) {
@@ -238,20 +248,52 @@ TEST_F(MaterialFiles, TransferTablesComeBackFromDiskAndABrokenFileIsMadeAnew) {
         EXPECT_EQ(table(), made);
         EXPECT_EQ(std::filesystem::file_size(file), size);
     }
-    // Bytes that lead out of the table: made anew, or the same table.
+    // Other bytes, anywhere: it is made anew.
     for (std::uintmax_t at = 0; at < size; at += size / 97) {
         {
             std::fstream broken(file, std::ios::in | std::ios::out | std::ios::binary);
-            broken.seekp(static_cast<std::streamoff>(at));
-            broken.write("\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 8);
+            broken.seekg(static_cast<std::streamoff>(at));
+            const auto byte = static_cast<char>(broken.get() ^ 4);
+            broken.seekp(static_cast<std::streamoff>(at)).put(byte);
         }
-        EXPECT_TRUE(cached_transfer(mesh, glass, settings, cache)->is_whole()) << at;
-        std::filesystem::remove(file);
+        EXPECT_FALSE(find_transfer(source, cache)) << at;
         EXPECT_EQ(table(), made);
     }
     // Other settings have files of their own.
-    cached_transfer(mesh, glass, {16, 1000, false}, cache);
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(cache), {}), 2);
+    cached_transfer({mesh, glass, {16, 1000, false}}, cache);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 2);
+}
+
+// What a place meets does not change with the size: the table of a mesh, made larger, is that of the larger mesh.
+TEST_F(MaterialFiles, OneTransferTableServesAMeshInAllSizes) {
+    const Mesh mesh = corner_walls();
+    const std::vector<std::uint8_t> glass(1);
+    const TransferSettings settings{60, 1000, false};
+    const std::filesystem::path folder = folder_ / "cache";
+    const Cache cache(folder);
+    for (const float scale : {1.0f, 4.0f, 0.3f, 1e-3f}) {
+        const auto scaled = cached_transfer({mesh, glass, settings, scale}, cache);
+        Mesh large = mesh;
+        for (Vec3f& v : large.vertices_m) v = scale * v;
+        const TransferTable own(large, glass, settings);
+        ASSERT_EQ(scaled->size(), own.size()) << scale;
+        EXPECT_EQ(scaled->entries(), own.entries()) << scale;
+        EXPECT_NEAR(scaled->nodes().cube_m(), own.nodes().cube_m(), 1e-5f * own.nodes().cube_m()) << scale;
+        for (std::size_t n = 0; n < own.size(); ++n)
+            for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+                const Vec3f off = scaled->nodes().nodes()[n].point_m[p] - own.nodes().nodes()[n].point_m[p];
+                EXPECT_LT(length(off), 1e-5f * scale) << scale << ", node " << n;
+            }
+        // Each finds its own places.
+        std::size_t found = 0;
+        for (const LightNode& node : own.nodes().nodes()) {
+            NodesAbout about;
+            found += scaled->nodes().find(node.point_m[0],
+                                          {unpack_normal(node.geometric[0]), node.surface, false}, about);
+        }
+        EXPECT_GT(found, own.size() / 3) << scale;
+    }
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <vector>
 
+#include "io/cache/atmosphere_cache.h"
 #include "io/files/earth_map_file.h"
 #include "render/earth/earth_patch.h"
 #include "render/earth/earth_picture.h"
@@ -31,8 +32,8 @@ struct ShippedEarth {
     ShippedEarth() {
         AtmosphereConfig config;
         config.model = "precomputed";
-        config.cache = std::filesystem::temp_directory_path() / "hilcam_earth_test";
-        air = make_precomputed_atmosphere({config, kEarthGrid, nullptr});
+        const AtmosphereCache cache{Cache(std::filesystem::temp_directory_path() / "hilcam_earth_test")};
+        air = make_precomputed_atmosphere({config, kEarthGrid, nullptr, &cache});
         model = std::make_unique<EarthModel>(
             EarthConfig{}, read_earth_map(std::string(HILCAM_SOURCE_DIR) + "/configs/maps/earth.map"),
             EarthMap{}, air.get(), kEarthGrid);

@@ -1,10 +1,8 @@
-#include "io/files/mesh_level_cache.h"
+#include "io/cache/level_cache.h"
 
 #include <array>
 #include <cstdint>
 #include <string>
-
-#include "io/files/cache_file.h"
 
 namespace hilcam {
 namespace {
@@ -39,9 +37,7 @@ bool read_level(CacheReader& in, const Mesh& mesh, MeshLevel& level) {
     return true;
 }
 
-bool read_levels(const std::filesystem::path& file, std::uint64_t hash, const Mesh& mesh,
-                 std::vector<MeshLevel>& levels) {
-    CacheReader in(file);
+bool read_levels(CacheReader& in, std::uint64_t hash, const Mesh& mesh, std::vector<MeshLevel>& levels) {
     Header header;
     Header expected;
     in(header);
@@ -55,30 +51,27 @@ bool read_levels(const std::filesystem::path& file, std::uint64_t hash, const Me
     return true;
 }
 
-void write_levels(const std::filesystem::path& file, std::uint64_t hash,
-                  const std::vector<MeshLevel>& levels) {
-    write_cache_file(file, [&](CacheWriter& out) {
-        Header header;
-        header.levels = static_cast<std::uint32_t>(levels.size());
-        header.hash = hash;
-        out(header);
-        for (const MeshLevel& level : levels) {
-            const Mesh& m = level.mesh;
-            out(level.error_m), out(level.flattened_alpha), out(m.vertices_m), out(m.normals), out(m.uvs),
-                out(m.triangles), out(m.surface_of_triangle), out(level.facets);
-        }
-    });
+void write_levels(CacheWriter& out, std::uint64_t hash, const std::vector<MeshLevel>& levels) {
+    Header header;
+    header.levels = static_cast<std::uint32_t>(levels.size());
+    header.hash = hash;
+    out(header);
+    for (const MeshLevel& level : levels) {
+        const Mesh& m = level.mesh;
+        out(level.error_m), out(level.flattened_alpha), out(m.vertices_m), out(m.normals), out(m.uvs),
+            out(m.triangles), out(m.surface_of_triangle), out(level.facets);
+    }
 }
 
 }  // namespace
 
-std::vector<MeshLevel> cached_levels(const Mesh& mesh, const std::filesystem::path& folder) {
+std::vector<MeshLevel> cached_levels(const Mesh& mesh, const Cache& cache) {
     const std::uint64_t hash = hash_of(mesh);
-    const std::filesystem::path file = folder / ("levels_" + std::to_string(hash) + ".bin");
+    const std::string name = "levels_" + std::to_string(hash) + ".bin";
     std::vector<MeshLevel> levels;
-    if (read_levels(file, hash, mesh, levels)) return levels;
+    if (cache.read(name, [&](CacheReader& in) { return read_levels(in, hash, mesh, levels); })) return levels;
     levels = coarser_levels(mesh);
-    write_levels(file, hash, levels);
+    cache.write(name, [&](CacheWriter& out) { write_levels(out, hash, levels); });
     return levels;
 }
 
