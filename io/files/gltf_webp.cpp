@@ -13,7 +13,7 @@ using nlohmann::json;
 // little-endian.
 constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
-constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kGlbHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 
 std::uint32_t read_u32(std::span<const std::uint8_t> bytes, std::size_t at) {
@@ -39,7 +39,7 @@ bool move_sources(json& document) {
 }  // namespace
 
 std::optional<std::vector<std::uint8_t>> with_plain_webp_sources(std::span<const std::uint8_t> glb) {
-    constexpr std::size_t kTextAt = kHeaderBytes + kChunkHeaderBytes;
+    constexpr std::size_t kTextAt = kGlbHeaderBytes + kChunkHeaderBytes;
     if (glb.size() < kTextAt || read_u32(glb, 0) != kMagic || read_u32(glb, 16) != kJsonChunk) return {};
     const std::size_t text_bytes = read_u32(glb, 12);
     if (text_bytes > glb.size() - kTextAt) return {};

@@ -32,7 +32,7 @@ std::string plain_words(const std::exception& problem) {
 
 std::string without_success(std::string message) {
     for (const std::string_view reason : {": Success", " (Success)", ": No error"})
-        if (message.ends_with(reason)) message.resize(message.size() - reason.size());
+        if (message.ends_with(reason)) message.erase(message.size() - reason.size());
     return message;
 }
 

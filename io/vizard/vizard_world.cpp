@@ -40,7 +40,7 @@ std::optional<BodyId> body_of(const std::string& name) {
 
 std::string degrees(double rad) { return plain(std::round(rad / kDegree_rad * 1e3) / 1e3) + " deg"; }
 
-std::string size_text(std::int64_t width, std::int64_t height) {
+std::string picture_size_text(std::int64_t width, std::int64_t height) {
     return std::to_string(width) + " x " + std::to_string(height);
 }
 
@@ -216,8 +216,8 @@ void VizardWorld::pose_objects(const Shift& shift, std::vector<PoseCommand>& pos
 void VizardWorld::check_camera(const VizardCamera& c, const VizardBench::Camera& own) {
     const std::string who = "camera " + std::to_string(c.id) + ": ";
     if (c.width_px > 0 && (c.width_px != own.width_px || c.height_px != own.height_px))
-        remark(who + "the simulation's picture is " + size_text(c.width_px, c.height_px) +
-               " px, the scenario's camera gives " + size_text(own.width_px, own.height_px));
+        remark(who + "the simulation's picture is " + picture_size_text(c.width_px, c.height_px) +
+               " px, the scenario's camera gives " + picture_size_text(own.width_px, own.height_px));
     if (c.field_of_view_rad > 0 &&
         std::abs(c.field_of_view_rad / own.field_of_view_rad - 1) > kViewTolerance_ratio)
         remark(who + "the simulation's field of view is " + degrees(c.field_of_view_rad) +

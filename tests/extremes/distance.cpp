@@ -10,7 +10,6 @@
 namespace hilcam::extremes {
 namespace {
 
-constexpr double kAu_m = kAstronomicalUnit_m;
 constexpr const char* kCubeTruth =
     "each lit face of a Lambertian cube is a polygon of radiance albedo E cos(i) / pi; its corners by the "
     "pinhole's equation, its area and centroid by the shoelace formula, in double precision.";
@@ -20,7 +19,8 @@ constexpr const char* kCubeLimit =
     "area each), and the grain of single precision.";
 
 std::string metres(double distance_m) {
-    return distance_m < kAu_m ? text(distance_m) + " m" : text(distance_m / kAu_m) + " au";
+    return distance_m < kAstronomicalUnit_m ? text(distance_m) + " m"
+                                            : text(distance_m / kAstronomicalUnit_m) + " au";
 }
 
 // A cube in sunlight that is not along its axes; nothing is behind it.
@@ -37,8 +37,8 @@ Case cube_case(std::string value, const std::function<Stage()>& stage_of, double
 // A hundred au from the object, with the light of one: behind the camera wherever that is.
 void put_sun(Stage& s) {
     constexpr double kSun_au = 100;
-    s.world.bodies.sun_world_m =
-        s.world.objects[0].position_world_m + kSun_au * kAu_m * normalized(Vec3d{0.5, -0.4, -1});
+    s.world.bodies.sun_world_m = s.world.objects[0].position_world_m +
+                                 kSun_au * kAstronomicalUnit_m * normalized(Vec3d{0.5, -0.4, -1});
     for (int b = 0; b < 2; ++b)
         s.scene.sun_irradiance_1au_w_m2_um[b] *= static_cast<float>(kSun_au * kSun_au);
 }
@@ -54,8 +54,8 @@ Group distance_one_lens() {
                 kCubeTruth,
                 kCubeLimit,
                 {}};
-    for (const double distance_m :
-         {3.0, 10.0, 30.0, 100.0, 120.0, 150.0, 300.0, 900.0, 1100.0, 1e4, 1e6, 4e7, 1e9, kAu_m, 10 * kAu_m})
+    for (const double distance_m : {3.0, 10.0, 30.0, 100.0, 120.0, 150.0, 300.0, 900.0, 1100.0, 1e4, 1e6, 4e7,
+                                    1e9, kAstronomicalUnit_m, 10 * kAstronomicalUnit_m})
         group.cases.push_back(cube_case(
             metres(distance_m),
             [distance_m] {
@@ -82,7 +82,8 @@ Group distance_long_lens() {
                     " From 1 au on a pixel is a few times the grain of double "
                     "precision's directions.",
                 {}};
-    for (const double distance_m : {2.0, 10.0, 1e3, 1e5, 1e7, 1e9, kAu_m, 10 * kAu_m})
+    for (const double distance_m :
+         {2.0, 10.0, 1e3, 1e5, 1e7, 1e9, kAstronomicalUnit_m, 10 * kAstronomicalUnit_m})
         group.cases.push_back(cube_case(
             metres(distance_m),
             [distance_m] {
@@ -108,7 +109,7 @@ Group distance_of_origin() {
                 kCubeTruth,
                 kCubeLimit,
                 {}};
-    for (const double distance_m : {0.0, 4.2e7, 1e9, kAu_m, 10 * kAu_m})
+    for (const double distance_m : {0.0, 4.2e7, 1e9, kAstronomicalUnit_m, 10 * kAstronomicalUnit_m})
         group.cases.push_back(cube_case(
             metres(distance_m),
             [distance_m] {

@@ -8,7 +8,7 @@
 namespace hilcam::extremes {
 namespace {
 
-constexpr double kFocal_px = 1000, kExposure_s = 0.1;
+constexpr double kFocal_px = 1000, kRateExposure_s = 0.1;
 const std::array<double, 5> kRates_deg_s = {0, 0.001, 0.1, 3, 30};
 
 // A Gaussian spot of 1.5 px, cos^3 so that a point has the same light everywhere in the field.
@@ -83,11 +83,12 @@ Group star_trails() {
     for (const double rate_deg_s : kRates_deg_s) {
         const CameraModel c = spot_camera(160, 64);
         constexpr double kElectrons = 1e5;
-        const double irradiance = kElectrons / (electrons_per_irradiance(c, 0.5, 0.6) * kExposure_s);
+        const double irradiance = kElectrons / (electrons_per_irradiance(c, 0.5, 0.6) * kRateExposure_s);
         const double rounded = 16 * kFloatGrain;
         // Points of the trail, two a pixel; each leaves out 0.05 e- at most, beyond 4.5 and within 9 px of
         // it, and gives them to its other pixels.
-        const double parts = std::max(1.0, std::ceil(2 * kFocal_px * rate_deg_s * kDegree_rad * kExposure_s));
+        const double parts =
+            std::max(1.0, std::ceil(2 * kFocal_px * rate_deg_s * kDegree_rad * kRateExposure_s));
         const double lost = parts * 0.05 / kElectrons;
         group.cases.push_back(
             {text(rate_deg_s),
@@ -95,8 +96,8 @@ Group star_trails() {
              [c, irradiance, rate_deg_s] {
                  Bench bench(c);
                  bench.fill(0);
-                 const double turned = rate_deg_s * kDegree_rad * kExposure_s;
-                 Exposure exposure{.exposure_s = kExposure_s};
+                 const double turned = rate_deg_s * kDegree_rad * kRateExposure_s;
+                 Exposure exposure{.exposure_s = kRateExposure_s};
                  exposure.camera_rate_rad_s = {0, rate_deg_s * kDegree_rad, 0};
                  const PointSource star = point_at(80, 32, irradiance);
                  const Spread s = spread_of(bench.expose(exposure, std::span(&star, 1)), 0, 64, 80, 200);
@@ -127,9 +128,9 @@ Group smeared_pictures() {
         // tests/unit/sensor/convolve_test.cpp.
         if (rate_deg_s == 0) continue;
         const CameraModel c = spot_camera(160, 16);
-        const double smear_px = kFocal_px * rate_deg_s * kDegree_rad * kExposure_s;
+        const double smear_px = kFocal_px * rate_deg_s * kDegree_rad * kRateExposure_s;
         const double reach_px = 0.5 * smear_px + 12,
-                     radiance = 1e4 / electrons_per_radiance(c, 0.5, 0.6) / kExposure_s;
+                     radiance = 1e4 / electrons_per_radiance(c, 0.5, 0.6) / kRateExposure_s;
         // The peak's share of the row's light is at most that of the still spot, 1 / (sqrt(2 pi) 1.5).
         const double grain = fft_pair_grain(176 * 32) * 0.27;
         const double lever = reach_px * reach_px, lever2 = 2.0 / 3 * std::pow(reach_px, 3);
@@ -145,7 +146,7 @@ Group smeared_pictures() {
                                    for (int y = 0; y < bench.radiance.height(); ++y)
                                        bench.radiance.row(y)[static_cast<std::size_t>(8 + 80)] =
                                            static_cast<float>(radiance);
-                                   Exposure exposure{.exposure_s = kExposure_s};
+                                   Exposure exposure{.exposure_s = kRateExposure_s};
                                    exposure.image_rate_px_s = {kFocal_px * rate_deg_s * kDegree_rad, 0};
                                    const Spread s = spread_of(bench.expose(exposure), 8, 9, 80.5, reach_px);
                                    const double variance = kSpotVariance_px2 + smear_px * smear_px / 12;

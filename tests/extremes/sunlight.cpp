@@ -7,8 +7,6 @@
 namespace hilcam::extremes {
 namespace {
 
-constexpr double kAu_m = kAstronomicalUnit_m;
-
 // A white plate that fills the field, `distance_m` before the camera.
 Stage plate_stage(double distance_m) {
     Stage s;
@@ -40,7 +38,7 @@ Group sun_incidence() {
                                        Stage s = plate_stage(distance_m);
                                        s.world.bodies.sun_world_m =
                                            Vec3d{0, 0, distance_m} +
-                                           kAu_m * Vec3d{std::sin(angle), 0, -std::cos(angle)};
+                                           kAstronomicalUnit_m * Vec3d{std::sin(angle), 0, -std::cos(angle)};
                                        s.render();
                                        const double full = kSun_w_m2_um / kPi;
                                        const double truth = full * std::max(0.0, std::cos(angle));
@@ -69,7 +67,7 @@ Group sun_phase() {
         {}};
     constexpr double kRadius_px = 100, kStep_px = 0.25;
     const double radius_m = kFigures[index_of(BodyId::kMoon)].equatorial_radius_m;
-    const double distance_m = 1e6 * radius_m, sun_m = 100 * kAu_m;
+    const double distance_m = 1e6 * radius_m, sun_m = 100 * kAstronomicalUnit_m;
     for (const double phase_deg : {0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 165.0, 175.0}) {
         const double g = phase_deg * kDegree_rad, phase = lambert_phase(g);
         // In px^2 of the radiance A E / pi; the whole picture has 2/3 pi R^2 phase of them.
@@ -92,7 +90,7 @@ Group sun_phase() {
                  s.quality.samples_per_axis = 4;
                  s.camera(256, 1.28e-6);
                  s.render();
-                 const double irradiance = kSun_w_m2_um * std::pow(kAu_m / sun_m, 2);
+                 const double irradiance = kSun_w_m2_um * std::pow(kAstronomicalUnit_m / sun_m, 2);
                  const double truth = 2.0 / 3 * 0.6 * irradiance * phase * std::pow(radius_m / distance_m, 2);
                  return std::vector<Found>{{truth, relative(s.light().irradiance, truth)}};
              }});
@@ -111,7 +109,7 @@ Group sun_distance() {
     for (const double distance_au : {0.046, 0.3, 1.0, 1.52, 5.2, 10.0, 30.0})
         group.cases.push_back({text(distance_au) + " au", {8 * kFloatGrain}, [distance_au] {
                                    Stage s = plate_stage(3);
-                                   s.world.bodies.sun_world_m = {0, 0, 3 - distance_au * kAu_m};
+                                   s.world.bodies.sun_world_m = {0, 0, 3 - distance_au * kAstronomicalUnit_m};
                                    s.render();
                                    const double truth = kSun_w_m2_um / kPi / (distance_au * distance_au);
                                    Worst worst;

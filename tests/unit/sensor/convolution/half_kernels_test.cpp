@@ -13,15 +13,15 @@
 namespace hilcam {
 namespace {
 
-constexpr double kSigma_px = 0.6;
+constexpr double kKernelSigma_px = 0.6;
 // A Gaussian over square pixels: at 1 cycle per pixel it is zero.
 std::complex<double> transfer(double u, double v) {
-    return sinc(u) * sinc(v) * gaussian_mtf(std::hypot(u, v), kSigma_px);
+    return sinc(u) * sinc(v) * gaussian_mtf(std::hypot(u, v), kKernelSigma_px);
 }
 // The share of a point's light that a pixel gets whose middle lies there from the point.
 double share_at(double x, double y) {
     const auto along = [](double from) {
-        return normal_cdf((from + 0.5) / kSigma_px) - normal_cdf((from - 0.5) / kSigma_px);
+        return normal_cdf((from + 0.5) / kKernelSigma_px) - normal_cdf((from - 0.5) / kKernelSigma_px);
     };
     return along(x) * along(y);
 }
@@ -106,7 +106,7 @@ TEST(HalfKernels, BlurAsTheirFrameDoes) {
                 for (int i = 0; i < kSteps; ++i) {
                     const double t = (i + 0.5) / kSteps - 0.5;
                     const auto along = [&](double from, double edge) {
-                        const double sigma = std::hypot(kSigma_px, 0.3);
+                        const double sigma = std::hypot(kKernelSigma_px, 0.3);
                         return normal_cdf((from + edge) / sigma);
                     };
                     const auto share = [&](double px, double py) {
