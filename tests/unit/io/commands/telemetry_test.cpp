@@ -12,11 +12,11 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uint32_t kHere = 0x7F530701;  // 127.83.7.1
+constexpr std::uint32_t kTelemetryHost = 0x7F530701;  // 127.83.7.1
 constexpr std::array<std::uint8_t, 2> kCameras = {1, 2};
 
 struct TelemetryOut : testing::Test {
-    Fd client = open_udp(kHere, 0);
+    Fd client = open_udp(kTelemetryHost, 0);
     TelemetryConfig config{.udp_to = {"127.83.7.1:" + std::to_string(endpoint_of(client).port)}};
     std::unique_ptr<TelemetrySender> sender;
     std::vector<std::unique_ptr<FrameSink>> cameras;

@@ -130,19 +130,19 @@ TEST(ConfigYaml, NumbersOfListsCountInEachPlaceThatAnAliasGivesThem) {
 }
 
 // A word in place of a number, and one in place of a list.
-struct Worded {
+struct WordedKeys {
     double budget_s = -1;
     std::vector<Inner> steps;
     bool stays = false;
 };
-Fields fields(Worded& w) {
+Fields fields(WordedKeys& w) {
     return {or_word(number("budget_ms", w.budget_s, 1e-3, {0, 100}, "time"), "auto", -1.0),
             or_word(sections("steps", w.steps, "steps"), "fixed", w.stays)};
 }
 
 TEST(ConfigYaml, AWordMayStandInPlaceOfANumberOrAList) {
     const auto read_worded = [](const std::string& text, std::vector<std::string> overrides = {}) {
-        Worded out;
+        WordedKeys out;
         read_config_text(text, "test.yaml", ".", section_of(out), overrides);
         return out;
     };

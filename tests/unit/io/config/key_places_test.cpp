@@ -8,24 +8,26 @@
 namespace hilcam {
 namespace {
 
-struct Lens {
+struct PlacedLens {
     double focal_length_m = 1, pitch_m = 1;
 };
-Fields fields(Lens& lens) {
+Fields fields(PlacedLens& lens) {
     return {number("focal_length_mm", lens.focal_length_m, 1e-3, {}, ""),
             number("pitch_um", lens.pitch_m, 1e-6, {}, "")};
 }
-struct Bench {
-    Lens lens, other;
+struct PlacedBench {
+    PlacedLens lens, other;
 };
-Fields fields(Bench& bench) { return {section("lens", bench.lens, ""), section("other", bench.other, "")}; }
+Fields fields(PlacedBench& bench) {
+    return {section("lens", bench.lens, ""), section("other", bench.other, "")};
+}
 
 class KeyPlacesTest : public FilesTest {};
 
 TEST_F(KeyPlacesTest, AKeyIsWhereItWasGivenOrWhereWhatHoldsItWas) {
     const auto lens = write("lens.yaml", "focal_length_mm: 3\n");
     const auto file = write("bench.yaml", "lens: lens.yaml\nother:\n  pitch_um: 4\n");
-    Bench bench;
+    PlacedBench bench;
     KeyPlaces places(file.string());
     const std::vector<std::string> set = {"other.focal_length_mm=8"};
     read_config(file, section_of(bench), set, &places);
@@ -43,7 +45,7 @@ TEST_F(KeyPlacesTest, AKeyIsWhereItWasGivenOrWhereWhatHoldsItWas) {
 
 TEST_F(KeyPlacesTest, AFileOfASectionHasKeysOfThatSection) {
     const auto file = write("lens.yaml", "focal_length_mm: 3\n");
-    Lens lens;
+    PlacedLens lens;
     KeyPlaces places(file.string(), "lens.");
     read_config(file, section_of(lens), {}, &places);
     EXPECT_EQ(places.of("lens.focal_length_mm"), file.string() + ":1:18");

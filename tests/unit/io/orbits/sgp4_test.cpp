@@ -30,13 +30,13 @@ Sgp4Elements elements_of(const Tle& t, double last_bits = 0) {
             t.bstar_per_er};
 }
 
-struct Row {
+struct Sgp4Row {
     double minutes;
     StateVector state;
 };
 struct Case {
     Tle tle;
-    std::vector<Row> rows;
+    std::vector<Sgp4Row> rows;
 };
 
 // The published set: element sets and, in the same order, what the authors' program gave for them.
@@ -59,7 +59,7 @@ std::vector<Case> published() {
             ++number;
             continue;
         }
-        Row row{};
+        Sgp4Row row{};
         Vec3d& r = row.state.position_m;
         Vec3d& v = row.state.velocity_m_s;
         std::istringstream(line) >> row.minutes >> r.x >> r.y >> r.z >> v.x >> v.y >> v.z;
@@ -76,7 +76,7 @@ std::vector<Case> published() {
 struct Rounding {
     double position_m, velocity_m_s;
 };
-Rounding rounding_of(const Tle& tle, const Row& row) {
+Rounding rounding_of(const Tle& tle, const Sgp4Row& row) {
     constexpr double kMu_m3_s2 = wgs72::kMu_km3_s2 * 1e9;
     const double n_rad_s = tle.mean_motion_rad_min / 60;
     const double angle = std::max(2 * kPi, std::abs(tle.mean_motion_rad_min * row.minutes));
@@ -96,7 +96,7 @@ TEST(Sgp4, GivesThePublishedStates) {
         if (c.tle.satellite == "33334") continue;
         const Sgp4 sgp4(elements_of(c.tle)), later(elements_of(c.tle, 1));
         deep += sgp4.deep_space();
-        for (const Row& row : c.rows) {
+        for (const Sgp4Row& row : c.rows) {
             StateVector found;
             const Sgp4Status status = sgp4.at(row.minutes, found);
             Rounding most = rounding_of(c.tle, row);

@@ -201,11 +201,11 @@ TEST(Shm, AReaderThatWaitsLearnsThatTheWriterWasKilled) {
         ShmSink sink = shm_sink(name);
         sink.start();
         sink.publish(even_frame(7), report_record(7));
-        [[maybe_unused]] const auto told = write(started[1], "x", 1);
+        [[maybe_unused]] const auto told = ::write(started[1], "x", 1);
         while (true) pause();
     }
     char byte = 0;
-    ASSERT_EQ(read(started[0], &byte, 1), 1);
+    ASSERT_EQ(::read(started[0], &byte, 1), 1);
     hilcam_shm ring;
     ASSERT_EQ(hilcam_shm_open(&ring, name.c_str()), nullptr);
     EXPECT_FALSE(hilcam_shm_has_ended(&ring));

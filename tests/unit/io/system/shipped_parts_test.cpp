@@ -15,11 +15,11 @@ using ShippedParts = FilesTest;
 using testing::Contains;
 using testing::HasSubstr;
 
-const fs::path kConfigs = fs::canonical(HILCAM_SOURCE_DIR "/configs");
+const fs::path kShipped = fs::canonical(HILCAM_SOURCE_DIR "/configs");
 
 TEST_F(ShippedParts, AConfigurationIsAPathOrAName) {
-    EXPECT_EQ(named_config("small"), kConfigs / "scenarios/small.yaml");
-    EXPECT_EQ(named_config("lorri"), kConfigs / "cameras/lorri.yaml");
+    EXPECT_EQ(named_config("small"), kShipped / "scenarios/small.yaml");
+    EXPECT_EQ(named_config("lorri"), kShipped / "cameras/lorri.yaml");
     EXPECT_EQ(named_config("nothing"), "nothing");
     EXPECT_EQ(named_config("no/small"), "no/small");
     EXPECT_EQ(named_config("small.yml"), "small.yml");
@@ -33,9 +33,9 @@ TEST_F(ShippedParts, AConfigurationIsAPathOrAName) {
 
 TEST_F(ShippedParts, APartIsFoundByItsKindAndName) {
     const ShippedKind& qualities = *shipped_kind("qualities");
-    EXPECT_EQ(shipped_part(qualities, "realtime"), kConfigs / "quality/realtime.yaml");
-    EXPECT_EQ(shipped_part(*shipped_kind("filters"), "rggb"), kConfigs / "filters/RGGB.yaml");
-    EXPECT_EQ(shipped_part(*shipped_kind("meshes"), "asteroid"), kConfigs / "meshes/asteroid.ply");
+    EXPECT_EQ(shipped_part(qualities, "realtime"), kShipped / "quality/realtime.yaml");
+    EXPECT_EQ(shipped_part(*shipped_kind("filters"), "rggb"), kShipped / "filters/RGGB.yaml");
+    EXPECT_EQ(shipped_part(*shipped_kind("meshes"), "asteroid"), kShipped / "meshes/asteroid.ply");
     for (const char* const none : {"", "lorri", "realtime.yaml", "../quality/realtime", "quality/realtime"})
         EXPECT_EQ(shipped_part(qualities, none), fs::path()) << none;
     EXPECT_EQ(shipped_kind("lenses"), nullptr);

@@ -16,19 +16,19 @@
 namespace hilcam {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kSentWidth = 64, kSentHeight = 48;
 constexpr std::uint32_t kHere = 0x7F530101;  // 127.83.1.1
 
 class Sender : public testing::TestWithParam<bool> {
   protected:
     FaultBoard faults_{3};
-    GigeRing ring_{GigeRing::kMinSlots, max_payload_bytes(kWidth, kHeight, "", false)};
-    GigeFrameWriter writer_{ring_, faults_, "", kWidth};
+    GigeRing ring_{GigeRing::kMinSlots, max_payload_bytes(kSentWidth, kSentHeight, "", false)};
+    GigeFrameWriter writer_{ring_, faults_, "", kSentWidth};
     std::atomic<std::uint64_t> finished_{0};
     GigeSender sender_{ring_, faults_, nullptr, {}, [this](std::uint64_t a) { finished_ = a; }};
     Fd client_ = open_udp(kHere, 0);
     GigeStreamNow now_;
-    DnImage image_{kWidth, kHeight};
+    DnImage image_{kSentWidth, kSentHeight};
     FrameRecord record_;
     // What came, by block and packet id; the last one counts.
     std::map<std::uint64_t, std::map<std::uint32_t, Packet>> came_;
@@ -42,7 +42,7 @@ class Sender : public testing::TestWithParam<bool> {
         s.packet_bytes = 576;
         s.extended_ids = GetParam();
         s.format = WireFormat::kMono12;
-        s.width = kWidth, s.height = kHeight;
+        s.width = kSentWidth, s.height = kSentHeight;
         now_.acquisition = 1;
         record_.bits = 12;
         sender_.set_stream(now_);
@@ -100,7 +100,7 @@ class Sender : public testing::TestWithParam<bool> {
         return out;
     }
     static std::vector<std::uint8_t> expected(std::uint64_t frame) {
-        std::vector<std::uint8_t> out(std::size_t{2} * kWidth * kHeight);
+        std::vector<std::uint8_t> out(std::size_t{2} * kSentWidth * kSentHeight);
         for (std::size_t i = 0; i < out.size(); i += 2) out[i] = static_cast<std::uint8_t>(frame);
         return out;
     }
