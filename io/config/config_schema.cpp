@@ -49,7 +49,7 @@ Json or_word(const Json& accepted, const std::string& word) {
 }
 Json list_of_mappings(const SectionsField& f) {
     const Json list = {{"type", "array"}, {"items", section_of_field(f.append())}};
-    return {{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, list}}};
+    return or_word(Json{{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, list}}}, f.word);
 }
 
 Json type_of(const Field& field) {

@@ -11,6 +11,7 @@
 #include "io/config/config_advice.h"
 #include "io/config/config_manual.h"
 #include "io/config/open_bracket.h"
+#include "io/config/second_document.h"
 #include "io/system/input_file.h"
 #include "io/system/program_files.h"
 #include "io/system/shipped_parts.h"
@@ -79,16 +80,13 @@ class Reader {
         read_section(mapping_in(text, place, path), place, section, path, depth);
     }
 
-    // A file holds one document: of several, which one was meant is not known.
     static YAML::Node only_document(std::string_view text, const Place& place) {
+        if (const auto line = line_of_second_document(text))
+            throw InputError(place.name + ":" + std::to_string(*line) +
+                             ":1: a second document ('---') begins here; accepted: one a file");
         try {
             // An alias makes one node stand in many places; without any there is nothing to blow up.
-            const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
-            for (std::size_t i = 1; i < documents.size(); ++i)
-                if (!documents[i].IsNull())
-                    fail(place, documents[i], "",
-                         "a second document ('---') begins here; accepted: one a file");
-            return documents.empty() ? YAML::Node() : documents.front();
+            return YAML::Load(std::string(text));
         } catch (const YAML::Exception& error) {
             const std::string open = unpaired_bracket(text);
             throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
@@ -403,10 +401,10 @@ class Reader {
                 [&](const SectionsField& f) {
                     if (f.holds_word) *f.holds_word = is_word(node, f.word);
                     if (is_word(node, f.word)) return;
-                    if (node.IsScalar()) return list_in_file(node, place, field, path, depth);
+                    if (node.IsScalar()) return list_in_file(node, place, field, f.word, path, depth);
                     if (!node.IsSequence())
-                        refuse(node, in_place_of("a list of mappings, or the path of a file that holds it",
-                                                 f.word));
+                        refuse(node, in_place_of("a list of mappings", f.word) +
+                                         ", or the path of a file that holds it");
                     for (std::size_t i = 0; i < node.size(); ++i)
                         section(node[i], place, f.append(), join(path, std::to_string(i)), depth, refuse);
                 },
@@ -452,7 +450,7 @@ class Reader {
 
     // The file that stands in the place of a mapping or a list; fails when there is none.
     static std::filesystem::path named_file(const YAML::Node& node, const Place& place,
-                                            const std::string& path, const char* whole) {
+                                            const std::string& path, const std::string& whole) {
         std::filesystem::path file = found_from(place, node.Scalar(), path);
         std::error_code error;
         if (!std::filesystem::exists(file, error))
@@ -473,9 +471,9 @@ class Reader {
     }
 
     // A list in a file of its own stands there under the key that it has here.
-    void list_in_file(const YAML::Node& node, const Place& place, const Field& field, const std::string& path,
-                      int depth) {
-        in_file(named_file(node, place, path, "a list of mappings"), path,
+    void list_in_file(const YAML::Node& node, const Place& place, const Field& field, const std::string& word,
+                      const std::string& path, int depth) {
+        in_file(named_file(node, place, path, in_place_of("a list of mappings", word)), path,
                 [&](const YAML::Node& map, const Place& own) {
                     refuse_unknown_keys(map, own, {field}, path);
                     const YAML::Node list = map[field.key];

@@ -9,7 +9,7 @@ bool take_possible(const Bodies& found, Bodies& kept) {
         if (can_be) to = from;
         all = all && can_be;
     };
-    take(is_within(found.sun_world_m, kFarthestApart_m), found.sun_world_m, kept.sun_world_m);
+    take(is_within(found.sun_world_m, kFarthestSun_m), found.sun_world_m, kept.sun_world_m);
     take(is_possible(found.origin_from_barycenter), found.origin_from_barycenter,
          kept.origin_from_barycenter);
     for (std::size_t i = 0; i < kMaxBodies; ++i) {

@@ -9,7 +9,8 @@ namespace hilcam {
 inline bool is_possible(const StateVector& s) {
     return is_within(s.position_m, kFarthestPlace_m) && is_within(s.velocity_m_s, kFastestMotion_m_s);
 }
-// Takes over what can be of the bodies: at most two bounds away, as body and origin may be opposite each other. Of the others `kept`
+// Takes over what can be of the bodies: at most two bounds away, as body and origin may be opposite each other; the Sun may be
+// farther. Of the others `kept`
 // keeps its own. False: something could not be.
 bool take_possible(const Bodies& found, Bodies& kept);
 

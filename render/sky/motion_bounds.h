@@ -15,6 +15,8 @@ namespace hilcam {
 
 // 10 000 au from the world's origin: Voyager 1 is at 170 au, and a double is good to 0.2 m there.
 inline constexpr double kFarthestPlace_m = 1.5e15;
+// The Sun may be farther, as parallel light of far away: nothing is placed there.
+inline constexpr double kFarthestSun_m = 1e18;
 // The speed of light, rounded up.
 inline constexpr double kFastestMotion_m_s = 3e8;
 // A thousand turns a second, and a hundred thousand turns of a joint.

@@ -205,7 +205,7 @@ const Mistake kMistakes[] = {
      "that is 0.24 au from the body 'earth'; in metres? here it would be 35786"},
     {"FolderThatCannotBeWritten", 25, "outputs: {files: {folder: /proc/x}}", "",
      "outputs.files.folder: found '/proc/x', and nothing can be written in '/proc'"},
-    {"TwoDocuments", 25, "outputs: {files: {folder: frames}}\n---\nname: two", "27:1",
+    {"TwoDocuments", 25, "outputs: {files: {folder: frames}}\n---\nname: two", "26:1",
      "a second document ('---') begins here; accepted: one a file"},
     {"InsideOut", 22, "    mesh: inside.obj", "", "objects.0.mesh: 'inside.obj' is inside out"},
     {"NoSuchMtl", 22, "    mesh: grey.obj", "", "names the materials 'grey.mtl', and there is no such file"},

@@ -61,7 +61,7 @@ TEST(ConfigManual, AWordThatStandsInAValuesPlaceIsAccepted) {
     Worded worded;
     const std::string table = config_manual(section_of(worded), "");
     EXPECT_THAT(table, HasSubstr("| `budget_ms` | auto, or 0 to 100 | auto | time |\n"));
-    EXPECT_THAT(table, HasSubstr("| `steps` | fixed, or list of mappings |"));
+    EXPECT_THAT(table, HasSubstr("| `steps` | fixed, or list of mappings, or file |"));
     worded.budget_s = 0.02;
     EXPECT_THAT(config_manual(section_of(worded), ""), HasSubstr("| `budget_ms` | auto, or 0 to 100 | 20 |"));
     worded.budget_s = -1;
@@ -70,7 +70,8 @@ TEST(ConfigManual, AWordThatStandsInAValuesPlaceIsAccepted) {
     EXPECT_EQ(keys["budget_ms"]["anyOf"][0], json({{"enum", {"auto"}}}));
     EXPECT_EQ(keys["budget_ms"]["anyOf"][1], json({{"type", "number"}, {"minimum", 0}, {"maximum", 100}}));
     EXPECT_EQ(keys["steps"]["anyOf"][0], json({{"enum", {"fixed"}}}));
-    EXPECT_EQ(keys["steps"]["anyOf"][1]["type"], "array");
+    EXPECT_EQ(keys["steps"]["anyOf"][1]["anyOf"][0]["type"], "string");  // a file
+    EXPECT_EQ(keys["steps"]["anyOf"][1]["anyOf"][1]["type"], "array");
 }
 
 TEST(ConfigManual, ASectionLikeAnEarlierOneIsFoldedWithItsOtherDefaults) {

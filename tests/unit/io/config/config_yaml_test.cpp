@@ -162,10 +162,13 @@ TEST(ConfigYaml, AWordMayStandInPlaceOfANumberOrAList) {
     EXPECT_EQ(refused_as("budget_ms: sometimes\n"),
               "test.yaml:1:12: budget_ms: found 'sometimes'; accepted: a number, 0 to 100, or 'auto' (time)");
     EXPECT_THAT(refused_as("budget_ms: 101\n"), HasSubstr("accepted: a number, 0 to 100"));
-    EXPECT_EQ(refused_as("steps: some\n"),
-              "test.yaml:1:8: steps: found 'some'; accepted: a list of mappings, or 'fixed' (steps)");
+    EXPECT_EQ(
+        refused_as("steps: some\n"),
+        "test.yaml:1:8: steps: found 'some'; accepted: a list of mappings, or 'fixed', or the path of a file "
+        "that holds it; ./some: no such file");
     // Without a word none is taken.
-    EXPECT_THAT(error_of("name: x\nlist: fixed\n"), HasSubstr("accepted: a list of mappings (many)"));
+    EXPECT_THAT(error_of("name: x\nlist: fixed\n"),
+                HasSubstr("accepted: a list of mappings, or the path of a file that holds it; "));
     EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: auto}\n"),
                 HasSubstr("accepted: a number, 0.01 to 1000 ("));
 }
