@@ -94,11 +94,15 @@ class PointTree {
         } else {
             pairs[0] = {a, b + 1}, pairs[1] = {a, n.right}, count = 2;
         }
-        std::sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(count),
-                  [this](const auto& p, const auto& q) {
-                      return bound_squared(p[0], p[1]) > bound_squared(q[0], q[1]);
-                  });
-        for (std::size_t i = 0; i < count; ++i) search(pairs[i][0], pairs[i][1]);
+        const auto nearer = [this](const auto& p, const auto& q) {
+            return bound_squared(p[0], p[1]) < bound_squared(q[0], q[1]);
+        };
+        // Few enough to be chosen one by one; of std::sort GCC 14 believes that it leaves the array.
+        const auto last = pairs.begin() + static_cast<std::ptrdiff_t>(count);
+        for (auto next = pairs.begin(); next != last; ++next) {
+            std::iter_swap(next, std::max_element(next, last, nearer));
+            search((*next)[0], (*next)[1]);
+        }
     }
 };
 

@@ -310,8 +310,9 @@ TEST_F(CheckScenario, AFrameThatTakesLongerThanItHasIsTold) {
     report.reports[1].period_s = 0.05;
     EXPECT_TRUE(report.reports[0].is_late());
     EXPECT_FALSE(report.reports[1].is_late());
-    EXPECT_THAT(to_text(report),
-                HasSubstr("25 frames/s leave 40 ms\n              longer than it has: exposures"));
+    EXPECT_THAT(
+        to_text(report),
+        HasSubstr("25 frames/s leave 40 ms\n              longer than it has: a run lowers the quality"));
     // In lockstep frames are asked for.
     EXPECT_EQ(check({}, "mode: lockstep\n").reports.at(0).period_s, 0);
     EXPECT_NEAR(check({"camera.exposure_ms=250"}).reports.at(0).period_s, 0.25, 1e-12);

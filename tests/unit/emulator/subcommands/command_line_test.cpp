@@ -60,7 +60,7 @@ TEST(CommandLine, WhatIsHiddenIsOfferedToNobody) {
         FAIL();
     } catch (const CLI::ParseError&) {
         EXPECT_THAT(unknown_subcommand(app),
-                    HasSubstr("unknown subcommand 'make-page'; accepted: run recording"));
+                    HasSubstr("unknown subcommand 'make-page'; accepted: run prepare recording"));
         EXPECT_THAT(unknown_subcommand(app), Not(HasSubstr("make-pages")));
     }
     EXPECT_THAT(app.help(), Not(HasSubstr("make-pages")));
