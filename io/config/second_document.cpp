@@ -23,7 +23,7 @@ bool has_content(std::string_view line) {
 
 std::optional<std::size_t> line_of_second_document(std::string_view text) {
     bool first_has_content = false;
-    std::optional<std::size_t> begin;  // of what comes after the first document
+    std::optional<std::size_t> begin;  // line at which what comes after the first document begins
     for (std::size_t number = 1; !text.empty(); ++number) {
         std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));
