@@ -370,9 +370,11 @@ void Emulator::print_light_left(std::int64_t now_ns) {
     constexpr std::int64_t kBetweenLines_ns = 30'000'000'000;
     next_light_line_ns_ = now_ns + kBetweenLines_ns;
     const double share = light_maker_->share();
-    const std::optional<double> left = left_s({"", share, seconds_});
-    spdlog::info("light between surfaces: {:.0f} % made{}", std::floor(100 * share),
-                 left ? ", about " + duration_text(*left) + " left" : "");
+    if (const std::optional<double> left = left_s({"", share, seconds_}))
+        spdlog::info("light between surfaces: {:.0f} % made, about {} left", std::floor(100 * share),
+                     duration_text(*left));
+    else
+        spdlog::info("light between surfaces: {:.0f} % made", std::floor(100 * share));
 }
 
 // Once, when all cameras have the light that was made beside the run.
@@ -404,8 +406,12 @@ void Emulator::print_missed(std::int64_t now_ns) {
     std::uint64_t missed = 0;
     for (const auto& station : stations_) missed += station->loop().counters().deadline_misses.load();
     if (missed == missed_told_) return;
-    spdlog::warn("{} exposures missed in {:.0f} s{}: frames take longer than their period", missed, seconds_,
-                 missed_told_ == 0 ? "" : fmt::format(", {} of them new", missed - missed_told_));
+    if (missed_told_ == 0)
+        spdlog::warn("{} exposures missed in {:.0f} s: frames take longer than their period", missed,
+                     seconds_);
+    else
+        spdlog::warn("{} exposures missed in {:.0f} s, {} of them new: frames take longer than their period",
+                     missed, seconds_, missed - missed_told_);
     missed_told_ = missed;
     next_missed_line_ns_ = now_ns + kBetweenMissedLines_ns;
 }
