@@ -86,7 +86,8 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
         out.push_back(fmt::format("{} is {} large, {:.2g} pixels from {:.4g} m: is its scale too small?",
                                   name, size_text(o.loaded.most_m - o.loaded.least_m), o.silhouette_px,
                                   o.distance_m));
-    if (const std::string advice = longest_advice(o); !advice.empty() && o.distance_m < 10 * kLongest_m)
+    // An asteroid is as large, and is looked at from farther away than that.
+    if (const std::string advice = longest_advice(o); !advice.empty() && o.distance_m < longest_m(o))
         out.push_back(fmt::format("{} is {} large and {:.4g} m away{}", name,
                                   size_text(o.loaded.most_m - o.loaded.least_m), o.distance_m, advice));
 }
