@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <string_view>
+#include <vector>
 
 #include "io/system/plain_words.h"
 #include "render/vocabulary/check.h"
@@ -38,12 +39,17 @@ class NoFiles final : public VSIFilesystemHandler {
 };
 
 void close_file_systems() {
+    // GDAL lets go of a handler that another replaces and does not delete it, and one may serve several prefixes: they
+    // stay until the process is gone.
+    static auto* const replaced = new std::vector<VSIFilesystemHandler*>;
     char** const prefixes = VSIGetFileSystemsPrefixes();
     for (char** prefix = prefixes; prefix && *prefix; ++prefix)
         // Formats use these two for parts of files and of memory. A handler is GDAL's from here on.
         if (const std::string_view own(*prefix);
-            own.starts_with("/vsi") && own != "/vsimem/" && own != "/vsisubfile/")
+            own.starts_with("/vsi") && own != "/vsimem/" && own != "/vsisubfile/") {
+            replaced->push_back(VSIFileManager::GetHandler(*prefix));
             VSIFileManager::InstallHandler(*prefix, new NoFiles);
+        }
     CSLDestroy(prefixes);
 }
 

@@ -16,6 +16,13 @@
 namespace hilcam {
 namespace {
 
+// The type in which OGRCoordinateTransformation::Transform counts points.
+#if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 9, 0)
+using TransformCount = std::size_t;
+#else
+using TransformCount = int;
+#endif
+
 struct DestroyTransformation {
     void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
 };
@@ -47,8 +54,8 @@ class GdalRaster final : public GroundRaster {
         for (std::size_t i = 0; i < places.size(); ++i)
             x_[i] = longitude_deg(places[i]), y_[i] = latitude_deg(places[i]);
         if (projection_)
-            projection_->Transform(static_cast<int>(places.size()), x_.data(), y_.data(), nullptr, nullptr,
-                                   success_.data());
+            projection_->Transform(static_cast<TransformCount>(places.size()), x_.data(), y_.data(), nullptr,
+                                   nullptr, success_.data());
         else
             std::fill(success_.begin(), success_.end(), 1);
         constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
