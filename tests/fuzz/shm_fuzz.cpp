@@ -2,6 +2,7 @@
 
 #include "tools/client/hilcam_shm.h"
 
+#include <cstdint>
 #include <cstring>
 #include <string_view>
 #include <vector>
