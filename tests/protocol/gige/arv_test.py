@@ -58,6 +58,11 @@ class ConformanceTest(CameraTest):
                 break
         return results
 
+    @staticmethod
+    def ignored(results):
+        """Without the schema: arv-test 0.8.26 ignores it where it is not named, 0.8.34 where it is."""
+        return {name for name, line in results.items() if line[0] == "IGNORED"} - {"Genicam:Schema"}
+
     def judge(self, results):
         self.assertTrue(results)
         self.assertEqual({name for name in GROUPS if not any(line.startswith(name + ":") for line in results)}, set())
@@ -71,9 +76,8 @@ class Conformance(ConformanceTest):
     def test_arv_test_as_it_comes(self):
         results = self.run_test()
         self.judge(results)
-        # Without a configuration of our own it does not know the sensor's size and no schema.
-        ignored = {name for name, line in results.items() if line[0] == "IGNORED"}
-        self.assertEqual(ignored, {"Genicam:Schema", "Properties:SensorSizeCheck"})
+        # Without a configuration of our own it does not know the sensor's size.
+        self.assertEqual(self.ignored(results), {"Properties:SensorSizeCheck"})
 
     def test_arv_test_with_all_it_can_check(self):
         # Integers only: arv-test 0.8 reads chunks as such.
@@ -87,7 +91,7 @@ class Conformance(ConformanceTest):
             configuration.flush()
             results = self.run_test("-c", configuration.name)
         self.judge(results)
-        self.assertEqual([name for name, line in results.items() if line[0] == "IGNORED"], [])
+        self.assertEqual(self.ignored(results), set())
 
 
 class MultipartConformance(ConformanceTest):
