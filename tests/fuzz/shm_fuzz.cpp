@@ -10,7 +10,7 @@
 #include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    std::vector<std::uint64_t> words((size + 7) / 8);
+    std::vector<std::uint64_t> words(size / 8 + 1);
     if (size > 0) std::memcpy(words.data(), data, size);  // its places may not be null, even for none
     hilcam_shm ring;
     if (const char* problem = hilcam_shm_use(&ring, words.data(), size)) {
