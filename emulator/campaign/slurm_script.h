@@ -28,9 +28,9 @@ std::vector<std::uint64_t> tasks_of(const std::vector<std::uint64_t>& missing, s
 std::string array_script(const SlurmPlan& plan);
 std::string merge_script(const SlurmPlan& plan);
 
-// Writes slurm/array.sh and slurm/merge.sh into the campaign's folder and hands them to sbatch, where there is
-// one. Returns what it did, a line each. InputError for a folder whose name a script cannot have, DeviceError when
-// a file cannot be written, or sbatch refuses.
+// Writes slurm/array.sh and slurm/merge.sh into the campaign's folder, and with `submit` hands them to sbatch. Returns
+// one line for each thing that it did. Throws InputError when the folder's name has characters that a script cannot
+// quote, and DeviceError when a file cannot be written or sbatch refuses.
 std::vector<std::string> submit_campaign(const SlurmPlan& plan, bool submit);
 
 }  // namespace hilcam

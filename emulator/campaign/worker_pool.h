@@ -33,9 +33,9 @@ class WorkerPool {
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    // Has all pieces done, in about this order. stops: asked often; once it says so, children are ended, and what they
-    // have not done is told to nobody. DeviceError when no child can be made, InputError with what begin threw in
-    // a child. Owner thread.
+    // Does all pieces, in about this order. It asks `stops` often; once that returns true, it ends the children and
+    // drops the pieces that they have not finished. Throws DeviceError when no child can be made, and InputError with
+    // the words that `begin` threw in a child. Owner thread.
     void run(
         const std::vector<std::uint64_t>& numbers, const Done& done,
         const std::function<bool()>& stops = [] { return false; });

@@ -135,7 +135,8 @@ void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraRepor
         out.push_back(s.places.at("camera.exposure_ms", name + " " + fault));
 }
 
-// Where the boresight meets a body that the Sun lights; without air and clouds, so that it is told when it is far off.
+// Warns when the lit ground at the boresight would be far too bright or too dark. The estimate has neither air nor
+// clouds, so the bounds are wide.
 void judge_ground(const ScenarioConfig& s, const CameraReport& camera, std::vector<std::string>& out) {
     const std::optional<GroundSight>& ground = camera.sight.ground;
     constexpr double kHigh_rad = 10 * kDegree_rad;

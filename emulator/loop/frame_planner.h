@@ -20,9 +20,9 @@
 //
 // Quality: with a frame budget the governor (governor.h) chooses each frame's level by what earlier frames
 // took: the longer of the two stages, or with loop.prefer `latency` both, as that is how long the next frame
-// has to wait. It is told of a frame when its slot is taken over. A budget of the frame rate is the machine's time until
-// the next exposure is due, as settings and clock have it when the frame begins; a frame that is triggered has none, as
-// nobody knows when the next trigger comes. Off in lockstep, where frames must not depend on the machine, and
+// has to wait. The governor gets a frame's time when the next frame takes over its slot. With frame_budget_ms: auto the
+// budget is the real time until the next exposure is due, by the settings and the clock at the frame's begin. A
+// triggered frame has no budget, as the next trigger's time is unknown. Off in lockstep, where frames must not depend on the machine, and
 // where frames are not paced.
 
 #include <atomic>

@@ -54,8 +54,8 @@ class Governor {
     // Owner thread; the others: loop.
     explicit Governor(const GovernorSettings& settings);
 
-    // Frames may take so long from now on [ms]; 0: as long as they like, so that they have the best level. For settings
-    // whose budget is told.
+    // Sets how long frames may take from now on [ms]; 0: there is no limit, and frames have the best level. Only for
+    // settings with kToldBudget_ms.
     void use_budget(double budget_ms);
     // Returns the budget [ms]; 0: frames may take as long as they like.
     double budget_ms() const { return budget_ms_; }

@@ -67,7 +67,7 @@ class RenderStage {
     bool ends_order_ = false;  // the frame is its order's last
     std::int64_t shown_arrival_ns_ = 0;
     std::uint64_t flagged_ = 0;     // time tags that went back, as frames have told of them
-    std::uint64_t impossible_ = 0;  // WorldState::impossible(), likewise
+    std::uint64_t impossible_ = 0;  // WorldState::impossible() at the last frame that was flagged
 };
 
 }  // namespace hilcam

@@ -84,7 +84,7 @@ struct AttitudeState {
     Quat world_from_body;
     Vec3d rate_body_rad_s;
 };
-inline constexpr AttitudeState kUnknownAttitude{{0, 0, 0, 0}, {}};  // likewise: no rotation
+inline constexpr AttitudeState kUnknownAttitude{{0, 0, 0, 0}, {}};  // no rotation, which no thing takes over
 
 class AttitudeLaw {
   public:

@@ -5,8 +5,9 @@
 // A receiver on this machine is waited for by the look of its buffer (receiver_room.h); elsewhere, four frames within some
 // milliseconds overrun the default buffer of a plain client. So a frame begins half a period after the one before began,
 // at the earliest. The period is that of the two frames' exposures: frames on time never wait, and those that are late
-// catch up at twice their rate. A replay as fast as it goes gives frames before their time: they are not late. Example at 30 Hz: frames that are ready at 0, 4, 8 and 12 ms begin at 0, 16.7, 33.3 and
-// 50 ms, and the next one, ready at 45 ms, at 66.7 ms.
+// catch up at twice their rate. A replay that runs as fast as it can gives frames before their time: they are not late.
+// Example at 30 Hz: frames that are ready at 0, 4, 8 and 12 ms begin at 0, 16.7, 33.3 and 50 ms, and the next one, ready
+// at 45 ms, at 66.7 ms.
 
 #include <algorithm>
 #include <cstddef>
