@@ -174,7 +174,7 @@ TEST_F(MotionScenario, WhatStandsKeepsItsAxesAndItsFollowers) {
                  "frame: lvlh, of: iss}}\n" +
                  iss));
     const double end_s =
-        static_cast<double>(read_tles(kIss, "iss.tle").at(0).epoch - world.start) * 1e-9 + 3 * 86400;
+        static_cast<double>(read_element_sets(kIss, "iss.tle").at(0).epoch - world.start) * 1e-9 + 3 * 86400;
     const WorldSnapshot before = world.at(end_s - 1e-4), after = world.at(end_s + 1e-4),
                         later = world.at(end_s + 1000);
     // In 0.2 ms it flies 1.5 m and turns by 2e-7 rad.

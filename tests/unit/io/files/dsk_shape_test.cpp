@@ -11,6 +11,7 @@
 #include "render/vocabulary/units.h"
 #include "tests/support/dsk_writer.h"
 #include "tests/support/files.h"
+#include "tests/support/transfer_writer.h"
 
 namespace hilcam {
 namespace {
@@ -91,6 +92,20 @@ TEST_F(DskShape, IsTheSameHoweverItsRecordsLie) {
                 for (std::size_t i = 0; i < m.vertices_m.size(); ++i)
                     EXPECT_EQ(length(m.vertices_m[i] - whole.vertices_m[i]), 0);
             }
+}
+
+TEST_F(DskShape, IsTheSameInTransferFormat) {
+    const DskWriter writer = DskWriter().add(globe(30, 40)).add(tetrahedron(-3, 2));
+    const DskWriter::Numbers numbers = writer.numbers();
+    const std::string text = transfer_das(numbers.doubles, numbers.integers);
+    const Mesh binary = read_dsk_shape(writer.bytes(), "a.bds", -3), same = read_dsk_shape(text, "a.xds", -3);
+    EXPECT_EQ(same.triangles, binary.triangles);
+    ASSERT_EQ(same.vertices_m.size(), 4u);
+    EXPECT_EQ(length(same.vertices_m[3] - binary.vertices_m[3]), 0);
+    EXPECT_EQ(dsk_segments(text, "a.xds").size(), 2u);
+    EXPECT_THAT(refusal(text.substr(0, text.size() / 2)), HasSubstr("the file ends; accepted: a whole kernel"));
+    write("a.xds", text);
+    EXPECT_EQ(load_mesh_contents(folder_ / "a.xds", -3).mesh.triangles.size(), 4u);
 }
 
 TEST_F(DskShape, OfSeveralSurfacesOneIsChosen) {
