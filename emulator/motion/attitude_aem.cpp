@@ -10,7 +10,10 @@ namespace {
 class AemLaw final : public AttitudeLaw {
   public:
     AemLaw(std::vector<AemSegment> segments, const OrbitCenter& center, const std::string& name)
-        : segments_(std::move(segments)), center_(center), name_(name), eme2000_{*resting_axes(CcsdsFrame::kEme2000, {}), {}} {}
+        : segments_(std::move(segments)),
+          center_(center),
+          name_(name),
+          eme2000_{*resting_axes(CcsdsFrame::kEme2000, {}), {}} {}
 
     MotionValidity validity(TimeTai time) const override { return validity_of(segments_, time); }
     AttitudeState at(const MotionContext& context, const OwnMotion& self) const override {

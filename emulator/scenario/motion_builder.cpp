@@ -52,8 +52,8 @@ class Builder {
             try {
                 sources[thing] = source_of(*motion, thing);
             } catch (const InputError& error) {
-                throw InputError(
-                    scenario_.places.at(key_of(thing), "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
+                throw InputError(scenario_.places.at(
+                    key_of(thing), "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
             }
         }
         MotionSources out(std::move(sources), names_);

@@ -80,8 +80,10 @@ Fields fields(TleConfig& t) {
     return {
         required(path("file", t.file, "element sets: two-line, or an OMM as KVN, XML, CSV or JSON")),
         text("satellite", t.satellite,
-             "the satellite's number (100001 or A0001), or its name or OBJECT_ID in the file; of several sets the newest is taken"),
-        choice("checksum", t.checksum, {"verify", "ignore"}, "treatment of each line's checksum; ignore takes lines without one, too"),
+             "the satellite's number (100001 or A0001), or its name or OBJECT_ID in the file; of several "
+             "sets the newest is taken"),
+        choice("checksum", t.checksum, {"verify", "ignore"},
+               "treatment of each line's checksum; ignore takes lines without one, too"),
         number("valid_days", t.valid_s, 86400, {0.01, 400},
                "days before and after its epoch for which the set is valid"),
     };

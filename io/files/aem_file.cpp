@@ -79,7 +79,8 @@ std::array<int, 3> axes_of(const KvnLines& lines, const KvnEntry& entry) {
         axes[i] = static_cast<int>(at % 3);
         if (i == 2) return axes;
     }
-    lines.refuse(entry.value, "EULER_ROT_SEQ of three letters X, Y, Z, no two neighbours the same", entry.line);
+    lines.refuse(entry.value, "EULER_ROT_SEQ of three letters X, Y, Z, no two neighbours the same",
+                 entry.line);
 }
 
 bool is_version_1(AttitudeType type) {
@@ -125,11 +126,11 @@ Metadata read_metadata(KvnLines& lines) {
     Metadata m;
     m.segment.line = lines.number();
     KvnSection meta;
-    meta.read(
-        lines, "META_STOP",
-        {"OBJECT_NAME", "OBJECT_ID", "CENTER_NAME", "REF_FRAME_A", "REF_FRAME_B", "ATTITUDE_DIR",
-         "TIME_SYSTEM", "START_TIME", "USEABLE_START_TIME", "USEABLE_STOP_TIME", "STOP_TIME", "ATTITUDE_TYPE",
-         "QUATERNION_TYPE", "EULER_ROT_SEQ", "ANGVEL_FRAME", "RATE_FRAME", "INTERPOLATION_METHOD", "INTERPOLATION_DEGREE"});
+    meta.read(lines, "META_STOP",
+              {"OBJECT_NAME", "OBJECT_ID", "CENTER_NAME", "REF_FRAME_A", "REF_FRAME_B", "ATTITUDE_DIR",
+               "TIME_SYSTEM", "START_TIME", "USEABLE_START_TIME", "USEABLE_STOP_TIME", "STOP_TIME",
+               "ATTITUDE_TYPE", "QUATERNION_TYPE", "EULER_ROT_SEQ", "ANGVEL_FRAME", "RATE_FRAME",
+               "INTERPOLATION_METHOD", "INTERPOLATION_DEGREE"});
     m.segment.object_name = meta.require(lines, "OBJECT_NAME").value;
     m.segment.object_id = meta.require(lines, "OBJECT_ID").value;
     m.system = ccsds_time_system(lines, meta.require(lines, "TIME_SYSTEM"));
@@ -289,8 +290,7 @@ RateFit fit_of(const std::vector<AttitudeSample>& samples) {
     RateFit fit;
     for (std::size_t i = 1; i < samples.size(); ++i) {
         const double step_s = static_cast<double>(samples[i].time - samples[i - 1].time) * kSecondsPerNs;
-        const Vec3d by_rates =
-            (0.5 * step_s) * (samples[i - 1].rate_body_rad_s + samples[i].rate_body_rad_s);
+        const Vec3d by_rates = (0.5 * step_s) * (samples[i - 1].rate_body_rad_s + samples[i].rate_body_rad_s);
         // Beyond half a turn attitudes do not say which way they went.
         if (!(step_s > 0) || !(length(by_rates) < 0.5 * kPi)) continue;
         const Quat step = conjugate(samples[i - 1].reference_from_body) * samples[i].reference_from_body;
@@ -316,9 +316,10 @@ void settle_version_1(KvnLines& lines, Metadata& m) {
     };
     const RateFit of_angles = m.euler_axes ? take(true) : RateFit{};
     const RateFit components = take(false);
-    const bool better = m.euler_axes && of_angles.steps > 0 &&
-                        (components.steps == 0 || of_angles.off_rad / static_cast<double>(of_angles.steps) <
-                                                      components.off_rad / static_cast<double>(components.steps));
+    const bool better =
+        m.euler_axes && of_angles.steps > 0 &&
+        (components.steps == 0 || of_angles.off_rad / static_cast<double>(of_angles.steps) <
+                                      components.off_rad / static_cast<double>(components.steps));
     if (better) take(true);
     m.segment.has_rates = (better ? of_angles : components).good();
     if (!m.segment.has_rates)
@@ -344,7 +345,8 @@ void check_attitudes(const KvnLines& lines, const AemSegment& s) {
 
 void keep(const KvnLines& lines, std::vector<AemSegment>& kept, AemSegment&& segment,
           const std::string& object) {
-    if (!object.empty() && !is_word(segment.object_name, object) && !is_word(segment.object_id, object)) return;
+    if (!object.empty() && !is_word(segment.object_name, object) && !is_word(segment.object_id, object))
+        return;
     if (!kept.empty() && object.empty() && kept.back().object_id != segment.object_id)
         lines.fail("has objects " + in_quotes(kept.back().object_id) + " and " +
                        in_quotes(segment.object_id) + "; accepted: one of them by 'object'",

@@ -284,10 +284,10 @@ Interpolation KvnSection::interpolation(KvnLines& lines, std::string_view key) c
     const auto number = parsed_as<int>(without_unit(lines.name() + ":" + std::to_string(given.line), given));
     const bool linear = out.method == InterpolationMethod::kLinear;
     if (!number || *number < 1 || *number > (linear ? 1 : kMaxInterpolationDegree))
-        lines.refuse(degree->value,
-                     "INTERPOLATION_DEGREE 1 to " + std::to_string(kMaxInterpolationDegree) +
-                         ", 1 with LINEAR",
-                     degree->line);
+        lines.refuse(
+            degree->value,
+            "INTERPOLATION_DEGREE 1 to " + std::to_string(kMaxInterpolationDegree) + ", 1 with LINEAR",
+            degree->line);
     out.degree = *number;
     return out;
 }

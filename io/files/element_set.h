@@ -14,8 +14,9 @@ namespace hilcam {
 
 // Angles [rad].
 struct ElementSet {
-    std::string name;        // name in the line above a two-line set, or OBJECT_NAME; may be empty
-    std::string satellite;   // its catalogue number as written, blanks stripped; of a message without one, its OBJECT_ID
+    std::string name;  // name in the line above a two-line set, or OBJECT_NAME; may be empty
+    std::string
+        satellite;  // its catalogue number as written, blanks stripped; of a message without one, its OBJECT_ID
     std::string designator;  // OBJECT_ID of a message
     TimeTai epoch;
     double epoch_days_1950 = 0;  // UTC days since 1949-12-31T00:00
@@ -26,8 +27,9 @@ struct ElementSet {
     double mean_anomaly_rad = 0;
     double mean_motion_rad_min = 0;  // Kozai's
     double bstar_per_er = 0;
-    std::string where;    // place in the file, for messages: "iss.tle:2"
-    std::string refusal;  // why SGP4 cannot propagate it, of a set whose other figures were then not read; empty: it can
+    std::string where;  // place in the file, for messages: "iss.tle:2"
+    std::string
+        refusal;  // why SGP4 cannot propagate it, of a set whose other figures were then not read; empty: it can
 };
 
 enum class TleChecksum { kVerify, kIgnore };

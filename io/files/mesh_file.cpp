@@ -145,7 +145,7 @@ ConfinedResult read_confined(const std::filesystem::path& file, std::optional<in
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::array<std::string, 10> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply",
-                                              ".tab", ".plt",  ".icq", ".bds", ".xds"};
+                                               ".tab", ".plt",  ".icq", ".bds", ".xds"};
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such mesh file");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())

@@ -160,7 +160,8 @@ class Unroller {
     int line_ = 1;
 
     int line_at(std::ptrdiff_t offset) {
-        const std::size_t to = std::min(xml_.size(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
+        const std::size_t to =
+            std::min(xml_.size(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
         if (to < counted_) counted_ = 0, line_ = 1;
         line_ += static_cast<int>(std::count(xml_.begin() + static_cast<std::ptrdiff_t>(counted_),
                                              xml_.begin() + static_cast<std::ptrdiff_t>(to), '\n'));
@@ -207,7 +208,8 @@ class Unroller {
         const std::string_view scalar = child_named(metadata, "QUATERNION_TYPE").child_value();
         const bool first = is_unit(trimmed(scalar), "FIRST");
         for (const pugi::xml_node& state : data.children())
-            if (is_element(state) && local_name(state) != "COMMENT" && local_name(state) != "covarianceMatrix")
+            if (is_element(state) && local_name(state) != "COMMENT" &&
+                local_name(state) != "covarianceMatrix")
                 add_state(state, first);
         if (kind_ == NdmKind::kAem) add_line(data, "DATA_STOP");
     }
@@ -247,7 +249,8 @@ class Unroller {
     // The numbers below an element, and its epoch.
     void collect(const pugi::xml_node& parent, bool first, int depth, std::string_view& epoch,
                  std::vector<Number>& numbers) {
-        if (depth > kDeepestData) fail(parent.offset_debug(), "elements of data stand in each other too deep");
+        if (depth > kDeepestData)
+            fail(parent.offset_debug(), "elements of data stand in each other too deep");
         for (const pugi::xml_node& node : parent.children()) {
             const std::string_view name = local_name(node);
             if (!is_element(node) || name == "COMMENT") continue;
@@ -270,8 +273,8 @@ class Unroller {
             if (const auto rank = rank_of(key)) numbers.push_back({*rank, text});
             // Of a state what is not used is left out: accelerations.
             else if (kind_ == NdmKind::kAem)
-                fail(node.offset_debug(), "found the element " + in_quotes(name) +
-                                              "; accepted: those of attitudes by 504.0-B");
+                fail(node.offset_debug(),
+                     "found the element " + in_quotes(name) + "; accepted: those of attitudes by 504.0-B");
         }
     }
 

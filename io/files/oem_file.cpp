@@ -41,10 +41,9 @@ Metadata read_metadata(KvnLines& lines) {
     m.segment.object_name = meta.require(lines, "OBJECT_NAME").value;
     m.segment.object_id = meta.require(lines, "OBJECT_ID").value;
     m.segment.center_name = meta.require(lines, "CENTER_NAME").value;
-    m.segment.frame =
-        ccsds_frame(lines, meta.require(lines, "REF_FRAME"),
-                    {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed, CcsdsFrame::kTeme,
-                     CcsdsFrame::kTod, CcsdsFrame::kMod, CcsdsFrame::kGtod});
+    m.segment.frame = ccsds_frame(lines, meta.require(lines, "REF_FRAME"),
+                                  {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed,
+                                   CcsdsFrame::kTeme, CcsdsFrame::kTod, CcsdsFrame::kMod, CcsdsFrame::kGtod});
     m.system = ccsds_time_system(lines, meta.require(lines, "TIME_SYSTEM"));
     m.segment.frame_epoch = frame_epoch(lines, meta, m.segment.frame, m.system);
     m.span = meta.span(lines, m.system);
@@ -140,7 +139,8 @@ std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
         Metadata m = read_metadata(lines);
         more = read_data(lines, line, m);
         check_states(lines, m.segment);
-        for (OemSegment& piece : cut_at_repeated_epochs(lines, std::move(m.segment), &OemSegment::states, &nodes_of))
+        for (OemSegment& piece :
+             cut_at_repeated_epochs(lines, std::move(m.segment), &OemSegment::states, &nodes_of))
             keep(lines, segments, std::move(piece), object);
     }
     if (notes) notes->insert(notes->end(), lines.notes().begin(), lines.notes().end());

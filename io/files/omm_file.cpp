@@ -28,8 +28,8 @@ class Keywords {
         entries_.push_back({std::string(key), std::string(value), 0});
     }
     const KvnEntry* find(std::string_view key) const {
-        const auto at = std::find_if(entries_.begin(), entries_.end(),
-                                     [&](const KvnEntry& e) { return e.key == key; });
+        const auto at =
+            std::find_if(entries_.begin(), entries_.end(), [&](const KvnEntry& e) { return e.key == key; });
         return at == entries_.end() ? nullptr : &*at;
     }
     std::string text(std::string_view key) const {
@@ -70,7 +70,8 @@ class OmmReader {
                          (out_.satellite.empty() ? "" : " of satellite " + in_quotes(out_.satellite)) + " " +
                          what);
     }
-    [[noreturn]] void refuse(const std::string& key, std::string_view found, const std::string& accepted) const {
+    [[noreturn]] void refuse(const std::string& key, std::string_view found,
+                             const std::string& accepted) const {
         const std::string odd = odd_blank_in(found);
         throw InputError(keywords_.where() + ": " + key + ": found " + in_quotes(found) +
                          (odd.empty() ? "" : ", which has " + odd) + "; accepted: " + accepted);
@@ -114,15 +115,16 @@ class OmmReader {
         if (!theory.empty() && !known)
             return "is of MEAN_ELEMENT_THEORY " + in_quotes(theory) +
                    ", which is no set for SGP4; accepted: SGP4, SGP/SGP4";
-        if (const std::string type = refusal_of_ephemeris_type(keywords_.text("EPHEMERIS_TYPE")); !type.empty())
+        if (const std::string type = refusal_of_ephemeris_type(keywords_.text("EPHEMERIS_TYPE"));
+            !type.empty())
             return type;
         return wrong("CENTER_NAME", {"EARTH"}) + wrong("REF_FRAME", {"TEME", "TEMEOFDATE"}) +
                wrong("TIME_SYSTEM", {"UTC"}) + wrong("REF_FRAME_EPOCH", {});
     }
     std::string wrong(const std::string& key, const std::vector<std::string_view>& accepted) const {
         const std::string found = keywords_.text(key);
-        if (found.empty() ||
-            std::any_of(accepted.begin(), accepted.end(), [&](std::string_view a) { return is_word(found, a); }))
+        if (found.empty() || std::any_of(accepted.begin(), accepted.end(),
+                                         [&](std::string_view a) { return is_word(found, a); }))
             return {};
         return "has " + key + " " + in_quotes(found) + "; accepted: " +
                (accepted.empty() ? "none, as SGP4's axes are of date" : std::string(accepted.front())) + ". ";
@@ -150,7 +152,8 @@ std::vector<ElementSet> read_kvn(std::string_view text, const std::string& name)
     for (KvnLine line; lines.next(line);) {
         if (line.key.empty()) lines.refuse(line.text, "KEY = VALUE");
         if (line.key == "CCSDS_OMM_VERS") {
-            if (line.value != "2.0" && line.value != "3.0") lines.refuse(line.value, "CCSDS_OMM_VERS 2.0 or 3.0");
+            if (line.value != "2.0" && line.value != "3.0")
+                lines.refuse(line.value, "CCSDS_OMM_VERS 2.0 or 3.0");
             finish();
             keywords.emplace(name + ":" + std::to_string(lines.number()));
         } else if (!keywords) {
@@ -197,8 +200,8 @@ std::vector<ElementSet> read_csv(std::string_view text, const std::string& name)
             continue;
         }
         if (fields.size() != names.size())
-            lines.fail("found " + std::to_string(fields.size()) + " fields; accepted: " +
-                       std::to_string(names.size()) + ", as the first line has");
+            lines.fail("found " + std::to_string(fields.size()) +
+                       " fields; accepted: " + std::to_string(names.size()) + ", as the first line has");
         Keywords keywords(name + ":" + std::to_string(lines.number()));
         for (std::size_t i = 0; i < names.size(); ++i) keywords.add(names[i], fields[i]);
         sets.push_back(OmmReader(keywords).read());

@@ -43,8 +43,8 @@ class TextLines {
     // "file:12: found 'x'; accepted: y", of the last line or of another. A blank that looks like a plain one is named.
     [[noreturn]] void refuse(std::string_view found, const std::string& accepted, int line = 0) const {
         const std::string odd = odd_blank_in(found);
-        fail("found " + in_quotes(found) + (odd.empty() ? "" : ", which has " + odd) + "; accepted: " +
-                 accepted + (odd.empty() ? "" : ", with plain blanks"),
+        fail("found " + in_quotes(found) + (odd.empty() ? "" : ", which has " + odd) +
+                 "; accepted: " + accepted + (odd.empty() ? "" : ", with plain blanks"),
              line);
     }
     [[noreturn]] void fail(const std::string& what, int line = 0) const {

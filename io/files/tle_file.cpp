@@ -115,7 +115,8 @@ ElementSet read_set(const TextLines& lines, const Line& one, const Line& two) {
     tle.satellite = columns(one.text, 3, 7);
     if (tle.satellite.empty()) one.refuse("", 3, 7, "a satellite's number");
     if (const std::string_view other = columns(two.text, 3, 7);
-        other != tle.satellite && (!catalogue_number(other) || catalogue_number(other) != catalogue_number(tle.satellite)))
+        other != tle.satellite &&
+        (!catalogue_number(other) || catalogue_number(other) != catalogue_number(tle.satellite)))
         lines.refuse(other, "satellite " + tle.satellite + ", as on the line before", two.number);
     read_epoch(one, tle);
     // Of another theory columns 45 to 61 have other quantities.

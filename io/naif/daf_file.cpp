@@ -91,7 +91,8 @@ void DafFile::read_transfer_array(TransferText& text, std::size_t integers) {
     while (left > 0) {
         const std::int64_t count = text.next_count();
         if (count < 1 || count > left)
-            text.fail("a block of " + std::to_string(count) + " words; accepted: 1 to " + std::to_string(left));
+            text.fail("a block of " + std::to_string(count) + " words; accepted: 1 to " +
+                      std::to_string(left));
         for (std::int64_t i = 0; i < count; ++i) decoded_.push_back(text.next_double());
         left -= count;
     }

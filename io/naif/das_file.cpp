@@ -66,13 +66,14 @@ void DasFile::read_transfer() {
         while (static_cast<std::int64_t>(out.size()) < total) {
             const std::int64_t count = text.require_marker(begin);
             if (count < 1 || count > total - static_cast<std::int64_t>(out.size()))
-                text.fail("a block of " + std::to_string(count) + " numbers; accepted: 1 to what is left of " +
-                          std::to_string(total));
+                text.fail("a block of " + std::to_string(count) +
+                          " numbers; accepted: 1 to what is left of " + std::to_string(total));
             for (std::int64_t i = 0; i < count; ++i) out.push_back(next());
             text.require_marker(end);
         }
     };
-    read_blocks("BEGIN_DP_BLOCK", "END_DP_BLOCK", doubles, decoded_doubles_, [&] { return text.next_double(); });
+    read_blocks("BEGIN_DP_BLOCK", "END_DP_BLOCK", doubles, decoded_doubles_,
+                [&] { return text.next_double(); });
     if (doubles > 0) text.pass("TOTAL_DP_BLOCKS");
     read_blocks("BEGIN_INTEGER_BLOCK", "END_INTEGER_BLOCK", integers, decoded_integers_,
                 [&] { return text.next_integer(); });

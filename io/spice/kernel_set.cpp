@@ -24,7 +24,8 @@ Kind kind_of(const std::filesystem::path& file) {
     std::string word(std::min<std::uintmax_t>(in.bytes, 8), '\0');
     read_input_piece(in, file, 0, word.data(), word.size());
     const std::optional<TransferKind> transfer = transfer_kind_of(word);
-    if (word.starts_with("DAF/") || word == "NAIF/DAF" || transfer == TransferKind::kDaf) return Kind::kBinary;
+    if (word.starts_with("DAF/") || word == "NAIF/DAF" || transfer == TransferKind::kDaf)
+        return Kind::kBinary;
     if (word.starts_with("DAS/") || word == "NAIF/DAS" || transfer == TransferKind::kDas) return Kind::kShape;
     if (word.find('\0') != std::string::npos)
         throw InputError(file.string() + ": found the identification " + in_quotes(word) +

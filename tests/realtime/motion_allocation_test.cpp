@@ -24,10 +24,10 @@ namespace {
 // A satellite by its element set that looks at one by an ephemeris, and a third that drifts beside it.
 TEST_F(Allocation, NorDoSourcesOfMotion) {
     const ElementSet tle = read_element_sets(
-                        "1 25544U 98067A   14020.93268519  .00009878  00000-0  18200-3 0  5082\n"
-                        "2 25544  51.6498 109.4756 0003572  55.9686 274.8005 15.49815350868473\n",
-                        "iss.tle")
-                        .at(0);
+                               "1 25544U 98067A   14020.93268519  .00009878  00000-0  18200-3 0  5082\n"
+                               "2 25544  51.6498 109.4756 0003572  55.9686 274.8005 15.49815350868473\n",
+                               "iss.tle")
+                               .at(0);
     OemSegment segment;
     segment.center_name = "EARTH";
     segment.frame = CcsdsFrame::kEarthFixed;

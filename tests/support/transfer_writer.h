@@ -58,11 +58,13 @@ inline std::string transfer_daf(const std::string& kind, const std::vector<Writt
         }
         out += "END_ARRAY " + numbers;
     }
-    return out + "TOTAL_ARRAYS " + std::to_string(arrays.size()) + "\n ~NAIF/SPC BEGIN COMMENTS~\nnone\n ~NAIF/SPC END COMMENTS~\n";
+    return out + "TOTAL_ARRAYS " + std::to_string(arrays.size()) +
+           "\n ~NAIF/SPC BEGIN COMMENTS~\nnone\n ~NAIF/SPC END COMMENTS~\n";
 }
 
 // With comments and characters, which a reader of numbers passes over.
-inline std::string transfer_das(const std::vector<double>& doubles, const std::vector<std::int32_t>& integers) {
+inline std::string transfer_das(const std::vector<double>& doubles,
+                                const std::vector<std::int32_t>& integers) {
     std::string out = "DASETF NAIF DAS ENCODED TRANSFER FILE\n" + transfer_line("DAS/DSK", 8) +
                       transfer_line("of the tests", 60);
     for (const std::int64_t n : {0, 0, 1, 8}) out += transfer_word(n);

@@ -91,10 +91,10 @@ TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
             StateVector in = icrf;
             if (frame == CcsdsFrame::kEme2000 || frame == CcsdsFrame::kTeme || frame == CcsdsFrame::kTod ||
                 frame == CcsdsFrame::kMod) {
-                const Mat3d turn = transposed(frame == CcsdsFrame::kTeme   ? icrf_from_teme(time, {})
-                                              : frame == CcsdsFrame::kTod  ? icrf_from_true_of_date(time)
-                                              : frame == CcsdsFrame::kMod  ? icrf_from_mean_of_date(time)
-                                                                           : icrf_from_eme2000());
+                const Mat3d turn = transposed(frame == CcsdsFrame::kTeme  ? icrf_from_teme(time, {})
+                                              : frame == CcsdsFrame::kTod ? icrf_from_true_of_date(time)
+                                              : frame == CcsdsFrame::kMod ? icrf_from_mean_of_date(time)
+                                                                          : icrf_from_eme2000());
                 in = {turn * icrf.position_m, turn * icrf.velocity_m_s};
             } else if (frame == CcsdsFrame::kEarthFixed || frame == CcsdsFrame::kGtod) {
                 // Without polar motion the two are one.
@@ -108,8 +108,8 @@ TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
         return std::vector<OemSegment>{s};
     };
     for (const CcsdsFrame frame :
-         {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed, CcsdsFrame::kTeme, CcsdsFrame::kTod,
-          CcsdsFrame::kMod, CcsdsFrame::kGtod}) {
+         {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed, CcsdsFrame::kTeme,
+          CcsdsFrame::kTod, CcsdsFrame::kMod, CcsdsFrame::kGtod}) {
         const auto trajectory = make_oem(segments_in(frame), "t.oem");
         const StateVector found = state_of(*trajectory, start + 155 * kSecond);
         const StateVector expected = orbit.at(155);
@@ -146,7 +146,8 @@ TEST(OemTrajectory, GtodLacksThePolesMotionAlone) {
         s.usable_start = s.states.front().time, s.usable_stop = s.states.back().time;
         return state_of(*make_oem({s}, "t.oem"), start + kSecond, origin).position_m;
     };
-    EXPECT_NEAR(length(found(CcsdsFrame::kGtod) - found(CcsdsFrame::kEarthFixed)), 6.4e6 * 0.3 * kArcsecond_rad, 1e-3);
+    EXPECT_NEAR(length(found(CcsdsFrame::kGtod) - found(CcsdsFrame::kEarthFixed)),
+                6.4e6 * 0.3 * kArcsecond_rad, 1e-3);
 }
 
 // A world that turns with the Earth: its origin stands still in the Earth's axes, which a place has, too.

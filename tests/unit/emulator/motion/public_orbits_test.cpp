@@ -72,24 +72,35 @@ struct Circle {
 };
 // The remainders of the methods: LINEAR h^2/8 of 8.1 m/s^2; LAGRANGE's is the same with degree 1; HERMITE of two states
 // (h rate)^4 / 384; those of more states are below the files' micrometres, at the ends of LAGRANGE 5 0.4 mm.
-constexpr std::array kCircles = {
-    Circle{"stk_mixed_case.oem", 1200, 0.02}, Circle{"lower_case_values.oem", 1200, 1e-3},
-    Circle{"gmat_order_2.oem", 1200, 0.4},    Circle{"hermite_1.oem", 1200, 0.4},
-    Circle{"hermite_even_8.oem", 1200, 1e-3}, Circle{"lagrange_1.oem", 1200, 3700},
-    Circle{"linear.oem", 1200, 3700},         Circle{"bom.oem", 1200, 1e-3},
-    Circle{"crlf_bom.oem", 1200, 1e-3},       Circle{"tabs.oem", 1200, 1e-3},
-    Circle{"doy.oem", 1200, 1e-3},            Circle{"no_fraction_z.oem", 1200, 1e-3},
-    Circle{"fortran_d_exponent.oem", 1200, 1e-3}, Circle{"unsaid_4min.oem", 4800, 0.2},
-    Circle{"unknown_keyword.oem", 1200, 1e-3}, Circle{"units_in_brackets.oem", 1200, 1e-3},
-    Circle{"v3_header.oem", 1200, 1e-3},      Circle{"oem.xml", 600, 1e-3},
-    Circle{"duplicate_epoch.oem", 600, 0.02}, Circle{"time_tai.oem", 1200, 1e-3},
-    Circle{"time_tt.oem", 1200, 1e-3},        Circle{"time_gps.oem", 1200, 1e-3},
-    Circle{"time_tdb.oem", 1200, 15}};  // written as TT: 1.6 ms of 7.5 km/s
+constexpr std::array kCircles = {Circle{"stk_mixed_case.oem", 1200, 0.02},
+                                 Circle{"lower_case_values.oem", 1200, 1e-3},
+                                 Circle{"gmat_order_2.oem", 1200, 0.4},
+                                 Circle{"hermite_1.oem", 1200, 0.4},
+                                 Circle{"hermite_even_8.oem", 1200, 1e-3},
+                                 Circle{"lagrange_1.oem", 1200, 3700},
+                                 Circle{"linear.oem", 1200, 3700},
+                                 Circle{"bom.oem", 1200, 1e-3},
+                                 Circle{"crlf_bom.oem", 1200, 1e-3},
+                                 Circle{"tabs.oem", 1200, 1e-3},
+                                 Circle{"doy.oem", 1200, 1e-3},
+                                 Circle{"no_fraction_z.oem", 1200, 1e-3},
+                                 Circle{"fortran_d_exponent.oem", 1200, 1e-3},
+                                 Circle{"unsaid_4min.oem", 4800, 0.2},
+                                 Circle{"unknown_keyword.oem", 1200, 1e-3},
+                                 Circle{"units_in_brackets.oem", 1200, 1e-3},
+                                 Circle{"v3_header.oem", 1200, 1e-3},
+                                 Circle{"oem.xml", 600, 1e-3},
+                                 Circle{"duplicate_epoch.oem", 600, 0.02},
+                                 Circle{"time_tai.oem", 1200, 1e-3},
+                                 Circle{"time_tt.oem", 1200, 1e-3},
+                                 Circle{"time_gps.oem", 1200, 1e-3},
+                                 Circle{"time_tdb.oem", 1200, 15}};  // written as TT: 1.6 ms of 7.5 km/s
 
 TEST_F(PublicOrbits, EphemeridesAreWhereTheirClosedFormIs) {
     const Mat3d icrf = icrf_from_eme2000();
     for (const Circle& c : kCircles)
-        EXPECT_LT(farthest_m(c.file, c.until_s, [&](double t) { return icrf * circle(t).position_m; }), c.tolerance_m)
+        EXPECT_LT(farthest_m(c.file, c.until_s, [&](double t) { return icrf * circle(t).position_m; }),
+                  c.tolerance_m)
             << c.file;
     // IAU 2006/2000A at 12:00 (ERFA's eraPnm06a) against 1976/1980: 0.073 arcsec.
     const Mat3d true_from_icrf{{0.9999793795935101, -0.0058899913713400, -0.0025589821070297},
@@ -99,8 +110,10 @@ TEST_F(PublicOrbits, EphemeridesAreWhereTheirClosedFormIs) {
                          [&](double t) { return transposed(true_from_icrf) * circle(t).position_m; }),
               3);
     // Precession since 2000 makes 44.5 km; the equinoxes of TEME and J2000 at 2000 are 14 arcsec apart (nutation).
-    EXPECT_LT(farthest_m("teme_of_2000.oem", 1200, [&](double t) { return icrf * circle(t).position_m; }), 600);
-    EXPECT_NEAR(farthest_m("teme_of_date.oem", 1200, [&](double t) { return icrf * circle(t).position_m; }), 44.5e3, 500);
+    EXPECT_LT(farthest_m("teme_of_2000.oem", 1200, [&](double t) { return icrf * circle(t).position_m; }),
+              600);
+    EXPECT_NEAR(farthest_m("teme_of_date.oem", 1200, [&](double t) { return icrf * circle(t).position_m; }),
+                44.5e3, 500);
 }
 
 TEST_F(PublicOrbits, EphemeridesThatCannotBeReadSayWhy) {
@@ -117,16 +130,16 @@ TEST_F(PublicOrbits, EphemeridesThatCannotBeReadSayWhy) {
 
 // A turn about z of 6 deg/s from the identity on; nine digits.
 TEST_F(PublicOrbits, AttitudesAreTheirClosedForm) {
-    for (const char* file :
-         {"aem_plain.aem", "aem_sign_flips.aem", "aem_sign_flips_hermite.aem", "aem_lower_case.aem",
-          "aem_v1_quaternion_rate.aem", "aem_star_tracker_frame.aem", "aem_instrument_frame.aem",
-          "aem_hermite_1.aem", "aem_lagrange_1.aem"}) {
+    for (const char* file : {"aem_plain.aem", "aem_sign_flips.aem", "aem_sign_flips_hermite.aem",
+                             "aem_lower_case.aem", "aem_v1_quaternion_rate.aem", "aem_star_tracker_frame.aem",
+                             "aem_instrument_frame.aem", "aem_hermite_1.aem", "aem_lagrange_1.aem"}) {
         const std::vector<AemSegment> segments = load_aem(folder_ / "ccsds" / file);
         double most_rad = 0;
         for (double t = 0; t <= 120; t += 2.5) {
             const TimeTai time = kStart + static_cast<std::int64_t>(t * 1e9);
             const Quat right = from_rotation_vector({0, 0, 6 * t * kDegree_rad});
-            const Quat q = conjugate(right) * interpolate_attitude(segment_of(segments, time), time).reference_from_body;
+            const Quat q =
+                conjugate(right) * interpolate_attitude(segment_of(segments, time), time).reference_from_body;
             most_rad = std::max(most_rad, 2 * length(Vec3d{q.x, q.y, q.z}));
         }
         std::printf("ccsds/%s: farthest from the right attitude %.6f deg\n", file, most_rad / kDegree_rad);
@@ -147,19 +160,22 @@ TEST_F(PublicOrbits, ElementSetsOfEveryDialectAreTheSamePlace) {
         const char *file, *satellite;
         TleChecksum checksum = TleChecksum::kVerify;
     };
-    for (const Case& c : {Case{"omm.xml", "100001"}, Case{"omm.kvn", "A0001"}, Case{"omm.csv", "100001"},
-                          Case{"alpha5.tle", "100001"}, Case{"spaces_number.tle", "04859"},
-                          Case{"no_checksum.tle", "", TleChecksum::kIgnore}, Case{"crlf_trailing.tle", ""},
-                          Case{"bom.tle", "SAT"}, Case{"ndd_plus_exponent.tle", ""}, Case{"epoch_space_day.tle", ""},
-                          Case{"name_starts_with_1.tle", ""}, Case{"name_starts_with_2.tle", ""},
-                          Case{"hash_name.tle", ""}, Case{"tabs_lower.tle", ""}}) {
+    for (const Case& c :
+         {Case{"omm.xml", "100001"}, Case{"omm.kvn", "A0001"}, Case{"omm.csv", "100001"},
+          Case{"alpha5.tle", "100001"}, Case{"spaces_number.tle", "04859"},
+          Case{"no_checksum.tle", "", TleChecksum::kIgnore}, Case{"crlf_trailing.tle", ""},
+          Case{"bom.tle", "SAT"}, Case{"ndd_plus_exponent.tle", ""}, Case{"epoch_space_day.tle", ""},
+          Case{"name_starts_with_1.tle", ""}, Case{"name_starts_with_2.tle", ""}, Case{"hash_name.tle", ""},
+          Case{"tabs_lower.tle", ""}}) {
         std::string what;
         double apart_m = -1;
         what = refusal_of([&] { apart_m = length(place(c.file, c.satellite, c.checksum) - right); });
         std::printf("tle/%s: %s%.6f m from the place of plain.tle\n", c.file, what.c_str(), apart_m);
         // Elements are read to the last digit; B* of one case is 0, which is 0.6 m after an hour.
-        if (what.empty()) EXPECT_LT(apart_m, std::string(c.file) == "ndd_plus_exponent.tle" ? 1 : 1e-6) << c.file;
-        else ADD_FAILURE() << c.file << ": " << what;
+        if (what.empty())
+            EXPECT_LT(apart_m, std::string(c.file) == "ndd_plus_exponent.tle" ? 1 : 1e-6) << c.file;
+        else
+            ADD_FAILURE() << c.file << ": " << what;
     }
 }
 

@@ -103,7 +103,8 @@ TEST_F(DskShape, IsTheSameInTransferFormat) {
     ASSERT_EQ(same.vertices_m.size(), 4u);
     EXPECT_EQ(length(same.vertices_m[3] - binary.vertices_m[3]), 0);
     EXPECT_EQ(dsk_segments(text, "a.xds").size(), 2u);
-    EXPECT_THAT(refusal(text.substr(0, text.size() / 2)), HasSubstr("the file ends; accepted: a whole kernel"));
+    EXPECT_THAT(refusal(text.substr(0, text.size() / 2)),
+                HasSubstr("the file ends; accepted: a whole kernel"));
     write("a.xds", text);
     EXPECT_EQ(load_mesh_contents(folder_ / "a.xds", -3).mesh.triangles.size(), 4u);
 }

@@ -19,9 +19,8 @@ class ElementSets : public FilesTest {
   protected:
     static std::string refusal(const std::string& text, const std::string& satellite = "",
                                TleChecksum checksum = TleChecksum::kVerify) {
-        return error_of([&] {
-            choose_element_set(read_element_sets(text, "s.txt", checksum), satellite, {}, "s.txt");
-        });
+        return error_of(
+            [&] { choose_element_set(read_element_sets(text, "s.txt", checksum), satellite, {}, "s.txt"); });
     }
     static std::string with(std::string text, const std::string& from, const std::string& to) {
         const std::size_t at = text.find(from);
@@ -62,9 +61,9 @@ const std::string kJson =
 
 TEST_F(ElementSets, EveryFormHasTheSameElements) {
     const ElementSet tle = read_element_sets(kLine1 + kLine2, "t.tle").at(0);
-    for (const std::string& text : {kKvn, kXml, kCsvHead + kCsvLine, kJson, "\xEF\xBB\xBF" + kKvn,
-                                    with(kJson, "15.5", "\"15.5\""), "  \n" + kXml,
-                                    with(kCsvHead + kCsvLine, "FUTURE SAT", "\"FUTURE SAT\"")}) {
+    for (const std::string& text :
+         {kKvn, kXml, kCsvHead + kCsvLine, kJson, "\xEF\xBB\xBF" + kKvn, with(kJson, "15.5", "\"15.5\""),
+          "  \n" + kXml, with(kCsvHead + kCsvLine, "FUTURE SAT", "\"FUTURE SAT\"")}) {
         const std::vector<ElementSet> sets = read_element_sets(text, "o.txt");
         ASSERT_EQ(sets.size(), 1u) << text;
         const ElementSet& omm = sets[0];
@@ -88,10 +87,13 @@ TEST_F(ElementSets, CataloguesOfManyAreRead) {
     const std::string second = with(with(kKvn, "100001", "270001"), "FUTURE SAT", "OTHER");
     EXPECT_EQ(read_element_sets(kKvn + second, "o.kvn").at(1).satellite, "270001");
     const std::string message = kXml.substr(kXml.find("<omm"), kXml.find("</ndm>") - kXml.find("<omm"));
-    EXPECT_EQ(read_element_sets("<ndm>" + message + with(message, "100001", "270001") + "</ndm>", "o.xml").at(1).satellite,
+    EXPECT_EQ(read_element_sets("<ndm>" + message + with(message, "100001", "270001") + "</ndm>", "o.xml")
+                  .at(1)
+                  .satellite,
               "270001");
-    EXPECT_EQ(read_element_sets(kCsvHead + kCsvLine + with(kCsvLine, "100001", "270001"), "o.csv").at(1).satellite,
-              "270001");
+    EXPECT_EQ(
+        read_element_sets(kCsvHead + kCsvLine + with(kCsvLine, "100001", "270001"), "o.csv").at(1).satellite,
+        "270001");
     const std::string object = kJson.substr(1, kJson.size() - 2);
     const std::vector<ElementSet> sets =
         read_element_sets("[" + object + ", " + with(object, "100001", "270001") + "]", "o.json");
@@ -116,7 +118,8 @@ TEST_F(ElementSets, SatellitesAreFoundByNumberInAnyForm) {
         return text.replace(kLine1.size() + 2, 5, number);
     };
     const auto finds = [&](const std::string& text, const std::string& satellite) {
-        return choose_element_set(read_element_sets(text, "t.tle", TleChecksum::kIgnore), satellite, {}, "t.tle")
+        return choose_element_set(read_element_sets(text, "t.tle", TleChecksum::kIgnore), satellite, {},
+                                  "t.tle")
             .satellite;
     };
     EXPECT_EQ(finds(renamed("A0001"), "100001"), "A0001");
@@ -130,9 +133,11 @@ TEST_F(ElementSets, SatellitesAreFoundByNumberInAnyForm) {
 TEST_F(ElementSets, SetsOfAnotherTheoryAreRefusedByNameAndAlone) {
     std::string xp = kLine1 + kLine2;
     xp[62] = '4', xp[53] = '*', xp[68] = '0';
-    const std::string expected = "t.tle:1: the set of satellite '99901' is of ephemeris type 4 (SGP4-XP), which is "
-                                 "no set for SGP4; accepted: type 0";
-    EXPECT_EQ(error_of([&] { choose_element_set(read_element_sets(xp, "t.tle"), "", {}, "t.tle"); }), expected)
+    const std::string expected =
+        "t.tle:1: the set of satellite '99901' is of ephemeris type 4 (SGP4-XP), which is "
+        "no set for SGP4; accepted: type 0";
+    EXPECT_EQ(error_of([&] { choose_element_set(read_element_sets(xp, "t.tle"), "", {}, "t.tle"); }),
+              expected)
         << xp;
     // In a catalogue the others are as before, and an SGP4 set of the same satellite is taken.
     std::string other = kLine1 + kLine2;
@@ -140,15 +145,16 @@ TEST_F(ElementSets, SetsOfAnotherTheoryAreRefusedByNameAndAlone) {
     const auto sets = read_element_sets(xp + other, "t.tle", TleChecksum::kIgnore);
     EXPECT_EQ(choose_element_set(sets, "5", {}, "t.tle").satellite, "00005");
     EXPECT_THROW(choose_element_set(sets, "99901", {}, "t.tle"), InputError);
-    EXPECT_EQ(choose_element_set(read_element_sets(xp + kLine1 + kLine2, "t.tle"), "99901", {}, "t.tle").where,
-              "t.tle:3");
-    for (const auto& [from, to, what] :
-         std::vector<std::array<std::string, 3>>{{"EPHEMERIS_TYPE = 0", "EPHEMERIS_TYPE = 4", "(SGP4-XP)"},
-                                                 {"SGP/SGP4", "SGP4-XP", "MEAN_ELEMENT_THEORY 'SGP4-XP'"},
-                                                 {"SGP/SGP4", "DSST", "MEAN_ELEMENT_THEORY 'DSST'"},
-                                                 {"REF_FRAME = TEME", "REF_FRAME = EME2000", "REF_FRAME 'EME2000'"},
-                                                 {"TIME_SYSTEM = UTC", "TIME_SYSTEM = TT", "TIME_SYSTEM 'TT'"},
-                                                 {"CENTER_NAME = EARTH", "CENTER_NAME = MARS", "CENTER_NAME 'MARS'"}}) {
+    EXPECT_EQ(
+        choose_element_set(read_element_sets(xp + kLine1 + kLine2, "t.tle"), "99901", {}, "t.tle").where,
+        "t.tle:3");
+    for (const auto& [from, to, what] : std::vector<std::array<std::string, 3>>{
+             {"EPHEMERIS_TYPE = 0", "EPHEMERIS_TYPE = 4", "(SGP4-XP)"},
+             {"SGP/SGP4", "SGP4-XP", "MEAN_ELEMENT_THEORY 'SGP4-XP'"},
+             {"SGP/SGP4", "DSST", "MEAN_ELEMENT_THEORY 'DSST'"},
+             {"REF_FRAME = TEME", "REF_FRAME = EME2000", "REF_FRAME 'EME2000'"},
+             {"TIME_SYSTEM = UTC", "TIME_SYSTEM = TT", "TIME_SYSTEM 'TT'"},
+             {"CENTER_NAME = EARTH", "CENTER_NAME = MARS", "CENTER_NAME 'MARS'"}}) {
         EXPECT_THAT(refusal(with(kKvn, from, to)), HasSubstr(what));
         EXPECT_EQ(refusal(with(kKvn, from, to) + with(kKvn, "100001", "270001"), "270001"), "");
     }
@@ -176,16 +182,23 @@ TEST_F(ElementSets, BlanksThatAreNoneAreNamed) {
 TEST_F(ElementSets, ABadMessageIsNamedByItsPlace) {
     EXPECT_THAT(refusal(with(kKvn, "BSTAR = .1E-4\n", "")),
                 HasSubstr("s.txt:1: the message of satellite '100001' has no BSTAR"));
-    EXPECT_THAT(refusal(with(kKvn, "= .0001", "= 1.5")), HasSubstr("ECCENTRICITY: found '1.5'; accepted: 0 to below 1"));
-    EXPECT_THAT(refusal(with(kKvn, "[deg]", "[rad]")), HasSubstr("found 'rad'; accepted: RA_OF_ASC_NODE in deg"));
-    EXPECT_THAT(refusal(with(kKvn, "T12:00:00", "T25:00:00")), HasSubstr("EPOCH: found '2026-03-20T25:00:00'"));
-    EXPECT_THAT(refusal(with(kKvn, "OMM_VERS", "OPM_VERS")), HasSubstr("s.txt:1: found 'CCSDS_OPM_VERS = 2.0'"));
+    EXPECT_THAT(refusal(with(kKvn, "= .0001", "= 1.5")),
+                HasSubstr("ECCENTRICITY: found '1.5'; accepted: 0 to below 1"));
+    EXPECT_THAT(refusal(with(kKvn, "[deg]", "[rad]")),
+                HasSubstr("found 'rad'; accepted: RA_OF_ASC_NODE in deg"));
+    EXPECT_THAT(refusal(with(kKvn, "T12:00:00", "T25:00:00")),
+                HasSubstr("EPOCH: found '2026-03-20T25:00:00'"));
+    EXPECT_THAT(refusal(with(kKvn, "OMM_VERS", "OPM_VERS")),
+                HasSubstr("s.txt:1: found 'CCSDS_OPM_VERS = 2.0'"));
     EXPECT_THAT(refusal(kKvn + "MEAN_MOTION = 1\n"), HasSubstr("'MEAN_MOTION' is given twice"));
-    EXPECT_THAT(refusal(with(kXml, "rev/day", "rad/s")), HasSubstr("MEAN_MOTION: found units 'rad/s'; accepted: rev/day"));
+    EXPECT_THAT(refusal(with(kXml, "rev/day", "rad/s")),
+                HasSubstr("MEAN_MOTION: found units 'rad/s'; accepted: rev/day"));
     EXPECT_THAT(refusal(with(kXml, "</omm>", "")), HasSubstr("is no XML"));
-    EXPECT_THAT(refusal(with(with(kXml, "<omm", "<opm"), "</omm>", "</opm>")), HasSubstr("without <omm> in it"));
+    EXPECT_THAT(refusal(with(with(kXml, "<omm", "<opm"), "</omm>", "</opm>")),
+                HasSubstr("without <omm> in it"));
     EXPECT_THAT(refusal(kCsvHead + "A,B\n"), HasSubstr("s.txt:2: found 2 fields; accepted: 12"));
-    EXPECT_THAT(refusal(kCsvHead + with(kCsvLine, "FUTURE", "\"FUTURE")), HasSubstr("a double quote has no second one"));
+    EXPECT_THAT(refusal(kCsvHead + with(kCsvLine, "FUTURE", "\"FUTURE")),
+                HasSubstr("a double quote has no second one"));
     EXPECT_THAT(refusal("[" + kJson + "]"), HasSubstr("accepted: an element set, or a satellite's name"));
     EXPECT_THAT(refusal(with(kJson, "15.5", "[15.5]")), HasSubstr("s.txt: set 1: found an array inside"));
     EXPECT_THAT(refusal(kJson.substr(0, 40)), HasSubstr("is no JSON from its byte"));

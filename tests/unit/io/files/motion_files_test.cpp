@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
 #include "io/files/aem_file.h"
+#include "io/files/element_set.h"
 #include "io/files/leap_seconds_file.h"
 #include "io/files/oem_file.h"
-#include "io/files/element_set.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
 
@@ -54,11 +54,13 @@ TEST_F(MotionFiles, ABadElementSetIsNamedByItsPlace) {
     EXPECT_THAT(message("868473", "86847"), HasSubstr("69 columns; it has 68"));
     EXPECT_THAT(error_of([] { read_element_sets("", "no.tle"); }), HasSubstr("no.tle: holds no element set"));
     EXPECT_THAT(error_of([] { load_element_sets("/nowhere/no.tle"); }), HasSubstr("no such file"));
-    EXPECT_EQ(read_element_sets(with(kIss, "0  5082", "0  5083"), "iss.tle", TleChecksum::kIgnore).size(), 1u);
+    EXPECT_EQ(read_element_sets(with(kIss, "0  5082", "0  5083"), "iss.tle", TleChecksum::kIgnore).size(),
+              1u);
     // The checksum holds, the satellites do not agree: the digit's sum is made up for elsewhere.
-    EXPECT_THAT(
-        error_of([&] { read_element_sets(with(kIss, "2 25544", "2 25545"), "iss.tle", TleChecksum::kIgnore); }),
-        HasSubstr("found '25545'; accepted: satellite 25544"));
+    EXPECT_THAT(error_of([&] {
+                    read_element_sets(with(kIss, "2 25544", "2 25545"), "iss.tle", TleChecksum::kIgnore);
+                }),
+                HasSubstr("found '25545'; accepted: satellite 25544"));
 }
 
 TEST_F(MotionFiles, TheNewestSetBeforeAnInstantIsChosen) {
@@ -75,7 +77,8 @@ TEST_F(MotionFiles, TheNewestSetBeforeAnInstantIsChosen) {
     EXPECT_THAT(error_of([&] { choose_element_set(sets, "HST", {}, "iss.tle"); }),
                 HasSubstr("has no satellite 'HST'"));
     sets[2].satellite = "20580";
-    EXPECT_THAT(error_of([&] { choose_element_set(sets, "", {}, "iss.tle"); }), HasSubstr("several satellites"));
+    EXPECT_THAT(error_of([&] { choose_element_set(sets, "", {}, "iss.tle"); }),
+                HasSubstr("several satellites"));
 }
 
 // --- orbit ephemerides ---
@@ -148,7 +151,8 @@ TEST_F(MotionFiles, ABadOrbitEphemerisIsNamedByItsPlace) {
                 HasSubstr("within a factor of a million"));
     EXPECT_THAT(message("USEABLE_START_TIME = 2026-01-01T00:01", "USEABLE_START_TIME = 2026-01-01T00:09"),
                 HasSubstr("out of order"));
-    EXPECT_THAT(message("OBJECT_NAME", "OBJECT_NAM"), HasSubstr("t.oem:16: the section that ends here has no OBJECT_NAME"));
+    EXPECT_THAT(message("OBJECT_NAME", "OBJECT_NAM"),
+                HasSubstr("t.oem:16: the section that ends here has no OBJECT_NAME"));
     EXPECT_THAT(message("COVARIANCE_STOP\n", ""), HasSubstr("accepted: COVARIANCE_STOP"));
     EXPECT_THAT(error_of([] { read_oem(kOem, "t.oem", "OTHER"); }), HasSubstr("has no object 'OTHER'"));
 }

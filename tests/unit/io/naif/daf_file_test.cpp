@@ -108,9 +108,12 @@ TEST(DafFile, ATransferFileThatIsDamagedIsNamedByItsLine) {
     EXPECT_THAT(message("DAF/SPK ", "DAF/XYZ "), HasSubstr("k.bsp: found the kind 'XYZ' of kernel"));
     EXPECT_THAT(message("'3^1'", "'3'"), HasSubstr("k.bsp:17: found '3'; accepted: a finite double"));
     EXPECT_THAT(message("END_ARRAY 1 3", "END_ARRA 1 3"), HasSubstr("found 'END_ARRA'; accepted: END_ARRAY"));
-    EXPECT_THAT(message("BEGIN_ARRAY 1 3", "BEGIN_ARRAY 1 9"), HasSubstr("found 'END_ARRAY'; accepted: a count"));
-    EXPECT_THAT(message("BEGIN_ARRAY 1 3", "BEGIN_ARRAY 1 2"), HasSubstr("a block of 3 words; accepted: 1 to 2"));
-    EXPECT_THAT(refusal(whole.substr(0, whole.find("TOTAL"))), HasSubstr("the file ends; accepted: a whole kernel"));
+    EXPECT_THAT(message("BEGIN_ARRAY 1 3", "BEGIN_ARRAY 1 9"),
+                HasSubstr("found 'END_ARRAY'; accepted: a count"));
+    EXPECT_THAT(message("BEGIN_ARRAY 1 3", "BEGIN_ARRAY 1 2"),
+                HasSubstr("a block of 3 words; accepted: 1 to 2"));
+    EXPECT_THAT(refusal(whole.substr(0, whole.find("TOTAL"))),
+                HasSubstr("the file ends; accepted: a whole kernel"));
 }
 
 }  // namespace
