@@ -283,7 +283,8 @@ std::optional<OmmForm> omm_form_of(std::string_view text) {
     // A satellite's name may begin with a bracket.
     const std::size_t next = text.find_first_not_of(" \t\r\n", 1);
     const char after = next == std::string_view::npos ? '\0' : text[next];
-    if ((text[0] == '{' && after == '"') || (text[0] == '[' && after == '{')) return OmmForm::kJson;
+    if ((text[0] == '{' && after == '"') || (text[0] == '[' && (after == '{' || after == '[')))
+        return OmmForm::kJson;
     if (first.find(',') != std::string_view::npos && first.find("MEAN_MOTION") != std::string_view::npos)
         return OmmForm::kCsv;
     return {};

@@ -11,6 +11,8 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kLineColumns = 69;
+// Owners give names of more than the 24 characters of the format's description.
+constexpr std::size_t kLongestName = 200;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kMinutesPerDay = 1440;
 
@@ -137,6 +139,16 @@ ElementSet read_set(const TextLines& lines, const Line& one, const Line& two) {
     return tle;
 }
 
+// True for a line that is a satellite's name. One that begins as a line of a set does ("1 KUNS-PF") is known by the whole
+// line 1 behind it.
+bool is_name(const TextLines& lines, std::string_view line) {
+    if (!line.starts_with("1 ") && !line.starts_with("2 ")) return true;
+    TextLines ahead = lines;
+    std::string_view next;
+    return line.size() < kLineColumns - 1 && ahead.next(next) && next.starts_with("1 ") &&
+           next.size() >= kLineColumns - 1;
+}
+
 }  // namespace
 
 std::vector<ElementSet> read_tles(std::string_view text, const std::string& name, TleChecksum checksum) {
@@ -147,12 +159,13 @@ std::vector<ElementSet> read_tles(std::string_view text, const std::string& name
     while (lines.next(line)) {
         if (trimmed(line).empty() || line.starts_with('#')) continue;
         refuse_odd_blanks(lines, line);
-        if (!line.starts_with("1 ")) {
-            if (line.starts_with("2 ")) lines.refuse(line, "line 1 of an element set before its line 2");
+        if (is_name(lines, line)) {
             title = trimmed(line.starts_with("0 ") ? line.substr(2) : line);
-            if (title.size() > 80) lines.refuse(line, "an element set, or a satellite's name before it");
+            if (title.size() > kLongestName)
+                lines.refuse(line, "an element set, or a satellite's name before it");
             continue;
         }
+        if (line.starts_with("2 ")) lines.refuse(line, "line 1 of an element set before its line 2");
         check_line(lines, line, '1', checksum);
         const Line one{lines, line, lines.number()};
         std::string_view next;

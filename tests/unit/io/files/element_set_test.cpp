@@ -17,8 +17,8 @@ using testing::HasSubstr;
 
 class ElementSets : public FilesTest {
   protected:
-    static std::string refusal(const std::string& text, const std::string& satellite = "",
-                               TleChecksum checksum = TleChecksum::kVerify) {
+    std::string refusal(const std::string& text, const std::string& satellite = "",
+                        TleChecksum checksum = TleChecksum::kVerify) {
         return error_of(
             [&] { choose_element_set(read_element_sets(text, "s.txt", checksum), satellite, {}, "s.txt"); });
     }
@@ -156,13 +156,13 @@ TEST_F(ElementSets, SetsOfAnotherTheoryAreRefusedByNameAndAlone) {
              {"TIME_SYSTEM = UTC", "TIME_SYSTEM = TT", "TIME_SYSTEM 'TT'"},
              {"CENTER_NAME = EARTH", "CENTER_NAME = MARS", "CENTER_NAME 'MARS'"}}) {
         EXPECT_THAT(refusal(with(kKvn, from, to)), HasSubstr(what));
-        EXPECT_EQ(refusal(with(kKvn, from, to) + with(kKvn, "100001", "270001"), "270001"), "");
+        EXPECT_EQ(refusal(with(kKvn, from, to) + with(kKvn, "100001", "270001"), "270001"), "no error");
     }
 }
 
 TEST_F(ElementSets, LinesWithoutChecksumAreTakenWhenItIsIgnored) {
     const std::string text = kLine1.substr(0, 68) + "\n" + kLine2.substr(0, 68) + "\n";
-    EXPECT_EQ(refusal(text, "", TleChecksum::kIgnore), "");
+    EXPECT_EQ(refusal(text, "", TleChecksum::kIgnore), "no error");
     EXPECT_THAT(refusal(text), HasSubstr("69 columns; it has 68 (checksum: ignore takes lines without"));
     EXPECT_THAT(refusal(text.substr(0, 67) + "\n" + kLine2, "", TleChecksum::kIgnore),
                 HasSubstr("69 columns (or 68, without the checksum); it has 67"));
@@ -176,7 +176,16 @@ TEST_F(ElementSets, BlanksThatAreNoneAreNamed) {
     EXPECT_THAT(refusal(with(kLine1, " ", "\xC2\xA0") + kLine2), HasSubstr("U+00A0, a non-breaking blank"));
     EXPECT_THAT(refusal(with(kKvn, "= 51.6", "= 51\xC2\xA0.6")), HasSubstr("U+00A0, a non-breaking blank"));
     // A name may have them.
-    EXPECT_EQ(refusal("STATION\xC2\xA0ONE\n" + kLine1 + kLine2), "");
+    EXPECT_EQ(refusal("STATION\xC2\xA0ONE\n" + kLine1 + kLine2), "no error");
+}
+
+// Names that begin as a line of a set does are in the catalogue.
+TEST_F(ElementSets, NamesMayBeginWithADigit) {
+    for (const char* name : {"1 KUNS-PF", "2 BEOOBSAT", "0 ISS", "1KUNS"})
+        EXPECT_THAT(read_element_sets(std::string(name) + "\n" + kLine1 + kLine2, "t.tle").at(0).name,
+                    HasSubstr(std::string(name).substr(2)));
+    EXPECT_THAT(refusal(kLine1.substr(0, 50) + "\n" + kLine2), HasSubstr("69 columns; it has 50"));
+    EXPECT_THAT(refusal(kLine2 + kLine1), HasSubstr("line 1 of an element set before its line 2"));
 }
 
 TEST_F(ElementSets, ABadMessageIsNamedByItsPlace) {
@@ -199,7 +208,7 @@ TEST_F(ElementSets, ABadMessageIsNamedByItsPlace) {
     EXPECT_THAT(refusal(kCsvHead + "A,B\n"), HasSubstr("s.txt:2: found 2 fields; accepted: 12"));
     EXPECT_THAT(refusal(kCsvHead + with(kCsvLine, "FUTURE", "\"FUTURE")),
                 HasSubstr("a double quote has no second one"));
-    EXPECT_THAT(refusal("[" + kJson + "]"), HasSubstr("accepted: an element set, or a satellite's name"));
+    EXPECT_THAT(refusal("[" + kJson + "]"), HasSubstr("s.txt: set 1: found an array inside"));
     EXPECT_THAT(refusal(with(kJson, "15.5", "[15.5]")), HasSubstr("s.txt: set 1: found an array inside"));
     EXPECT_THAT(refusal(kJson.substr(0, 40)), HasSubstr("is no JSON from its byte"));
     EXPECT_THAT(refusal(kCsvHead), HasSubstr("holds no orbit mean-elements message"));
