@@ -280,7 +280,7 @@ bool read_data(KvnLines& lines, Metadata& m) {
     return true;
 }
 
-// How far rates are off the turns from attitude to attitude, and how large those turns are [rad].
+// The sums of the turns from attitude to attitude, and of what rates are off them [rad].
 struct RateFit {
     double off_rad = 0, turned_rad = 0;
     std::size_t steps = 0;

@@ -25,7 +25,7 @@ bool starts_keyword(std::string_view text, std::string_view word) {
 // Axes of the Earth's equator may be those of an epoch.
 enum class Epoch { kNone, kMayBe, kOfDate, kMustBe };
 struct FrameName {
-    std::string_view name;  // as ccsds_word() has it; a star stands for any end
+    std::string_view name;  // the word (ccsds_word()); a star stands for any end
     CcsdsFrame frame;
     Epoch epoch = Epoch::kNone;
 };

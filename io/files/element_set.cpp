@@ -29,7 +29,7 @@ std::optional<int> catalogue_number(std::string_view text) {
             first = static_cast<int>(10 + letter) * 10'000;
             text.remove_prefix(1);
         }
-    constexpr std::size_t kMostDigits = 9;  // as the CCSDS's NORAD_CAT_ID
+    constexpr std::size_t kMostDigits = 9;  // the CCSDS's NORAD_CAT_ID has as many
     if (text.empty() || text.size() > kMostDigits) return {};
     int number = 0;
     for (const char c : text) {

@@ -47,7 +47,7 @@ class DasFile {
     NaifNumbers numbers_;
     std::array<Kind, 3> kinds_;  // characters, doubles, integers
 
-    // What a file in transfer format has.
+    // The numbers of a file in transfer format.
     bool is_transfer_ = false;
     std::vector<double> decoded_doubles_;
     std::vector<std::int32_t> decoded_integers_;
