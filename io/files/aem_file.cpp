@@ -331,10 +331,9 @@ void settle_version_1(KvnLines& lines, Metadata& m) {
 }
 
 void check_attitudes(const KvnLines& lines, const AemSegment& s) {
-    const auto fewest = static_cast<std::size_t>(std::max(2, interpolation_nodes(s)));
-    if (s.attitudes.size() < fewest)
+    if (s.attitudes.size() < 2)
         lines.fail("the segment that begins here has " + std::to_string(s.attitudes.size()) +
-                       " attitudes; accepted: at least " + std::to_string(fewest) + " for its interpolation",
+                       " attitudes; accepted: at least 2",
                    s.line);
     check_steps(lines, s.attitudes, s.line);
     if (s.attitudes.front().time > s.usable_start || s.attitudes.back().time < s.usable_stop)

@@ -70,12 +70,11 @@ void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     states.push_back(state);
 }
 
-// Checks that the states reach over the usable span and are enough to interpolate.
+// Checks that the states reach over the usable span.
 void check_states(const KvnLines& lines, const OemSegment& s) {
-    const auto fewest = static_cast<std::size_t>(std::max(2, interpolation_nodes(s.interpolation)));
-    if (s.states.size() < fewest)
+    if (s.states.size() < 2)
         lines.fail("the segment that begins here has " + std::to_string(s.states.size()) +
-                       " states; accepted: at least " + std::to_string(fewest) + " for its interpolation",
+                       " states; accepted: at least 2",
                    s.line);
     check_steps(lines, s.states, s.line);
     if (s.states.front().time > s.usable_start || s.states.back().time < s.usable_stop)

@@ -12,8 +12,8 @@
 namespace hilcam {
 
 // Returns the pieces of a segment, whose samples (`Samples` of the segment, each with a time) do not fall. A piece of one
-// sample is left out, as its neighbours have its epoch. A piece with fewer samples than the interpolation takes has the
-// degree that they allow, which is noted. nodes_of: how many samples an interpolation of the segment takes.
+// sample is left out, as its neighbours have its epoch. A piece, or a whole segment, with fewer samples than the interpolation
+// takes has the degree that they allow, which is noted. nodes_of: how many samples an interpolation of the segment takes.
 template <class Segment, class Sample>
 std::vector<Segment> cut_at_repeated_epochs(KvnLines& lines, Segment&& whole,
                                             std::vector<Sample> Segment::*samples,
@@ -32,9 +32,11 @@ std::vector<Segment> cut_at_repeated_epochs(KvnLines& lines, Segment&& whole,
         if (piece.usable_stop < piece.usable_start) continue;
         const int has = static_cast<int>(end - begin);
         if (nodes_of(piece) > has) {
-            lines.note("short piece",
-                       "of the segment that begins here a piece between repeated epochs has " +
-                           std::to_string(has) + " states, fewer than INTERPOLATION_DEGREE " +
+            const bool part = end - begin < all.size();
+            lines.note("few samples",
+                       std::string(part ? "a part of the segment that begins here, between repeated epochs,"
+                                        : "the segment that begins here") +
+                           " has " + std::to_string(has) + " samples, fewer than INTERPOLATION_DEGREE " +
                            std::to_string(piece.interpolation.degree) + " takes: as many are taken",
                        whole.line);
             while (piece.interpolation.degree > 1 && nodes_of(piece) > has) --piece.interpolation.degree;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <tuple>
 
 #include "io/files/aem_file.h"
 #include "io/files/oem_file.h"
@@ -132,7 +133,7 @@ TEST_F(CcsdsDialects, ARepeatedEpochPartsItsSegment) {
     EXPECT_EQ(sides[0].interpolation.degree, 1);
     EXPECT_EQ(sides[1].interpolation.degree, 2);
     ASSERT_EQ(notes.size(), 1u);
-    EXPECT_THAT(notes[0], HasSubstr("has 2 states, fewer than INTERPOLATION_DEGREE 3 takes"));
+    EXPECT_THAT(notes[0], HasSubstr("has 2 samples, fewer than INTERPOLATION_DEGREE 3 takes"));
     // At the first and the last epoch, and three times the same one: what has no length is left out.
     const std::string ends =
         with(with(kOem, "2026-03-20T12:00:00 ", "2026-03-20T12:00:00 1 2 3 4 5 6\n2026-03-20T12:00:00 "),
@@ -144,6 +145,24 @@ TEST_F(CcsdsDialects, ARepeatedEpochPartsItsSegment) {
     std::string nothing = kOem.substr(0, kOem.find("2026-03-20T12:01:00 "));
     nothing = with(nothing, "DEGREE = 3", "DEGREE = 1") + "2026-03-20T12:00:00 7001 450 2 -1 7.4 0\n";
     EXPECT_THAT(refusal_of_oem(nothing), HasSubstr("has no two epochs that differ"));
+}
+
+// Short segments have the degree that their states allow, and say so.
+TEST_F(CcsdsDialects, ADegreeOfMoreStatesThanThereAreIsLowered) {
+    for (const auto& [method, given, degree] : std::vector<std::tuple<std::string, std::string, int>>{
+             {"LAGRANGE", "9", 3}, {"HERMITE", "11", 8}, {"HERMITE", "7", 7}, {"LAGRANGE", "3", 3}}) {
+        std::vector<std::string> notes;
+        const OemSegment s = read_oem(with(with(kOem, "LAGRANGE", method), "DEGREE = 3", "DEGREE = " + given),
+                                      "t.oem", "", &notes)
+                                 .at(0);
+        EXPECT_LE(interpolation_nodes(s.interpolation), 4);
+        EXPECT_LE(s.interpolation.degree, degree);
+        EXPECT_EQ(notes.size(), given == "9" || given == "11" ? 1u : 0u);
+        for (const std::string& note : notes)
+            EXPECT_THAT(note, HasSubstr("t.oem:4: the segment that begins here has 4 samples, fewer than "
+                                        "INTERPOLATION_DEGREE " +
+                                        given + " takes: as many are taken"));
+    }
 }
 
 TEST_F(CcsdsDialects, EvenDegreesOfHermiteTakeTheNextOddOnesStates) {
