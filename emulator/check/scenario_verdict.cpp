@@ -8,6 +8,7 @@
 #include "emulator/check/machine_verdict.h"
 #include "emulator/check/mesh_survey.h"
 #include "emulator/loop/shutter_timing.h"
+#include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/scenario_warnings.h"
 #include "render/vocabulary/quoted.h"
 
@@ -48,6 +49,7 @@ std::vector<std::string> early_verdict(const ScenarioConfig& bench, VerdictOn on
     append(idle_warnings(bench), out);
     append(length_warnings(bench), out);
     append(place_warnings(bench), out);
+    append(motion_warnings(bench), out);
     if (on != VerdictOn::kAll) return out;
     for (std::size_t i = 0; i <= bench.more_cameras.size(); ++i)
         append(machine_warnings(scenario_of_camera(bench, i)), out);

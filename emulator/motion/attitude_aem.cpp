@@ -2,7 +2,7 @@
 
 #include "emulator/motion/attitude_laws.h"
 #include "emulator/motion/ephemeris.h"
-#include "render/sky/earth_frames.h"
+#include "emulator/motion/reference_axes.h"
 
 namespace hilcam {
 namespace {
@@ -10,7 +10,10 @@ namespace {
 class AemLaw final : public AttitudeLaw {
   public:
     AemLaw(std::vector<AemSegment> segments, const OrbitCenter& center, const std::string& name)
-        : segments_(std::move(segments)), center_(center), name_(name), eme2000_{icrf_from_eme2000(), {}} {}
+        : segments_(std::move(segments)),
+          center_(center),
+          name_(name),
+          eme2000_{*resting_axes(CcsdsFrame::kEme2000, {}), {}} {}
 
     MotionValidity validity(TimeTai time) const override { return validity_of(segments_, time); }
     AttitudeState at(const MotionContext& context, const OwnMotion& self) const override {
@@ -37,10 +40,12 @@ class AemLaw final : public AttitudeLaw {
         switch (reference) {
             case CcsdsFrame::kEme2000:
                 return eme2000_;
-            case CcsdsFrame::kTeme:  // turns by 50 arcsec a year
-                return {context.frame.icrf_from_teme(), {}};
+            case CcsdsFrame::kTeme:
+            case CcsdsFrame::kTod:
+            case CcsdsFrame::kMod:
+            case CcsdsFrame::kGtod:
             case CcsdsFrame::kEarthFixed:
-                return context.frame.body_fixed(BodyId::kEarth);
+                return axes_of_date(reference, context.frame);
             case CcsdsFrame::kLvlh:
                 return lvlh();
             case CcsdsFrame::kRtn: {

@@ -4,8 +4,8 @@
 #include "emulator/motion/kepler_orbit.h"
 #include "emulator/motion/keyframes.h"
 #include "emulator/motion/placed_frame.h"
+#include "io/files/element_set.h"
 #include "io/files/oem_file.h"
-#include "io/files/tle_file.h"
 #include "io/spice/spice_kernels.h"
 
 namespace hilcam {
@@ -22,7 +22,7 @@ std::unique_ptr<Trajectory> make_kepler(const OrbitCenter& center, const KeplerE
                                         TimeTai epoch);
 // SGP4 about the Earth, for `valid_s` before and after epoch, or until the theory breaks down or the
 // satellite decays. Throws InputError for elements that are no orbit.
-std::unique_ptr<Trajectory> make_tle(const Tle& tle, double valid_s, const std::string& name);
+std::unique_ptr<Trajectory> make_tle(const ElementSet& tle, double valid_s);
 // A thing of the scenario's kernels about a body's centre, or about the origin where that is a thing of the kernels.
 struct SpicePlace {
     int object = 0;  // NAIF's codes

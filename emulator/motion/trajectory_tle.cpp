@@ -15,11 +15,11 @@ constexpr double kMinute_ns = 60e9;
 
 class TleTrajectory final : public Trajectory {
   public:
-    TleTrajectory(const Tle& tle, double valid_s, const std::string& name)
+    TleTrajectory(const ElementSet& tle, double valid_s)
         : sgp4_({tle.epoch_days_1950, tle.inclination_rad, tle.node_rad, tle.eccentricity, tle.perigee_rad,
                  tle.mean_anomaly_rad, tle.mean_motion_rad_min, tle.bstar_per_er}),
           epoch_(tle.epoch),
-          name_(name + ":" + std::to_string(tle.line)) {
+          name_(tle.where) {
         if (!works(0))
             throw InputError(name_ + ": the elements of satellite " + tle.satellite +
                              " are no orbit above the ground at their epoch");
@@ -65,8 +65,8 @@ class TleTrajectory final : public Trajectory {
 
 }  // namespace
 
-std::unique_ptr<Trajectory> make_tle(const Tle& tle, double valid_s, const std::string& name) {
-    return std::make_unique<TleTrajectory>(tle, valid_s, name);
+std::unique_ptr<Trajectory> make_tle(const ElementSet& tle, double valid_s) {
+    return std::make_unique<TleTrajectory>(tle, valid_s);
 }
 
 }  // namespace hilcam

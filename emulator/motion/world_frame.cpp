@@ -46,6 +46,11 @@ TurningAxes WorldFrame::body_fixed(BodyId body) const {
 
 Mat3d WorldFrame::icrf_from_teme() const { return hilcam::icrf_from_teme(time_, origin_.earth); }
 
+TurningAxes WorldFrame::earth_rotated() const {
+    return {transposed(earth_rotated_from_icrf(time_, origin_.earth)),
+            earth_rate_rad_s(time_, origin_.earth)};
+}
+
 StateVector WorldFrame::center(const OrbitCenter& center) const {
     const std::optional<BodyId> home = origin_.center();
     if (!origin_state_) {

@@ -39,6 +39,8 @@ class WorldFrame {
     TurningAxes body_fixed(BodyId body) const;
     // The axes of SGP4's orbits (earth_frames.h).
     Mat3d icrf_from_teme() const;
+    // The Earth's axes by its rotation about the celestial intermediate pole: ITRF but for the pole's motion.
+    TurningAxes earth_rotated() const;
 
   private:
     TimeTai time_;

@@ -280,7 +280,11 @@ namespace {
 
 // The kernels' leap seconds come before those of `leap_seconds`, and both before any time that is worked out.
 void take_kernels(ScenarioConfig& s) {
-    if (s.spice) load_spice(*s.spice);
+    if (s.spice) {
+        const std::string warning = load_spice(*s.spice);
+        // A list of the scenario's own comes after the kernels'.
+        if (!warning.empty() && !s.leap_seconds) s.warnings.push_back(warning);
+    }
     if (!s.spice && s.origin.kind == OriginConfig::Kind::kSpice)
         throw InputError(
             "origin.kind: found 'spice', and the scenario has no kernels; accepted: with 'spice: {kernels: "

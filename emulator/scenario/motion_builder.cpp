@@ -52,16 +52,16 @@ class Builder {
             try {
                 sources[thing] = source_of(*motion, thing);
             } catch (const InputError& error) {
-                const std::string key =
-                    thing == 0 ? "camera_motion" : "objects." + std::to_string(thing - 1) + ".motion";
-                throw InputError(
-                    scenario_.places.at(key, "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
+                throw InputError(scenario_.places.at(
+                    key_of(thing), "motion of " + in_quotes(names_[thing]) + ": " + error.what()));
             }
         }
         MotionSources out(std::move(sources), names_);
         begin(out);
         return out;
     }
+    // What the files of build() have that is not used, each with its motion's key.
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
     const ScenarioConfig& scenario_;
@@ -70,6 +70,18 @@ class Builder {
     std::optional<PlaceConfig> site_;
     std::vector<std::optional<MotionConfig>> local_;  // local source of each thing whose pose is local
     std::vector<std::size_t> asked_;                  // things on the way to the one whose orbit is asked for
+    std::vector<std::string> warnings_;
+
+    static std::string key_of(std::size_t thing) {
+        return thing == 0 ? "camera_motion" : "objects." + std::to_string(thing - 1) + ".motion";
+    }
+    void warn(std::size_t thing, const std::vector<std::string>& notes) {
+        for (const std::string& note : notes) {
+            const std::string line = scenario_.places.at(key_of(thing), key_of(thing) + ": " + note);
+            if (std::find(warnings_.begin(), warnings_.end(), line) == warnings_.end())
+                warnings_.push_back(line);
+        }
+    }
 
     // Refuses a scenario that begins with what cannot be.
     void begin(const MotionSources& sources) const {
@@ -139,12 +151,14 @@ class Builder {
             case MotionConfig::Kind::kTle: {
                 const TleConfig& tle = m.tle.value();
                 const std::string file = tle.file.string();
-                const std::vector<Tle> sets = load_tles(tle.file, tle.checksum);
-                return make_tle(choose_tle(sets, tle.satellite, start_, file), tle.valid_s, file);
+                const std::vector<ElementSet> sets = load_element_sets(tle.file, tle.checksum);
+                return make_tle(choose_element_set(sets, tle.satellite, start_, file), tle.valid_s);
             }
             case MotionConfig::Kind::kOem: {
                 const EphemerisFileConfig& oem = m.oem.value();
-                std::vector<OemSegment> segments = load_oem(oem.file, oem.object);
+                std::vector<std::string> notes;
+                std::vector<OemSegment> segments = load_oem(oem.file, oem.object, &notes);
+                warn(thing, notes);
                 if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, oem.file.string());
                 return make_oem(std::move(segments), oem.file.string());
             }
@@ -232,7 +246,9 @@ class Builder {
             return make_keyframed_attitude(frame_of(m.frame, m.of, m, thing), keyframes_of(m));
         if (a.law == Law::kAem) {
             const EphemerisFileConfig& aem = a.aem.value();
-            std::vector<AemSegment> segments = load_aem(aem.file, aem.object);
+            std::vector<std::string> notes;
+            std::vector<AemSegment> segments = load_aem(aem.file, aem.object, &notes);
+            warn(thing, notes);
             if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, aem.file.string());
             return make_aem(std::move(segments), center_of(m), aem.file.string());
         }
@@ -279,5 +295,11 @@ class Builder {
 }  // namespace
 
 MotionSources load_motion_sources(const ScenarioConfig& scenario) { return Builder(scenario).build(); }
+
+std::vector<std::string> motion_warnings(const ScenarioConfig& scenario) {
+    Builder builder(scenario);
+    builder.build();
+    return builder.warnings();
+}
 
 }  // namespace hilcam

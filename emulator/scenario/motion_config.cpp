@@ -78,10 +78,12 @@ void validate(const KeplerConfig& k) {
 
 Fields fields(TleConfig& t) {
     return {
-        required(path("file", t.file, "file of two-line element sets")),
+        required(path("file", t.file, "element sets: two-line, or an OMM as KVN, XML, CSV or JSON")),
         text("satellite", t.satellite,
-             "the satellite's number, or its name in the file; of several sets the newest is taken"),
-        choice("checksum", t.checksum, {"verify", "ignore"}, "treatment of each line's checksum"),
+             "the satellite's number (100001 or A0001), or its name or OBJECT_ID in the file; of several "
+             "sets the newest is taken"),
+        choice("checksum", t.checksum, {"verify", "ignore"},
+               "treatment of each line's checksum; ignore takes lines without one, too"),
         number("valid_days", t.valid_s, 86400, {0.01, 400},
                "days before and after its epoch for which the set is valid"),
     };
@@ -89,7 +91,7 @@ Fields fields(TleConfig& t) {
 
 Fields fields(EphemerisFileConfig& f) {
     return {
-        required(path("file", f.file, "CCSDS message in the keyword = value form")),
+        required(path("file", f.file, "CCSDS message as KVN (keyword = value) or XML")),
         text("object", f.object, "OBJECT_NAME or OBJECT_ID to take from a message that has several"),
     };
 }
@@ -167,7 +169,7 @@ Fields fields(MotionConfig& m) {
                 "velocity in the frame, for fixed and cw"),
         sections("keyframes", m.keyframes, "places on the way, in order of time"),
         section("kepler", m.kepler, "elements of an unperturbed orbit"),
-        section("tle", m.tle, "two-line element set, propagated by SGP4"),
+        section("tle", m.tle, "element set (TLE or OMM), propagated by SGP4"),
         section("oem", m.oem, "orbit ephemeris message, CCSDS 502.0-B"),
         section("spice", m.spice, "thing of the scenario's kernels, about center"),
         section("attitude", m.attitude, "attitude along the motion"),

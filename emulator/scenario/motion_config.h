@@ -9,7 +9,7 @@
 #include "emulator/motion/attitude_jitter.h"
 #include "emulator/scenario/attitude_keys.h"
 #include "emulator/scenario/spice_config.h"
-#include "io/files/tle_file.h"
+#include "io/files/element_set.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/earth_orientation.h"
 

@@ -46,7 +46,7 @@ std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, Time
         std::make_shared<const std::vector<OemSegment>>(load_oem(c.oem.value().file, c.oem->object));
     const std::string file = c.oem->file.string(), center = names_of_centers()[c.center];
     for (const OemSegment& s : *segments) {
-        std::string name = s.center_name;
+        std::string name = ccsds_word(s.center_name);
         std::transform(name.begin(), name.end(), name.begin(),
                        [](char l) { return l >= 'A' && l <= 'Z' ? static_cast<char>(l - 'A' + 'a') : l; });
         const std::string where = file + ":" + std::to_string(s.line);

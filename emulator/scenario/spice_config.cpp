@@ -1,5 +1,7 @@
 #include "emulator/scenario/spice_config.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 
 #include "io/spice/ephemeris_time.h"
@@ -63,12 +65,38 @@ void validate(const SpiceFrameConfig& f) {
         throw KeyError("right", "is parallel to 'boresight'; accepted: another direction");
 }
 
-void load_spice(SpiceConfig& s) {
+namespace {
+
+// Says which leap seconds of the program's own table a kernel ends before; empty: none.
+std::string missing_leap_seconds(const KernelPool& pool, const std::vector<LeapSecond>& kernel,
+                                 const std::vector<LeapSecond>& own) {
+    if (kernel.empty()) return {};
+    const auto month = [](const LeapSecond& leap) { return leap.year * 12 + leap.month; };
+    std::string dates;
+    for (const LeapSecond& leap : own)
+        if (month(leap) > month(kernel.back()))
+            dates += fmt::format("{}{}-{:02}-01", dates.empty() ? "" : ", ", leap.year, leap.month);
+    if (dates.empty()) return {};
+    return fmt::format(
+        "spice: {}: DELTET/DELTA_AT lacks the leap seconds of {}, which the program knows: from then on its "
+        "times, which are those of the kernel, are up to {} s off UTC; accepted without this warning: "
+        "naif0012.tls or a newer one",
+        pool.find("DELTET/DELTA_AT")->where, dates,
+        own.back().tai_minus_utc_s - kernel.back().tai_minus_utc_s);
+}
+
+}  // namespace
+
+std::string load_spice(SpiceConfig& s) {
     std::vector<std::filesystem::path> files;
     for (const KernelFileConfig& k : s.kernels) files.push_back(k.file);
     try {
         s.loaded = std::make_shared<SpiceKernels>(files, s.tolerance_s);
-        use_leap_seconds(leap_seconds_of(s.loaded->set.pool));
+        const KernelPool& pool = s.loaded->set.pool;
+        const std::vector<LeapSecond> kernel = leap_seconds_of(pool);
+        const std::string warning = missing_leap_seconds(pool, kernel, leap_seconds_in_use());
+        use_leap_seconds(kernel);
+        return warning;
     } catch (const InputError& error) {
         throw InputError(std::string("spice: ") + error.what());
     }

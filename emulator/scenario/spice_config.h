@@ -42,8 +42,9 @@ struct SpiceFrameConfig {
 Fields fields(SpiceFrameConfig& frame);
 void validate(const SpiceFrameConfig& frame);
 
-// Reads the kernels, and makes their leap seconds those of the program. Throws InputError.
-void load_spice(SpiceConfig& spice);
+// Reads the kernels, and makes their leap seconds those of the program. Returns a warning where they end before those in use,
+// or empty. Throws InputError.
+std::string load_spice(SpiceConfig& spice);
 // Puts an instrument kernel's focal length, pixel pitch and pixels into a camera; returns a line for what of the kernel's
 // field of view does not agree, or nothing. Throws InputError.
 std::string apply_instrument(const SpiceConfig& spice, CameraModel& camera);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "io/files/repeated_epochs.h"
 #include "io/system/input_file.h"
 #include "render/sky/motion_bounds.h"
 #include "render/vocabulary/plain_number.h"
@@ -18,9 +20,11 @@ enum class AttitudeType {
     kQuaternion,
     kQuaternionDerivative,
     kQuaternionAngvel,
+    kQuaternionRate,
     kEuler,
     kEulerDerivative,
     kEulerAngvel,
+    kEulerRate,
     kSpin
 };
 struct TypeName {
@@ -29,13 +33,15 @@ struct TypeName {
     std::size_t numbers;  // in a data line
     bool rates;
 };
-constexpr std::array<TypeName, 7> kTypes = {
+constexpr std::array<TypeName, 9> kTypes = {
     {{"QUATERNION", AttitudeType::kQuaternion, 4, false},
      {"QUATERNION/DERIVATIVE", AttitudeType::kQuaternionDerivative, 8, true},
      {"QUATERNION/ANGVEL", AttitudeType::kQuaternionAngvel, 7, true},
+     {"QUATERNION/RATE", AttitudeType::kQuaternionRate, 7, true},
      {"EULER_ANGLE", AttitudeType::kEuler, 3, false},
      {"EULER_ANGLE/DERIVATIVE", AttitudeType::kEulerDerivative, 6, true},
      {"EULER_ANGLE/ANGVEL", AttitudeType::kEulerAngvel, 6, true},
+     {"EULER_ANGLE/RATE", AttitudeType::kEulerRate, 6, true},
      {"SPIN", AttitudeType::kSpin, 4, true}}};
 
 // Metadata say how the numbers of a data line are meant.
@@ -44,9 +50,12 @@ struct Metadata {
     TimeSystem system = TimeSystem::kUtc;
     SegmentSpan span;
     TypeName type = kTypes[0];
-    std::array<int, 3> euler_axes{};  // 0, 1, 2: x, y, z
+    std::optional<std::array<int, 3>> euler_axes;  // 0, 1, 2: x, y, z
     bool scalar_first = false;
     bool angvel_in_a = false;  // components of angular velocities
+    // How version 1's rates are meant, and what its lines say: they are read when all are there.
+    bool rates_of_angles = false;
+    std::vector<double> version_1;
     // The message's rotation takes A's axes to B's; the body may be either.
     bool b_to_a = false, body_is_a = false;
 };
@@ -54,7 +63,7 @@ struct Metadata {
 TypeName type_of(const KvnLines& lines, const KvnEntry& entry) {
     std::string names;
     for (const TypeName& t : kTypes) {
-        if (t.name == entry.value) return t;
+        if (is_word(entry.value, t.name)) return t;
         names += (names.empty() ? "" : ", ") + std::string(t.name);
     }
     lines.refuse(entry.value, "ATTITUDE_TYPE of " + names, entry.line);
@@ -62,7 +71,7 @@ TypeName type_of(const KvnLines& lines, const KvnEntry& entry) {
 
 std::array<int, 3> axes_of(const KvnLines& lines, const KvnEntry& entry) {
     std::array<int, 3> axes{};
-    const std::string& letters = entry.value;
+    const std::string letters = ccsds_word(entry.value);
     for (std::size_t i = 0; letters.size() == 3 && i < 3; ++i) {
         // Version 1 has digits.
         const std::size_t at = std::string_view("XYZ123").find(letters[i]);
@@ -70,12 +79,26 @@ std::array<int, 3> axes_of(const KvnLines& lines, const KvnEntry& entry) {
         axes[i] = static_cast<int>(at % 3);
         if (i == 2) return axes;
     }
-    lines.refuse(letters, "EULER_ROT_SEQ of three letters X, Y, Z, no two neighbours the same", entry.line);
+    lines.refuse(entry.value, "EULER_ROT_SEQ of three letters X, Y, Z, no two neighbours the same",
+                 entry.line);
 }
 
-void read_frames(const KvnLines& lines, const KvnSection& meta, Metadata& m) {
+bool is_version_1(AttitudeType type) {
+    return type == AttitudeType::kQuaternionRate || type == AttitudeType::kEulerRate;
+}
+
+// Says which frame's components a rate has.
+void read_rate_frame(const KvnLines& lines, const KvnEntry& frame, const KvnEntry& a, const KvnEntry& b,
+                     Metadata& m) {
+    m.angvel_in_a = is_word(frame.value, a.value) || is_word(frame.value, "REF_FRAME_A");
+    if (!m.angvel_in_a && !is_word(frame.value, b.value) && !is_word(frame.value, "REF_FRAME_B"))
+        lines.refuse(frame.value, frame.key + " of " + a.value + ", " + b.value, frame.line);
+}
+
+void read_frames(KvnLines& lines, const KvnSection& meta, Metadata& m) {
     const std::vector<CcsdsFrame> all = {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed,
-                                         CcsdsFrame::kTeme, CcsdsFrame::kLvlh,    CcsdsFrame::kRtn,
+                                         CcsdsFrame::kTeme, CcsdsFrame::kTod,     CcsdsFrame::kMod,
+                                         CcsdsFrame::kGtod, CcsdsFrame::kLvlh,    CcsdsFrame::kRtn,
                                          CcsdsFrame::kBody};
     const KvnEntry& entry_a = meta.require(lines, "REF_FRAME_A");
     const KvnEntry& entry_b = meta.require(lines, "REF_FRAME_B");
@@ -85,27 +108,29 @@ void read_frames(const KvnLines& lines, const KvnSection& meta, Metadata& m) {
         lines.refuse(entry_a.value + " and " + entry_b.value,
                      "one frame of the body (SC_BODY...), one that is not", entry_b.line);
     m.segment.reference = m.body_is_a ? b : a;
+    const KvnEntry& body = m.body_is_a ? entry_a : entry_b;
+    if (!ccsds_word(body.value).starts_with("SC BODY"))
+        lines.note("part", in_quotes(body.value) + " is taken for the axes of the whole body", body.line);
     if (const KvnEntry* direction = meta.find("ATTITUDE_DIR")) {
-        if (direction->value != "A2B" && direction->value != "B2A")
+        m.b_to_a = is_word(direction->value, "B2A");
+        if (!m.b_to_a && !is_word(direction->value, "A2B"))
             lines.refuse(direction->value, "ATTITUDE_DIR of A2B, B2A", direction->line);
-        m.b_to_a = direction->value == "B2A";
     }
+    if (const KvnEntry* rate = meta.find("RATE_FRAME"); rate && is_version_1(m.type.type))
+        read_rate_frame(lines, *rate, entry_a, entry_b, m);
     if (m.type.type != AttitudeType::kQuaternionAngvel && m.type.type != AttitudeType::kEulerAngvel) return;
-    const KvnEntry& angvel = meta.require(lines, "ANGVEL_FRAME");
-    m.angvel_in_a = angvel.value == entry_a.value || angvel.value == "REF_FRAME_A";
-    if (!m.angvel_in_a && angvel.value != entry_b.value && angvel.value != "REF_FRAME_B")
-        lines.refuse(angvel.value, "ANGVEL_FRAME of " + entry_a.value + ", " + entry_b.value, angvel.line);
+    read_rate_frame(lines, meta.require(lines, "ANGVEL_FRAME"), entry_a, entry_b, m);
 }
 
 Metadata read_metadata(KvnLines& lines) {
     Metadata m;
     m.segment.line = lines.number();
     KvnSection meta;
-    meta.read(
-        lines, "META_STOP",
-        {"OBJECT_NAME", "OBJECT_ID", "CENTER_NAME", "REF_FRAME_A", "REF_FRAME_B", "ATTITUDE_DIR",
-         "TIME_SYSTEM", "START_TIME", "USEABLE_START_TIME", "USEABLE_STOP_TIME", "STOP_TIME", "ATTITUDE_TYPE",
-         "QUATERNION_TYPE", "EULER_ROT_SEQ", "ANGVEL_FRAME", "INTERPOLATION_METHOD", "INTERPOLATION_DEGREE"});
+    meta.read(lines, "META_STOP",
+              {"OBJECT_NAME", "OBJECT_ID", "CENTER_NAME", "REF_FRAME_A", "REF_FRAME_B", "ATTITUDE_DIR",
+               "TIME_SYSTEM", "START_TIME", "USEABLE_START_TIME", "USEABLE_STOP_TIME", "STOP_TIME",
+               "ATTITUDE_TYPE", "QUATERNION_TYPE", "EULER_ROT_SEQ", "ANGVEL_FRAME", "RATE_FRAME",
+               "INTERPOLATION_METHOD", "INTERPOLATION_DEGREE"});
     m.segment.object_name = meta.require(lines, "OBJECT_NAME").value;
     m.segment.object_id = meta.require(lines, "OBJECT_ID").value;
     m.system = ccsds_time_system(lines, meta.require(lines, "TIME_SYSTEM"));
@@ -114,21 +139,21 @@ Metadata read_metadata(KvnLines& lines) {
     m.type = type_of(lines, meta.require(lines, "ATTITUDE_TYPE"));
     m.segment.has_rates = m.type.rates;
     read_frames(lines, meta, m);
-    const bool euler = m.type.name.starts_with("EULER");
-    if (euler) m.euler_axes = axes_of(lines, meta.require(lines, "EULER_ROT_SEQ"));
+    if (m.type.name.starts_with("EULER"))
+        m.euler_axes = axes_of(lines, meta.require(lines, "EULER_ROT_SEQ"));
+    else if (const KvnEntry* sequence = meta.find("EULER_ROT_SEQ"))
+        m.euler_axes = axes_of(lines, *sequence);
     if (const KvnEntry* scalar = meta.find("QUATERNION_TYPE")) {
-        if (scalar->value != "FIRST" && scalar->value != "LAST")
+        m.scalar_first = is_word(scalar->value, "FIRST");
+        if (!m.scalar_first && !is_word(scalar->value, "LAST"))
             lines.refuse(scalar->value, "QUATERNION_TYPE of FIRST, LAST", scalar->line);
-        m.scalar_first = scalar->value == "FIRST";
     }
     m.segment.interpolation = meta.interpolation(lines, "INTERPOLATION_METHOD");
     return m;
 }
 
-Quat about_axis(int axis, double angle_rad) {
-    return from_rotation_vector(angle_rad *
-                                Vec3d{axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0});
-}
+Vec3d axis_dir(int axis) { return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0}; }
+Quat about_axis(int axis, double angle_rad) { return from_rotation_vector(angle_rad * axis_dir(axis)); }
 
 Quat quaternion_at(const Metadata& m, const double* v) {
     return m.scalar_first ? Quat{v[0], v[1], v[2], v[3]} : Quat{v[3], v[0], v[1], v[2]};
@@ -142,19 +167,34 @@ struct Turn {
 
 // Annex F3: successive turns about the turned axes; the rate is the sum of theirs.
 Turn euler_turn(const Metadata& m, const double* v) {
-    const Quat q1 = about_axis(m.euler_axes[0], v[0] * kDegree_rad),
-               q2 = about_axis(m.euler_axes[1], v[1] * kDegree_rad),
-               q3 = about_axis(m.euler_axes[2], v[2] * kDegree_rad);
+    const std::array<int, 3>& axes = m.euler_axes.value();
+    const Quat q1 = about_axis(axes[0], v[0] * kDegree_rad), q2 = about_axis(axes[1], v[1] * kDegree_rad),
+               q3 = about_axis(axes[2], v[2] * kDegree_rad);
     Turn turn{q1 * q2 * q3, {}};
-    if (m.type.type != AttitudeType::kEulerDerivative) return turn;
+    if (m.type.type != AttitudeType::kEulerDerivative &&
+        !(m.type.type == AttitudeType::kEulerRate && m.rates_of_angles))
+        return turn;
     const auto axis = [&](std::size_t i, Quat later) {
-        const int a = m.euler_axes[i];
-        return to_matrix(conjugate(later)) *
-               Vec3d{a == 0 ? 1.0 : 0.0, a == 1 ? 1.0 : 0.0, a == 2 ? 1.0 : 0.0};
+        return to_matrix(conjugate(later)) * axis_dir(axes[i]);
     };
     turn.rate_b_rad_s = (v[3] * kDegree_rad) * axis(0, q2 * q3) + (v[4] * kDegree_rad) * axis(1, q3) +
                         (v[5] * kDegree_rad) * axis(2, {});
     return turn;
+}
+
+// The same of an attitude that is known as a quaternion. The first turn is about an axis of A, the third about one of B;
+// the second one's axis, the line of nodes, is at right angles to both. Its sign is that of a second angle of 0 to 180 deg,
+// or of -90 to 90 where the three axes differ. Nothing where the two are one line.
+std::optional<Vec3d> rate_of_angles(const Metadata& m, const Quat& a_from_b, const double* rates_deg_s) {
+    const std::array<int, 3>& axes = m.euler_axes.value();
+    const Mat3d a_from_b_axes = to_matrix(a_from_b), b_from_a_axes = transposed(a_from_b_axes);
+    const Vec3d nodes = cross(axis_dir(axes[0]), a_from_b_axes * axis_dir(axes[2]));
+    if (!(length(nodes) > 1e-6)) return {};
+    const bool cyclic = (axes[0] + 1) % 3 == axes[1];
+    const double sign = axes[0] == axes[2] || !cyclic ? 1 : -1;
+    return kDegree_rad * (rates_deg_s[0] * (b_from_a_axes * axis_dir(axes[0])) +
+                          (sign * rates_deg_s[1]) * (b_from_a_axes * normalized(nodes)) +
+                          rates_deg_s[2] * axis_dir(axes[2]));
 }
 
 Turn quaternion_turn(const KvnLines& lines, const Metadata& m, const double* v) {
@@ -167,6 +207,8 @@ Turn quaternion_turn(const KvnLines& lines, const Metadata& m, const double* v) 
         const Quat w = conjugate(turn.a_from_b) * quaternion_at(m, v + 4);
         turn.rate_b_rad_s = 2.0 * Vec3d{w.x, w.y, w.z};
     }
+    if (m.type.type == AttitudeType::kQuaternionRate && m.rates_of_angles)
+        turn.rate_b_rad_s = rate_of_angles(m, turn.a_from_b, v + 4).value_or(Vec3d{});
     return turn;
 }
 
@@ -183,12 +225,20 @@ Turn turn_of(const KvnLines& lines, const Metadata& m, const double* v) {
     turn = euler ? euler_turn(m, v) : quaternion_turn(lines, m, v);
     // Written as a turn of B's axes to A's, it is the inverse; its rate is A's against B, in A's axes.
     if (m.b_to_a) turn = {conjugate(turn.a_from_b), -(to_matrix(turn.a_from_b) * turn.rate_b_rad_s)};
-    if (m.type.type == AttitudeType::kQuaternionAngvel || m.type.type == AttitudeType::kEulerAngvel) {
+    if (m.type.type == AttitudeType::kQuaternionAngvel || m.type.type == AttitudeType::kEulerAngvel ||
+        (is_version_1(m.type.type) && !m.rates_of_angles)) {
         const double* w = v + (euler ? 3 : 4);
         turn.rate_b_rad_s = kDegree_rad * Vec3d{w[0], w[1], w[2]};
         if (m.angvel_in_a) turn.rate_b_rad_s = to_matrix(conjugate(turn.a_from_b)) * turn.rate_b_rad_s;
     }
     return turn;
+}
+
+// The same of the body against the reference.
+Turn body_turn(const KvnLines& lines, const Metadata& m, const double* v) {
+    const Turn turn = turn_of(lines, m, v);
+    if (!m.body_is_a) return turn;
+    return {conjugate(turn.a_from_b), -(to_matrix(turn.a_from_b) * turn.rate_b_rad_s)};
 }
 
 void read_attitude(const KvnLines& lines, const KvnLine& line, Metadata& m) {
@@ -202,10 +252,11 @@ void read_attitude(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     const TimeTai time = ccsds_epoch(lines, epoch, m.system);
     if (time < m.span.start || m.span.stop < time) lines.refuse(epoch, "epochs from START_TIME to STOP_TIME");
     std::vector<AttitudeSample>& samples = m.segment.attitudes;
-    if (!samples.empty() && time <= samples.back().time)
+    // One that stands twice is a manoeuvre's.
+    if (!samples.empty() && time < samples.back().time)
         lines.refuse(epoch, "epochs that rise from line to line");
-    Turn turn = turn_of(lines, m, v.data());
-    if (m.body_is_a) turn = {conjugate(turn.a_from_b), -(to_matrix(turn.a_from_b) * turn.rate_b_rad_s)};
+    if (is_version_1(m.type.type)) m.version_1.insert(m.version_1.end(), v.begin(), v.end());
+    const Turn turn = body_turn(lines, m, v.data());
     if (!is_within(turn.rate_b_rad_s, kFastestTurn_rad_s)) lines.refuse(line.text, "rates up to 6300 rad/s");
     Quat q = turn.a_from_b;
     if (!samples.empty()) {
@@ -229,11 +280,60 @@ bool read_data(KvnLines& lines, Metadata& m) {
     return true;
 }
 
+// The sums of the turns from attitude to attitude, and of what rates are off them [rad].
+struct RateFit {
+    double off_rad = 0, turned_rad = 0;
+    std::size_t steps = 0;
+    bool good() const { return steps > 0 && off_rad <= 0.2 * turned_rad + 1e-3 * static_cast<double>(steps); }
+};
+RateFit fit_of(const std::vector<AttitudeSample>& samples) {
+    RateFit fit;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double step_s = static_cast<double>(samples[i].time - samples[i - 1].time) * kSecondsPerNs;
+        const Vec3d by_rates = (0.5 * step_s) * (samples[i - 1].rate_body_rad_s + samples[i].rate_body_rad_s);
+        // Beyond half a turn attitudes do not say which way they went.
+        if (!(step_s > 0) || !(length(by_rates) < 0.5 * kPi)) continue;
+        const Quat step = conjugate(samples[i - 1].reference_from_body) * samples[i].reference_from_body;
+        const Vec3d sine = (step.w < 0 ? -1.0 : 1.0) * Vec3d{step.x, step.y, step.z};
+        const double size = length(sine), angle = 2 * std::atan2(size, std::abs(step.w));
+        const Vec3d turned = (size > 1e-12 ? angle / size : 2.0) * sine;
+        fit.off_rad += length(turned - by_rates), fit.turned_rad += length(turned), ++fit.steps;
+    }
+    return fit;
+}
+
+// Version 1 of the standard (504.0-B-1, 4.2.5) calls the rates of its types /RATE both rates of the Euler angles, in the
+// sequence's order, and components in RATE_FRAME; programs write either. The attitudes themselves say which it is; rates
+// that they contradict both ways are not used.
+void settle_version_1(KvnLines& lines, Metadata& m) {
+    std::vector<AttitudeSample>& samples = m.segment.attitudes;
+    const auto take = [&](bool of_angles) {
+        m.rates_of_angles = of_angles;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            samples[i].rate_body_rad_s =
+                body_turn(lines, m, m.version_1.data() + i * m.type.numbers).rate_b_rad_s;
+        return fit_of(samples);
+    };
+    const RateFit of_angles = m.euler_axes ? take(true) : RateFit{};
+    const RateFit components = take(false);
+    const bool better =
+        m.euler_axes && of_angles.steps > 0 &&
+        (components.steps == 0 || of_angles.off_rad / static_cast<double>(of_angles.steps) <
+                                      components.off_rad / static_cast<double>(components.steps));
+    if (better) take(true);
+    m.segment.has_rates = (better ? of_angles : components).good();
+    if (!m.segment.has_rates)
+        lines.note("rates",
+                   "the rates of " + std::string(m.type.name) +
+                       " do not go with the attitudes, neither as rates of Euler angles nor as components: "
+                       "they are not used",
+                   m.segment.line);
+}
+
 void check_attitudes(const KvnLines& lines, const AemSegment& s) {
-    const auto fewest = static_cast<std::size_t>(std::max(2, interpolation_nodes(s)));
-    if (s.attitudes.size() < fewest)
+    if (s.attitudes.size() < 2)
         lines.fail("the segment that begins here has " + std::to_string(s.attitudes.size()) +
-                       " attitudes; accepted: at least " + std::to_string(fewest) + " for its interpolation",
+                       " attitudes; accepted: at least 2",
                    s.line);
     check_steps(lines, s.attitudes, s.line);
     if (s.attitudes.front().time > s.usable_start || s.attitudes.back().time < s.usable_stop)
@@ -244,7 +344,8 @@ void check_attitudes(const KvnLines& lines, const AemSegment& s) {
 
 void keep(const KvnLines& lines, std::vector<AemSegment>& kept, AemSegment&& segment,
           const std::string& object) {
-    if (!object.empty() && segment.object_name != object && segment.object_id != object) return;
+    if (!object.empty() && !is_word(segment.object_name, object) && !is_word(segment.object_id, object))
+        return;
     if (!kept.empty() && object.empty() && kept.back().object_id != segment.object_id)
         lines.fail("has objects " + in_quotes(kept.back().object_id) + " and " +
                        in_quotes(segment.object_id) + "; accepted: one of them by 'object'",
@@ -275,25 +376,32 @@ int interpolation_nodes(const AemSegment& s) {
     return interpolation_nodes(s.interpolation);
 }
 
-std::vector<AemSegment> read_aem(std::string_view text, const std::string& name, const std::string& object) {
-    KvnLines lines(text, name);
+std::vector<AemSegment> read_aem(std::string_view text, const std::string& name, const std::string& object,
+                                 std::vector<std::string>* notes) {
+    KvnLines lines(text, name, NdmKind::kAem);
     read_header(lines);
     std::vector<AemSegment> segments;
     for (bool more = true; more;) {
         Metadata m = read_metadata(lines);
         more = read_data(lines, m);
+        if (is_version_1(m.type.type)) settle_version_1(lines, m);
         check_attitudes(lines, m.segment);
-        keep(lines, segments, std::move(m.segment), object);
+        for (AemSegment& piece :
+             cut_at_repeated_epochs(lines, std::move(m.segment), &AemSegment::attitudes,
+                                    static_cast<int (*)(const AemSegment&)>(&interpolation_nodes)))
+            keep(lines, segments, std::move(piece), object);
     }
+    if (notes) notes->insert(notes->end(), lines.notes().begin(), lines.notes().end());
     if (segments.empty())
         throw InputError(name + ": has no object " + in_quotes(object) +
                          "; accepted: an OBJECT_NAME or OBJECT_ID");
     return segments;
 }
 
-std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object) {
+std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object,
+                                 std::vector<std::string>* notes) {
     return read_aem(read_input_file(file, {kMaxAemBytes, "an attitude ephemeris message (CCSDS AEM)"}),
-                    file.string(), object);
+                    file.string(), object, notes);
 }
 
 }  // namespace hilcam

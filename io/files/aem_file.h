@@ -1,10 +1,11 @@
 #pragma once
-// Attitude Ephemeris Messages (AEM) in KVN form: CCSDS 504.0-B-2 section 4 (version 2.0), and version 1.0 of
-// 504.0-B-1 as far as its types are still in the second issue.
+// Attitude Ephemeris Messages (AEM) as KVN or XML: CCSDS 504.0-B-2 section 4 (version 2.0), and version 1.0 of 504.0-B-1.
 //
 // Types: QUATERNION, QUATERNION/DERIVATIVE, QUATERNION/ANGVEL, EULER_ANGLE, EULER_ANGLE/DERIVATIVE,
-// EULER_ANGLE/ANGVEL, SPIN. One frame is the body's (SC_BODY...), the other ICRF, GCRF, EME2000, ITRF, TEME,
-// LVLH or RTN. Quaternions are those of annex F: of the rotation that takes frame A's axes to frame B's.
+// EULER_ANGLE/ANGVEL, SPIN, and version 1's QUATERNION/RATE and EULER_ANGLE/RATE (of which the attitudes themselves say how they are meant). One frame is the body's
+// (SC_BODY...) or a part of it (STARTRACKER_1, INSTRUMENT_A...), whose axes are then the body's; the other is ICRF, GCRF,
+// EME2000, ITRF, TEME, TOD, MOD, GTOD, LVLH or RTN. Quaternions are those of annex F: of the rotation that takes frame A's
+// axes to frame B's. An epoch that stands twice parts its segment in two (repeated_epochs.h).
 
 #include <filesystem>
 #include <string>
@@ -35,9 +36,10 @@ struct AemSegment {
 // Loads the segments of one object, in time, at most 256 MiB, as load_oem() does. HERMITE without rates in
 // the message (as in the standard's own example) takes as many attitudes as LAGRANGE of its degree. Throws
 // InputError with file:line.
-std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object = "");
+std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object = "",
+                                 std::vector<std::string>* notes = nullptr);
 std::vector<AemSegment> read_aem(std::string_view text, const std::string& name,
-                                 const std::string& object = "");
+                                 const std::string& object = "", std::vector<std::string>* notes = nullptr);
 // Returns how many attitudes an interpolation of the segment takes.
 int interpolation_nodes(const AemSegment& segment);
 

@@ -118,12 +118,13 @@ std::vector<MeshNode> read_nodes(ConfinedResult& in) {
 }
 
 // Shapes of small bodies have no nodes; a shape kernel tells its segments in their place.
-bool is_shape(const std::string& kind) { return kind == ".bds" || is_shape_table(kind); }
+bool is_shape_kernel(const std::string& kind) { return kind == ".bds" || kind == ".xds"; }
+bool is_shape(const std::string& kind) { return is_shape_kernel(kind) || is_shape_table(kind); }
 
 MeshContents shape_contents(const std::filesystem::path& file, const std::string& kind,
                             std::optional<int> surface) {
     const std::string bytes = read_input_file(file, mesh_kind());
-    if (kind != ".bds") return {read_shape_table(bytes, file.string()), {}, 0};
+    if (!is_shape_kernel(kind)) return {read_shape_table(bytes, file.string()), {}, 0};
     MeshContents out;
     std::uint64_t plates = 0;
     out.mesh = read_dsk_shape(bytes, file.string(), surface);
@@ -143,16 +144,16 @@ ConfinedResult read_confined(const std::filesystem::path& file, std::optional<in
                              const Work& work) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::array<std::string, 9> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply",
-                                              ".tab", ".plt",  ".icq", ".bds"};
+    const std::array<std::string, 10> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply",
+                                               ".tab", ".plt",  ".icq", ".bds", ".xds"};
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such mesh file");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
         throw refused(file.string(), "a file of kind " + in_quotes(kind),
-                      ".glb .gltf .obj .stl .ply .tab .plt .icq .bds");
-    if (surface && kind != ".bds")
+                      ".glb .gltf .obj .stl .ply .tab .plt .icq .bds .xds");
+    if (surface && !is_shape_kernel(kind))
         throw refused(file.string(), "the surface " + std::to_string(*surface),
-                      "none: only shape kernels (.bds) have surfaces by number");
+                      "none: only shape kernels (.bds, .xds) have surfaces by number");
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
     const ConfinedLimits limits{kMinMemory_bytes + kMeshMemoryPerByte * bytes,
                                 kMinCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};

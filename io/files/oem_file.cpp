@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/files/repeated_epochs.h"
 #include "io/system/input_file.h"
 #include "render/sky/motion_bounds.h"
 
@@ -40,10 +41,11 @@ Metadata read_metadata(KvnLines& lines) {
     m.segment.object_name = meta.require(lines, "OBJECT_NAME").value;
     m.segment.object_id = meta.require(lines, "OBJECT_ID").value;
     m.segment.center_name = meta.require(lines, "CENTER_NAME").value;
-    m.segment.frame =
-        ccsds_frame(lines, meta.require(lines, "REF_FRAME"),
-                    {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed, CcsdsFrame::kTeme});
+    m.segment.frame = ccsds_frame(lines, meta.require(lines, "REF_FRAME"),
+                                  {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed,
+                                   CcsdsFrame::kTeme, CcsdsFrame::kTod, CcsdsFrame::kMod, CcsdsFrame::kGtod});
     m.system = ccsds_time_system(lines, meta.require(lines, "TIME_SYSTEM"));
+    m.segment.frame_epoch = frame_epoch(lines, meta, m.segment.frame, m.system);
     m.span = meta.span(lines, m.system);
     m.segment.usable_start = m.span.usable_start, m.segment.usable_stop = m.span.usable_stop;
     m.segment.interpolation = meta.interpolation(lines, "INTERPOLATION");
@@ -58,7 +60,8 @@ void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     const TimeTai time = ccsds_epoch(lines, epoch, m.system);
     if (time < m.span.start || m.span.stop < time) lines.refuse(epoch, "epochs from START_TIME to STOP_TIME");
     std::vector<StateSample>& states = m.segment.states;
-    if (!states.empty() && time <= states.back().time)
+    // One that stands twice is a manoeuvre's.
+    if (!states.empty() && time < states.back().time)
         lines.refuse(epoch, "epochs that rise from line to line");
     const StateSample state{time, kKilometre_m * Vec3d{v[0], v[1], v[2]},
                             kKilometre_m * Vec3d{v[3], v[4], v[5]}};
@@ -67,12 +70,11 @@ void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     states.push_back(state);
 }
 
-// Checks that the states reach over the usable span and are enough to interpolate.
+// Checks that the states reach over the usable span.
 void check_states(const KvnLines& lines, const OemSegment& s) {
-    const auto fewest = static_cast<std::size_t>(std::max(2, interpolation_nodes(s.interpolation)));
-    if (s.states.size() < fewest)
+    if (s.states.size() < 2)
         lines.fail("the segment that begins here has " + std::to_string(s.states.size()) +
-                       " states; accepted: at least " + std::to_string(fewest) + " for its interpolation",
+                       " states; accepted: at least 2",
                    s.line);
     check_steps(lines, s.states, s.line);
     if (s.states.front().time > s.usable_start || s.states.back().time < s.usable_stop)
@@ -101,7 +103,7 @@ bool read_data(KvnLines& lines, KvnLine& line, Metadata& m) {
 }
 
 bool is_object(const OemSegment& s, const std::string& object) {
-    return s.object_name == object || s.object_id == object;
+    return is_word(s.object_name, object) || is_word(s.object_id, object);
 }
 
 void keep(const KvnLines& lines, std::vector<OemSegment>& kept, OemSegment&& segment,
@@ -122,10 +124,13 @@ void keep(const KvnLines& lines, std::vector<OemSegment>& kept, OemSegment&& seg
     kept.push_back(std::move(segment));
 }
 
+int nodes_of(const OemSegment& s) { return interpolation_nodes(s.interpolation); }
+
 }  // namespace
 
-std::vector<OemSegment> read_oem(std::string_view text, const std::string& name, const std::string& object) {
-    KvnLines lines(text, name);
+std::vector<OemSegment> read_oem(std::string_view text, const std::string& name, const std::string& object,
+                                 std::vector<std::string>* notes) {
+    KvnLines lines(text, name, NdmKind::kOem);
     KvnLine line;
     read_header(lines, line);
     std::vector<OemSegment> segments;
@@ -133,17 +138,21 @@ std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
         Metadata m = read_metadata(lines);
         more = read_data(lines, line, m);
         check_states(lines, m.segment);
-        keep(lines, segments, std::move(m.segment), object);
+        for (OemSegment& piece :
+             cut_at_repeated_epochs(lines, std::move(m.segment), &OemSegment::states, &nodes_of))
+            keep(lines, segments, std::move(piece), object);
     }
+    if (notes) notes->insert(notes->end(), lines.notes().begin(), lines.notes().end());
     if (segments.empty())
         throw InputError(name + ": has no object " + in_quotes(object) +
                          "; accepted: an OBJECT_NAME or OBJECT_ID");
     return segments;
 }
 
-std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object) {
+std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object,
+                                 std::vector<std::string>* notes) {
     return read_oem(read_input_file(file, {kMaxOemBytes, "an orbit ephemeris message (CCSDS OEM)"}),
-                    file.string(), object);
+                    file.string(), object, notes);
 }
 
 }  // namespace hilcam

@@ -1,10 +1,13 @@
 #pragma once
-// Orbit Ephemeris Messages (OEM) in KVN form: CCSDS 502.0-B-3 section 5, versions 1.0 to 3.0.
+// Orbit Ephemeris Messages (OEM) as KVN or XML: CCSDS 502.0-B-3 section 5, versions 1.0 to 3.0, as STK, GMAT, Orekit and
+// NASA write them.
 //
-// Frames: ICRF, GCRF, EME2000, ITRF and its realisations, TEME. Time systems: UTC, TAI, TT, GPS, TDB.
-// Covariances and accelerations are passed over.
+// Frames: ICRF, GCRF, EME2000, ITRF and its realisations, TEME, TOD and MOD (of date or of REF_FRAME_EPOCH), GTOD. Time
+// systems: UTC, TAI, TT, GPS, TDB. Covariances and accelerations are passed over. An epoch that stands twice parts its
+// segment in two (repeated_epochs.h).
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +26,7 @@ struct StateSample {
 struct OemSegment {
     std::string object_name, object_id, center_name;
     CcsdsFrame frame = CcsdsFrame::kIcrf;
+    std::optional<TimeTai> frame_epoch;  // instant of which the frame's axes are, where they stand still
     TimeTai usable_start, usable_stop;
     Interpolation interpolation;
     std::vector<StateSample> states;  // times rise; at least two, and enough for the interpolation
@@ -30,10 +34,12 @@ struct OemSegment {
 };
 
 // The segments of one object, in time; usable spans do not overlap. An empty `object`: of a message with only
-// one, else its name or id. At most 256 MiB. Throws InputError with file:line.
-std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object = "");
+// one, else its name or id. At most 256 MiB (XML: 128). `notes` gets what of the message is not used, a line each. Throws
+// InputError with file:line.
+std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object = "",
+                                 std::vector<std::string>* notes = nullptr);
 // The same from memory; `name` stands for the file in messages.
 std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
-                                 const std::string& object = "");
+                                 const std::string& object = "", std::vector<std::string>* notes = nullptr);
 
 }  // namespace hilcam

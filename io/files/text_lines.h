@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
@@ -17,9 +18,14 @@ inline std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+// The name of the first blank in a text that is none of ASCII's, as word processors, web pages and PDF put in the place
+// of plain ones: "U+00A0, a non-breaking blank"; empty where there is none. A lone byte 0xA0 is Latin 1's.
+std::string odd_blank_in(std::string_view text);
+
 class TextLines {
   public:
-    TextLines(std::string_view text, std::string name) : rest_(text), name_(std::move(name)) {}
+    // A byte-order mark of UTF-8 is passed over, as editors on Windows write one. Throws InputError for UTF-16.
+    TextLines(std::string_view text, std::string name);
 
     // The next line, without its end. False after the last.
     bool next(std::string_view& line) {
@@ -28,22 +34,36 @@ class TextLines {
         line = rest_.substr(0, end);
         rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
         if (line.ends_with('\r')) line.remove_suffix(1);
-        ++number_;
+        ++count_;
+        number_ = numbers_ ? (*numbers_)[count_ - 1] : static_cast<int>(count_);
         return true;
     }
     int number() const { return number_; }
     const std::string& name() const { return name_; }
-    // "file:12: found 'x'; accepted: y", of the last line or of another.
+    // "file:12: found 'x'; accepted: y", of the last line or of another. A blank that looks like a plain one is named.
     [[noreturn]] void refuse(std::string_view found, const std::string& accepted, int line = 0) const {
-        fail("found " + in_quotes(found) + "; accepted: " + accepted, line);
+        const std::string odd = odd_blank_in(found);
+        fail("found " + in_quotes(found) + (odd.empty() ? "" : ", which has " + odd) +
+                 "; accepted: " + accepted + (odd.empty() ? "" : ", with plain blanks"),
+             line);
     }
     [[noreturn]] void fail(const std::string& what, int line = 0) const {
         throw InputError(name_ + ":" + std::to_string(line ? line : number_) + ": " + what);
     }
 
+  protected:
+    // Goes on with a text that was made of the file's, each of whose lines came from the line that `numbers` says. Both
+    // stay the caller's.
+    void go_on_with(std::string_view text, const std::vector<int>& numbers) {
+        rest_ = text, numbers_ = &numbers, count_ = 0;
+    }
+    std::string_view rest() const { return rest_; }
+
   private:
     std::string_view rest_;
     std::string name_;
+    const std::vector<int>* numbers_ = nullptr;
+    std::size_t count_ = 0;
     int number_ = 0;
 };
 

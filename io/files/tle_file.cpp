@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "io/files/text_lines.h"
-#include "io/system/input_file.h"
 #include "render/vocabulary/time_system.h"
 #include "render/vocabulary/units.h"
 
@@ -12,7 +11,8 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kLineColumns = 69;
-constexpr std::uintmax_t kMaxTleBytes = 16u << 20;
+// Owners give names of more than the 24 characters of the format's description.
+constexpr std::size_t kLongestName = 200;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kMinutesPerDay = 1440;
 
@@ -74,18 +74,25 @@ struct Line {
 };
 
 void check_line(const TextLines& lines, std::string_view line, char number, TleChecksum checksum) {
-    if (line.size() < kLineColumns || !trimmed(line.substr(kLineColumns)).empty())
-        lines.refuse(line, std::string("line ") + number + " of an element set, 69 columns; it has " +
-                               std::to_string(line.size()));
+    const bool ignored = checksum == TleChecksum::kIgnore;
+    const std::size_t least = ignored ? kLineColumns - 1 : kLineColumns;
+    if (line.size() < least || (line.size() > kLineColumns && !trimmed(line.substr(kLineColumns)).empty()))
+        lines.refuse(line, std::string("line ") + number + " of an element set, 69 columns" +
+                               (ignored ? " (or 68, without the checksum)" : "") + "; it has " +
+                               std::to_string(line.size()) +
+                               (!ignored && line.size() == kLineColumns - 1
+                                    ? " (checksum: ignore takes lines without their checksum)"
+                                    : ""));
     if (line[0] != number || line[1] != ' ')
         lines.refuse(line.substr(0, 2), std::string("'") + number + " ' before an element set's line");
+    if (ignored) return;
     const char expected = checksum_of(line), found = line[kLineColumns - 1];
-    if (checksum == TleChecksum::kVerify && found != expected)
+    if (found != expected)
         lines.refuse(line.substr(kLineColumns - 1, 1),
                      std::string("checksum ") + expected + " in column 69 (or checksum: ignore)");
 }
 
-void read_epoch(const Line& line, Tle& tle) {
+void read_epoch(const Line& line, ElementSet& tle) {
     const int two_digits = static_cast<int>(line.value(19, 20, "the epoch's year", 0, 99));
     const double day = line.value(21, 32, "the epoch's day of the year", 1, 367);
     const int year = two_digits < 57 ? 2000 + two_digits : 1900 + two_digits;
@@ -94,19 +101,29 @@ void read_epoch(const Line& line, Tle& tle) {
     if (!date) line.refuse(columns(line.text, 19, 32), 19, 32, "an epoch: a day of its year");
     // Days of 86400 s after midnight UTC of the epoch's own date.
     tle.epoch = *from_calendar(*date, TimeSystem::kUtc) + std::llround((day - whole) * 86400e9);
-    // 1957 to 2056 have a leap day every four years: days since 1949-12-31, so 1 for the first of 1950.
-    const int years = year - 1950;
-    tle.epoch_days_1950 = years * 365 + (years + 1) / 4 + day;
+    tle.epoch_days_1950 = days_since_1950(year, 1, 1, 0) - 1 + day;
 }
 
-Tle read_set(const TextLines& lines, const Line& one, const Line& two) {
-    Tle tle;
-    tle.line = one.number;
+// A satellite's name may have any character; a line of a set with blanks that are none of ASCII's looks like one.
+void refuse_odd_blanks(const TextLines& lines, std::string_view line) {
+    const std::string odd = odd_blank_in(line);
+    if (odd.empty() || line.size() < kLineColumns - 1 || (line[0] != '1' && line[0] != '2')) return;
+    lines.fail("the line has " + odd + "; accepted: a line of an element set with plain blanks");
+}
+
+ElementSet read_set(const TextLines& lines, const Line& one, const Line& two) {
+    ElementSet tle;
+    tle.where = lines.name() + ":" + std::to_string(one.number);
     tle.satellite = columns(one.text, 3, 7);
     if (tle.satellite.empty()) one.refuse("", 3, 7, "a satellite's number");
-    if (const std::string_view other = columns(two.text, 3, 7); other != tle.satellite)
+    if (const std::string_view other = columns(two.text, 3, 7);
+        other != tle.satellite &&
+        (!catalogue_number(other) || catalogue_number(other) != catalogue_number(tle.satellite)))
         lines.refuse(other, "satellite " + tle.satellite + ", as on the line before", two.number);
     read_epoch(one, tle);
+    // Of another theory columns 45 to 61 have other quantities.
+    tle.refusal = refusal_of_ephemeris_type(columns(one.text, 63, 63));
+    if (!tle.refusal.empty()) return tle;
     tle.bstar_per_er = one.assumed_point(54, 61, "drag (B*)");
     tle.inclination_rad = two.value(9, 16, "the inclination, 0 to 180 deg,", 0, 180) * kDegree_rad;
     tle.node_rad = two.value(18, 25, "the node, 0 to 360 deg,", 0, 360) * kDegree_rad;
@@ -122,25 +139,38 @@ Tle read_set(const TextLines& lines, const Line& one, const Line& two) {
     return tle;
 }
 
+// True for a line that is a satellite's name. One that begins as a line of a set does ("1 KUNS-PF") is known by the whole
+// line 1 behind it.
+bool is_name(const TextLines& lines, std::string_view line) {
+    if (!line.starts_with("1 ") && !line.starts_with("2 ")) return true;
+    TextLines ahead = lines;
+    std::string_view next;
+    return line.size() < kLineColumns - 1 && ahead.next(next) && next.starts_with("1 ") &&
+           next.size() >= kLineColumns - 1;
+}
+
 }  // namespace
 
-std::vector<Tle> read_tles(std::string_view text, const std::string& name, TleChecksum checksum) {
+std::vector<ElementSet> read_tles(std::string_view text, const std::string& name, TleChecksum checksum) {
     TextLines lines(text, name);
-    std::vector<Tle> sets;
+    std::vector<ElementSet> sets;
     std::string title;
     std::string_view line;
     while (lines.next(line)) {
         if (trimmed(line).empty() || line.starts_with('#')) continue;
-        if (!line.starts_with("1 ")) {
-            if (line.starts_with("2 ")) lines.refuse(line, "line 1 of an element set before its line 2");
+        refuse_odd_blanks(lines, line);
+        if (is_name(lines, line)) {
             title = trimmed(line.starts_with("0 ") ? line.substr(2) : line);
-            if (title.size() > 80) lines.refuse(line, "an element set, or a satellite's name before it");
+            if (title.size() > kLongestName)
+                lines.refuse(line, "an element set, or a satellite's name before it");
             continue;
         }
+        if (line.starts_with("2 ")) lines.refuse(line, "line 1 of an element set before its line 2");
         check_line(lines, line, '1', checksum);
         const Line one{lines, line, lines.number()};
         std::string_view next;
         if (!lines.next(next)) lines.fail("the file ends; accepted: line 2 of the element set");
+        refuse_odd_blanks(lines, next);
         check_line(lines, next, '2', checksum);
         sets.push_back(read_set(lines, one, {lines, next, lines.number()}));
         sets.back().name = title;
@@ -148,31 +178,6 @@ std::vector<Tle> read_tles(std::string_view text, const std::string& name, TleCh
     }
     if (sets.empty()) throw InputError(name + ": holds no element set; accepted: lines '1 ...' and '2 ...'");
     return sets;
-}
-
-std::vector<Tle> load_tles(const std::filesystem::path& file, TleChecksum checksum) {
-    return read_tles(read_input_file(file, {kMaxTleBytes, "a file of two-line element sets"}), file.string(),
-                     checksum);
-}
-
-const Tle& choose_tle(const std::vector<Tle>& sets, const std::string& satellite, TimeTai time,
-                      const std::string& file) {
-    const Tle* chosen = nullptr;
-    for (const Tle& tle : sets) {
-        if (satellite.empty() && tle.satellite != sets.front().satellite)
-            throw InputError(file + ": has sets of several satellites, " + in_quotes(sets.front().satellite) +
-                             " and " + in_quotes(tle.satellite) + "; accepted: one of them by 'satellite'");
-        if (!satellite.empty() && tle.satellite != satellite && tle.name != satellite) continue;
-        const bool past = tle.epoch <= time;
-        if (!chosen || (past && (chosen->epoch > time || tle.epoch > chosen->epoch)) ||
-            (!past && chosen->epoch > time && tle.epoch < chosen->epoch))
-            chosen = &tle;
-    }
-    if (!chosen)
-        throw InputError(file + ": has no satellite " + in_quotes(satellite) +
-                         "; accepted: a number or name as " + shortened(sets.front().satellite) +
-                         (sets.front().name.empty() ? "" : " or " + shortened(sets.front().name)));
-    return *chosen;
 }
 
 }  // namespace hilcam

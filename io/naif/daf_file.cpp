@@ -13,6 +13,16 @@ constexpr std::size_t kRecordBytes = kNaifRecordBytes, kWordBytes = 8;
 constexpr std::uint64_t kWordsInRecord = kRecordBytes / kWordBytes;
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 34;
 constexpr std::size_t kMaxArrays = 1'000'000;
+constexpr std::uint64_t kMaxTransferBytes = std::uint64_t{1} << 30;
+
+// The kind that an identification word says; NAIF/DAF is the word of files from before 1996, SPK or CK. Empty: none.
+std::string kind_by(std::string_view word) {
+    if (word == "NAIF/DAF") return "SPK";
+    return word.starts_with("DAF/") ? std::string(word.substr(4)) : std::string();
+}
+
+std::int32_t integers_of(const std::string& kind) { return kind == "PCK" ? 5 : 6; }
+
 }  // namespace
 
 DafFile::DafFile(const std::filesystem::path& file)
@@ -38,18 +48,72 @@ void DafFile::read(std::uint64_t from, char* to, std::size_t size) const {
         std::copy_n(bytes_.data() + from, size, to);
 }
 
+void DafFile::require_kind(std::int64_t doubles, std::int64_t integers) const {
+    if (kind_ != "SPK" && kind_ != "CK" && kind_ != "PCK")
+        fail("found the kind " + in_quotes(kind_) + " of kernel; accepted: SPK, CK, PCK");
+    if (doubles != 2 || integers != integers_of(kind_))
+        fail("its summaries have " + std::to_string(doubles) + " doubles and " + std::to_string(integers) +
+             " integers; accepted: 2 and " + std::to_string(integers_of(kind_)));
+}
+
+// The arrays stand in decoded_ one behind the other, in the file's order.
+void DafFile::read_transfer() {
+    if (size_ > kMaxTransferBytes)
+        fail("has " + std::to_string(size_) + " bytes of transfer format; accepted: at most 1 GiB");
+    std::string bytes = std::move(bytes_);
+    if (file_) {
+        bytes.resize(size_);
+        read(0, bytes.data(), bytes.size());
+    }
+    TransferText text(bytes, name_);
+    const std::string word = text.quoted_line();
+    kind_ = kind_by(word);
+    if (kind_.empty())
+        text.fail("found the identification " + in_quotes(word) + "; accepted: DAF/SPK, DAF/CK or DAF/PCK");
+    const std::int32_t doubles = text.next_integer(), integers = text.next_integer();
+    require_kind(doubles, integers);
+    text.quoted_line();
+    while (text.comes("BEGIN_ARRAY")) read_transfer_array(text, static_cast<std::size_t>(integers));
+    // Without a second number: how many arrays there are.
+    text.pass("TOTAL_ARRAYS");
+}
+
+void DafFile::read_transfer_array(TransferText& text, std::size_t integers) {
+    if (arrays_.size() == kMaxArrays) text.fail("has more than 1000000 arrays");
+    std::int64_t left = text.require_marker("BEGIN_ARRAY");
+    if (left < 1) text.fail("an array of " + std::to_string(left) + " words; accepted: 1 or more");
+    DafArray array;
+    array.name = harmless(text.quoted_line());
+    for (double& word : array.doubles) word = text.next_double();
+    for (std::size_t i = 2; i < integers; ++i) array.integers.push_back(text.next_integer());
+    array.first = decoded_.size() + 1;
+    // In blocks, each after its count.
+    while (left > 0) {
+        const std::int64_t count = text.next_count();
+        if (count < 1 || count > left)
+            text.fail("a block of " + std::to_string(count) + " words; accepted: 1 to " +
+                      std::to_string(left));
+        for (std::int64_t i = 0; i < count; ++i) decoded_.push_back(text.next_double());
+        left -= count;
+    }
+    array.last = decoded_.size();
+    text.require_marker("END_ARRAY");
+    arrays_.push_back(std::move(array));
+}
+
 void DafFile::open() {
     std::array<char, kRecordBytes> record{};
+    read(0, record.data(), std::min<std::uint64_t>(size_, 8));
+    if (transfer_kind_of({record.data(), 8}) == TransferKind::kDaf) return read_transfer();
     if (size_ < kRecordBytes)
         fail("has " + std::to_string(size_) +
              " bytes; accepted: a DAF kernel, whose file record alone has 1024");
     read(0, record.data(), record.size());
     const std::string_view text(record.data(), record.size());
     const std::string word = without_tail(text.substr(0, 8));
-    // NAIF/DAF is the word of files from before 1996, SPK or CK.
-    if (!word.starts_with("DAF/") && word != "NAIF/DAF")
+    kind_ = kind_by(word);
+    if (kind_.empty())
         fail("found the identification " + in_quotes(word) + "; accepted: DAF/SPK, DAF/CK or DAF/PCK");
-    kind_ = word == "NAIF/DAF" ? "SPK" : word.substr(4);
     const std::string format = without_tail(text.substr(88, 8));
     if (format == "BIG-IEEE")
         numbers_.big_endian = true;
@@ -67,13 +131,8 @@ void DafFile::open() {
             "binary");
     const std::int32_t doubles = numbers_.integer_at(record.data() + 8),
                        integers = numbers_.integer_at(record.data() + 12);
-    const std::int32_t expected = kind_ == "PCK" ? 5 : 6;
-    if (kind_ != "SPK" && kind_ != "CK" && kind_ != "PCK")
-        fail("found the kind " + in_quotes(kind_) + " of kernel; accepted: SPK, CK, PCK");
-    if (doubles != 2 || integers != expected)
-        fail("its summaries have " + std::to_string(doubles) + " doubles and " + std::to_string(integers) +
-             " integers; accepted: 2 and " + std::to_string(expected));
-    read_summaries(numbers_.integer_at(record.data() + 76), static_cast<std::size_t>(expected));
+    require_kind(doubles, integers);
+    read_summaries(numbers_.integer_at(record.data() + 76), static_cast<std::size_t>(integers));
 }
 
 void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
@@ -128,6 +187,9 @@ DafArray DafFile::array_of(const char* summary, const char* name, std::size_t in
 }
 
 std::vector<double> DafFile::words(const DafArray& array) const {
+    if (!decoded_.empty())
+        return {decoded_.begin() + static_cast<std::ptrdiff_t>(array.first - 1),
+                decoded_.begin() + static_cast<std::ptrdiff_t>(array.last)};
     std::vector<char> bytes(array.size() * kWordBytes);
     read((array.first - 1) * kWordBytes, bytes.data(), bytes.size());
     std::vector<double> out(array.size());

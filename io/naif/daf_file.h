@@ -3,8 +3,8 @@
 //
 // NAIF, "Double Precision Array Files (DAF) Required Reading": records of 1024 bytes; the first is the file record, then
 // come reserved records with comments, which are passed over, then doubly linked summary records with a record of names
-// after each, and the arrays. Words count from 1. Both byte orders are read; a file that was transferred as text, and so
-// is damaged, is known by the file record's FTP string.
+// after each, and the arrays. Words count from 1. Both byte orders are read, and the transfer format (transfer_text.h); a
+// binary file that was transferred as text, and so is damaged, is known by the file record's FTP string.
 
 #include <array>
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/naif/naif_record.h"
+#include "io/naif/transfer_text.h"
 #include "io/system/input_file.h"
 
 namespace hilcam {
@@ -50,8 +51,13 @@ class DafFile {
     std::uint64_t size_ = 0;
     NaifNumbers numbers_;
     std::vector<DafArray> arrays_;
+    // All words of a file in transfer format; empty for a binary one.
+    std::vector<double> decoded_;
 
     void open();
+    void require_kind(std::int64_t doubles, std::int64_t integers) const;
+    void read_transfer();
+    void read_transfer_array(TransferText& text, std::size_t integers);
     void read(std::uint64_t from, char* to, std::size_t size) const;
     void read_summaries(std::int32_t first_record, std::size_t integers);
     DafArray array_of(const char* summary, const char* name, std::size_t integers) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "io/naif/transfer_text.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -21,6 +22,10 @@ constexpr std::size_t kNextDirectory = 1, kAddressRanges = 2, kFirstKind = 8, kC
 }  // namespace
 
 DasFile::DasFile(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {
+    if (transfer_kind_of(bytes_) == TransferKind::kDas) {
+        read_transfer();
+        return;
+    }
     if (bytes_.size() < kNaifRecordBytes)
         fail("has " + std::to_string(bytes_.size()) +
              " bytes; accepted: a shape kernel, whose file record alone has 1024");
@@ -42,6 +47,47 @@ DasFile::DasFile(std::string_view bytes, std::string name) : bytes_(bytes), name
         fail("has " + std::to_string(reserved) + " reserved records and " + std::to_string(comments) +
              " of comments; accepted: 0 or more");
     read_directories(2 + reserved + comments);
+}
+
+// Comments and characters are passed over; doubles and integers stand in blocks, each with its count.
+void DasFile::read_transfer() {
+    is_transfer_ = true;
+    TransferText text(bytes_, name_);
+    if (const std::string word = text.quoted_line(); word != "DAS/DSK")
+        text.fail("found the identification " + in_quotes(word) + "; accepted: DAS/DSK");
+    text.quoted_line();
+    for (int i = 0; i < 4; ++i) text.next_integer();  // reserved and comment records and characters
+    if (text.comes("BEGIN_COMMENT_BLOCK")) text.pass("TOTAL_COMMENT_BLOCKS");
+    const std::int32_t characters = text.next_integer(), doubles = text.next_integer(),
+                       integers = text.next_integer();
+    if (characters > 0) text.pass("TOTAL_CHARACTER_BLOCKS");
+    const auto read_blocks = [&](const char* begin, const char* end, std::int32_t total, auto& out,
+                                 const auto& next) {
+        while (static_cast<std::int64_t>(out.size()) < total) {
+            const std::int64_t count = text.require_marker(begin);
+            if (count < 1 || count > total - static_cast<std::int64_t>(out.size()))
+                text.fail("a block of " + std::to_string(count) +
+                          " numbers; accepted: 1 to what is left of " + std::to_string(total));
+            for (std::int64_t i = 0; i < count; ++i) out.push_back(next());
+            text.require_marker(end);
+        }
+    };
+    read_blocks("BEGIN_DP_BLOCK", "END_DP_BLOCK", doubles, decoded_doubles_,
+                [&] { return text.next_double(); });
+    if (doubles > 0) text.pass("TOTAL_DP_BLOCKS");
+    read_blocks("BEGIN_INTEGER_BLOCK", "END_INTEGER_BLOCK", integers, decoded_integers_,
+                [&] { return text.next_integer(); });
+    kinds_[2].last = std::max(integers, 0);
+}
+
+template <class T>
+std::vector<T> DasFile::decoded(const std::vector<T>& all, const char* what, std::int64_t first,
+                                std::int64_t count) const {
+    const auto size = static_cast<std::int64_t>(all.size());
+    if (first < 1 || count < 0 || count > size - first + 1)
+        fail(std::string("has ") + std::to_string(size) + " " + what + ", and " + std::to_string(count) +
+             " from the " + std::to_string(first) + "th are asked for");
+    return {all.begin() + (first - 1), all.begin() + (first - 1 + count)};
 }
 
 void DasFile::fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
@@ -119,11 +165,13 @@ std::vector<T> DasFile::numbers(const Kind& kind, const char* what, std::int64_t
 }
 
 std::vector<std::int32_t> DasFile::integers(std::int64_t first, std::int64_t count) const {
+    if (is_transfer_) return decoded(decoded_integers_, "integers", first, count);
     return numbers<std::int32_t>(kinds_[2], "integers", first, count,
                                  [this](const char* bytes) { return numbers_.integer_at(bytes); });
 }
 
 std::vector<double> DasFile::doubles(std::int64_t first, std::int64_t count) const {
+    if (is_transfer_) return decoded(decoded_doubles_, "doubles", first, count);
     return numbers<double>(kinds_[1], "doubles", first, count,
                            [this](const char* bytes) { return numbers_.double_at(bytes); });
 }

@@ -4,8 +4,8 @@
 //
 // NAIF, "Direct Access, Segregated (DAS) Required Reading": records of 1024 bytes; the first is the file record, then
 // come reserved records and comments, which are passed over, then directories, each before the clusters of records of
-// one kind that it lists. Both byte orders are read; a file that was transferred as text, and so is damaged, is known
-// by the file record's FTP string.
+// one kind that it lists. Both byte orders are read, and the transfer format (transfer_text.h); a binary file that was
+// transferred as text, and so is damaged, is known by the file record's FTP string.
 
 #include <array>
 #include <cstdint>
@@ -47,6 +47,15 @@ class DasFile {
     NaifNumbers numbers_;
     std::array<Kind, 3> kinds_;  // characters, doubles, integers
 
+    // The numbers of a file in transfer format.
+    bool is_transfer_ = false;
+    std::vector<double> decoded_doubles_;
+    std::vector<std::int32_t> decoded_integers_;
+
+    void read_transfer();
+    template <class T>
+    std::vector<T> decoded(const std::vector<T>& all, const char* what, std::int64_t first,
+                           std::int64_t count) const;
     void read_directories(std::int64_t first_record);
     void add_clusters(const char* directory, std::int64_t record);
     const char* record_at(std::int64_t record, std::int64_t count) const;

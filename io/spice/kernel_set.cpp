@@ -23,12 +23,10 @@ Kind kind_of(const std::filesystem::path& file) {
     const InputFile in = open_input_file(file, {std::uintmax_t{1} << 34, "a SPICE kernel"});
     std::string word(std::min<std::uintmax_t>(in.bytes, 8), '\0');
     read_input_piece(in, file, 0, word.data(), word.size());
-    if (word.starts_with("DAFETF") || word.starts_with("DASETF"))
-        throw InputError(file.string() +
-                         ": is a kernel in transfer format; accepted: the binary kernel that "
-                         "NAIF's tobin makes of it");
-    if (word.starts_with("DAF/") || word == "NAIF/DAF") return Kind::kBinary;
-    if (word.starts_with("DAS/") || word == "NAIF/DAS") return Kind::kShape;
+    const std::optional<TransferKind> transfer = transfer_kind_of(word);
+    if (word.starts_with("DAF/") || word == "NAIF/DAF" || transfer == TransferKind::kDaf)
+        return Kind::kBinary;
+    if (word.starts_with("DAS/") || word == "NAIF/DAS" || transfer == TransferKind::kDas) return Kind::kShape;
     if (word.find('\0') != std::string::npos)
         throw InputError(file.string() + ": found the identification " + in_quotes(word) +
                          "; accepted: DAF/SPK, DAF/CK, DAF/PCK, or a text kernel");

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -23,6 +24,16 @@ inline std::optional<double> number_of(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     const auto value = parsed_as<double>(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+// The same, with Fortran's D of a double's exponent as well: "1.5D+03".
+inline std::optional<double> fortran_number_of(std::string_view text) {
+    const std::size_t at = text.find_first_of("Dd");
+    if (at == std::string_view::npos) return number_of(text);
+    std::string plain(text.substr(0, 64));
+    if (plain.size() < text.size()) return {};
+    plain[at] = 'e';
+    return number_of(plain);
 }
 
 }  // namespace hilcam

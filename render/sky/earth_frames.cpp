@@ -32,6 +32,24 @@ EarthOfDate1976 earth_of_date_1976(double et_s) {
     return {mean_from_j2000, matrix(nutation) * mean_from_j2000, eraObl80(2451545.0, days)};
 }
 
+namespace {
+
+// TT stands for TDB: 2 ms of precession.
+EarthOfDate1976 earth_at(TimeTai time) {
+    const JulianDate tt = julian_tt(time);
+    return earth_of_date_1976(86400 * ((tt.day - 2451545.0) + tt.fraction));
+}
+
+}  // namespace
+
+Mat3d icrf_from_mean_of_date(TimeTai time) {
+    return icrf_from_eme2000() * transposed(earth_at(time).mean_from_j2000);
+}
+
+Mat3d icrf_from_true_of_date(TimeTai time) {
+    return icrf_from_eme2000() * transposed(earth_at(time).true_from_j2000);
+}
+
 Vec3d earth_rate_rad_s(TimeTai time, const EarthOrientation& measured) {
     return kEarthRate_rad_s * earth_rotated_from_icrf(time, measured).z;
 }

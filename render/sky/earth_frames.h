@@ -25,6 +25,11 @@ struct EarthOfDate1976 {
 };
 EarthOfDate1976 earth_of_date_1976(double et_s);
 
+// The same at an instant of TAI, against ICRF: through EME2000. Against IAU 2006/2000A the axes differ by 0.1 arcsec in 2026
+// (the corrections of the pole that the IERS publishes): 4 m in low orbits.
+Mat3d icrf_from_mean_of_date(TimeTai time);
+Mat3d icrf_from_true_of_date(TimeTai time);
+
 // The Earth's rotation in ICRF axes: about the celestial intermediate pole, which is not quite ITRF's z.
 Vec3d earth_rate_rad_s(TimeTai time, const EarthOrientation& measured);
 

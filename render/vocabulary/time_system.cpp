@@ -88,4 +88,14 @@ void use_leap_seconds(std::span<const LeapSecond> table) {
     eraSetLeapSeconds(kept.data(), static_cast<int>(kept.size()));
 }
 
+std::vector<LeapSecond> leap_seconds_in_use() {
+    std::vector<LeapSecond> out;
+    eraLEAPSECOND* table = nullptr;
+    const int count = eraGetLeapSeconds(&table);
+    // Before 1972 seconds were of varying length.
+    for (int i = 0; i < count; ++i)
+        if (table[i].iyear >= 1972) out.push_back({table[i].iyear, table[i].month, table[i].delat});
+    return out;
+}
+
 }  // namespace hilcam

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "render/vocabulary/time.h"
 
@@ -29,5 +30,7 @@ struct LeapSecond {
 };
 // Replaces ERFA's table, for the whole program: before any other thread asks for a time. Empty: ERFA's own.
 void use_leap_seconds(std::span<const LeapSecond> table);
+// The table in use from 1972 on, which is ERFA's own until another one takes its place.
+std::vector<LeapSecond> leap_seconds_in_use();
 
 }  // namespace hilcam

@@ -29,6 +29,7 @@ ONLY_IN = {
     "meshoptimizer": {"render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
+    "pugixml": {"io/files/ndm_xml.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},
     "opencv2": set(),
     "png": {"io/pictures/png_codec.cpp"},

@@ -23,11 +23,11 @@ namespace {
 
 // A satellite by its element set that looks at one by an ephemeris, and a third that drifts beside it.
 TEST_F(Allocation, NorDoSourcesOfMotion) {
-    const Tle tle = read_tles(
-                        "1 25544U 98067A   14020.93268519  .00009878  00000-0  18200-3 0  5082\n"
-                        "2 25544  51.6498 109.4756 0003572  55.9686 274.8005 15.49815350868473\n",
-                        "iss.tle")
-                        .at(0);
+    const ElementSet tle = read_element_sets(
+                               "1 25544U 98067A   14020.93268519  .00009878  00000-0  18200-3 0  5082\n"
+                               "2 25544  51.6498 109.4756 0003572  55.9686 274.8005 15.49815350868473\n",
+                               "iss.tle")
+                               .at(0);
     OemSegment segment;
     segment.center_name = "EARTH";
     segment.frame = CcsdsFrame::kEarthFixed;
@@ -40,7 +40,7 @@ TEST_F(Allocation, NorDoSourcesOfMotion) {
     band.rms_rad = {1e-5, 1e-5, 1e-5};
     const PlacedFrame lvlh{PlacedFrame::Kind::kLvlh, 0, {}};
     std::vector<std::unique_ptr<MotionSource>> sources;
-    sources.push_back(std::make_unique<MotionSource>(make_tle(tle, 86400, "iss.tle"), make_pointing(pointing),
+    sources.push_back(std::make_unique<MotionSource>(make_tle(tle, 86400), make_pointing(pointing),
                                                      AttitudeJitter(band, 1, 0, tle.epoch)));
     sources.push_back(
         std::make_unique<MotionSource>(make_oem({segment}, "t.oem"), make_turning({}, {}, tle.epoch)));

@@ -31,7 +31,12 @@ class DskWriter {
         return *this;
     }
 
-    std::string bytes() const {
+    struct Numbers {
+        std::vector<std::int32_t> integers;
+        std::vector<double> doubles;
+    };
+    // What the file has, however it is written.
+    Numbers numbers() const {
         std::vector<std::int32_t> integers = {1'000'000, -1, -1};
         std::vector<double> doubles;
         std::int32_t before = -1;
@@ -50,6 +55,11 @@ class DskWriter {
             integers.insert(integers.end(), own.begin(), own.end());
             doubles.insert(doubles.end(), words.begin(), words.end());
         }
+        return {integers, doubles};
+    }
+
+    std::string bytes() const {
+        const auto [integers, doubles] = numbers();
         return head() + std::string(1024, 'c') +
                body(records_of(doubles), records_of(integers), static_cast<std::int32_t>(doubles.size()),
                     static_cast<std::int32_t>(integers.size()));

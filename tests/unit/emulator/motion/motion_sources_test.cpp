@@ -29,7 +29,7 @@ StateVector state_of(const Trajectory& trajectory, TimeTai time, const OriginCon
 // UTC, differs in GCRS by IAU 2000B's 1 mas and by the equinox's complementary terms, 2.6 mas of 6800 km: 0.1
 // m.
 TEST(TleTrajectory, TheIssIsWhereAnotherProgramSays) {
-    const auto iss = make_tle(read_tles(kIss, "iss.tle").at(0), 30 * 86400.0, "iss.tle");
+    const auto iss = make_tle(read_element_sets(kIss, "iss.tle").at(0), 30 * 86400.0);
     const TimeTai time = parse_utc("2014-01-23T11:18:07Z");
     const StateVector found = state_of(*iss, time);
     EXPECT_LT(length(found.position_m - Vec3d{-3918876.50458, -1887648.38745, 5209088.01512}), 0.2);
@@ -49,8 +49,8 @@ TEST(TleTrajectory, EndsWhereTheTheoryEnds) {
     const std::string text =
         "1 28872U 05037B   05333.02012661  .25992681  00000-0  24476-3 0  1534\n"
         "2 28872  96.4736 157.9986 0303955 244.0492 110.6523 16.46015938 10708\n";
-    const Tle tle = read_tles(text, "decays.tle").at(0);
-    const auto trajectory = make_tle(tle, 86400, "decays.tle");
+    const ElementSet tle = read_element_sets(text, "decays.tle").at(0);
+    const auto trajectory = make_tle(tle, 86400);
     // The published set says that it decays between 50 and 55 minutes.
     EXPECT_EQ(trajectory->validity(tle.epoch + 50 * 60 * kSecond).status, MotionStatus::kOk);
     const MotionValidity after = trajectory->validity(tle.epoch + 55 * 60 * kSecond);
@@ -75,7 +75,7 @@ TEST(WorldFrame, EarthFixedStatesAreThePublishedOnes) {
     EXPECT_LT(length(found.velocity_m_s - Vec3d{-4743.2201610, 790.5364950, 5533.7557240}), 2.5e-4);
 }
 
-// The same motion written in four frames is the same in the world: to the rounding of a double, and for
+// The same motion written in seven frames is the same in the world: to the rounding of a double, and for
 // velocities that of the sample's frame.
 TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
     const TimeTai start = parse_utc("2026-03-20T06:00:00Z");
@@ -89,11 +89,15 @@ TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
             const TimeTai time = start + i * 30 * kSecond;
             const StateVector icrf = orbit.at(30.0 * i);
             StateVector in = icrf;
-            if (frame == CcsdsFrame::kEme2000 || frame == CcsdsFrame::kTeme) {
-                const Mat3d turn =
-                    transposed(frame == CcsdsFrame::kTeme ? icrf_from_teme(time, {}) : icrf_from_eme2000());
+            if (frame == CcsdsFrame::kEme2000 || frame == CcsdsFrame::kTeme || frame == CcsdsFrame::kTod ||
+                frame == CcsdsFrame::kMod) {
+                const Mat3d turn = transposed(frame == CcsdsFrame::kTeme  ? icrf_from_teme(time, {})
+                                              : frame == CcsdsFrame::kTod ? icrf_from_true_of_date(time)
+                                              : frame == CcsdsFrame::kMod ? icrf_from_mean_of_date(time)
+                                                                          : icrf_from_eme2000());
                 in = {turn * icrf.position_m, turn * icrf.velocity_m_s};
-            } else if (frame == CcsdsFrame::kEarthFixed) {
+            } else if (frame == CcsdsFrame::kEarthFixed || frame == CcsdsFrame::kGtod) {
+                // Without polar motion the two are one.
                 const Mat3d turn = earth_fixed_from_icrf(time, {});
                 const Vec3d position = turn * icrf.position_m;
                 in = {position, turn * icrf.velocity_m_s - cross(Vec3d{0, 0, kEarthRate_rad_s}, position)};
@@ -104,13 +108,14 @@ TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
         return std::vector<OemSegment>{s};
     };
     for (const CcsdsFrame frame :
-         {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed, CcsdsFrame::kTeme}) {
+         {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed, CcsdsFrame::kTeme,
+          CcsdsFrame::kTod, CcsdsFrame::kMod, CcsdsFrame::kGtod}) {
         const auto trajectory = make_oem(segments_in(frame), "t.oem");
         const StateVector found = state_of(*trajectory, start + 155 * kSecond);
         const StateVector expected = orbit.at(155);
         // Hermite's remainder with six nodes 30 s apart, (n h)^12 / 12! R (0.5 1.5 2.5)^4, is below 1e-15 m.
         // Velocities in axes of date lack precession and nutation, 2e-11 rad/s at most.
-        const bool of_date = frame == CcsdsFrame::kTeme || frame == CcsdsFrame::kEarthFixed;
+        const bool of_date = frame != CcsdsFrame::kIcrf && frame != CcsdsFrame::kEme2000;
         const double turning_m_s = of_date ? 2e-11 * 7e6 : 0;
         EXPECT_LT(length(found.position_m - expected.position_m), 1e-6 + 30 * turning_m_s)
             << static_cast<int>(frame);
@@ -126,6 +131,23 @@ TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("t.oem:5: CENTER_NAME: found 'PHOBOS'; accepted: SUN, MERCURY"));
     }
+}
+
+// GTOD is ITRF but for the pole's motion: 10 m with a pole that is 0.3 arcsec off, at the height of the ground.
+TEST(OemTrajectory, GtodLacksThePolesMotionAlone) {
+    const TimeTai start = parse_utc("2026-03-20T06:00:00Z");
+    OriginConfig origin;
+    origin.earth = {0.1, 0.3 * kArcsecond_rad, 0};
+    const auto found = [&](CcsdsFrame frame) {
+        OemSegment s;
+        s.center_name = "Earth";
+        s.frame = frame;
+        for (int i = 0; i < 4; ++i) s.states.push_back({start + i * kSecond, {0, 0, 6.4e6}, {}});
+        s.usable_start = s.states.front().time, s.usable_stop = s.states.back().time;
+        return state_of(*make_oem({s}, "t.oem"), start + kSecond, origin).position_m;
+    };
+    EXPECT_NEAR(length(found(CcsdsFrame::kGtod) - found(CcsdsFrame::kEarthFixed)),
+                6.4e6 * 0.3 * kArcsecond_rad, 1e-3);
 }
 
 // A world that turns with the Earth: its origin stands still in the Earth's axes, which a place has, too.

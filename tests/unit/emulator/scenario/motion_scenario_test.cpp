@@ -109,6 +109,23 @@ TEST_F(MotionScenario, ThingsMayLookAtEachOtherButNotCarryEachOther) {
                 HasSubstr("of: found 'c'; accepted: camera, a, b"));
 }
 
+// What an orbit or attitude message has that is not used is said once, with the motion's key.
+TEST_F(MotionScenario, WhatAMessageHasThatIsNotUsedIsSaid) {
+    std::string oem =
+        "CCSDS_OEM_VERS = 2.0\nMETA_START\nOBJECT_NAME = T\nOBJECT_ID = T\nCENTER_NAME = Earth\nREF_FRAME = "
+        "ICRF\n"
+        "TIME_SYSTEM = UTC\nSTART_TIME = 2014-01-23T11:18:00\nSTOP_TIME = 2014-01-23T11:19:00\nTRACKING_ID = "
+        "7\n"
+        "META_STOP\n2014-01-23T11:18:00 7000 0 0 0 7.5 0\n2014-01-23T11:19:00 7000 450 0 0 7.5 0\n";
+    write("t.oem", oem);
+    EXPECT_THAT(
+        motion_warnings(scenario("camera_motion: {kind: oem, oem: {file: t.oem}}\n")),
+        testing::ElementsAre(testing::AllOf(HasSubstr("camera_motion: "),
+                                            HasSubstr("t.oem:10: the keyword 'TRACKING_ID' is not used"))));
+    EXPECT_THAT(motion_warnings(scenario("camera_motion: {kind: tle, tle: {file: iss.tle}}\n")),
+                testing::IsEmpty());
+}
+
 TEST_F(MotionScenario, WhatIsMissingIsNamed) {
     const auto error = [&](const std::string& motion) {
         return error_of([&] { load_motion_sources(scenario("camera_motion: " + motion + "\n")); });
@@ -174,7 +191,7 @@ TEST_F(MotionScenario, WhatStandsKeepsItsAxesAndItsFollowers) {
                  "frame: lvlh, of: iss}}\n" +
                  iss));
     const double end_s =
-        static_cast<double>(read_tles(kIss, "iss.tle").at(0).epoch - world.start) * 1e-9 + 3 * 86400;
+        static_cast<double>(read_element_sets(kIss, "iss.tle").at(0).epoch - world.start) * 1e-9 + 3 * 86400;
     const WorldSnapshot before = world.at(end_s - 1e-4), after = world.at(end_s + 1e-4),
                         later = world.at(end_s + 1000);
     // In 0.2 ms it flies 1.5 m and turns by 2e-7 rad.

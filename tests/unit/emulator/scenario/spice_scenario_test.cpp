@@ -9,6 +9,7 @@
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
 #include "tests/support/spice_writer.h"
+#include "tests/support/transfer_writer.h"
 
 namespace hilcam {
 namespace {
@@ -168,6 +169,60 @@ TEST_F(SpiceScenario, ThingsStandAndTurnAsTheKernelsSay) {
         const Quat d = conjugate(pose.world_from_body) * bus(t);
         EXPECT_NEAR(std::abs(d.w), 1, 1e-12) << t;
     }
+}
+
+TEST_F(SpiceScenario, KernelsInTransferFormatAreTheSame) {
+    for (const auto& [binary, text] : std::vector<std::pair<const char*, const char*>>{
+             {"ship.bsp", "ship.xsp"}, {"ship.bc", "ship.xc"}, {"planets.bsp", "planets.xsp"}}) {
+        const DafFile file(folder_ / binary);
+        std::vector<WrittenArray> arrays;
+        for (const DafArray& a : file.arrays())
+            arrays.push_back({a.name, a.doubles[0], a.doubles[1], a.integers, file.words(a)});
+        write(text, transfer_daf(file.kind(), arrays));
+    }
+    const ScenarioConfig one = scenario(kernels() + kShipByKernels),
+                         other = scenario(
+                             "spice:\n  kernels: [{file: ship.xsp}, {file: ship.xc}, {file: planets.xsp}, "
+                             "{file: ship.tf}]\n" +
+                             std::string(kShipByKernels));
+    for (const double t : {0.0, 17.0, 31.0}) {
+        const WorldSnapshot a = at(one, t), b = at(other, t);
+        EXPECT_EQ(length(a.camera.position_world_m - b.camera.position_world_m), 0);
+        EXPECT_EQ(a.camera.world_from_body.w, b.camera.world_from_body.w);
+        EXPECT_EQ(length(a.bodies.sun_world_m - b.bodies.sun_world_m), 0);
+    }
+}
+
+// The table of naif0011.tls ends with 2012; IERS Bulletins C 49 and 52 have the two that follow.
+TEST_F(SpiceScenario, AnOldLeapSecondKernelIsWarnedOf) {
+    const auto kernel = [&](const std::string& more) {
+        return write("leap.tls",
+                     "KPL/LSK\n\\begindata\nDELTET/DELTA_T_A = 32.184\nDELTET/K = 1.657D-3\n"
+                     "DELTET/EB = 1.671D-2\nDELTET/M = ( 6.239996D0 1.99096871D-7 )\n"
+                     "DELTET/DELTA_AT = ( 10, @1972-JAN-1, 34, @2009-JAN-1, 35, @2012-JUL-1" +
+                         more + " )\n");
+    };
+    const std::string with_leaps = "spice:\n  kernels: [{file: leap.tls}]\n";
+    kernel("");
+    const ScenarioConfig old = scenario(with_leaps);
+    ASSERT_EQ(old.warnings.size(), 1u);
+    EXPECT_THAT(old.warnings[0], HasSubstr("leap.tls:"));
+    EXPECT_THAT(
+        old.warnings[0],
+        HasSubstr(
+            "lacks the leap seconds of 2015-07-01, 2017-01-01, which the program knows: from then on its "
+            "times, which are those of the kernel, are up to 2 s off UTC"));
+    // 2026-03-20T14:00:00Z is 1774015237 s of TAI by Bulletin C 52, and 2 s less by the kernel, which is used.
+    EXPECT_EQ(parse_utc(kSpiceStart).ns, 1'774'015'235'000'000'000);
+    // A list of the scenario's own goes before the kernel.
+    write("l.list", "#@\t4102444800\n2272060800\t10\n3692217600\t37\n");
+    EXPECT_THAT(scenario(with_leaps + "leap_seconds: {file: l.list}\n").warnings, testing::IsEmpty());
+    kernel(", 36, @2015-JUL-1, 37, @2017-JAN-1");
+    EXPECT_THAT(scenario(with_leaps).warnings, testing::IsEmpty());
+    EXPECT_EQ(parse_utc(kSpiceStart).ns, 1'774'015'237'000'000'000);
+    kernel(", 36, @2015-JUL-1, 37, @2017-JAN-1, 38, @2030-JAN-1");
+    EXPECT_THAT(scenario(with_leaps).warnings, testing::IsEmpty());
+    use_leap_seconds({});
 }
 
 TEST_F(SpiceScenario, AMessageMadeFromAKernelGivesTheSameFrames) {

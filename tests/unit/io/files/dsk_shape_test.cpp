@@ -11,6 +11,7 @@
 #include "render/vocabulary/units.h"
 #include "tests/support/dsk_writer.h"
 #include "tests/support/files.h"
+#include "tests/support/transfer_writer.h"
 
 namespace hilcam {
 namespace {
@@ -93,6 +94,21 @@ TEST_F(DskShape, IsTheSameHoweverItsRecordsLie) {
             }
 }
 
+TEST_F(DskShape, IsTheSameInTransferFormat) {
+    const DskWriter writer = DskWriter().add(globe(30, 40)).add(tetrahedron(-3, 2));
+    const DskWriter::Numbers numbers = writer.numbers();
+    const std::string text = transfer_das(numbers.doubles, numbers.integers);
+    const Mesh binary = read_dsk_shape(writer.bytes(), "a.bds", -3), same = read_dsk_shape(text, "a.xds", -3);
+    EXPECT_EQ(same.triangles, binary.triangles);
+    ASSERT_EQ(same.vertices_m.size(), 4u);
+    EXPECT_EQ(length(same.vertices_m[3] - binary.vertices_m[3]), 0);
+    EXPECT_EQ(dsk_segments(text, "a.xds").size(), 2u);
+    EXPECT_THAT(refusal(text.substr(0, text.find('\n', text.size() / 2) + 1)),
+                HasSubstr("the file ends; accepted: a whole kernel"));
+    write("a.xds", text);
+    EXPECT_EQ(load_mesh_contents(folder_ / "a.xds", -3).mesh.triangles.size(), 4u);
+}
+
 TEST_F(DskShape, OfSeveralSurfacesOneIsChosen) {
     DskWriter writer;
     writer.add(tetrahedron(7)).add(tetrahedron(-3, 2)).add(tetrahedron(7, 3));
@@ -124,7 +140,7 @@ TEST_F(DskShape, IsReadByItsEnding) {
     EXPECT_EQ(contents.collapsed_triangles, 0u);
     const auto ply = write("a.ply", "ply\n");
     EXPECT_THAT(error_of([&] { load_mesh_parts(ply, none, 2); }),
-                HasSubstr("found the surface 2; accepted: none: only shape kernels (.bds) have"));
+                HasSubstr("found the surface 2; accepted: none: only shape kernels (.bds, .xds) have"));
 }
 
 TEST_F(DskShape, BadOnesAreNamed) {

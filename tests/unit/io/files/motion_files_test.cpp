@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
 #include "io/files/aem_file.h"
+#include "io/files/element_set.h"
 #include "io/files/leap_seconds_file.h"
 #include "io/files/oem_file.h"
-#include "io/files/tle_file.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
 
@@ -29,10 +29,10 @@ const std::string kIss =
     "2 25544  51.6498 109.4756 0003572  55.9686 274.8005 15.49815350868473\n";
 
 TEST_F(MotionFiles, AnElementSetIsReadByItsColumns) {
-    const Tle tle = read_tles(kIss, "iss.tle").at(0);
+    const ElementSet tle = read_element_sets(kIss, "iss.tle").at(0);
     EXPECT_EQ(tle.name, "ISS (ZARYA)");
     EXPECT_EQ(tle.satellite, "25544");
-    EXPECT_EQ(tle.line, 2);
+    EXPECT_EQ(tle.where, "iss.tle:2");
     EXPECT_DOUBLE_EQ(tle.inclination_rad, 51.6498 * kDegree_rad);
     EXPECT_DOUBLE_EQ(tle.eccentricity, 0.0003572);
     EXPECT_DOUBLE_EQ(tle.bstar_per_er, 1.82e-4);
@@ -45,37 +45,40 @@ TEST_F(MotionFiles, AnElementSetIsReadByItsColumns) {
 
 TEST_F(MotionFiles, ABadElementSetIsNamedByItsPlace) {
     const auto message = [&](const std::string& from, const std::string& to) {
-        return error_of([&] { read_tles(with(kIss, from, to), "iss.tle"); });
+        return error_of([&] { read_element_sets(with(kIss, from, to), "iss.tle"); });
     };
     EXPECT_THAT(message("0  5082", "0  5083"),
                 HasSubstr("iss.tle:2: found '3'; accepted: checksum 2 in column 69"));
     EXPECT_THAT(message("51.6498", "51.64x8"), HasSubstr("iss.tle:3: found"));
     EXPECT_THAT(message("2 25544", "2 25545"), HasSubstr("iss.tle:3"));
     EXPECT_THAT(message("868473", "86847"), HasSubstr("69 columns; it has 68"));
-    EXPECT_THAT(error_of([] { read_tles("", "no.tle"); }), HasSubstr("no.tle: holds no element set"));
-    EXPECT_THAT(error_of([] { load_tles("/nowhere/no.tle"); }), HasSubstr("no such file"));
-    EXPECT_EQ(read_tles(with(kIss, "0  5082", "0  5083"), "iss.tle", TleChecksum::kIgnore).size(), 1u);
+    EXPECT_THAT(error_of([] { read_element_sets("", "no.tle"); }), HasSubstr("no.tle: holds no element set"));
+    EXPECT_THAT(error_of([] { load_element_sets("/nowhere/no.tle"); }), HasSubstr("no such file"));
+    EXPECT_EQ(read_element_sets(with(kIss, "0  5082", "0  5083"), "iss.tle", TleChecksum::kIgnore).size(),
+              1u);
     // The checksum holds, the satellites do not agree: the digit's sum is made up for elsewhere.
-    EXPECT_THAT(
-        error_of([&] { read_tles(with(kIss, "2 25544", "2 25545"), "iss.tle", TleChecksum::kIgnore); }),
-        HasSubstr("found '25545'; accepted: satellite 25544"));
+    EXPECT_THAT(error_of([&] {
+                    read_element_sets(with(kIss, "2 25544", "2 25545"), "iss.tle", TleChecksum::kIgnore);
+                }),
+                HasSubstr("found '25545'; accepted: satellite 25544"));
 }
 
 TEST_F(MotionFiles, TheNewestSetBeforeAnInstantIsChosen) {
-    std::vector<Tle> sets(3, read_tles(kIss, "iss.tle").at(0));
+    std::vector<ElementSet> sets(3, read_element_sets(kIss, "iss.tle").at(0));
     sets[1].epoch = sets[0].epoch + 1000;
     sets[2].epoch = sets[0].epoch + 2000;
     const auto chosen = [&](std::int64_t after) {
-        return choose_tle(sets, "25544", sets[0].epoch + after, "iss.tle").epoch - sets[0].epoch;
+        return choose_element_set(sets, "25544", sets[0].epoch + after, "iss.tle").epoch - sets[0].epoch;
     };
     EXPECT_EQ(chosen(1500), 1000);
     EXPECT_EQ(chosen(9999), 2000);
     EXPECT_EQ(chosen(-5), 0);
-    EXPECT_EQ(&choose_tle(sets, "ISS (ZARYA)", sets[0].epoch, "iss.tle"), &sets[0]);
-    EXPECT_THAT(error_of([&] { choose_tle(sets, "HST", {}, "iss.tle"); }),
+    EXPECT_EQ(&choose_element_set(sets, "ISS (ZARYA)", sets[0].epoch, "iss.tle"), &sets[0]);
+    EXPECT_THAT(error_of([&] { choose_element_set(sets, "HST", {}, "iss.tle"); }),
                 HasSubstr("has no satellite 'HST'"));
     sets[2].satellite = "20580";
-    EXPECT_THAT(error_of([&] { choose_tle(sets, "", {}, "iss.tle"); }), HasSubstr("several satellites"));
+    EXPECT_THAT(error_of([&] { choose_element_set(sets, "", {}, "iss.tle"); }),
+                HasSubstr("several satellites"));
 }
 
 // --- orbit ephemerides ---
@@ -135,12 +138,11 @@ TEST_F(MotionFiles, ABadOrbitEphemerisIsNamedByItsPlace) {
                 HasSubstr("t.oem:15: the section that ends here has no OBJECT_ID"));
     EXPECT_THAT(message("2026-001T00:00:32.184", "2026-367T00:00:32.184"),
                 HasSubstr("t.oem:11: found '2026-367T"));
-    EXPECT_THAT(message("DEGREE = 3", "DEGREE = 4"),
-                HasSubstr("t.oem:15: found '4'; accepted: INTERPOLATION_DEGREE"));
-    EXPECT_THAT(message("DEGREE = 3", "DEGREE = 7"), HasSubstr("has 3 states; accepted: at least 4"));
+    EXPECT_THAT(message("DEGREE = 3", "DEGREE = 32"),
+                HasSubstr("t.oem:15: found '32'; accepted: INTERPOLATION_DEGREE"));
     EXPECT_THAT(message("450 0 0 7.5 0\n", "450 0 0 7.5\n"), HasSubstr("t.oem:18: found"));
     EXPECT_THAT(message("450 0", "4x50 0"), HasSubstr("t.oem:18: found '4x50'; accepted: a number"));
-    EXPECT_THAT(message("2026-01-01T00:01:32.184 7000", "2026-01-01T00:00:32.184 7000"),
+    EXPECT_THAT(message("2026-01-01T00:03:32.184 7000", "2026-01-01T00:01:02.184 7000"),
                 HasSubstr("epochs that rise"));
     EXPECT_THAT(message("2026-01-01T00:03:32.184 7000", "2026-01-01T00:03:31.184 7000"),
                 HasSubstr("do not reach over its usable span"));
@@ -148,7 +150,8 @@ TEST_F(MotionFiles, ABadOrbitEphemerisIsNamedByItsPlace) {
                 HasSubstr("within a factor of a million"));
     EXPECT_THAT(message("USEABLE_START_TIME = 2026-01-01T00:01", "USEABLE_START_TIME = 2026-01-01T00:09"),
                 HasSubstr("out of order"));
-    EXPECT_THAT(message("OBJECT_NAME", "OBJECT_NAM"), HasSubstr("t.oem:6: found 'OBJECT_NAM'"));
+    EXPECT_THAT(message("OBJECT_NAME", "OBJECT_NAM"),
+                HasSubstr("t.oem:16: the section that ends here has no OBJECT_NAME"));
     EXPECT_THAT(message("COVARIANCE_STOP\n", ""), HasSubstr("accepted: COVARIANCE_STOP"));
     EXPECT_THAT(error_of([] { read_oem(kOem, "t.oem", "OTHER"); }), HasSubstr("has no object 'OTHER'"));
 }

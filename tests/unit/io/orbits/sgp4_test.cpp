@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "io/files/tle_file.h"
+#include "io/files/element_set.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 
@@ -17,7 +17,7 @@ namespace {
 // The authors' program keeps the epoch as one Julian date in double precision, 40 us coarse; in that time the
 // Moon moves WIND's orbit (eccentricity 0.97) by 4 mm. The comparison has the same rounding, or is its last
 // bit off.
-Sgp4Elements elements_of(const Tle& t, double last_bits = 0) {
+Sgp4Elements elements_of(const ElementSet& t, double last_bits = 0) {
     constexpr double kZero = 2433281.5, kLastBit = 4.656612873077393e-10;
     const volatile double julian = t.epoch_days_1950 + kZero;
     return {julian - kZero + last_bits * kLastBit,
@@ -35,7 +35,7 @@ struct Sgp4Row {
     StateVector state;
 };
 struct Case {
-    Tle tle;
+    ElementSet tle;
     std::vector<Sgp4Row> rows;
 };
 
@@ -50,7 +50,7 @@ std::vector<Case> published() {
         // Behind column 69 come start, stop and step; some sets were changed by hand, so checksums are not
         // kept.
         const std::string text = one.substr(0, 69) + "\n" + two.substr(0, 69) + "\n";
-        cases.push_back({read_tles(text, "SGP4-VER.TLE", TleChecksum::kIgnore).front(), {}});
+        cases.push_back({read_element_sets(text, "SGP4-VER.TLE", TleChecksum::kIgnore).front(), {}});
     }
     std::ifstream out(folder + "tcppver.out");
     std::size_t number = 0;
@@ -76,7 +76,7 @@ std::vector<Case> published() {
 struct Rounding {
     double position_m, velocity_m_s;
 };
-Rounding rounding_of(const Tle& tle, const Sgp4Row& row) {
+Rounding rounding_of(const ElementSet& tle, const Sgp4Row& row) {
     constexpr double kMu_m3_s2 = wgs72::kMu_km3_s2 * 1e9;
     const double n_rad_s = tle.mean_motion_rad_min / 60;
     const double angle = std::max(2 * kPi, std::abs(tle.mean_motion_rad_min * row.minutes));

@@ -13,11 +13,11 @@
 #include "io/files/atmosphere_file.h"
 #include "io/files/brdf_file.h"
 #include "io/files/catalogue_file.h"
+#include "io/files/element_set.h"
 #include "io/files/height_map_file.h"
 #include "io/files/leap_seconds_file.h"
 #include "io/files/mesh_file.h"
 #include "io/files/oem_file.h"
-#include "io/files/tle_file.h"
 #include "io/pictures/picture_file.h"
 #include "tests/support/files.h"
 #include "tests/support/limits.h"
@@ -92,7 +92,7 @@ TEST_F(InputFileTest, NoReaderWaitsForAPipeOrReadsADeviceWithoutEnd) {
     };
     const std::vector<Reader> readers = {
         {".yaml", [](const auto& file) { read_config(file, SectionField{}); }},
-        {".tle", [](const auto& file) { load_tles(file); }},
+        {".tle", [](const auto& file) { load_element_sets(file); }},
         {".oem", [](const auto& file) { load_oem(file, ""); }},
         {".aem", [](const auto& file) { load_aem(file, ""); }},
         {".stars.csv", [](const auto& file) { load_catalogue(file); }},

@@ -53,6 +53,28 @@ TEST(EarthFrames, TemeDoesNotDependOnTheEarthsOrientation) {
     EXPECT_LT(length(icrf_from_teme(time, measured).x - without.x), 4e-12);
 }
 
+// Vallado 2013, example 3-15, by IAU 1976/1980 without the measured corrections: the same state in J2000, in axes of the true
+// equator and equinox of date, and in those of the mean ones. Printed to 0.1 mm.
+TEST(EarthFrames, TrueAndMeanOfDateAreAsPublished) {
+    const TimeTai time = at({2004, 4, 6, 7, 51, 28.386009});
+    const Vec3d j2000 = icrf_from_eme2000() * Vec3d{5102509.6000, 6123011.5200, 6378136.3000};
+    const Vec3d velocity = icrf_from_eme2000() * Vec3d{-4743.2196000, 790.5366000, 5533.7561900};
+    EXPECT_LT(length(icrf_from_true_of_date(time) * Vec3d{5094514.7804, 6127366.4612, 6380344.5328} - j2000),
+              1e-3);
+    EXPECT_LT(length(icrf_from_true_of_date(time) * Vec3d{-4746.088567, 786.077222, 5531.931288} - velocity),
+              1e-5);
+    EXPECT_LT(length(icrf_from_mean_of_date(time) * Vec3d{5094029.0167, 6127870.9363, 6380247.8885} - j2000),
+              1e-3);
+    // IAU 2006/2000A at 2026-03-20T12:00 (ERFA's eraPnm06a): 73 mas, the corrections of the pole, which 1980 lacks.
+    const Mat3d icrf_from_true = icrf_from_true_of_date(at({2026, 3, 20, 12, 0, 0}));
+    const Mat3d true_from_icrf{{0.9999793795935101, -0.0058899913713400, -0.0025589821070297},
+                               {0.0058898781393997, 0.9999826531765716, -0.0000517826916644},
+                               {0.0025592427164260, 0.0000367095311130, 0.9999967244591998}};
+    const Mat3d apart = icrf_from_true * true_from_icrf;
+    EXPECT_LT(length(Vec3d{apart.y.z, apart.z.x, apart.x.y}), 0.08 * kArcsecond_rad);
+    EXPECT_GT(length(Vec3d{apart.y.z, apart.z.x, apart.x.y}), 0.06 * kArcsecond_rad);
+}
+
 // The bias of t_erfa_c.c, t_bp06.
 TEST(EarthFrames, Eme2000HasTheFrameBias) {
     const Mat3d icrf = icrf_from_eme2000();
