@@ -19,7 +19,11 @@ namespace {
 
 // Twice what is read of a SIM_UPDATE (vizard_message.h), so that one too large is answered.
 constexpr std::int64_t kMaxMessageBytes = 16 << 20;
-constexpr std::size_t kMaxConnections = 8, kMaxMessageParts = 1000;
+constexpr std::size_t kMaxMessageParts = 1000;
+// A process of Basilisk's leaves 145 connections behind before it has no descriptor left itself (of 1024).
+// Three descriptors each (the guard's two, ZeroMQ's one) fit into 1024 here, too.
+constexpr std::size_t kMaxPeers = 200;
+constexpr std::uint64_t kMaxHeldBytes = 8 * kMaxMessageBytes;
 constexpr std::size_t kMaxParts = 16;  // most parts of a request; further ones are left out
 // The time from the frame rendered (the command's answer) to the frame published: the sensor's part.
 constexpr std::chrono::seconds kPatience{60};
@@ -104,8 +108,9 @@ void VizardReceiver::listen_behind_guard() {
     const pid_t own = getpid();
     ZmqGuardSetup setup{config_.address,
                         "hilcam-vizard-" + std::to_string(own) + "-" + std::to_string(monotonic_ns()),
-                        kMaxConnections,
+                        kMaxPeers,
                         {kMaxMessageBytes, kMaxMessageParts},
+                        kMaxHeldBytes,
                         [this](const std::string& why) {
                             // Once: whoever does it may go on and on.
                             if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);

@@ -2,7 +2,7 @@
 // Pictures for Basilisk's vizInterface in Vizard's place: the simulator tells the world and asks for images
 // (ZeroMQ, REQ there, REP here); each image is one `expose` in lockstep. docs/vizard.md.
 //
-// Nothing is authenticated: bind to loopback, or to a network of the bench alone. By TCP there are 8
+// Nothing is authenticated: bind to loopback, or to a network of the bench alone. By TCP there are 200
 // connections at most, and a message above 16 MiB or 1000 parts ends its own (zmq_guard.h). Several
 // simulators may be connected; each request is answered in its turn, and all speak of the same world.
 

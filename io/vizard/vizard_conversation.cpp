@@ -11,7 +11,8 @@
 namespace hilcam {
 namespace {
 
-constexpr std::string_view kImageRequest = "REQUEST_IMAGE_";
+// With a camera's number behind a "_", or alone.
+constexpr std::string_view kImageRequest = "REQUEST_IMAGE";
 constexpr std::size_t kUpdateParts = 4;
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -32,9 +33,12 @@ VizardConversation::Answer VizardConversation::answer(const VizardParts& asked) 
     if (word == "PING") return {{"PONG"}};
     if (word == "SIM_UPDATE") return take_update(asked);
     if (word == "REQUEST_INPUT") return {{"VIZARD_INPUT", encode_vizard_input(world_.frame_number())}};
-    if (word.starts_with(kImageRequest)) return take_picture(word.substr(kImageRequest.size()));
+    if (word.starts_with(kImageRequest)) {
+        const std::string_view rest = std::string_view(word).substr(kImageRequest.size());
+        if (rest.empty() || rest.front() == '_') return take_picture(rest);
+    }
     return refuse("a request " + in_quotes(word) +
-                  "; accepted: PING, SIM_UPDATE, REQUEST_IMAGE_<cameraID>, REQUEST_INPUT");
+                  "; accepted: PING, SIM_UPDATE, REQUEST_IMAGE_<cameraID>, REQUEST_IMAGE, REQUEST_INPUT");
 }
 
 VizardConversation::Answer VizardConversation::refuse(const std::string& reason) {
@@ -53,11 +57,14 @@ VizardConversation::Answer VizardConversation::take_update(const VizardParts& as
     return {{"OK"}};
 }
 
-VizardConversation::Answer VizardConversation::take_picture(const std::string& id_text) {
-    const auto id = parsed_as<std::int64_t>(id_text);
+// `which`: "_" and a camera's number; empty: the first camera.
+VizardConversation::Answer VizardConversation::take_picture(std::string_view which) {
     Answer without{picture_parts({}), true};
+    const auto id = which.empty() ? world_.first_camera() : parsed_as<std::int64_t>(which.substr(1));
     if (!id) {
-        world_.remark("no picture for " + in_quotes(id_text) + ": accepted: the number of a camera");
+        world_.remark(which.empty() ? "no picture, as no camera of a SIM_UPDATE that can be read is there"
+                                    : "no picture for " + in_quotes(which.substr(1)) +
+                                          ": accepted: the number of a camera");
         return without;
     }
     VizardShot shot;

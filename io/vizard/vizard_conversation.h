@@ -6,6 +6,7 @@
 //     PING                                           PONG
 //     SIM_UPDATE | empty | empty | VizMessage        OK        (ERROR: the simulator stops)
 //     REQUEST_IMAGE_<cameraID>                       length of the picture, 32 bits big-endian | picture
+//     REQUEST_IMAGE (until Basilisk 2.1.4)           the same, of the message's first camera
 //     REQUEST_INPUT                                  VIZARD_INPUT | VizInput, without input
 //     anything else                                  ERROR
 //
@@ -15,6 +16,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/vizard/vizard_world.h"
@@ -44,7 +46,7 @@ class VizardConversation {
 
   private:
     Answer take_update(const VizardParts& asked);
-    Answer take_picture(const std::string& id_text);
+    Answer take_picture(std::string_view which);
     Answer refuse(const std::string& reason);
 
     VizardWorld& world_;

@@ -23,6 +23,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -80,6 +81,11 @@ class VizardWorld {
     void lose() { known_ = false; }
     // Finds what camera `id` of the simulator shows now. False, with a remark, when there is nothing to show.
     bool shot(std::int64_t id, VizardShot& shot);
+    // The simulator's first camera; none before a SIM_UPDATE that can be read.
+    std::optional<std::int64_t> first_camera() const {
+        if (!known_ || update_.cameras.empty()) return {};
+        return update_.cameras.front().id;
+    }
     std::int64_t frame_number() const { return update_.frame_number; }
     void remark(const std::string& text) { remark_once(text, text); }
 

@@ -10,6 +10,8 @@
 #include <charconv>
 #include <cstddef>
 #include <cstring>
+#include <functional>
+#include <limits>
 
 #include "io/system/net_interface.h"
 #include "render/vocabulary/check.h"
@@ -91,17 +93,43 @@ void ZmqGuard::run() {
     connections_.clear();
 }
 
+void ZmqGuard::end(Connection& c, const std::string& why) {
+    c.gone = true;
+    setup_.ended(why);
+}
+
 std::size_t ZmqGuard::peers() const {
-    return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(),
-                                                  [](const Connection& c) { return c.meter.greeted(); }));
+    return static_cast<std::size_t>(
+        std::count_if(connections_.begin(), connections_.end(), std::mem_fn(&Connection::is_peer)));
 }
 
 // The oldest connection stands first.
 void ZmqGuard::make_room_for_a_stranger() {
     if (connections_.size() - peers() < kMaxStrangers) return;
-    connections_.erase(std::find_if(connections_.begin(), connections_.end(),
-                                    [](const Connection& c) { return !c.meter.greeted(); }));
-    setup_.ended("its peer has not greeted, and others wait");
+    connections_.erase(
+        std::find_if_not(connections_.begin(), connections_.end(), std::mem_fn(&Connection::is_peer)));
+    setup_.ended("its peer has said nothing, and others wait");
+}
+
+void ZmqGuard::make_room_for_a_peer() {
+    if (peers() <= setup_.max_peers) return;
+    const auto last = [](const Connection& c) {
+        return c.is_peer() ? c.last_message : std::numeric_limits<std::uint64_t>::max();
+    };
+    end(*std::min_element(connections_.begin(), connections_.end(),
+                          [&](const Connection& a, const Connection& b) { return last(a) < last(b); }),
+        "there are more than " + std::to_string(setup_.max_peers) + ", and it has been silent longest");
+}
+
+void ZmqGuard::bound_memory() {
+    std::uint64_t held = 0;
+    for (const Connection& c : connections_) held += c.gone ? 0 : c.held_bytes();
+    if (held <= setup_.max_held_bytes) return;
+    const auto most = [](const Connection& c) { return c.gone ? 0 : c.held_bytes(); };
+    end(*std::max_element(connections_.begin(), connections_.end(),
+                          [&](const Connection& a, const Connection& b) { return most(a) < most(b); }),
+        "all together sent more than " + std::to_string(setup_.max_held_bytes) +
+            " bytes that wait for answers, and its peer the most");
 }
 
 void ZmqGuard::accept_connection() {
@@ -116,13 +144,20 @@ void ZmqGuard::accept_connection() {
     if (!inner) return;
     const int yes = 1;  // a stream that comes in pieces goes on in pieces
     setsockopt(outer.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-    connections_.push_back({std::move(outer), std::move(inner), {}, {}, ZmtpMeter(setup_.limits)});
+    connections_.push_back({std::move(outer),
+                            std::move(inner),
+                            {},
+                            {},
+                            ZmtpMeter(setup_.limits),
+                            ZmtpMeter(ZmtpMeter::kNoLimits)});
 }
 
 // A side that has ended is noticed once all that it sent is passed on: before that it is not read.
 void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
+    if (c.gone) return;
     if (c.in.empty() && (outer_events & ~POLLOUT)) take_from_outside(c);
-    if (c.out.empty() && (inner_events & ~POLLOUT)) c.gone |= !read_into(c.out, c.inner);
+    if (c.out.empty() && (inner_events & ~POLLOUT)) take_from_inside(c);
+    if (c.gone) return;
     c.gone |= !write_from(c.in, c.inner) || !write_from(c.out, c.outer);
     // A connection that cannot pass anything on now never will; poll() would come back with it at once, again
     // and again.
@@ -132,17 +167,24 @@ void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
 }
 
 void ZmqGuard::take_from_outside(Connection& c) {
-    const bool stranger = !c.meter.greeted();
+    const std::uint64_t messages = c.asked.messages();
     c.gone |= !read_into(c.in, c.outer);
-    if (!c.meter.take({c.in.bytes.data() + c.in.begin, c.in.end - c.in.begin})) {
-        setup_.ended("its peer sends what is no ZMTP 3, or a message above " +
-                     std::to_string(setup_.limits.bytes) + " bytes or " +
-                     std::to_string(setup_.limits.parts) + " parts");
-        c.gone = true;
-    } else if (stranger && c.meter.greeted() && peers() > setup_.max_connections) {
-        setup_.ended("there are " + std::to_string(setup_.max_connections) + " connections already");
-        c.gone = true;
+    if (!c.asked.take(c.in.waiting()))
+        return end(c, "its peer sends what is no ZMTP 3, or a message above " +
+                          std::to_string(setup_.limits.bytes) + " bytes or " +
+                          std::to_string(setup_.limits.parts) + " parts");
+    if (c.asked.messages() > messages) {
+        c.last_message = ++messages_;
+        make_room_for_a_peer();
     }
+    bound_memory();
+}
+
+void ZmqGuard::take_from_inside(Connection& c) {
+    c.gone |= !read_into(c.out, c.inner);
+    c.answered.take(c.out.waiting());
+    if (c.answered.messages() >= c.asked.messages())
+        c.settled_bytes = c.asked.announced_bytes() - c.asked.unfinished_bytes();
 }
 
 // False: the other side has ended.

@@ -46,10 +46,11 @@ bool ZmtpMeter::take_greeting(std::uint8_t byte) {
 
 bool ZmtpMeter::begin_body() {
     at_ = length_ > 0 ? At::kBody : At::kFlags;
-    if (flags_ & kCommand) return length_ <= limits_.bytes;
+    if (flags_ & kCommand) return length_ <= std::min(limits_.bytes, kMaxCommand_bytes);
     if (length_ > limits_.bytes - bytes_ || ++parts_ > limits_.parts) return false;
     bytes_ += length_;
-    if (!(flags_ & kMore)) bytes_ = 0, parts_ = 0;
+    announced_bytes_ += length_;
+    if (!(flags_ & kMore)) bytes_ = 0, parts_ = 0, ++messages_;
     return true;
 }
 

@@ -1,6 +1,7 @@
 // Any bytes are a simulator's message or a refusal in one line; what follows from them are finite poses, and
 // every request is answered. As bytes of a connection they are followed the same in pieces as at once.
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/vizard/vizard_conversation.h"
@@ -41,6 +42,9 @@ void check_meter(std::span<const std::uint8_t> frames) {
     bool good = true;
     for (std::size_t i = 0; i < frames.size(); ++i) good = by_bytes.take(frames.subspan(i, 1));
     HILCAM_CHECK(at_once.take(frames) == good);
+    HILCAM_CHECK(at_once.messages() == by_bytes.messages());
+    HILCAM_CHECK(at_once.announced_bytes() == by_bytes.announced_bytes());
+    HILCAM_CHECK(at_once.unfinished_bytes() <= std::min<std::uint64_t>(100, at_once.announced_bytes()));
 }
 
 }  // namespace
@@ -59,6 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const VizardParts image = conversation.answer({"REQUEST_IMAGE_" + id}).parts;
         HILCAM_CHECK(image.size() == 2 && image[0].size() == 4);
     }
+    HILCAM_CHECK(conversation.answer({"REQUEST_IMAGE"}).parts.size() == 2);
     HILCAM_CHECK(!conversation.answer({bytes}).parts.empty());
     HILCAM_CHECK(conversation.answer({"REQUEST_INPUT"}).parts.size() == 2);
     return 0;

@@ -91,10 +91,13 @@ class Stopped(Exception):
 
 
 class VizInterface:
-    """The REQ side. Receives time out, so that no test hangs where Basilisk would."""
+    """The REQ side. Receives time out, so that no test hangs where Basilisk would.
 
-    def __init__(self, port, live=False):
-        self.live = live
+    Versions until 2.1.4 had one camera and asked for its picture without a number (`is_numbered`)."""
+
+    def __init__(self, port, live=False, is_numbered=True):
+        self.live, self.is_numbered = live, is_numbered
+        self.pinged = False
         self.context = zmq.Context()
         self.socket = self.context.socket(zmq.REQ)
         self.socket.linger = 0
@@ -108,20 +111,35 @@ class VizInterface:
     def reset(self):
         self.socket.send(b"PING")
         pong = self.socket.recv()
-        self.socket.send(b"PING")
+        self.ping()
         return pong
+
+    def ping(self):
+        self.socket.send(b"PING")
+        self.pinged = True
 
     def step(self, update, image_ids=()):
         """UpdateState(): the pictures asked for, by camera. An empty one is an image that is not valid."""
-        self.socket.recv()  # of the PING before
-        self.socket.send_multipart([b"SIM_UPDATE", b"", b"", update if isinstance(update, bytes) else update.SerializeToString()])
+        self.send(update)
         if self.socket.recv() != b"OK":
             raise Stopped("Error processing SIM_UPDATE.")
         if self.live:
             self.input = self.request_input()
         pictures = {number: self.request_image(number) for number in image_ids}
-        self.socket.send(b"PING")
+        if not self.live:
+            self.ping()
         return pictures
+
+    def end(self, update):
+        """The step that ends Vizard: no answer is waited for."""
+        update.liveSettings.terminateVizard = True
+        self.send(update)
+
+    def send(self, update):
+        if self.pinged:
+            self.socket.recv()
+        self.pinged = False
+        self.socket.send_multipart([b"SIM_UPDATE", b"", b"", update if isinstance(update, bytes) else update.SerializeToString()])
 
     def request_input(self):
         self.socket.send(b"REQUEST_INPUT")
@@ -131,7 +149,7 @@ class VizInterface:
         return CLASSES["VizInput"].FromString(answer)
 
     def request_image(self, number):
-        self.socket.send(b"REQUEST_IMAGE_%d" % number)
+        self.socket.send(b"REQUEST_IMAGE_%d" % number if self.is_numbered else b"REQUEST_IMAGE")
         length, image = self.socket.recv_multipart()
         if len(length) < 4 or struct.unpack(">i", length)[0] != len(image):
             raise Stopped("Vizard image response buffer length is invalid.")

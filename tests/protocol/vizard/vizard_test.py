@@ -107,6 +107,7 @@ def free_port():
 
 class Vizard:
     """`hilcam run` on the test's scenario in a folder of its own."""
+    client = basilisk.VizInterface  # what connects
 
     def __init__(self, folder, *sets):
         self.folder, self.port = pathlib.Path(folder), free_port()
@@ -127,7 +128,7 @@ class Vizard:
             self.process.wait()
 
     def connect(self, **options):
-        client = basilisk.VizInterface(self.port, **options)
+        client = self.client(self.port, **options)
         assert client.reset() == b"PONG"
         return client
 
@@ -249,6 +250,15 @@ class OpticalNavigation(unittest.TestCase):
             client.close()
 
 
+class Older(unittest.TestCase):
+    def test_a_picture_asked_for_without_a_number_is_the_first_cameras(self):
+        with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
+            client = vizard.connect(is_numbered=False)
+            picture = client.step(update(1, 60, 20, looking_at_target()), [1])[1]
+            numpy.testing.assert_array_equal(pixels(picture), rendered(folder, 20, looking_at_target(), 60) << (16 - BITS))
+            client.close()
+
+
 class Runs(unittest.TestCase):
     def test_another_run_of_the_simulation_starts_at_its_own_beginning(self):
         with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
@@ -262,19 +272,16 @@ class Runs(unittest.TestCase):
             self.assertAlmostEqual(means[0] / means[1], 1, delta=0.01)  # noise alone: the same place and time
             self.assertEqual(vizard.remarks(), [])
 
-    def test_a_simulator_that_vanishes_leaves_no_trace(self):
+    def test_runs_of_one_process_leave_their_connections(self):
+        """vizInterface closes none: a campaign in one process has one more with each run."""
         with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
-            for _ in range(3):
-                client = vizard.connect()
-                client.socket.recv()
-                client.socket.send_multipart([b"SIM_UPDATE", b"", b"", update(1, 1, 20, looking_at_target()).SerializeToString()])
-                client.socket.recv()
-                client.socket.send(b"REQUEST_IMAGE_1")
+            clients = []
+            for _ in range(12):
+                clients.append(vizard.connect())
+                self.assertNotEqual(clients[-1].step(update(1, 60, 20, looking_at_target()), [1])[1], b"")
+            self.assertEqual(vizard.remarks(), [])
+            for client in clients:
                 client.close()
-            client = vizard.connect()
-            self.assertNotEqual(client.step(update(1, 60, 20, looking_at_target()), [1])[1], b"")
-            client.close()
-            vizard.stop()
 
     def test_live_stream_asks_for_input_and_gets_none(self):
         with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
@@ -289,14 +296,26 @@ class Runs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
             client = vizard.connect()
             client.step(update(1, 60, 20, looking_at_target()), [1])
-            client.socket.recv()
-            last = update(2, 61, 20, looking_at_target(), liveSettings=dict(terminateVizard=True))
-            client.socket.send_multipart([b"SIM_UPDATE", b"", b"", last.SerializeToString()])  # no answer is waited for
+            client.end(update(2, 61, 20, looking_at_target()))
             self.assertEqual(vizard.ended()["frames"], 1)
             client.close()
 
 
 class BadInput(unittest.TestCase):
+    def test_a_simulator_that_vanishes_leaves_no_trace(self):
+        with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
+            for _ in range(3):
+                client = vizard.connect()
+                client.socket.recv()
+                client.socket.send_multipart([b"SIM_UPDATE", b"", b"", update(1, 1, 20, looking_at_target()).SerializeToString()])
+                client.socket.recv()
+                client.socket.send(b"REQUEST_IMAGE_1")
+                client.close()
+            client = vizard.connect()
+            self.assertNotEqual(client.step(update(1, 60, 20, looking_at_target()), [1])[1], b"")
+            client.close()
+            vizard.stop()
+
     def test_it_is_named_once_answered_and_survived(self):
         with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
             client = vizard.connect()

@@ -52,6 +52,25 @@ TEST_F(VizardConversationTest, AStepIsAnsweredAsVizardDoes) {
     EXPECT_FALSE(conversation.is_over());
 }
 
+// As Basilisk asks until 2.1.4, which has one camera.
+TEST_F(VizardConversationTest, WithoutANumberThePictureIsTheFirstCameras) {
+    const VizardParts none = {std::string(4, '\0'), ""};
+    EXPECT_EQ(conversation.answer({"REQUEST_IMAGE"}).parts, none);
+    EXPECT_THAT(remarks.back(), HasSubstr("no camera of a SIM_UPDATE that can be read"));
+    Message m;
+    m.message(1, vizard_wire::time_stamp(1, 1e9));
+    m.message(3, vizard_wire::spacecraft("eye", {7e6, 0, 0}, {0, 0, 0}, {0, 0, 0}));
+    m.message(4, vizard_wire::camera(7, "eye", {0, 0, 0}, vizard_wire::kAsTheSpacecraft));
+    m.message(4, vizard_wire::camera(1, "eye", {0, 0, 0}, vizard_wire::kAsTheSpacecraft));
+    tell(m.bytes());
+    EXPECT_EQ(conversation.answer({"REQUEST_IMAGE"}).parts[1], picture.bytes);
+    ASSERT_EQ(shots.size(), 1u);
+    EXPECT_EQ(shots[0].camera, 1u);  // the bench's first
+    EXPECT_THAT(conversation.answer({"REQUEST_IMAGES"}).parts, ElementsAre("ERROR"));
+    tell("\x0A\x7F\x01");
+    EXPECT_EQ(conversation.answer({"REQUEST_IMAGE"}).parts, none);
+}
+
 TEST_F(VizardConversationTest, WithoutAPictureLengthAndPictureAreEmpty) {
     const VizardParts none = {std::string(4, '\0'), ""};
     EXPECT_EQ(conversation.answer({"REQUEST_IMAGE_1"}).parts, none);

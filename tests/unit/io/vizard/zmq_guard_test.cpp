@@ -81,6 +81,7 @@ class Guard : public testing::Test {
                      name_,
                      kPeers,
                      {1000, 5},
+                     1500,
                      [this](const std::string& why) {
                          const std::lock_guard lock(mutex_);
                          ended_.push_back(why);
@@ -116,6 +117,18 @@ class Guard : public testing::Test {
         }
         return true;
     }
+    // Sends a message of one part, `size` bytes; true when it comes back. More to come: with no end.
+    static bool is_passed_on(const Fd& fd, std::uint8_t size = 1, bool is_more_to_come = false) {
+        std::vector<std::uint8_t> frame(2u + size);
+        frame[0] = is_more_to_come, frame[1] = size;
+        if (send(fd.get(), frame.data(), frame.size(), MSG_NOSIGNAL) < 0) return false;
+        return recv(fd.get(), frame.data(), frame.size(), MSG_WAITALL) == static_cast<ssize_t>(frame.size());
+    }
+    static bool is_ended(const Fd& fd) {
+        pollfd ready{fd.get(), POLLIN, 0};
+        std::uint8_t byte = 0;
+        return poll(&ready, 1, kPatience_ms) == 1 && recv(fd.get(), &byte, 1, 0) <= 0;
+    }
     bool was_told(const std::string& words) {
         const std::lock_guard lock(mutex_);
         for (const std::string& why : ended_)
@@ -137,16 +150,47 @@ TEST_F(Guard, APeerIsHeardWhileStrangersHoldAHundredConnections) {
     for (std::size_t i = 0; i < kPeers; ++i) {
         peers.push_back(connected());
         EXPECT_TRUE(is_answered(peers.back())) << i;
+        EXPECT_TRUE(is_passed_on(peers.back())) << i;
     }
-    EXPECT_TRUE(was_told("has not greeted"));
+    EXPECT_TRUE(was_told("has said nothing"));
     // Further strangers end strangers, never a peer.
     for (int i = 0; i < 100; ++i) strangers.push_back(connected());
-    const Fd last = connected();
-    EXPECT_FALSE(is_answered(last));  // the number of peers is bounded as before
-    EXPECT_TRUE(was_told("there are 3 connections already"));
-    EXPECT_EQ(send(peers[0].get(), "\4\1x", 3, MSG_NOSIGNAL), 3);  // a command of one byte
-    std::array<char, 3> back;
-    EXPECT_EQ(recv(peers[0].get(), back.data(), back.size(), MSG_WAITALL), 3);
+    for (const Fd& peer : peers) EXPECT_TRUE(is_passed_on(peer));
+}
+
+// As Basilisk leaves its connections: each of them has spoken, and none will again.
+TEST_F(Guard, ThePeerThatHasBeenSilentLongestMakesRoomForAnother) {
+    std::vector<Fd> peers;
+    for (int i = 0; i < 10; ++i) {
+        peers.push_back(connected());
+        EXPECT_TRUE(is_answered(peers.back()));
+        EXPECT_TRUE(is_passed_on(peers.back())) << i;
+    }
+    for (int i = 0; i < 7; ++i) EXPECT_TRUE(is_ended(peers[static_cast<std::size_t>(i)])) << i;
+    EXPECT_TRUE(was_told("there are more than 3"));
+    // Those that come back and say nothing end none that has spoken.
+    std::vector<Fd> back;
+    for (int i = 0; i < 40; ++i) {
+        back.push_back(connected());
+        EXPECT_TRUE(is_answered(back.back())) << i;
+    }
+    EXPECT_TRUE(is_ended(back[0]));
+    for (std::size_t i = 7; i < 10; ++i) EXPECT_TRUE(is_passed_on(peers[i])) << i;
+}
+
+TEST_F(Guard, AllTogetherHoldNoMoreThanTheyMay) {
+    const Fd greedy = connected(), other = connected(), third = connected();
+    for (const Fd* peer : {&greedy, &other, &third}) EXPECT_TRUE(is_answered(*peer));
+    // Messages that have their answers hold nothing, however many they are.
+    for (int i = 0; i < 30; ++i) EXPECT_TRUE(is_passed_on(third, 250)) << i;
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(is_passed_on(greedy, 250, true)) << i;
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(is_passed_on(other, 250, true)) << i;
+    // 750, 500 and 250 bytes are as much as may wait; a sixth hundred of the second's is too much.
+    EXPECT_TRUE(is_passed_on(third, 250, true));
+    EXPECT_TRUE(is_passed_on(other, 100, true));
+    EXPECT_TRUE(is_ended(greedy));
+    EXPECT_TRUE(was_told("all together"));
+    EXPECT_TRUE(is_passed_on(third));
 }
 
 }  // namespace

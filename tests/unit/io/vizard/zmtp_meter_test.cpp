@@ -27,6 +27,9 @@ class Peer {
     // In pieces of so many bytes.
     bool passes(std::size_t piece) const {
         ZmtpMeter meter({1000, 5});
+        return told_to(meter, piece);
+    }
+    bool told_to(ZmtpMeter& meter, std::size_t piece) const {
         const auto* at = reinterpret_cast<const std::uint8_t*>(bytes_.data());
         bool good = true;
         for (std::size_t i = 0; i < bytes_.size(); i += piece)
@@ -55,6 +58,24 @@ TEST(ZmtpMeter, AMessageIsItsPartsTogether) {
     Peer().last(1001).expect(false);
     Peer().part(0).part(0).part(0).part(0).part(0).part(0).expect(false);
     Peer().command(1001).expect(false);
+}
+
+TEST(ZmtpMeter, MessagesAndTheirBytesAreCounted) {
+    Peer peer;
+    peer.command(25).part(300).command(9).last(0).last(7).part(600).part(40);
+    for (const std::size_t piece : {1u, 7u, 100'000u}) {
+        ZmtpMeter meter(ZmtpMeter::kNoLimits);
+        EXPECT_TRUE(peer.told_to(meter, piece));
+        EXPECT_EQ(meter.messages(), 2u);
+        EXPECT_EQ(meter.announced_bytes(), 947u);
+        EXPECT_EQ(meter.unfinished_bytes(), 640u);
+    }
+}
+
+TEST(ZmtpMeter, ACommandIsShortWhateverMessagesMayBe) {
+    ZmtpMeter meter(ZmtpMeter::kNoLimits), other(ZmtpMeter::kNoLimits);
+    EXPECT_TRUE(Peer().command(64 << 10).told_to(meter, 4096));
+    EXPECT_FALSE(Peer().command((64 << 10) + 1).told_to(other, 4096));
 }
 
 // Told by its length alone, before a byte of it is there.
