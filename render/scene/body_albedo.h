@@ -1,0 +1,12 @@
+#pragma once
+// What a body without a model of its own sends up again to the air above it.
+
+#include "render/scene/scene.h"
+
+namespace hilcam {
+
+// The albedo of its surface by place, as its look and its map have it; one cell without a map. A law other than Lambert's counts by its
+// spherical albedo.
+AirGround body_albedo(const SceneBody& body, const SpectralGrid& grid);
+
+}  // namespace hilcam

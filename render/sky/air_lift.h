@@ -1,0 +1,32 @@
+#pragma once
+// The light that ground and clouds send up again into the air, by place: f = A / (1 - A S) for albedo A under air that sends the
+// share S of it back (Atmosphere::lift).
+
+#include <string>
+#include <vector>
+
+#include "render/sky/atmosphere.h"
+
+namespace hilcam {
+
+class AirLift {
+  public:
+    // HILCAM_CHECK: as many albedos as cells.
+    explicit AirLift(AirGround ground);
+    static AirGround even(double albedo);
+
+    // Says what S is; to be called before the others.
+    void set_returned(const Spectrum& returned);
+    bool varies() const { return lifts_.size() > 1; }
+    const Spectrum& first() const { return lifts_.front(); }
+    // Bilinear between the middles of cells. Loop, any thread.
+    Spectrum at(Vec3d point_m) const;
+    // "over albedo 0.25", for `hilcam check`.
+    std::string describe() const;
+
+  private:
+    AirGround ground_;
+    std::vector<Spectrum> lifts_;
+};
+
+}  // namespace hilcam
