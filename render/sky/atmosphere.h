@@ -10,7 +10,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "render/vocabulary/spectrum.h"
 #include "render/vocabulary/vec.h"
@@ -31,22 +30,6 @@ class Atmosphere {
     // Along a ray from `origin_m` (any height) for distance_m, or to its end in space when infinite. dir:
     // unit. Loop, any thread.
     virtual Sight look(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const = 0;
-
-    // What look() says, apart: over black ground, and what ground that sends light up again adds. look() is over_black with
-    // lift() times per_lift_sr added to its radiance. For tables of an atmosphere that hold for every place.
-    struct Parts {
-        Sight over_black;
-        Spectrum per_lift_sr;
-    };
-    // True when what is below differs from place to place; else look() is all in over_black.
-    virtual bool lifts_by_place() const { return false; }
-    virtual Parts look_in_parts(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const {
-        return {look(origin_m, dir, distance_m, sun_dir), {}};
-    }
-    // Returns the light that goes up below a point over that which comes down through air that no ground lights: A / (1 - A S)
-    // for ground of albedo A under air that sends the share S back. Loop, any thread.
-    virtual Spectrum lift(Vec3d) const { return {}; }
-
     // tau_1 from a point to the Sun; zero where the ground is between.
     virtual Spectrum sun_transmittance(Vec3d point_m, Vec3d sun_dir) const = 0;
     // The sky's irradiance on a horizontal surface [1], scattered light only.
@@ -63,13 +46,6 @@ class Atmosphere {
 struct AtmosphereConfig;  // atmosphere_config.h
 struct AtmosphereTable;   // atmosphere_table.h
 
-// What lies below the air and sends light up again, ground and clouds together: albedos per bin on an equirectangular grid
-// in the body's axes (left edge 180 W, rows from 90 N). One cell: the same everywhere.
-struct AirGround {
-    int width = 1, height = 1;
-    std::vector<Spectrum> albedo{};  // row by row
-};
-
 // Keeps from run to run what a model has computed.
 class AtmosphereStore {
   public:
@@ -85,7 +61,6 @@ struct AtmosphereRequest {
     const SpectralGrid& grid;
     const AtmosphereTable* table = nullptr;  // the contents of config.table
     const AtmosphereStore* store = nullptr;  // null: nothing is kept
-    const AirGround* ground = nullptr;       // null: config.ground_albedo says it
 };
 
 }  // namespace hilcam
