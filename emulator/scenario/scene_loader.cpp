@@ -396,10 +396,11 @@ void load_air_and_earth(const ScenarioConfig& scenario, const SpectralGrid& grid
     }
     {
         const Progress progress("air");
-        const AirGround ground = maps ? earth_albedo(surface, maps->ground, maps->clouds, grid)
-                                      : body_albedo(scene.body(BodyId::kEarth), grid);
-        scene.air = modules.atmospheres.make(
-            air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr, &cache, &ground});
+        scene.air = modules.atmospheres.make(air.model,
+                                             AtmosphereRequest{air, grid, table ? &*table : nullptr, &cache});
+        if (auto* by_place = dynamic_cast<AirByPlace*>(scene.air.get()); by_place && !air.has_ground_albedo)
+            by_place->put_over(maps ? earth_albedo(surface, maps->ground, maps->clouds, grid)
+                                    : body_albedo(scene.body(BodyId::kEarth), grid));
     }
     if (maps) {
         const Progress earth("Earth");

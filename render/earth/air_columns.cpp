@@ -26,6 +26,17 @@ float root_of_cosine(float mu) {
 // Out of the air even along the horizon.
 constexpr double kAway_m = 4e6;
 
+// Null where light from below is the same everywhere.
+const AirByPlace* by_place(const Atmosphere& air) {
+    const auto* found = dynamic_cast<const AirByPlace*>(&air);
+    return found && found->lifts_by_place() ? found : nullptr;
+}
+AirByPlace::Parts look_in_parts(const Atmosphere& air, const AirByPlace* by_place, Vec3d origin_m, Vec3d dir,
+                                double distance_m, Vec3d sun_dir) {
+    return by_place ? by_place->look_in_parts(origin_m, dir, distance_m, sun_dir)
+                    : AirByPlace::Parts{air.look(origin_m, dir, distance_m, sun_dir), {}};
+}
+
 // Returns the Sun's direction of a row of so many, towards an azimuth.
 Vec3d sun_dir_at(int row, int rows, double azimuth) {
     const double mu0 = cosine_of_root(static_cast<double>(kLowestRoot) +
@@ -37,25 +48,25 @@ Vec3d sun_dir_at(int row, int rows, double azimuth) {
 }  // namespace
 
 AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
-    : top_m_(static_cast<float>(air.top_m())) {
+    : by_place_(by_place(air)), top_m_(static_cast<float>(air.top_m())) {
     transmittance_.resize(2 * kViews);
     radiance_.resize(static_cast<std::size_t>(2) * kAzimuths * kSuns * kViews);
-    if (air.lifts_by_place()) lifted_.resize(static_cast<std::size_t>(2) * kSuns * kViews);
+    if (by_place_) lifted_.resize(static_cast<std::size_t>(2) * kSuns * kViews);
     tbb::parallel_for(0, kAzimuths * kSuns, [&](int row) {
         const Vec3d sun_dir = sun_dir_at(row % kSuns, kSuns, kPi * (row / kSuns) / (kAzimuths - 1));
         const auto look_up = [&](double height_m, Vec3d to_viewer) {
             const Vec3d point{0, 0, kEarthEquatorialRadius_m + height_m};
-            return air.look_in_parts(point + kAway_m * to_viewer, -to_viewer, kAway_m, sun_dir);
+            return look_in_parts(air, by_place_, point + kAway_m * to_viewer, -to_viewer, kAway_m, sun_dir);
         };
         // What is lifted is taken as it is seen across the Sun's direction.
         constexpr int kAcross = (kAzimuths - 1) / 2;
         for (int i = 0; i < kViews; ++i) {
             const double mu = cosine_of_root(static_cast<double>(i) / (kViews - 1));
             const Vec3d to_viewer{std::sqrt(1 - mu * mu), 0, mu};
-            const Atmosphere::Parts low = look_up(1, to_viewer);
+            const AirByPlace::Parts low = look_up(1, to_viewer);
             const std::array heights{low, high_m ? look_up(*high_m, to_viewer) : low};
             for (std::size_t k = 0; k < heights.size(); ++k) {
-                const Atmosphere::Parts& seen = heights[k];
+                const AirByPlace::Parts& seen = heights[k];
                 radiance_[static_cast<std::size_t>((row * kViews + i) * 2) + k] = seen.over_black.radiance_sr;
                 if (row == 0)
                     transmittance_[static_cast<std::size_t>(2 * i) + k] = seen.over_black.transmittance;
@@ -70,13 +81,13 @@ AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
 void AirColumns::fill_passing(const Atmosphere& air) {
     passed_.resize(kPassHeights);
     passing_.resize(static_cast<std::size_t>(kPassAzimuths) * kPassSuns * kPassHeights);
-    if (air.lifts_by_place()) passing_lifted_.resize(static_cast<std::size_t>(kPassSuns) * kPassHeights);
+    if (by_place_) passing_lifted_.resize(static_cast<std::size_t>(kPassSuns) * kPassHeights);
     const auto look_past = [&](int height, Vec3d sun_dir) {
         const double root = static_cast<double>(height) / (kPassHeights - 1);
         const Vec3d lowest{0, 0, kEarthEquatorialRadius_m + 1 + root * root * (air.top_m() - 1)},
             ahead{1, 0, 0};
-        return air.look_in_parts(lowest - kAway_m * ahead, ahead, std::numeric_limits<double>::infinity(),
-                                 sun_dir);
+        return look_in_parts(air, by_place_, lowest - kAway_m * ahead, ahead,
+                             std::numeric_limits<double>::infinity(), sun_dir);
     };
     tbb::parallel_for(0, kPassAzimuths * kPassSuns, [&](int row) {
         const double share = static_cast<double>(row / kPassSuns) / (kPassAzimuths - 1);
@@ -131,8 +142,8 @@ Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_d
     return out;
 }
 
-std::optional<Atmosphere::Sight> AirColumns::from_space(const Atmosphere& air, Vec3d origin_m, Vec3d dir,
-                                                        double distance_m, Vec3d sun_dir) const {
+std::optional<Atmosphere::Sight> AirColumns::from_space(Vec3d origin_m, Vec3d dir, double distance_m,
+                                                        Vec3d sun_dir) const {
     constexpr double kOnGround_m = 10;  // the figure's and the ray's rounding
     const double top_m = kEarthEquatorialRadius_m + static_cast<double>(top_m_);
     if (dot(origin_m, origin_m) < top_m * top_m) return {};
@@ -147,12 +158,12 @@ std::optional<Atmosphere::Sight> AirColumns::from_space(const Atmosphere& air, V
     if (distance_m == std::numeric_limits<double>::infinity())
         return look_past(static_cast<float>(lowest_m - kEarthEquatorialRadius_m),
                          static_cast<float>(dot(lowest, sun_dir) / lowest_m),
-                         static_cast<float>(dot(dir, sun_dir)), air.lift(lowest));
+                         static_cast<float>(dot(dir, sun_dir)), lift(lowest));
     const Vec3d end = origin_m + distance_m * dir;
     const double end_m = length(end);
     if (std::abs(end_m - kEarthEquatorialRadius_m) > kOnGround_m || distance_m > to_lowest_m) return {};
     return look(static_cast<float>(-dot(end, dir) / end_m), static_cast<float>(dot(end, sun_dir) / end_m),
-                static_cast<float>(-dot(dir, sun_dir)), air.lift(end))
+                static_cast<float>(-dot(dir, sun_dir)), lift(end))
         .low;
 }
 

@@ -12,7 +12,7 @@ class AirFromSpace final : public Atmosphere {
 
     double top_m() const override { return air_->top_m(); }
     Sight look(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const override {
-        const std::optional<Sight> seen = columns_.from_space(*air_, origin_m, dir, distance_m, sun_dir);
+        const std::optional<Sight> seen = columns_.from_space(origin_m, dir, distance_m, sun_dir);
         return seen ? *seen : air_->look(origin_m, dir, distance_m, sun_dir);
     }
     Spectrum sun_transmittance(Vec3d point_m, Vec3d sun_dir) const override {
@@ -21,11 +21,6 @@ class AirFromSpace final : public Atmosphere {
     Spectrum sky_irradiance(Vec3d point_m, Vec3d sun_dir) const override {
         return air_->sky_irradiance(point_m, sun_dir);
     }
-    bool lifts_by_place() const override { return air_->lifts_by_place(); }
-    Parts look_in_parts(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const override {
-        return air_->look_in_parts(origin_m, dir, distance_m, sun_dir);
-    }
-    Spectrum lift(Vec3d point_m) const override { return air_->lift(point_m); }
     std::string missing(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const override {
         return air_->missing(origin_m, dir, distance_m, sun_dir);
     }

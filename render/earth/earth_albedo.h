@@ -10,7 +10,7 @@
 #include "render/earth/cloud_maps.h"
 #include "render/earth/earth_config.h"
 #include "render/earth/ground_maps.h"
-#include "render/sky/atmosphere.h"
+#include "render/sky/air_by_place.h"
 
 namespace hilcam {
 

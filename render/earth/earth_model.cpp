@@ -149,7 +149,7 @@ void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place
     const double top_m = kEarth.equatorial_radius_m + air_->top_m();
     AirColumns::Looks looks;
     if (dot(origin, origin) >= top_m * top_m) {
-        looks = columns_->look(place.mu, place.mu0, place.cos_phase, air_->lift(low));
+        looks = columns_->look(place.mu, place.mu0, place.cos_phase, columns_->lift(low));
     } else {
         const Vec3d dir = stretched(ray.dir);
         const double per_length = length(dir);
@@ -319,7 +319,7 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
     const Vec3d origin = stretched(ray.origin_m), dir = normalized(stretched(ray.dir)),
                 sun = normalized(stretched(ray.sun_dir));
     constexpr double kEndless_m = std::numeric_limits<double>::infinity();
-    const std::optional<Atmosphere::Sight> seen = columns_->from_space(*air_, origin, dir, kEndless_m, sun);
+    const std::optional<Atmosphere::Sight> seen = columns_->from_space(origin, dir, kEndless_m, sun);
     return seen ? *seen : air_->look(origin, dir, kEndless_m, sun);
 }
 

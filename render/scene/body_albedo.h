@@ -2,6 +2,7 @@
 // What a body without a model of its own sends up again to the air above it.
 
 #include "render/scene/scene.h"
+#include "render/sky/air_by_place.h"
 
 namespace hilcam {
 

@@ -9,23 +9,21 @@
 
 namespace hilcam {
 
-AirLift::AirLift(AirGround ground) : ground_(std::move(ground)), lifts_(ground_.albedo.size()) {
+AirLift::AirLift(AirGround ground, const Spectrum& returned)
+    : ground_(std::move(ground)), lifts_(ground_.albedo.size()) {
     HILCAM_CHECK(ground_.width > 0 && ground_.height > 0 &&
                  ground_.albedo.size() == static_cast<std::size_t>(ground_.width * ground_.height));
+    for (std::size_t i = 0; i < lifts_.size(); ++i)
+        for (int b = 0; b < kMaxBins; ++b) {
+            const float albedo = ground_.albedo[i][b];
+            lifts_[i][b] = albedo / (1 - albedo * returned[b]);
+        }
 }
 
 AirGround AirLift::even(double albedo) {
     AirGround out;
     out.albedo.emplace_back().bin.fill(static_cast<float>(albedo));
     return out;
-}
-
-void AirLift::set_returned(const Spectrum& returned) {
-    for (std::size_t i = 0; i < lifts_.size(); ++i)
-        for (int b = 0; b < kMaxBins; ++b) {
-            const float albedo = ground_.albedo[i][b];
-            lifts_[i][b] = albedo / (1 - albedo * returned[b]);
-        }
 }
 
 Spectrum AirLift::at(Vec3d point_m) const {

@@ -1,22 +1,20 @@
 #pragma once
 // The light that ground and clouds send up again into the air, by place: f = A / (1 - A S) for albedo A under air that sends the
-// share S of it back (Atmosphere::lift).
+// share S of it back (air_by_place.h).
 
 #include <string>
 #include <vector>
 
-#include "render/sky/atmosphere.h"
+#include "render/sky/air_by_place.h"
 
 namespace hilcam {
 
 class AirLift {
   public:
-    // HILCAM_CHECK: as many albedos as cells.
-    explicit AirLift(AirGround ground);
+    // returned: S. HILCAM_CHECK: as many albedos as cells.
+    AirLift(AirGround ground, const Spectrum& returned);
     static AirGround even(double albedo);
 
-    // Says what S is; to be called before the others.
-    void set_returned(const Spectrum& returned);
     bool varies() const { return lifts_.size() > 1; }
     const Spectrum& first() const { return lifts_.front(); }
     // Bilinear between the middles of cells. Loop, any thread.

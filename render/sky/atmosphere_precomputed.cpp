@@ -4,10 +4,8 @@
 // and higher orders at a point, taken as coming from all sides alike, psi(height, Sun), order by order; the sky's irradiance on the
 // ground. A ray adds up single scattering and psi along itself with steps that crowd where it is lowest.
 //
-// Light above ground of albedo A is L_0 + f L_1 with f = A / (1 - A S): L_0 over black ground, L_1 what one unit of the light that
-// comes down to it, sent up evenly, makes of itself in the air, S the share of L_1 that comes down again (Chandrasekhar, Radiative
-// Transfer, 1960, sec. 72, for plane layers). So psi and the sky are kept in these two parts, and the albedo is that of the
-// place below, as wide as the grid of AirGround. The light is taken to go up and down where it is.
+// psi and the sky are kept in the two parts of air_by_place.h, over black ground and of what is sent up. The light is taken to go up and
+// down where it is.
 //
 // Against a Monte Carlo of an atmosphere of its own: tests/closed_form/atmosphere_test.cpp, within 5 %.
 
@@ -19,8 +17,10 @@
 #include <cstdlib>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "render/sky/air_by_place.h"
 #include "render/sky/air_lift.h"
 #include "render/sky/air_steps.h"
 #include "render/sky/air_transmittance.h"
@@ -34,18 +34,18 @@
 namespace hilcam {
 namespace {
 
-class PrecomputedAtmosphere final : public Atmosphere, private AirBall {
+class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
   public:
     PrecomputedAtmosphere(const AtmosphereConfig& config, const SpectralGrid& grid,
-                          const AtmosphereStore* store, const AirGround* ground)
+                          const AtmosphereStore* store)
         : air_(config, grid),
-          ground_(config.has_ground_albedo || !ground ? AirLift::even(config.ground_albedo) : *ground),
-          multiple_{{48, 20}, {48, 20}},
-          sky_{{64, 16}, {64, 16}},
+          ground_(AirLift::even(config.ground_albedo), {}),
+          multiple_(48, 20),
+          sky_(64, 16),
           returned_(2, 2),
           text_("precomputed: standard air of 1976, aerosol " +
                 std::to_string(config.aerosol_optical_depth).substr(0, 5) + " at 0.55 um, ozone " +
-                std::to_string(static_cast<int>(config.ozone_du)) + " DU, " + ground_.describe()) {
+                std::to_string(static_cast<int>(config.ozone_du)) + " DU, ") {
         const std::vector<double> key = key_of(config, grid);
         if (!store || !find(*store, key)) {
             transmittance_.fill(air_);
@@ -53,11 +53,16 @@ class PrecomputedAtmosphere final : public Atmosphere, private AirBall {
             fill_sky();
             if (store) store->keep(key, values());
         }
-        place_ground();
+        put_over(AirLift::even(config.ground_albedo));
+    }
+
+    void put_over(AirGround ground) override {
+        ground_ = AirLift(std::move(ground), returned_.cells().front());
+        multiple_.put_over(ground_), sky_.put_over(ground_);
     }
 
     double top_m() const override { return AirPhysics::kTop_m; }
-    std::string describe() const override { return text_; }
+    std::string describe() const override { return text_ + ground_.describe(); }
 
     bool lifts_by_place() const override { return ground_.varies(); }
 
@@ -86,7 +91,7 @@ class PrecomputedAtmosphere final : public Atmosphere, private AirBall {
     Spectrum sky_irradiance(Vec3d point_m, Vec3d sun_dir) const override {
         const double r = length(point_m);
         const double u = sun_coordinate(dot(point_m, sun_dir) / r), v = height_coordinate(r);
-        Spectrum out = sky_.over_black(u, v);
+        Spectrum out = sky_.shown(u, v);
         if (lifts_by_place()) out += lift(point_m) * sky_.per_lift(u, v);
         return out;
     }
@@ -94,25 +99,24 @@ class PrecomputedAtmosphere final : public Atmosphere, private AirBall {
   private:
     AirPhysics air_;
     AirLift ground_;
-    // Over black ground, and what one unit of lift adds. Where the lift is the same everywhere, place_ground() adds the second to the
-    // first, and only that is looked at.
-    struct TwoTables {
-        SpectrumTable over_black, per_lift;
+    // Over black ground, what one unit of lift adds, and what is looked at: the first alone where the lift differs by place, else all.
+    struct Tables {
+        SpectrumTable over_black, per_lift, shown;
+        Tables(int width, int height)
+            : over_black(width, height), per_lift(width, height), shown(width, height) {}
+        void put_over(const AirLift& ground) {
+            shown = over_black;
+            if (ground.varies()) return;
+            for (std::size_t i = 0; i < shown.cells().size(); ++i)
+                shown.cells()[i] += ground.first() * per_lift.cells()[i];
+        }
     };
     AirTransmittance transmittance_;
-    TwoTables multiple_, sky_;
+    Tables multiple_, sky_;
     SpectrumTable returned_;  // S, the same in all cells
     std::string text_;
 
     static constexpr double kFar_m = 1e12;
-
-    void place_ground() {
-        ground_.set_returned(returned_.cells().front());
-        if (ground_.varies()) return;
-        for (TwoTables* tables : {&multiple_, &sky_})
-            for (std::size_t i = 0; i < tables->over_black.cells().size(); ++i)
-                tables->over_black.cells()[i] += ground_.first() * tables->per_lift.cells()[i];
-    }
 
     // --- along a ray
     // in_parts: false leaves per_lift_sr alone.
@@ -150,7 +154,7 @@ class PrecomputedAtmosphere final : public Atmosphere, private AirBall {
             const Spectrum scattering = here.rayleigh + here.aerosol;
             Spectrum source = (rayleigh_phase * here.rayleigh + aerosol_phase * here.aerosol) *
                               transmittance_.to_sun(r, mu_s);
-            source += scattering * multiple_.over_black(u, v);
+            source += scattering * multiple_.shown(u, v);
             const AirPiece piece(here.extinction, step.length_m);
             const Spectrum seen_m = passed * piece.length_m;
             out.over_black.radiance_sr += seen_m * source;
@@ -187,7 +191,7 @@ class PrecomputedAtmosphere final : public Atmosphere, private AirBall {
         const Orders lifted = all_orders(
             next_order([](double, double, float, const AirAt&) { return Spectrum{}; },
                        [&](double mu_s) { return static_cast<float>(1 / kPi) * coming_down(mu_s); }));
-        multiple_ = {black.mean, lifted.mean};
+        multiple_.over_black = black.mean, multiple_.per_lift = lifted.mean;
         const Spectrum down = coming_down(1), again = lifted.ground(1, 0);
         for (Spectrum& cell : returned_.cells())
             for (int b = 0; b < kMaxBins; ++b) cell[b] = down[b] > 0 ? again[b] / down[b] : 0;
@@ -370,8 +374,7 @@ class PrecomputedAtmosphere final : public Atmosphere, private AirBall {
 }  // namespace
 
 std::unique_ptr<Atmosphere> make_precomputed_atmosphere(const AtmosphereRequest& request) {
-    return std::make_unique<PrecomputedAtmosphere>(request.config, request.grid, request.store,
-                                                   request.ground);
+    return std::make_unique<PrecomputedAtmosphere>(request.config, request.grid, request.store);
 }
 
 }  // namespace hilcam

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "render/sky/air_by_place.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/atmosphere_models.h"
 #include "render/sky/atmosphere_physics.h"
@@ -160,7 +161,7 @@ TEST(Atmosphere, TheLimbIsAsBrightAsTheStandardAtmosphereMakesIt) {
         for (const int bin : {0, 2}) {
             AtmosphereConfig config = clear_air();
             config.aerosol_optical_depth = 0, config.ozone_du = 0;
-            config.ground_albedo = albedo, config.has_ground_albedo = true;
+            config.ground_albedo = albedo;
             const auto air = make_precomputed_atmosphere({config, grid});
             ReferenceLight reference(ReferenceAir(grid.center_um(bin), {}, 0, 0), albedo);
             for (const double sun_zenith_deg : {30.0, 70.0})
@@ -187,15 +188,16 @@ TEST(Atmosphere, LightFromTheGroundIsThatOfThePlace) {
     AirGround ground{2, 2, {}};
     for (const float albedo : {0.1f, 0.7f, 0.1f, 0.7f}) ground.albedo.emplace_back().bin.fill(albedo);
     AtmosphereConfig config = clear_air();
-    AtmosphereRequest request{config, kGrid};
-    request.ground = &ground;
-    const auto mixed = make_precomputed_atmosphere(request);
-    EXPECT_TRUE(mixed->lifts_by_place());
+    const auto mixed = make_precomputed_atmosphere({config, kGrid});
+    auto* by_place = dynamic_cast<AirByPlace*>(mixed.get());
+    ASSERT_NE(by_place, nullptr);
+    EXPECT_FALSE(by_place->lifts_by_place());
+    by_place->put_over(ground);
+    EXPECT_TRUE(by_place->lifts_by_place());
     // 90 degrees west and east are the middles of the two halves.
     for (const auto& [albedo, west] : {std::pair{0.1, -1.0}, std::pair{0.7, 1.0}}) {
         config.ground_albedo = albedo;
         const auto even = make_precomputed_atmosphere({config, kGrid});
-        EXPECT_FALSE(even->lifts_by_place());
         const Vec3d up{0, west, 0}, sun = normalized(Vec3d{0.5, west, 0.3});
         const Vec3d camera = (kGround_m + 30e3) * up - Vec3d{0, 0, 3e6};
         for (const int bin : {0, 2}) {
@@ -208,9 +210,6 @@ TEST(Atmosphere, LightFromTheGroundIsThatOfThePlace) {
                         1, 1e-4);
         }
     }
-    // A key in the scenario counts more than the map.
-    config.ground_albedo = 0.1, config.has_ground_albedo = true;
-    EXPECT_FALSE(make_precomputed_atmosphere(request)->lifts_by_place());
 }
 
 }  // namespace
