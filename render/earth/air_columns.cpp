@@ -27,7 +27,7 @@ float root_of_cosine(float mu) {
 constexpr double kAway_m = 4e6;
 
 // Null where light from below is the same everywhere.
-const AirByPlace* by_place(const Atmosphere& air) {
+const AirByPlace* lit_by_place(const Atmosphere& air) {
     const auto* found = dynamic_cast<const AirByPlace*>(&air);
     return found && found->lifts_by_place() ? found : nullptr;
 }
@@ -48,7 +48,7 @@ Vec3d sun_dir_at(int row, int rows, double azimuth) {
 }  // namespace
 
 AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
-    : by_place_(by_place(air)), top_m_(static_cast<float>(air.top_m())) {
+    : by_place_(lit_by_place(air)), top_m_(static_cast<float>(air.top_m())) {
     transmittance_.resize(2 * kViews);
     radiance_.resize(static_cast<std::size_t>(2) * kAzimuths * kSuns * kViews);
     if (by_place_) lifted_.resize(static_cast<std::size_t>(2) * kSuns * kViews);

@@ -36,7 +36,10 @@ class AirColumns {
     // ground. Loop, any thread.
     std::optional<Atmosphere::Sight> from_space(Vec3d origin_m, Vec3d dir, double distance_m,
                                                 Vec3d sun_dir) const;
-    // AirByPlace::lift() below a point; zero where light from below does not differ by place. Loop, any thread.
+    // The air where light from below differs by place; else null.
+    const AirByPlace* by_place() const { return by_place_; }
+    // AirByPlace::lift_at(), lift(); zero where light from below does not differ by place. Loop, any thread.
+    Spectrum lift_at(float u, float v) const { return by_place_ ? by_place_->lift_at(u, v) : Spectrum{}; }
     Spectrum lift(Vec3d point_m) const { return by_place_ ? by_place_->lift(point_m) : Spectrum{}; }
     float top_m() const { return top_m_; }
     std::size_t bytes() const {

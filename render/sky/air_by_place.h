@@ -5,9 +5,12 @@
 // comes down to it, sent up evenly, makes of itself in the air, S the share of L_1 that comes down again (Chandrasekhar, Radiative
 // Transfer, 1960, sec. 72, for plane layers). L_0 and L_1 depend on no place, so that tables of them serve everywhere.
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "render/sky/atmosphere.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
@@ -31,8 +34,18 @@ class AirByPlace : public Atmosphere {
         Spectrum per_lift_sr;  // L_1
     };
     virtual Parts look_in_parts(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const = 0;
-    // f below a point. Loop, any thread.
-    virtual Spectrum lift(Vec3d point_m) const = 0;
+    // What sky_irradiance() says, likewise.
+    struct Sky {
+        Spectrum over_black, per_lift;
+    };
+    virtual Sky sky_in_parts(Vec3d point_m, Vec3d sun_dir) const = 0;
+    // f at a place of the grid: u from 180 W, v from 90 N, 0..1; and below a point. Loop, any thread.
+    virtual Spectrum lift_at(float u, float v) const = 0;
+    Spectrum lift(Vec3d point_m) const {
+        return lift_at(
+            static_cast<float>(std::atan2(point_m.y, point_m.x) / (2 * kPi) + 0.5),
+            static_cast<float>(0.5 - std::asin(std::clamp(point_m.z / length(point_m), -1.0, 1.0)) / kPi));
+    }
 };
 
 }  // namespace hilcam

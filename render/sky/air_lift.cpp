@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "render/vocabulary/check.h"
-#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
@@ -26,12 +25,12 @@ AirGround AirLift::even(double albedo) {
     return out;
 }
 
-Spectrum AirLift::at(Vec3d point_m) const {
-    const double r = length(point_m);
-    const double x = (std::atan2(point_m.y, point_m.x) / (2 * kPi) + 0.5) * ground_.width - 0.5,
-                 y = (0.5 - std::asin(std::clamp(point_m.z / r, -1.0, 1.0)) / kPi) * ground_.height - 0.5;
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
+Spectrum AirLift::at(float u, float v) const {
+    const float x = u * static_cast<float>(ground_.width) - 0.5f,
+                y = v * static_cast<float>(ground_.height) - 0.5f;
+    const float left = std::floor(x), top = std::floor(y);
+    const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
+    const float fx = x - left, fy = y - top;
     const auto cell = [&](int column, int row) -> const Spectrum& {
         const int i = (column + ground_.width) % ground_.width, j = std::clamp(row, 0, ground_.height - 1);
         return lifts_[static_cast<std::size_t>(j * ground_.width + i)];

@@ -17,8 +17,8 @@ class AirLift {
 
     bool varies() const { return lifts_.size() > 1; }
     const Spectrum& first() const { return lifts_.front(); }
-    // Bilinear between the middles of cells. Loop, any thread.
-    Spectrum at(Vec3d point_m) const;
+    // Bilinear between the middles of cells; u from 180 W, v from 90 N. Loop, any thread.
+    Spectrum at(float u, float v) const;
     // "over albedo 0.25", for `hilcam check`.
     std::string describe() const;
 

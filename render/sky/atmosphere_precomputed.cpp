@@ -79,8 +79,8 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
         return parts_along(origin_m, dir, distance_m, sun_dir, lifts_by_place());
     }
 
-    Spectrum lift(Vec3d point_m) const override {
-        return lifts_by_place() ? ground_.at(point_m) : Spectrum{};
+    Spectrum lift_at(float u, float v) const override {
+        return lifts_by_place() ? ground_.at(u, v) : Spectrum{};
     }
 
     Spectrum sun_transmittance(Vec3d point_m, Vec3d sun_dir) const override {
@@ -89,11 +89,15 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
     }
 
     Spectrum sky_irradiance(Vec3d point_m, Vec3d sun_dir) const override {
+        Sky sky = sky_in_parts(point_m, sun_dir);
+        if (lifts_by_place()) sky.over_black += lift(point_m) * sky.per_lift;
+        return sky.over_black;
+    }
+
+    Sky sky_in_parts(Vec3d point_m, Vec3d sun_dir) const override {
         const double r = length(point_m);
         const double u = sun_coordinate(dot(point_m, sun_dir) / r), v = height_coordinate(r);
-        Spectrum out = sky_.shown(u, v);
-        if (lifts_by_place()) out += lift(point_m) * sky_.per_lift(u, v);
-        return out;
+        return {sky_.shown(u, v), lifts_by_place() ? sky_.per_lift(u, v) : Spectrum{}};
     }
 
   private:
