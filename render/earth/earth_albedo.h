@@ -1,6 +1,6 @@
 #pragma once
-// What of the Earth's maps lies below the air and sends its light up again: land, sea and clouds as one diffuse albedo by place, for the
-// light that goes between ground and sky.
+// The Earth's maps as the air above them has them: land, sea and clouds as one diffuse albedo by place, for the light that goes
+// between ground and sky.
 //
 //   ground   the map's land, and the sea by its albedo
 //   cloud    reflects c = b tau / (1 + b tau) of diffuse light, which is a two-stream layer's albedo (Bohren, Am. J. Phys. 55,

@@ -1,5 +1,5 @@
 #pragma once
-// What a body without a model of its own sends up again to the air above it.
+// A body without a model of its own as the air above it has it: one diffuse albedo by place.
 
 #include "render/scene/scene.h"
 #include "render/sky/air_by_place.h"

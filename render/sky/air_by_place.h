@@ -14,7 +14,7 @@
 
 namespace hilcam {
 
-// What lies below the air, ground and clouds together: albedos per bin on an equirectangular grid in the body's axes (left edge 180 W,
+// Ground and clouds together as the air above has them: albedos per bin on an equirectangular grid in the body's axes (left edge 180 W,
 // rows from 90 N). One cell: the same everywhere.
 struct AirGround {
     int width = 1, height = 1;
@@ -28,13 +28,13 @@ class AirByPlace : public Atmosphere {
     // True when it is not the same everywhere; else look() is all in over_black, and lift() zero.
     virtual bool lifts_by_place() const = 0;
 
-    // What look() says, apart: over_black with lift() times per_lift_sr added to its radiance.
+    // The answer of look() in two parts: it is over_black with lift() times per_lift_sr added to its radiance.
     struct Parts {
         Sight over_black;
         Spectrum per_lift_sr;  // L_1
     };
     virtual Parts look_in_parts(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir) const = 0;
-    // What sky_irradiance() says, likewise.
+    // The answer of sky_irradiance(), likewise.
     struct Sky {
         Spectrum over_black, per_lift;
     };

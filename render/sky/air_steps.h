@@ -43,7 +43,7 @@ inline Spectrum exp_of_minus(const Spectrum& depth) {
     return out;
 }
 
-// What a piece of a ray with even sources lets through, and over what length a source in it counts: the extinction inside it is not
+// A piece of a ray with even sources: what it lets through, and over what length a source in it counts; the extinction inside it is not
 // left out, (1 - e^-x) / x.
 struct AirPiece {
     Spectrum passed, length_m;

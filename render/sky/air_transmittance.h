@@ -1,5 +1,5 @@
 #pragma once
-// What a ball of air lets through: a table of transmittances to space by height and direction, made from atmosphere_physics.h, and with
+// The light that a ball of air lets through: a table of transmittances to space by height and direction, made from atmosphere_physics.h, and with
 // it the Sun's beam. Also the coordinates of tables by height and by the Sun's cosine.
 //
 // Radii [m] are those of a ball of the Earth's equatorial radius, mu and mu_s cosines of the angle between the outward vertical and a

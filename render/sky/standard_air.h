@@ -6,7 +6,7 @@
 //            from there to 100 km its table I, straight in the logarithm
 //   ozone    its mid-latitude model (part 3; Krueger & Minzner, J. Geophys. Res. 81, 4477, 1976), 2 to 74 km in steps of 2 km,
 //            linear between; as much below 2 km as there, none above 74 km
-// The real air differs by latitude and season: at 45 to 60 km its density by up to a third in polar winters.
+// The real air differs by latitude and season, at 45 to 60 km by tens of per cent in polar winters.
 
 namespace hilcam {
 
