@@ -9,6 +9,7 @@
 #include "emulator/check/mesh_survey.h"
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/scenario/scenario_warnings.h"
+#include "emulator/scenario/scene_loader.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -66,6 +67,12 @@ std::vector<std::string> verdict_on_objects(const LoadedView& view, VerdictOn on
         if (std::any_of(view.scenario.objects.begin(), here, same)) continue;
         append(mesh_warnings(object, fmt::format("objects.{}.mesh", i), places), out);
     }
+    return out;
+}
+
+MapReport report_scenario_maps(const ScenarioConfig& s) {
+    MapReport out;
+    if (s.terrain && s.terrain->globe) out = report_maps(*s.terrain->globe, ground_body(s));
     return out;
 }
 
