@@ -186,6 +186,8 @@ const Mistake kMistakes[] = {
      "terrain: {material: x.yaml, globe: {body: moon, maps: [{file: a.png, bounds_deg: [0, 0, 1, 1], "
      "longitudes: west}]}}\nobjects:",
      "20:109", "longitudes: has no effect with bounds_deg"},
+    {"TableWithoutUse", 14, "  bits: 12\n  converter: {companding_table: [[0, 0], [4095, 255]]}", "15:33",
+     "companding_table: has no effect without companding: table"},
     {"NoSuchInterface", 25, "outputs: {gige: {interface: nowhere0}}", "",
      "interface 'nowhere0' does not exist"},
     // Values and places that are in range, and not meant.
