@@ -42,12 +42,35 @@ DnScale dn_scale_of(const CameraModel& c, const Exposure& exposure) {
     scale.black_dn = exposure.black_level_dn.value_or(c.offset_dn);
     scale.full_dn = std::min(scale.most_dn, scale.black_dn + well_e * c.system_gain_dn_e(exposure.gain_db));
     if (c.binning == BinningKind::kSum) {
+        scale.most_dn = std::exp2(c.number_bits()) - 1;
         scale.black_dn = std::min(pixels * scale.black_dn, scale.most_dn - 1);
         scale.full_dn = std::min(pixels * scale.full_dn, scale.most_dn);
     }
     scale.square_root = c.converter.companding == Companding::kSquareRoot;
+    if (c.converter.companding == Companding::kTable) scale.companding = &c.converter.companding_table;
     return scale;
 }
+
+namespace {
+
+// Returns the number in the middle of those that a code stands for; codes do not fall in the table.
+double number_of_code(const Table& table, double code) {
+    const auto at = [&](double wanted, bool last) {
+        double found = last ? table.x.back() : table.x.front();
+        for (std::size_t i = 0; i + 1 < table.x.size(); ++i) {
+            const double low = table.y[i], high = table.y[i + 1];
+            if (high == low || wanted < low || wanted > high) continue;
+            found = table.x[i] + (wanted - low) / (high - low) * (table.x[i + 1] - table.x[i]);
+            if (!last) break;
+        }
+        return found;
+    };
+    if (code <= table.y.front()) return table.x.front();
+    if (code >= table.y.back()) return table.x.back();
+    return 0.5 * (at(code, false) + at(code, true));
+}
+
+}  // namespace
 
 Brightness FrameHistogram::measure(const DnImage& frame, int black_columns, int black_rows, double percentile,
                                    const DnScale& scale) {
@@ -61,6 +84,7 @@ Brightness FrameHistogram::measure(const DnImage& frame, int black_columns, int 
     std::size_t at = 0;
     while (at + 1 < counts_.size() && (below += counts_[at]) < rank) ++at;
     double dn = static_cast<double>(at);
+    if (scale.companding) dn = number_of_code(*scale.companding, dn);
     if (scale.square_root) dn = dn * dn / (255.0 * 255.0) * scale.most_dn;
     // Noise spreads a saturated level over some numbers below it.
     constexpr double kNearlyFull = 0.98;

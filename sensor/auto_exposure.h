@@ -12,6 +12,7 @@
 
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/image.h"
+#include "render/vocabulary/table.h"
 
 namespace hilcam {
 
@@ -44,9 +45,10 @@ double next_exposure_s(const AutoExposureConfig& config, Brightness seen, double
 // The scale tells what a frame's digital numbers stand for.
 struct DnScale {
     double black_dn = 0;
-    double full_dn = 4095;     // number at which the camera saturates
-    double most_dn = 4095;     // greatest number of the converter
-    bool square_root = false;  // 8-bit numbers are 255 sqrt(dn / most_dn)
+    double full_dn = 4095;              // number at which the camera saturates
+    double most_dn = 4095;              // greatest number of the converter
+    bool square_root = false;           // 8-bit numbers are 255 sqrt(dn / most_dn)
+    const Table* companding = nullptr;  // or codes of this table, the camera's
 };
 
 // Returns the scale of a camera's frames, taken as the exposure says.

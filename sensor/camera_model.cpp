@@ -124,6 +124,8 @@ Fields electronics_fields(CameraModel& c) {
             c.has_gain_e_dn),
         number("offset_dn", c.offset_dn, 1, {0, 65535}, "black level"),
         required(integer("bits", c.bits, {8, 16}, "bits of the ADC")),
+        integer("sum_bits", c.sum_bits, {0, 16},
+                "bits of a sum of binned numbers (binning: sum), which ends there; 0: bits"),
         integer("container_bits", c.container_bits, {8, 16}, "bits of a pixel in memory: 8 or 16"),
         choice("packing", c.packing, {"none", "pfnc", "gige"},
                "packing of pixels in memory. none: container_bits each; pfnc: a bit stream (Mono12p); gige: "
@@ -139,13 +141,13 @@ Fields electronics_fields(CameraModel& c) {
         integer("binning_y", c.binning_y, {1, 16}, "number of rows binned into one"),
         choice("binning", c.binning, {"charge", "sum", "mean"},
                "quantity that is binned: charge, or numbers by sum or mean"),
-        number("exposure_ms", c.exposure_s, 1e-3, {1e-3, 1e6}, "exposure time at power-up"),
+        number("exposure_ms", c.exposure_s, 1e-3, {1e-3, 1e7}, "exposure time at power-up"),
         number("gain_db", c.gain_db, 1, {-60, 60}, "gain at power-up, on top of gain_dn_e"),
-        number("frame_rate_hz", c.frame_rate_hz, 1, {1e-3, 10000}, "frame rate at power-up"),
-        numbers("exposure_range_ms", c.exposure_range_s, 1e-3, {1e-3, 1e6}, {2, 2},
+        number("frame_rate_hz", c.frame_rate_hz, 1, {1e-4, 10000}, "frame rate at power-up"),
+        numbers("exposure_range_ms", c.exposure_range_s, 1e-3, {1e-3, 1e7}, {2, 2},
                 "least and greatest exposure time"),
         numbers("gain_range_db", c.gain_range_db, 1, {-60, 60}, {2, 2}, "least and greatest gain"),
-        numbers("frame_rate_range_hz", c.frame_rate_range_hz, 1, {1e-3, 10000}, {2, 2},
+        numbers("frame_rate_range_hz", c.frame_rate_range_hz, 1, {1e-4, 10000}, {2, 2},
                 "least and greatest frame rate; a triggered frame leaves the camera, and the next trigger is "
                 "taken, "
                 "no sooner than a period of the greatest after its exposure began"),
@@ -174,22 +176,27 @@ Fields fields(CameraModel& c) {
 
 namespace {
 
+// unit: of the keys, in the unit of the values.
 void check_range(double value, const std::vector<double>& range, const std::string& key,
-                 const std::string& range_key) {
+                 const std::string& range_key, double unit = 1) {
     if (range[0] > range[1])
         throw KeyError(range_key, "found a lower limit above the upper; accepted: [lower, upper]");
     if (value < range[0] || value > range[1])
-        throw KeyError(key, "lies outside " + range_key + " at power-up; accepted: a value inside");
+        throw KeyError(key, "lies outside " + range_key + " at power-up: found " + plain(value / unit) +
+                                "; accepted: a value inside [" + plain(range[0] / unit) + ", " +
+                                plain(range[1] / unit) + "], or another " + range_key);
 }
 
 void check_settings(const CameraModel& c) {
+    constexpr double kMillisecond_s = 1e-3;
     if (c.shutter.kind != ShutterKind::kLineScan)
-        check_range(c.exposure_s, c.exposure_range_s, "exposure_ms", "exposure_range_ms");
+        check_range(c.exposure_s, c.exposure_range_s, "exposure_ms", "exposure_range_ms", kMillisecond_s);
     check_range(c.gain_db, c.gain_range_db, "gain_db", "gain_range_db");
     check_range(c.frame_rate_hz, c.frame_rate_range_hz, "frame_rate_hz", "frame_rate_range_hz");
     for (std::size_t i = 0; i < c.sequence.size(); ++i) {
         const std::string step = "sequence." + std::to_string(i) + ".";
-        check_range(c.sequence[i].exposure_s, c.exposure_range_s, step + "exposure_ms", "exposure_range_ms");
+        check_range(c.sequence[i].exposure_s, c.exposure_range_s, step + "exposure_ms", "exposure_range_ms",
+                    kMillisecond_s);
         check_range(c.sequence[i].gain_db, c.gain_range_db, step + "gain_db", "gain_range_db");
     }
     if (c.auto_exposure.on && !c.sequence.empty())
@@ -283,6 +290,11 @@ void check_electronics(const CameraModel& c) {
     if (c.offset_dn >= most_dn)
         throw KeyError("offset_dn", plain(c.offset_dn) + " leaves nothing of the ADC's " +
                                         std::to_string(c.bits) + " bits; accepted: below " + plain(most_dn));
+    if (c.sum_bits != 0 && c.binning != BinningKind::kSum)
+        throw KeyError("sum_bits", "has no effect without binning: sum; accepted: both or neither");
+    if (c.sum_bits != 0 && c.sum_bits < c.bits)
+        throw refused_key("sum_bits", std::to_string(c.sum_bits),
+                          "no less than bits " + std::to_string(c.bits));
     if (c.converter.companding != Companding::kNone && c.bits == 8)
         throw InputError("converter.companding to 8 bits; found bits 8");
 }

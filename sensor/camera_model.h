@@ -118,6 +118,7 @@ struct CameraModel {
     double gain_e_dn = 0;  // data sheets may give its inverse instead
     double offset_dn = 0;
     std::int64_t bits = 12;            // bits of the converter
+    std::int64_t sum_bits = 0;         // bits of a sum of binned numbers; 0: as many as the converter's
     std::int64_t container_bits = 16;  // bits of a pixel in memory
     Packing packing = Packing::kNone;  // packing of pixels in memory
     ConverterConfig converter;
@@ -152,7 +153,9 @@ struct CameraModel {
     // All the temporal noise of a dark pixel before the converter [e-], dark current apart.
     double dark_noise_e() const;
     // Bits of a published pixel: companded ones have 8.
-    int frame_bits() const { return converter.companding == Companding::kNone ? static_cast<int>(bits) : 8; }
+    int frame_bits() const { return converter.companding == Companding::kNone ? number_bits() : 8; }
+    // Bits of a number before companding.
+    int number_bits() const { return static_cast<int>(sum_bits > bits ? sum_bits : bits); }
     PixelLayout pixel_layout() const { return {packing, frame_bits(), static_cast<int>(container_bits)}; }
     double pixel_aperture_x_m() const;
     double pixel_aperture_y_m() const;

@@ -25,8 +25,23 @@ Fields fields(ConverterConfig& c) {
     return {
         number("inl_lsb", c.inl_lsb, 1, {0, 64}, "integral nonlinearity: greatest deviation at mid-scale"),
         number("dnl_lsb", c.dnl_lsb, 1, {0, 0.3}, "differential nonlinearity, standard deviation"),
-        choice("companding", c.companding, {"none", "square_root"}, "companding of the numbers to 8 bits"),
+        choice("companding", c.companding, {"none", "square_root", "table"},
+               "companding of the numbers to 8 bits"),
+        table("companding_table", c.companding_table, {"dn", "code"}, {0, 65535}, {0, 255},
+              "codes of 8 bits by number, with companding: table; straight between the points, rounded"),
     };
+}
+
+void validate(const ConverterConfig& c) {
+    const bool by_table = c.companding == Companding::kTable;
+    if (by_table == c.companding_table.empty())
+        throw KeyError(by_table ? "companding" : "companding_table",
+                       by_table ? "found table without companding_table; accepted: both or neither"
+                                : "has no effect without companding: table; accepted: both or neither");
+    const std::vector<double>& codes = c.companding_table.y;
+    if (!std::is_sorted(codes.begin(), codes.end()))
+        throw KeyError("companding_table",
+                       "found codes that fall while the numbers rise; accepted: codes that do not");
 }
 
 RowFilter::RowFilter(const FilterConfig& c) : boost_(static_cast<float>(c.boost)) {
@@ -68,7 +83,7 @@ double RowFilter::mtf(double f) const {
     return modulus * (1 + static_cast<double>(boost_) * (1 - std::cos(2 * kPi * f)));
 }
 
-Converter::Converter(const ConverterConfig& c, int bits, std::uint64_t seed)
+Converter::Converter(const ConverterConfig& c, int bits, std::uint64_t seed, int number_bits)
     : most_dn_(static_cast<float>((1 << bits) - 1)), inl_lsb_(static_cast<float>(c.inl_lsb)) {
     const std::uint32_t steps = std::uint32_t{1} << bits;
     // A step's width is the difference of two edges: each has 1 / sqrt 2 of its deviation.
@@ -80,10 +95,14 @@ Converter::Converter(const ConverterConfig& c, int bits, std::uint64_t seed)
             // Edges do not change places.
             edge_error_lsb_.push_back(std::clamp(error, -0.49f, 0.49f));
         }
-    if (c.companding == Companding::kSquareRoot)
-        for (std::uint32_t i = 0; i < steps; ++i)
-            companding_.push_back(static_cast<std::uint16_t>(
-                std::lround(255 * std::sqrt(static_cast<double>(i) / static_cast<double>(most_dn_)))));
+    if (c.companding == Companding::kNone) return;
+    const std::uint32_t numbers = std::uint32_t{1} << std::max(bits, number_bits);
+    for (std::uint32_t i = 0; i < numbers; ++i) {
+        const double code = c.companding == Companding::kTable
+                                ? c.companding_table.at(static_cast<double>(i))
+                                : 255 * std::sqrt(static_cast<double>(i) / static_cast<double>(numbers - 1));
+        companding_.push_back(static_cast<std::uint16_t>(std::lround(code)));
+    }
 }
 
 namespace {

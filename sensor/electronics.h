@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/vocabulary/config_field.h"
+#include "render/vocabulary/table.h"
 
 namespace hilcam {
 
@@ -21,7 +22,7 @@ struct FilterConfig {
 };
 Fields fields(FilterConfig& config);
 
-enum class Companding { kNone, kSquareRoot };
+enum class Companding { kNone, kSquareRoot, kTable };
 
 // Errors of the converter's steps in least significant bits: a parabola of the given greatest deviation
 // (integral) and independent Gaussian deviations of the steps' widths (differential).
@@ -29,8 +30,11 @@ struct ConverterConfig {
     double inl_lsb = 0;
     double dnl_lsb = 0;
     Companding companding = Companding::kNone;
+    Table companding_table{};  // number, code of 8 bits; straight between its points
 };
 Fields fields(ConverterConfig& config);
+// Throws KeyError for a table that falls, and for one without its use.
+void validate(const ConverterConfig& config);
 
 // Along one row, from its first sample on. Before it stand the first sample's own value (low-pass, boost) and
 // the black level 0 (high-pass). Loop, any thread.
@@ -51,8 +55,8 @@ class RowFilter {
 // Voltage steps to numbers.
 class Converter {
   public:
-    // seed: of the steps' own errors. Owner thread.
-    Converter(const ConverterConfig& config, int bits, std::uint64_t seed);
+    // seed: of the steps' own errors. number_bits: of the numbers that are companded, where sums have more. Owner thread.
+    Converter(const ConverterConfig& config, int bits, std::uint64_t seed, int number_bits = 0);
     // `value` in DN before rounding; numbers are not companded. Loop, any thread, as is what follows.
     void convert(std::span<const float> value_dn, std::span<std::uint16_t> dn) const;
     // Compands numbers of the converter, where the camera does.

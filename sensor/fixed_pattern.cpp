@@ -20,9 +20,9 @@ Fields fields(FixedPatternConfig& c) {
         number("column_e", c.column_e, 1, {0, 1e5}, "standard deviation of the columns' offsets"),
         number("column_gain_fraction", c.column_gain_fraction, 1, {0, 0.5},
                "standard deviation of the columns' gains"),
-        path("prnu_map", c.prnu_map, "TIFF of the sensor's size: gain of each pixel, mean 1"),
-        path("offset_map", c.offset_map, "TIFF of the sensor's size: offset of each pixel [e-]"),
-        path("dark_map", c.dark_map, "TIFF of the sensor's size: dark current of each pixel [e-/s]"),
+        path("prnu_map", c.prnu_map, "TIFF or FITS of the sensor's size: gain of each pixel, mean 1"),
+        path("offset_map", c.offset_map, "TIFF or FITS of the sensor's size: offset of each pixel [e-]"),
+        path("dark_map", c.dark_map, "TIFF or FITS of the sensor's size: dark current of each pixel [e-/s]"),
     };
 }
 

@@ -47,8 +47,9 @@ ReadOut::ReadOut(const CameraModel& c)
       telegraph_e_(static_cast<float>(c.defects.telegraph_e)),
       telegraph_frames_(static_cast<std::uint64_t>(c.defects.telegraph_frames)),
       filter_(c.filters),
-      converter_(c.converter, static_cast<int>(c.bits), static_cast<std::uint64_t>(c.fixed_pattern.seed)),
-      most_dn_((1u << c.bits) - 1) {
+      converter_(c.converter, static_cast<int>(c.bits), static_cast<std::uint64_t>(c.fixed_pattern.seed),
+                 c.number_bits()),
+      most_sum_dn_((1u << c.number_bits()) - 1) {
     if (c.flicker_noise_e > 0) {
         const auto [width, height] = array_size(c);
         flicker_octaves_ = static_cast<int>(std::ceil(std::log2(static_cast<double>(width) * height))) + 1;

@@ -41,8 +41,8 @@ class ReadOut {
     void read(const ReadOutRow& row, std::span<const TelegraphPixel> telegraph, RandomKey key,
               std::span<std::uint16_t> dn) const;
     void compand(std::span<std::uint16_t> dn) const { converter_.compand(dn); }
-    // Returns the greatest number of the converter.
-    std::uint32_t most_dn() const { return most_dn_; }
+    // Returns the greatest sum of numbers.
+    std::uint32_t most_sum_dn() const { return most_sum_dn_; }
     const RowFilter& filter() const { return filter_; }
 
   private:
@@ -58,7 +58,7 @@ class ReadOut {
     float flicker_octave_e_ = 0;
     RowFilter filter_;
     Converter converter_;
-    std::uint32_t most_dn_;
+    std::uint32_t most_sum_dn_;
 };
 
 }  // namespace hilcam

@@ -17,7 +17,8 @@ LOCKS = {"TLParamsLocked": "; locked while streaming", "ExposureAutoReg": "; loc
          "AcquisitionFrameRateFixed": "; locked unless AcquisitionFrameRateEnable"}
 MOST_ENTRIES = 20  # longer lists are left to the manual
 OWN_CATEGORIES = {"StatisticsControl", "FaultControl"}
-OWN = {"ChunkPoseSequence", "ChunkPoseTime", "ChunkExposureMid", "ChunkTriggerSequence", "ChunkFaults"}
+OWN = {"ChunkPoseSequence", "ChunkPoseTime", "ChunkExposureMid", "ChunkTriggerSequence", "ChunkFaults",
+       "AcquisitionResultingFrameRate", "ResultingFrameRate"}
 
 
 def plain(element):

@@ -211,6 +211,9 @@ CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
         warn(verdict_on_view(scenario_of_camera(s, i), out.reports.back()));
     }
     warn(about_objects);
+    MapReport maps = report_scenario_maps(s);
+    warn(maps.doubts);
+    out.maps = std::move(maps.taken);
     out.run = {seed_line(s), loop_line(s)};
     for (std::string& line : no_output_warnings(s)) out.run.push_back(std::move(line));
     for (std::string& line : governor_lines(s)) out.run.push_back(std::move(line));

@@ -149,6 +149,7 @@ std::string to_json(const CheckReport& report) {
                    {"scenario", report.scenario},
                    {"time_utc", format_utc(report.time)},
                    {"cameras", cameras},
+                   {"maps", report.maps},
                    {"run", report.run},
                    {"memory_mb", report.memory_mb > 0 ? Json(report.memory_mb) : Json()}});
 }

@@ -37,8 +37,9 @@ struct CheckReport {
     std::size_t cameras = 1;            // cameras of the bench; those asked for are below
     std::vector<std::string> warnings;  // remarks on what is probably not meant, a line each
     std::vector<CameraReport> reports;
-    std::vector<std::string> run;  // seed, loop, governor
-    double memory_mb = 0;          // memory with the last camera loaded; 0: not known
+    std::vector<std::string> maps;  // readings of the maps, a line each
+    std::vector<std::string> run;   // seed, loop, governor
+    double memory_mb = 0;           // memory with the last camera loaded; 0: not known
 };
 
 std::string to_text(const CheckReport& report);

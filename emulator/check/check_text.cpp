@@ -169,6 +169,7 @@ std::string to_text(const CheckReport& report) {
     out += fmt::format("scenario {} at {}\n", harmless(report.scenario), format_utc(report.time));
     const std::span<const CameraReport> all(report.reports);
     for (std::size_t i = 0; i < all.size(); ++i) add_camera(all[i], all.first(i), report.cameras, out);
+    for (const std::string& line : report.maps) out += "map: " + harmless(line) + "\n";
     for (const std::string& line : report.run) out += line + "\n";
     if (report.memory_mb > 0)
         out += fmt::format("memory: {:.0f} MB with {} loaded\n", report.memory_mb,

@@ -10,6 +10,7 @@
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/scenario_warnings.h"
+#include "emulator/scenario/scene_loader.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -68,6 +69,23 @@ std::vector<std::string> verdict_on_objects(const LoadedView& view, VerdictOn on
         if (std::any_of(view.scenario.objects.begin(), here, same)) continue;
         append(mesh_warnings(object, fmt::format("objects.{}.mesh", i), places), out);
     }
+    return out;
+}
+
+MapReport report_scenario_maps(const ScenarioConfig& s) {
+    MapReport out;
+    if (s.terrain && s.terrain->globe) out = report_maps(*s.terrain->globe, ground_body(s));
+    const auto add = [&](const std::string& name, const Figure& figure, const BodyConfig& body) {
+        const bool flat = figure.polar_radius_m != figure.equatorial_radius_m;
+        if (!flat || body.albedo_map.empty() || !body.visible) return;
+        const bool centric = body.albedo_map_latitudes == MapLatitude::kPlanetocentric;
+        out.taken.push_back(fmt::format("{}.albedo_map: {}: latitudes {} ({}.albedo_map_latitudes)", name,
+                                        harmless(body.albedo_map.string()),
+                                        centric ? "planetocentric" : "planetographic", name));
+    };
+    for (std::size_t i = 0; i < kBodyCount; ++i) add(std::string(kBodyNames[i]), kFigures[i], s.bodies[i]);
+    for (std::size_t k = 0; k < s.own_bodies.size(); ++k)
+        add(s.own_bodies[k].name, s.origin.own->list[k].figure, s.own_bodies[k].look);
     return out;
 }
 

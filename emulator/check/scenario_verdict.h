@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "emulator/check/check_report.h"
+#include "emulator/ground/map_report.h"
 #include "emulator/scenario/scene_loader.h"
 
 namespace hilcam {
@@ -25,6 +26,8 @@ struct LoadedView {
 std::vector<std::string> early_verdict(const ScenarioConfig& bench, VerdictOn on, bool keeps_frames = false);
 // Once the objects are loaded: their materials and meshes.
 std::vector<std::string> verdict_on_objects(const LoadedView& view, VerdictOn on);
+// Tells how the maps of the ground and of flattened bodies were understood. Throws InputError.
+MapReport report_scenario_maps(const ScenarioConfig& scenario);
 // Judges what the camera sees at that instant. camera: from report_view().
 std::vector<std::string> verdict_on_view(const ScenarioConfig& scenario, const CameraReport& camera);
 // Finds what there is to judge a camera by: its sheet and what it sees. number: from 1.

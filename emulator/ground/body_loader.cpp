@@ -41,6 +41,10 @@ SceneBody load_body(BodyId id, const std::string& name, const Figure& figure, co
     body.look = BodyLook(id, config, grid);
     if (!config.albedo_map.empty()) body.map = MipTexture(read_picture(config.albedo_map));
     body.map_reference = config.albedo_map_reference;
+    if (config.albedo_map_latitudes == MapLatitude::kPlanetocentric) {
+        const double ratio = figure.polar_radius_m / figure.equatorial_radius_m;
+        body.map_latitude_factor = ratio * ratio;
+    }
     if (config.visible && !config.height_map.empty()) body.relief = load_relief(name, figure, config);
     body.planetshine = config.planetshine;
     if (config.rings && id != BodyId::kSaturn)

@@ -84,6 +84,11 @@ CameraSettings LiveSettings::settings() const {
     return now;
 }
 
+double LiveSettings::resulting_frame_rate_hz() const {
+    const CameraSettings now = settings();
+    return 1 / timing_.period_s(now.frame_rate_hz, now.exposure_s);
+}
+
 // Is called under the lock.
 double LiveSettings::exposure_now_s() const {
     const bool own = limits_.exposure_is_own || settings_.automatic_exposure;

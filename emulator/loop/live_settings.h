@@ -36,6 +36,7 @@ class LiveSettings : public CameraControl {
     void follow(const SimulatedClock& clock, const PoseWatch* poses) { clock_ = &clock, poses_ = poses; }
 
     CameraSettings settings() const override;
+    double resulting_frame_rate_hz() const override;
     CameraLimits limits() const override { return limits_; }
     // From now on; or from an instant of the camera's time (clock.h) on that may have passed, or be about to come.
     bool change(const SettingsChange& change) override;

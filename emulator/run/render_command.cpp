@@ -28,8 +28,13 @@ FrameRecord record_of(const ScenarioConfig& s, const StillCamera& camera) {
     record.exposure_s = exposure.exposure_s;
     record.gain_db = exposure.gain_db;
     record.bits = s.camera.frame_bits();
-    record.binning_x = s.camera.binning_x, record.binning_y = s.camera.binning_y;
     return record;
+}
+
+// Returns how the pixels of a stage's picture lie on the sensor: charge and light are shown before they are binned.
+FrameLayout layout_of(const CameraModel& camera, PictureStage stage) {
+    if (stage != PictureStage::kFrame) return {};
+    return {camera.binning_x, camera.binning_y};
 }
 
 // Returns where the frame, neither binned nor mirrored, lies in the radiance image [px of that].
@@ -40,13 +45,12 @@ PixelRectangle frame_in_radiance(const CameraModel& camera, const ImageGeometry&
             height * oversampling};
 }
 
-FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer) {
+FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer, const FrameLayout& layout) {
     TruthWishes wishes = truth_wishes(s);
     if (!s.outputs.find<TruthConfig>())
         wishes.object = wishes.range = wishes.depth = wishes.normal = wishes.position = true;
     FrameTruth truth = make_truth(s, renderer, wishes);
-    truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
-                             {s.camera.binning_x, s.camera.binning_y});
+    truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), layout);
     return truth;
 }
 
@@ -112,16 +116,18 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
         stage == PictureStage::kRadiance ? StillCamera::Light::kRadiance : StillCamera::Light::kCharge);
     if (on_loaded) on_loaded(camera);
     PictureWriter writer(picture_run_of(scenario, number));
+    const FrameLayout layout = layout_of(scenario.camera, stage);
     const RandomKey key{seed_of_camera(scenario, number - 1), 1};
     std::optional<FrameTruth> truth;
-    if (!files.truth.empty()) truth = empty_truth(scenario, camera.renderer());
+    if (!files.truth.empty()) truth = empty_truth(scenario, camera.renderer(), layout);
     const Renderer& renderer = camera.renderer();
     std::optional<Progress> progress(std::in_place, "rendering", 1.0,
                                      [&] { return renderer.share_traced(); });
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
     progress.emplace("sensor and files");
     if (const std::string fault = picture_fault(renderer); !fault.empty()) spdlog::error("{}", fault);
-    const FrameRecord record = record_of(scenario, camera);
+    FrameRecord record = record_of(scenario, camera);
+    record.binning_x = layout.binning_x, record.binning_y = layout.binning_y;
     if (truth)
         write_truth(picture_truth_files(files.truth, files.out),
                     truth_source(scenario, camera.grid(), number, drawn_run_id()), *truth, record);

@@ -113,6 +113,9 @@ std::string apply_instrument(const SpiceConfig& s, CameraModel& camera) {
     camera.focal_length_m = *k.focal_length_m, camera.pitch_m = *k.pitch_m;
     if (k.samples) camera.width_px = *k.samples;
     if (k.lines) camera.height_px = *k.lines;
+    // A kernel's point is one of its own pixels.
+    if (k.center_px && k.samples && k.lines && camera.principal_point_px.empty())
+        camera.principal_point_px = {k.center_px->x, k.center_px->y};
     if (!k.half_field_rad || !k.samples || !k.lines) return "";
     const double half_m =
         0.5 * camera.pitch_m *

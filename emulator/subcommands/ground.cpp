@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "emulator/ground/map_report.h"
 #include "emulator/run/ground_footprint.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/scenario/site.h"
@@ -64,6 +65,9 @@ int carry_out(const GroundArguments& o) {
     if (!scenario.terrain || !scenario.terrain->globe)
         throw InputError(o.config.file.string() +
                          ": has no terrain.globe; accepted: a scenario with the ground of a body");
+    const MapReport maps = report_maps(*scenario.terrain->globe, ground_body(scenario));
+    for (const std::string& line : maps.taken) log_info(line);
+    log_warnings(maps.doubts);
     GroundSurvey survey = o.survey;
     survey.what = kLists.at(o.list);
     survey.limits.slope_rad = o.slope_deg * kDegree_rad;

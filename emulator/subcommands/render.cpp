@@ -30,6 +30,7 @@ struct RenderArguments {
 void log_picture_verdict(StillCamera& camera) {
     const LoadedView view{camera.scenario(), camera.renderer(), camera.objects()};
     log_warnings(verdict_on_objects(view, VerdictOn::kPicture));
+    log_warnings(report_scenario_maps(view.scenario).doubts);
     camera.renderer().place_for_truth(camera.world());
     log_warnings(verdict_on_view(view.scenario, report_view(view, 1, camera.world().camera)));
 }

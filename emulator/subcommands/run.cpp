@@ -45,6 +45,7 @@ void log_run_verdict(Emulator& emulator) {
     for (const auto& station : emulator.stations()) {
         const LoadedView view{station->scenario(), station->renderer(), station->objects()};
         if (station->number() == 1) log_warnings(verdict_on_objects(view, VerdictOn::kRun));
+        if (station->number() == 1) log_warnings(report_scenario_maps(view.scenario).doubts);
         if (view.scenario.terrain) continue;
         station->renderer().place_for_truth(snapshot_at(view.scenario, start, start));
         const CameraReport seen = report_view(view, station->number(), first_camera);

@@ -129,6 +129,12 @@ class CameraControl {
   public:
     virtual ~CameraControl() = default;
     virtual CameraSettings settings() const = 0;
+    // Returns the frame rate that the exposure leaves, free-run [Hz]: here that of a shutter which is ready when the
+    // exposure is over.
+    virtual double resulting_frame_rate_hz() const {
+        const CameraSettings now = settings();
+        return now.exposure_s * now.frame_rate_hz > 1 ? 1 / now.exposure_s : now.frame_rate_hz;
+    }
     virtual CameraLimits limits() const = 0;
     // All or nothing: false, and nothing has changed, when one value is outside its limits.
     virtual bool change(const SettingsChange& change) = 0;

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "io/system/input_file.h"
 #include "io/system/text_number.h"
@@ -76,61 +81,198 @@ void require_physical(const std::string& where, const Sample& s) {
 
 // --- MODTRAN's text table
 
-// The columns of a run by their names.
-std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& geometry) {
-    InputStream in(file, {kMaxTableBytes, "a MODTRAN text table (tape7.scn)"});
-    std::vector<std::string> names;
-    std::string line;
-    int number = 0;
-    while (names.empty() && std::getline(in, line)) {
-        ++number;
-        std::istringstream words(line);
-        std::string word;
-        if (!(words >> word) || !(word.starts_with("WAVLEN") || word.starts_with("FREQ"))) continue;
-        names.push_back(word);
-        while (words >> word) names.push_back(word);
+// The columns of a run: their names, blanks inside them as underscores, and where each ends in its line.
+struct RunColumns {
+    struct Column {
+        std::string name;
+        std::size_t end = 0;
+    };
+    std::vector<Column> all;
+    bool is_fixed = false;  // names of two words: rows have their places, and may have blank fields
+
+    std::optional<std::size_t> find(std::string_view name) const {
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (all[i].name == name) return i;
+        return std::nullopt;
     }
+};
+
+// Reads a line of column names. MODTRAN 3 and 4 write names of two words, which MODTRAN 5 joins by an underscore.
+RunColumns columns_in(const std::string& line) {
+    constexpr std::array<std::pair<const char*, const char*>, 15> kPairs = {{{"TOT", "TRANS"},
+                                                                             {"TOTAL", "TRANS"},
+                                                                             {"PTH", "THRML"},
+                                                                             {"THRML", "SCT"},
+                                                                             {"THRML", "EMIS"},
+                                                                             {"SURF", "EMIS"},
+                                                                             {"SOL", "SCAT"},
+                                                                             {"SING", "SCAT"},
+                                                                             {"GRND", "RFLT"},
+                                                                             {"DRCT", "RFLT"},
+                                                                             {"TOTAL", "RAD"},
+                                                                             {"REF", "SOL"},
+                                                                             {"TOA", "SUN"},
+                                                                             {"WAVLEN", "MCRN"},
+                                                                             {"WAVLEN", "NM"}}};
+    RunColumns out;
+    for (std::size_t at = line.find_first_not_of(" \t\r"); at != std::string::npos;) {
+        const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
+        const std::string word = line.substr(at, end - at);
+        const bool joins =
+            !out.all.empty() && std::any_of(kPairs.begin(), kPairs.end(), [&](const auto& pair) {
+                return out.all.back().name == pair.first && word == pair.second;
+            });
+        out.is_fixed = out.is_fixed || joins;
+        if (joins)
+            out.all.back().name += "_" + word, out.all.back().end = end;
+        else
+            out.all.push_back({word, end});
+        at = line.find_first_not_of(" \t\r", end);
+    }
+    return out;
+}
+
+// Returns how wide MODTRAN 3 and 4 write a column: F7.4 in tape7.scn and F11.6 in tape7 for the transmittance, E11.3 and E11.4 for radiances,
+// E9.2 for the Sun, F8.3 for the depth (the programs' own formats of tape7). 0: another.
+std::size_t fixed_width(const std::string& name) {
+    if (name == "TRANS") return 7;
+    if (name == "REF_SOL" || name == "SOL@OBS") return 9;
+    if (name == "DEPTH") return 8;
+    return name.find('_') != std::string::npos ? 11 : 0;
+}
+
+// Reads a number as Fortran writes it: the letter of an exponent of three digits is left out (1.36-105).
+bool to_fortran_number(std::string_view text, double& value) {
+    if (to_number(text, value)) return true;
+    const std::size_t sign = text.find_last_of("+-");
+    if (sign == std::string_view::npos || sign == 0 ||
+        !std::isdigit(static_cast<unsigned char>(text[sign - 1])))
+        return false;
+    return to_number(std::string(text.substr(0, sign)) + "E" + std::string(text.substr(sign)), value);
+}
+
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
+// Returns where column i begins and ends in a row. What stands before the first radiances is as wide as they leave it.
+std::pair<std::size_t, std::size_t> place_of(const RunColumns& columns, std::size_t i) {
+    const auto begin_of = [&](std::size_t k) {
+        const RunColumns::Column& c = columns.all[k];
+        const std::size_t width = fixed_width(c.name);
+        return width > 0 && width <= c.end ? c.end - width : columns.all[k - 1].end;
+    };
+    if (i > 0) return {begin_of(i), columns.all[i].end};
+    return {0, columns.all.size() > 1 ? begin_of(1) : columns.all[0].end};
+}
+
+// Splits a row by the places of its columns, of which some are blank; NaN for these, and for what overflows its field (***). Nothing
+// where a number goes on in the next field: such a row is not of this layout.
+std::vector<double> row_by_places(const RunColumns& columns, const std::string& line) {
+    const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+    std::vector<double> out;
+    for (std::size_t i = 0; i < columns.all.size(); ++i) {
+        auto [begin, end] = place_of(columns, i);
+        if (end < line.size() && end > 0 && is_digit(line[end - 1]) &&
+            (is_digit(line[end]) || line[end] == '.' || line[end] == 'E'))
+            return {};
+        begin = std::min(begin, line.size()), end = std::clamp(end, begin, line.size());
+        std::string_view field = std::string_view(line).substr(begin, end - begin);
+        while (field.starts_with(' ')) field.remove_prefix(1);
+        while (field.ends_with(' ') || field.ends_with('\r')) field.remove_suffix(1);
+        double value = kAbsent;
+        out.push_back(to_fortran_number(field, value) ? value : kAbsent);
+    }
+    return out;
+}
+
+// Returns a row's numbers, a column each; nothing for a line that begins with none. They stand between blanks, or, where columns of
+// MODTRAN 3 and 4 are blank or touch, at their places.
+std::vector<double> row_of(const RunColumns& columns, const std::string& line) {
+    std::istringstream words(line);
+    std::vector<double> out;
+    for (std::string word; words >> word;) {
+        double value = kAbsent;
+        if (!to_fortran_number(word, value) && word.find_first_not_of('*') != std::string::npos) break;
+        out.push_back(value);
+    }
+    if (out.empty() || out.front() <= -9999 || out.size() >= columns.all.size() || !columns.is_fixed)
+        return out;
+    const std::vector<double> placed = row_by_places(columns, line);
+    return !placed.empty() && std::isfinite(placed.front()) ? placed : out;
+}
+
+// The columns that are used.
+struct RunPlaces {
+    std::size_t trans, scatter, ground, direct, path, sun;
+};
+
+RunPlaces places_of(const std::filesystem::path& file, int number, const RunColumns& columns) {
     const auto column = [&](std::initializer_list<const char*> accepted) {
-        for (const char* name : accepted) {
-            const auto at = std::find(names.begin(), names.end(), name);
-            if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
-        }
+        for (const char* const name : accepted)
+            if (const auto at = columns.find(name)) return *at;
         refuse(file.string() + ":" + std::to_string(number), std::string("no column ") + *accepted.begin());
     };
-    if (names.empty()) refuse(file.string(), "has no line of column names that begins with WAVLEN or FREQ");
-    const std::size_t trans = column({"TOT_TRANS", "TRANS"}), scatter = column({"SOL_SCAT"}),
-                      ground = column({"GRND_RFLT"}), direct = column({"DRCT_RFLT"}),
-                      path = column({"REF_SOL"}), sun = column({"TOA_SUN", "SOL@OBS"});
-    if (names[sun] == "SOL@OBS" && geometry[AtmosphereTable::kHeight] < 100)
+    return {column({"TOT_TRANS", "TOTAL_TRANS", "TRANS"}),
+            column({"SOL_SCAT"}),
+            column({"GRND_RFLT"}),
+            column({"DRCT_RFLT"}),
+            column({"REF_SOL"}),
+            column({"TOA_SUN", "SOL@OBS"})};
+}
+
+// Makes a sample of a row. tau_1 is from the way Sun - ground - observer, the sky from the diffuse part of the ground's light against its
+// direct one.
+Sample sample_of(const std::string& where, const RunPlaces& at, const std::vector<double>& v, double mu_s) {
+    for (const std::size_t used : {at.trans, at.scatter, at.ground, at.direct, at.path, at.sun})
+        if (used >= v.size() || !std::isfinite(v[used]))
+            refuse(where, "column " + std::to_string(used + 1) +
+                              " has no number; accepted: a run that writes it, of a sunlit ground");
+    if (!(v[at.sun] > 0)) refuse(where, "the Sun's irradiance is not above 0");
+    Sample s;
+    s.tau_2 = v[at.trans];
+    s.tau_1 = s.tau_2 > 0 ? std::min(1.0, v[at.path] / (v[at.sun] * s.tau_2)) : 0;
+    s.radiance_sr = v[at.scatter] / v[at.sun];
+    s.sky = v[at.direct] > 0 ? std::max(0.0, v[at.ground] - v[at.direct]) / v[at.direct] * mu_s * s.tau_1 : 0;
+    return s;
+}
+
+// Reads lines up to that of the columns' names.
+RunColumns find_columns(InputStream& in, int& number) {
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        RunColumns columns = columns_in(line);
+        const bool begins = !columns.all.empty() && (columns.all[0].name.starts_with("WAVLEN") ||
+                                                     columns.all[0].name.starts_with("FREQ"));
+        if (begins && columns.all.size() > 1) return columns;
+    }
+    return {};
+}
+
+std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& geometry) {
+    InputStream in(file, {kMaxTableBytes, "a MODTRAN text table (tape7.scn)"});
+    int number = 0;
+    const RunColumns columns = find_columns(in, number);
+    if (columns.all.empty())
+        refuse(file.string(), "has no line of column names that begins with WAVLEN or FREQ");
+    const RunPlaces at = places_of(file, number, columns);
+    if (columns.all[at.sun].name == "SOL@OBS" && geometry[AtmosphereTable::kHeight] < 100)
         refuse(file.string(),
                "has no column TOA_SUN, and SOL@OBS is the Sun's only for an observer above 100 km");
-    const bool frequency = names[0].starts_with("FREQ"),
-               nanometres = names[0].find("NM") != std::string::npos;
+    const bool frequency = columns.all[0].name.starts_with("FREQ"),
+               nanometres = columns.all[0].name.find("NM") != std::string::npos;
     const double mu_s = std::cos(geometry[AtmosphereTable::kSunZenith] * kDegree_rad);
     std::vector<Sample> samples;
-    while (std::getline(in, line)) {
+    for (std::string line; std::getline(in, line);) {
         ++number;
-        std::istringstream words(line);
-        std::vector<double> v;
-        std::string word;
-        double value = 0;
-        while (words >> word && to_number(word, value)) v.push_back(value);
+        const std::vector<double> v = row_of(columns, line);
         if (v.empty()) continue;  // units
         if (v.front() <= -9999) break;
         const std::string where = file.string() + ":" + std::to_string(number);
-        if (v.size() < names.size())
+        if (v.size() < columns.all.size())
             refuse(where, "found " + std::to_string(v.size()) + " numbers for " +
-                              std::to_string(names.size()) + " columns");
-        if (v[0] <= 0) refuse(where, "found " + plain(v[0]) + " as wavelength or frequency");
-        Sample s;
+                              std::to_string(columns.all.size()) + " columns");
+        if (!(v[0] > 0)) refuse(where, "found " + plain(v[0]) + " as wavelength or frequency");
+        Sample s = sample_of(where, at, v, mu_s);
         s.wavelength_um = frequency ? 1e4 / v[0] : (nanometres ? v[0] * 1e-3 : v[0]);
-        if (!(v[sun] > 0)) refuse(where, "the Sun's irradiance is not above 0");
-        // tau_1 from the way Sun - ground - observer; the diffuse part of the ground's light against its
-        // direct one.
-        s.tau_2 = v[trans];
-        s.tau_1 = s.tau_2 > 0 ? std::min(1.0, v[path] / (v[sun] * s.tau_2)) : 0;
-        s.radiance_sr = v[scatter] / v[sun];
-        s.sky = v[direct] > 0 ? std::max(0.0, v[ground] - v[direct]) / v[direct] * mu_s * s.tau_1 : 0;
         require_physical(where, s);
         samples.push_back(s);
     }

@@ -1,8 +1,11 @@
 #include "io/gige/sink_gige.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "io/gige/device/gige_device.h"
@@ -12,6 +15,7 @@
 #include "io/system/monotonic.h"
 #include "io/system/urgent_thread.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -49,7 +53,28 @@ Fields fields(GigeConfig& c) {
              "true: multipart frames are announced, which bring 64-bit block ids with them"),
         number("spread", c.spread_fraction, 1, {0, 1},
                "share of the frame period that a frame's packets are spread over; 0: at the rate limit"),
+        texts("lines", c.lines,
+              "names that clients have for the trigger input beside Line0, as [Line1, Line2]: entries of "
+              "TriggerSource and LineSelector"),
     };
+}
+
+void validate(const GigeConfig& c) {
+    constexpr std::size_t kMost = 16, kLongest = 32;
+    if (c.lines.size() > kMost)
+        throw refused_key("lines", std::to_string(c.lines.size()) + " names",
+                          std::to_string(kMost) + " at most");
+    std::set<std::string> taken = {"Line0", "Software", "Action1"};
+    for (const std::string& name : c.lines) {
+        const bool is_word =
+            !name.empty() && name.size() <= kLongest &&
+            std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+            std::all_of(name.begin(), name.end(), [](unsigned char ch) { return std::isalnum(ch) != 0; });
+        if (!is_word) throw refused_key("lines", in_quotes(name), "letters and digits, as Line1");
+        if (!taken.insert(name).second)
+            throw refused_key("lines", in_quotes(name),
+                              "names that differ, and are not Line0, Software or Action1");
+    }
 }
 
 struct GigeSink::Implementation {
@@ -119,7 +144,7 @@ void GigeSink::Implementation::open() {
     sender.open(net.address);
     device = std::make_unique<GigeDevice>(
         GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
-                     first_packet_bytes(config, net), 0, config.multipart},
+                     first_packet_bytes(config, net), 0, config.multipart, config.lines},
         camera, faults, effects());
     device->set_ports(sender.port(), sockets->message_port());
 }

@@ -31,8 +31,10 @@ struct GigeConfig {
     double rate_bytes_s = 400e6;       // upper limit of the stream
     bool multipart = false;            // announce it
     double spread_fraction = 0.5;      // share of a frame period over which a frame's packets may be spread
+    std::vector<std::string> lines{};  // names of the trigger input beside Line0
 };
 Fields fields(GigeConfig& config);
+void validate(const GigeConfig& config);
 std::vector<ListeningPort> listening(const GigeConfig& config);
 // A model of "hilcam" becomes the camera's name. Throws InputError.
 std::unique_ptr<FrameSink> make_sink(const GigeConfig& config, const SinkContext& context,

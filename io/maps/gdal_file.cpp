@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDrivers[] = {"GTiff", "PDS", "ISIS3", "ENVI", nullptr};
+constexpr const char* kDrivers[] = {"GTiff", "PDS", "PDS4", "ISIS3", "ENVI", nullptr};
 // GDAL's own cache of blocks, beside the pages that are kept.
 constexpr GIntBig kCacheBytes = 64 << 20;
 // A block is read whole, whatever is wanted of it.
@@ -170,7 +170,7 @@ GdalFile opened(const MapFiles& files, const std::string& name, bool by_rows) {
     if (file) return file;
     const std::string said = QuietErrors::last();
     throw InputError(name + ": is no map that can be read" + (said.empty() ? "" : " (" + said + ")") +
-                     "; accepted: GeoTIFF, PDS3, ISIS, ENVI, or a picture (.png) with bounds_deg");
+                     "; accepted: GeoTIFF, PDS3, PDS4, ISIS, ENVI, or a picture (.png) with bounds_deg");
 }
 
 }  // namespace
@@ -197,6 +197,7 @@ void start_gdal() {
         GDALSetCacheMax64(kCacheBytes);
         GDALRegister_GTiff();
         GDALRegister_PDS();
+        GDALRegister_PDS4();
         GDALRegister_ISIS3();
         GDALRegister_ENVI();
     });

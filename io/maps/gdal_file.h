@@ -1,5 +1,5 @@
 #pragma once
-// Opens a map by GDAL, within bounds: one of four formats, regular files of one folder, blocks of a size that can be read, no more
+// Opens a map by GDAL, within bounds: one of five formats, regular files of one folder, blocks of a size that can be read, no more
 // values than the file has bytes for, and nothing of the network.
 
 #include <cpl_error.h>

@@ -1,73 +1,38 @@
 #include "io/maps/gdal_raster.h"
 
-#include <ogr_spatialref.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "io/maps/gdal_file.h"
-#include "io/maps/longitude_latitude.h"
+#include "io/maps/gdal_placement.h"
+#include "io/maps/map_label.h"
+#include "io/maps/value_judge.h"
 #include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
+#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
 
-// The type in which OGRCoordinateTransformation::Transform counts points.
-#if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 9, 0)
-using TransformCount = std::size_t;
-#else
-using TransformCount = int;
-#endif
-
-struct DestroyTransformation {
-    void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
-};
-
 class GdalRaster final : public GroundRaster {
   public:
     GdalRaster(const GroundMapConfig& config, const MappedBody& body, const MapFiles& files)
-        : config_(config) {
+        : config_(config), label_(read_map_label(files.label)) {
         const QuietErrors quiet;
         open(files);
         find_bands();
-        if (config.bounds_deg.empty())
-            find_projection(body);
-        else {
-            bounds_ = {config.bounds_deg[0], config.bounds_deg[1], config.bounds_deg[2],
-                       config.bounds_deg[3]};
-            set_bounds(*bounds_, body.figure.equatorial_radius_m, shape_);
-        }
+        placement_.emplace(*file_, label_, config_, body, shape_, reading_);
+        judge_values(body.figure);
         if (config.holes == MapHoles::kRefuse) refuse_holes();
     }
 
     void find_posts(std::span<const Vec3d> places, std::span<Vec2d> posts) override {
-        if (bounds_) {
-            for (std::size_t i = 0; i < places.size(); ++i) posts[i] = post_at(*bounds_, shape_, places[i]);
-            return;
-        }
         const QuietErrors quiet;
-        x_.resize(places.size()), y_.resize(places.size()), success_.resize(places.size());
-        for (std::size_t i = 0; i < places.size(); ++i)
-            x_[i] = longitude_deg(places[i]), y_[i] = latitude_deg(places[i]);
-        if (projection_)
-            projection_->Transform(static_cast<TransformCount>(places.size()), x_.data(), y_.data(), nullptr,
-                                   nullptr, success_.data());
-        else
-            std::fill(success_.begin(), success_.end(), 1);
-        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            if (!success_[i] || !std::isfinite(x_[i] + y_[i])) {
-                posts[i] = {kNone, kNone};
-                continue;
-            }
-            double column = from_ground_[0] + from_ground_[1] * x_[i] + from_ground_[2] * y_[i] - 0.5;
-            if (turn_columns_ > 0) column = within_turn(column, turn_columns_);
-            posts[i] = {column, from_ground_[3] + from_ground_[4] * x_[i] + from_ground_[5] * y_[i] - 0.5};
-        }
+        placement_->find_posts(places, shape_, posts);
     }
 
     void read(int level, int column, int row, int columns, int rows, std::span<float> values) override {
@@ -77,6 +42,7 @@ class GdalRaster final : public GroundRaster {
 
   private:
     GroundMapConfig config_;
+    MapLabel label_;
     GdalFile file_;
     struct Band {
         GDALRasterBand* band;
@@ -85,13 +51,9 @@ class GdalRaster final : public GroundRaster {
         bool has_overviews;
     };
     std::vector<Band> bands_;
-    std::optional<MapBounds> bounds_;
-    std::unique_ptr<OGRCoordinateTransformation, DestroyTransformation>
-        projection_;  // null: longitudes, latitudes
-    double from_ground_[6] = {};
-    double turn_columns_ = 0;  // columns of 360 deg; 0: no such thing
-    std::vector<double> x_, y_;
-    std::vector<int> success_;
+    std::optional<GdalPlacement> placement_;
+    double unit_ = 1;                  // metres of the file's unit of heights
+    std::vector<float> unsaid_holes_;  // values that stand for holes beside the file's own
     std::vector<float> raw_;
 
     [[noreturn]] void refuse(const std::string& what) const {
@@ -125,60 +87,55 @@ class GdalRaster final : public GroundRaster {
         }
     }
 
-    void find_projection(const MappedBody& body) {
-        const OGRSpatialReference* const found = file_->GetSpatialRef();
-        double to_ground[6];
-        if (!found || file_->GetGeoTransform(to_ground) != CE_None)
-            refuse(
-                "has no projection; accepted: one that says where it lies, or with bounds_deg: [west, south, "
-                "east, north]");
-        if (!GDALInvGeoTransform(to_ground, from_ground_)) refuse("its rows and columns fall together");
-        OGRSpatialReference reference(*found);
-        reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-        if (!reference.IsGeographic() && !reference.IsProjected())
-            refuse(
-                "its projection is of neither longitudes and latitudes nor a plane; accepted: one of them");
-        const double radius_m = reference.GetSemiMajor(), expected_m = body.figure.equatorial_radius_m;
-        if (!(std::abs(radius_m / expected_m - 1) < 0.01))
-            refuse("its projection is of a body of radius " + plain(radius_m * 1e-3) +
-                   " km; accepted: that of " + body.name + ", " + plain(expected_m * 1e-3) +
-                   " km, within 1 %");
-        const double unit =
-            reference.IsGeographic() ? reference.GetAngularUnits() * expected_m : reference.GetLinearUnits();
-        shape_.spacing_m =
-            unit * std::sqrt(std::abs(to_ground[1] * to_ground[5] - to_ground[2] * to_ground[4]));
-        // Angles are degrees, as nearly all files have them.
-        if (reference.IsGeographic() && std::abs(reference.GetAngularUnits() / kDegree_rad - 1) > 1e-6)
-            refuse("has angles in other units than degrees; accepted: degrees");
-        if (reference.IsProjected()) {
-            const std::unique_ptr<OGRSpatialReference> angles(reference.CloneGeogCS());
-            if (!angles) refuse("its projection has no longitudes and latitudes");
-            angles->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-            projection_.reset(OGRCreateCoordinateTransformation(angles.get(), &reference));
-            if (!projection_) refuse("its projection is unknown (" + QuietErrors::last() + ")");
-        }
-        find_turn(reference, to_ground);
+    // The unit of heights: the channel's own, else the label's.
+    void find_unit() {
+        if (config_.kind != GroundKind::kHeights) return;
+        const char* const own = bands_.front().band->GetUnitType();
+        const std::string unit = own && *own ? own : label_.unit;
+        if (unit.empty()) return;
+        const std::optional<double> metres = metres_of_unit(unit);
+        if (!metres)
+            reading_.doubts.push_back("its heights are in " + in_quotes(unit) +
+                                      ", which is no unit of length that is known; they are taken as metres");
+        unit_ = metres.value_or(1);
+        if (metres && unit_ != 1)
+            reading_.taken += (reading_.taken.empty() ? "" : ", ") + ("heights in " + unit) + " (label)";
     }
 
-    // If the map's columns are meridians, finds how many of them make a turn, and whether its rows reach the poles.
-    void find_turn(const OGRSpatialReference& reference, const double* to_ground) {
-        double turn = 360, north = 90;
-        if (reference.IsProjected()) {
-            const char* const name = reference.GetAttrValue("PROJECTION");
-            if (!name || !EQUAL(name, SRS_PT_EQUIRECTANGULAR)) return;
-            const double middle_deg = reference.GetNormProjParm(SRS_PP_CENTRAL_MERIDIAN, 0);
-            double x[2] = {middle_deg, middle_deg + 90}, y[2] = {0, 90};
-            if (!projection_->Transform(2, x, y)) return;
-            turn = 4 * (x[1] - x[0]), north = y[1];
+    // Looks at all posts of a small map, and at some of a large one, whose blocks would otherwise all be read.
+    int level_of_sample() const {
+        constexpr int kAll = 2048, kSome = 32, kWithOverviews = 512;
+        const int most = std::max(shape_.columns, shape_.rows) <= kAll ? kAll
+                         : bands_.front().has_overviews                ? kWithOverviews
+                                                                       : kSome;
+        int level = 0;
+        while ((std::max(shape_.columns, shape_.rows) >> level) > most &&
+               (std::min(shape_.columns, shape_.rows) >> level) > 1)
+            ++level;
+        return level;
+    }
+
+    void judge_values(const Figure& figure) {
+        find_unit();
+        const int level = level_of_sample(), columns = shape_.columns >> level, rows = shape_.rows >> level;
+        const Band& band = bands_.front();
+        if (read_raw(band, level, 0, 0, columns, rows, GRIORA_NearestNeighbour) != CE_None) return;
+        for (const double value : config_.no_data) unsaid_holes_.push_back(static_cast<float>(value));
+        if (config_.no_data.empty()) {
+            unsaid_holes_ = unsaid_holes(raw_);
+            // GDAL has a value of its own for PDS3 labels without one.
+            if (band.none) std::erase(unsaid_holes_, static_cast<float>(*band.none));
+            for (const float value : unsaid_holes_)
+                reading_.doubts.push_back(
+                    "the value " + plain(static_cast<double>(value)) +
+                    " is taken as a hole: it stands alone, and the file does not say what it is "
+                    "(no_data)");
         }
-        const double column = to_ground[1], row = -to_ground[5];
-        if (to_ground[2] != 0 || to_ground[4] != 0 || !(column > 0) || !(row > 0)) return;
-        turn_columns_ = turn / column;
-        shape_.whole_turn = std::abs(turn_columns_ - shape_.columns) < 0.5;
-        if (!shape_.whole_turn) return;
-        turn_columns_ = shape_.columns;
-        shape_.pole_above_first_row = std::abs(to_ground[3] - north) < 0.5 * row;
-        shape_.pole_below_last_row = std::abs(to_ground[3] - row * shape_.rows + north) < 0.5 * row;
+        if (config_.kind != GroundKind::kHeights) return;
+        for (float& value : raw_) value = value_of(band, value);
+        if (const std::string why = judge_heights(raw_, figure, shape_.whole_turn, reading_.doubts);
+            !why.empty())
+            refuse(why);
     }
 
     // A hole is the file's own value for it, and what is no number.
@@ -188,30 +145,71 @@ class GdalRaster final : public GroundRaster {
         constexpr double kMost = 1e9;
         if (!std::isfinite(value) ||
             (band.none && value == static_cast<double>(static_cast<float>(*band.none))) ||
-            !(std::abs(value) < kMost))
+            is_unsaid_hole(raw) || !(std::abs(value) < kMost))
             return std::numeric_limits<float>::quiet_NaN();
-        double out = band.scale * value + band.offset;
+        double out = unit_ * (band.scale * value + band.offset);
         if (config_.coding == MapCoding::kSrgb)
             out = static_cast<double>(
                 linear_from_srgb(static_cast<std::uint8_t>(std::clamp(std::round(out), 0.0, 255.0))));
         return static_cast<float>(config_.scale * out + config_.offset);
     }
 
+    // Reads a channel's own values into raw_.
+    CPLErr read_raw(const Band& band, int level, int column, int row, int columns, int rows,
+                    GDALRIOResampleAlg alg) {
+        raw_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+        GDALRasterIOExtraArg how;
+        INIT_RASTERIO_EXTRA_ARG(how);
+        how.eResampleAlg = alg;
+        return band.band->RasterIO(GF_Read, column << level, row << level, columns << level, rows << level,
+                                   raw_.data(), columns, rows, GDT_Float32, 0, 0, &how);
+    }
+
+    // Reads a level's values into raw_. Without overviews a mean would read all of the map, and of holes that the file does not know GDAL would
+    // make one.
+    CPLErr read_level(const Band& band, int level, int column, int row, int columns, int rows) {
+        constexpr int kMeansTo = 3;
+        const bool is_mean = level > 0 && (level <= kMeansTo || band.has_overviews);
+        if (!is_mean || unsaid_holes_.empty())
+            return read_raw(band, level, column, row, columns, rows,
+                            is_mean ? GRIORA_Average : GRIORA_NearestNeighbour);
+        if (level > kMeansTo)
+            return read_raw(band, level, column, row, columns, rows, GRIORA_NearestNeighbour);
+        const CPLErr error = read_raw(band, 0, column << level, row << level, columns << level, rows << level,
+                                      GRIORA_NearestNeighbour);
+        const std::vector<float> fine = std::move(raw_);
+        raw_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+        if (error != CE_None) return error;
+        const int each = 1 << level;
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x)
+                raw_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(x)] =
+                    mean_beside_holes(fine, columns << level, x * each, y * each, each);
+        return error;
+    }
+
+    // Returns the mean of a square of values that are no holes; a hole where all are.
+    float mean_beside_holes(const std::vector<float>& fine, int stride, int column, int row, int each) const {
+        double sum = 0, count = 0;
+        for (int y = row; y < row + each; ++y)
+            for (int x = column; x < column + each; ++x) {
+                const float value = fine[static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) +
+                                         static_cast<std::size_t>(x)];
+                if (!std::isfinite(value) || is_unsaid_hole(value)) continue;
+                sum += static_cast<double>(value), count += 1;
+            }
+        return count > 0 ? static_cast<float>(sum / count) : std::numeric_limits<float>::quiet_NaN();
+    }
+    bool is_unsaid_hole(float raw) const {
+        return std::find(unsaid_holes_.begin(), unsaid_holes_.end(), raw) != unsaid_holes_.end();
+    }
+
     void read_window(int level, int column, int row, int columns, int rows, std::span<float> values) {
         const auto channels = static_cast<std::size_t>(shape_.channels);
-        raw_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
         for (std::size_t c = 0; c < channels; ++c) {
             const Band& band = bands_[c];
-            GDALRasterIOExtraArg how;
-            INIT_RASTERIO_EXTRA_ARG(how);
-            // Without overviews a mean would read all of the map.
-            constexpr int kMeansTo = 3;
-            how.eResampleAlg = level > 0 && (level <= kMeansTo || band.has_overviews)
-                                   ? GRIORA_Average
-                                   : GRIORA_NearestNeighbour;
-            const CPLErr error =
-                band.band->RasterIO(GF_Read, column << level, row << level, columns << level, rows << level,
-                                    raw_.data(), columns, rows, GDT_Float32, 0, 0, &how);
+            const CPLErr error = read_level(band, level, column, row, columns, rows);
             failed_reads_ += error != CE_None;
             for (std::size_t i = 0; i < raw_.size(); ++i)
                 values[i * channels + c] =
@@ -219,16 +217,8 @@ class GdalRaster final : public GroundRaster {
         }
     }
 
-    // Looks at all posts of a small map, and at some of a large one, whose blocks would otherwise all be read.
     void refuse_holes() {
-        constexpr int kAll = 2048, kSome = 32, kWithOverviews = 512;
-        const int most = std::max(shape_.columns, shape_.rows) <= kAll ? kAll
-                         : bands_.front().has_overviews                ? kWithOverviews
-                                                                       : kSome;
-        int level = 0;
-        while ((std::max(shape_.columns, shape_.rows) >> level) > most &&
-               (std::min(shape_.columns, shape_.rows) >> level) > 1)
-            ++level;
+        const int level = level_of_sample();
         const int columns = shape_.columns >> level, rows = shape_.rows >> level;
         std::vector<float> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
                                   static_cast<std::size_t>(shape_.channels));

@@ -27,6 +27,14 @@ Fields fields(GroundMapConfig& c) {
                "srgb: values of 0 to 255 are codes of sRGB, which stand for 0 to 1, before scale and offset"),
         choice("holes", c.holes, {"refuse", "fill"},
                "treatment of holes (no-data). fill: they show the map below, or height 0"),
+        numbers("no_data", c.no_data, 1, {-1e9, 1e9}, {0, 4},
+                "values of the file that are holes, beside what it says itself; left out: -9999, -32768 and "
+                "the like where they stand alone"),
+        choice("latitudes", c.latitudes, {"label", "planetocentric", "planetographic"},
+               "kind of the map's latitudes. label: what the file says; without a word of it a sphere under "
+               "a flattened body is planetocentric"),
+        choice("longitudes", c.longitudes, {"label", "east", "west"},
+               "direction in which the projection's longitudes count. label: what the file says, else east"),
         number("blend_posts", c.blend_posts, 1, {0, 1e4},
                "width of the margin over which the map is blended into what lies below, in its own posts"),
         numbers("bounds_deg", c.bounds_deg, 1, {-360, 540}, {0, 4},
@@ -38,6 +46,9 @@ Fields fields(GroundMapConfig& c) {
 void validate(const GroundMapConfig& c) {
     const std::vector<double>& b = c.bounds_deg;
     if (b.empty()) return;
+    if (c.longitudes != MapLongitudes::kLabel)
+        throw KeyError("longitudes",
+                       "has no effect with bounds_deg, which counts to the east; accepted: one of them");
     if (b.size() != 4)
         throw refused_key("bounds_deg", std::to_string(b.size()) + " numbers", "[west, south, east, north]");
     if (!(b[0] < b[2] && b[2] - b[0] <= 360))

@@ -13,6 +13,8 @@ namespace hilcam {
 
 enum class MapHoles { kRefuse, kFill };
 enum class MapCoding { kLinear, kSrgb };
+enum class MapLatitudes { kLabel, kPlanetocentric, kPlanetographic };
+enum class MapLongitudes { kLabel, kEast, kWest };
 
 struct GroundMapConfig {
     std::filesystem::path file;
@@ -24,6 +26,10 @@ struct GroundMapConfig {
     MapCoding coding = MapCoding::kLinear;
     MapHoles holes = MapHoles::kRefuse;
     double blend_posts = 8;
+    MapLatitudes latitudes = MapLatitudes::kLabel;
+    MapLongitudes longitudes = MapLongitudes::kLabel;
+    std::vector<double>
+        no_data;  // values of the file that are holes; empty: those that stand alone, see value_judge.h
     std::vector<double> bounds_deg;  // west, south, east, north; empty: the file's own projection
 };
 Fields fields(GroundMapConfig& config);

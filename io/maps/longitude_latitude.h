@@ -1,9 +1,11 @@
 #pragma once
-// This finds the posts of a map in longitude and latitude.
+// This finds the posts of a map in longitude and latitude, planetographic (that of a place's normal) or planetocentric (that of the
+// line from the body's middle to the point of the ellipsoid there).
 
 #include <cmath>
 
 #include "render/ground/ground_raster.h"
+#include "render/sky/bodies.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -23,9 +25,17 @@ inline void set_bounds(const MapBounds& b, double radius_m, GroundRaster::Shape&
     shape.pole_below_last_row = shape.whole_turn && std::abs(b.south_deg + 90) < 0.5 * row_deg;
 }
 
+// Returns the factor by which planetocentric latitudes are flatter: tan(latitude) is that of the normal's times (b/a)^2 (Snyder, USGS
+// Professional Paper 1395, 1987, eq. 3-28). For planetographic ones it is 1.
+inline double latitude_factor(const Figure& figure, bool planetocentric) {
+    if (!planetocentric) return 1;
+    const double ratio = figure.polar_radius_m / figure.equatorial_radius_m;
+    return ratio * ratio;
+}
+
 inline double longitude_deg(Vec3d place) { return std::atan2(place.y, place.x) / kDegree_rad; }
-inline double latitude_deg(Vec3d place) {
-    return std::atan2(place.z, std::hypot(place.x, place.y)) / kDegree_rad;
+inline double latitude_deg(Vec3d place, double factor) {
+    return std::atan2(factor * place.z, std::hypot(place.x, place.y)) / kDegree_rad;
 }
 
 // Takes whole turns off a column, which leaves it within -0.5 to turn - 0.5.
@@ -33,11 +43,12 @@ inline double within_turn(double column, double columns_of_turn) {
     return column - columns_of_turn * std::floor((column + 0.5) / columns_of_turn);
 }
 
-inline Vec2d post_at(const MapBounds& b, const GroundRaster::Shape& shape, Vec3d place) {
+// factor: see latitude_factor().
+inline Vec2d post_at(const MapBounds& b, const GroundRaster::Shape& shape, Vec3d place, double factor) {
     const double per_deg = shape.columns / (b.east_deg - b.west_deg);
     const double turn = shape.whole_turn ? shape.columns : 360 * per_deg;
     return {within_turn((longitude_deg(place) - b.west_deg) * per_deg - 0.5, turn),
-            (b.north_deg - latitude_deg(place)) / (b.north_deg - b.south_deg) * shape.rows - 0.5};
+            (b.north_deg - latitude_deg(place, factor)) / (b.north_deg - b.south_deg) * shape.rows - 0.5};
 }
 
 }  // namespace hilcam

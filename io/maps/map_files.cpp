@@ -1,9 +1,9 @@
 #include "io/maps/map_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
+#include "io/maps/label_statements.h"
 #include "io/system/input_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -17,42 +17,8 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 50;
 // Labels are shorter, and say at their begin that they are some.
 constexpr std::size_t kLabel_bytes = std::size_t{1} << 20, kMark_bytes = std::size_t{1} << 16;
-
-// Names are looked for in any case, as readers of labels do.
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-    return out;
-}
-
-bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
-bool is_of_key(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '^'; }
-
-// Takes out comments that no quotation can begin or end in, which may have slashes.
-std::string without_comments(std::string_view text) {
-    std::string out(text);
-    for (std::size_t at = out.find("/*"); at != std::string::npos; at = out.find("/*", at)) {
-        const std::size_t end = out.find("*/", at + 2);
-        if (end == std::string::npos || out.substr(at, end - at).find_first_of("\"'") != std::string::npos)
-            ++at;
-        else
-            out.replace(at, end + 2 - at, " ");
-    }
-    return out;
-}
-
-// Calls take(key, value) for each "KEY = value" of a label. A value goes on to the next statement's key and includes that, so that no
-// reader of labels, whatever it makes of brackets and quotes, finds more in it.
-template <class Take>
-void visit_statements(std::string_view text, const Take& take) {
-    for (std::size_t at = text.find('='); at != std::string_view::npos; at = text.find('=', at + 1)) {
-        std::size_t end = at;
-        while (end > 0 && is_blank(text[end - 1])) --end;
-        std::size_t begin = end;
-        while (begin > 0 && is_of_key(text[begin - 1])) --begin;
-        take(text.substr(begin, end - begin), text.substr(at + 1, text.find('=', at + 1) - at - 1));
-    }
-}
+// XML begins with its first mark, behind a byte-order mark and blanks at most.
+constexpr std::size_t kMost_before_xml = 64;
 
 // Adds what may be the name of a file: what stands between quotes, and each word.
 void add_names(std::string_view value, std::vector<std::string>& names) {
@@ -79,11 +45,23 @@ bool is_label(const std::string& text) {
            begin.find("IsisCube") != std::string_view::npos;
 }
 
+// PDS4's labels are XML, and a file of their own.
+bool is_pds4_label(const std::string& text) {
+    const std::string_view begin = std::string_view(text).substr(0, kMark_bytes);
+    return begin.find("<Product_") != std::string_view::npos && begin.find('<') < kMost_before_xml;
+}
+
 // Returns a label's text up to its end, as readers look for it; nothing of a file that is no label.
 std::string label_of(const fs::path& file, const std::string& name) {
     const InputFile in = open_input_file(file, {kMostBytes, "a map"});
     std::string text(std::min<std::uintmax_t>(in.bytes, kLabel_bytes), '\0');
     read_input_piece(in, file, 0, text.data(), text.size());
+    if (is_pds4_label(text)) {
+        if (in.bytes > kLabel_bytes)
+            throw InputError(name + ": its label is longer than " + std::to_string(kLabel_bytes) +
+                             " bytes; accepted: a shorter one");
+        return text;
+    }
     if (!is_label(text)) return {};
     std::size_t end = text.size();
     for (const char* const mark : {"\nEND\n", "\nEND\r\n", "\nEnd\n", "\nEnd\r\n"})
@@ -102,21 +80,53 @@ std::string label_of(const fs::path& file, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> label_pointers(const std::string& text, const std::string& name) {
+namespace {
+
+// Refuses what leads out of the map's folder.
+void require_plain_name(std::string_view value, const std::string& name) {
+    if (value.find_first_of("/\\") == std::string_view::npos) return;
+    const std::size_t begin = std::min(value.find_first_not_of(" \t\r\n"), value.size());
+    throw InputError(name + ": its label points at " + in_quotes(value.substr(begin)) +
+                     "; accepted: the name of a file beside it, without folders");
+}
+
+// A PDS4 label names files in its elements file_name alone; references (&...;) could spell others.
+std::vector<std::string> pds4_pointers(const std::string& text, const std::string& name) {
     std::vector<std::string> out;
-    visit_statements(without_comments(text), [&](std::string_view key, std::string_view value) {
-        const std::string word = lower(key);
-        if (word == "format" && lower(value).find("geotiff") != std::string::npos)
+    if (text.find("<!DOCTYPE") != std::string::npos || text.find("<!ENTITY") != std::string::npos)
+        throw InputError(name + ": its label has definitions of its own (DOCTYPE); accepted: without");
+    constexpr std::string_view kElement = "file_name";
+    for (std::size_t at = text.find(kElement); at != std::string::npos; at = text.find(kElement, at + 1)) {
+        const std::size_t begin = text.find('>', at);
+        const std::size_t end = begin == std::string::npos ? begin : text.find('<', begin);
+        if (end == std::string::npos || text[begin - 1] == '/') continue;
+        const std::string_view value = std::string_view(text).substr(begin + 1, end - begin - 1);
+        if (value.find('&') != std::string_view::npos)
+            throw InputError(name + ": its label points at " + in_quotes(value) +
+                             "; accepted: a name without references");
+        require_plain_name(value, name);
+        const std::size_t first = value.find_first_not_of(" \t\r\n");
+        if (first == std::string_view::npos) continue;
+        out.emplace_back(value.substr(first, value.find_last_not_of(" \t\r\n") + 1 - first));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::string> label_pointers(const std::string& text, const std::string& name) {
+    if (is_pds4_label(text)) return pds4_pointers(text, name);
+    std::vector<std::string> out;
+    visit_label_statements(without_label_comments(text), [&](std::string_view key, std::string_view value) {
+        const std::string word = small_letters(key);
+        if (word == "format" && small_letters(value).find("geotiff") != std::string::npos)
             throw InputError(name +
                              ": its label has the values in a GeoTIFF; accepted: that file by its own name");
         if ((word == "object" || word == "group") &&
-            lower(value).find("compressed_file") != std::string::npos)
+            small_letters(value).find("compressed_file") != std::string::npos)
             throw InputError(name + ": its label has compressed values; accepted: such as they are");
         if (!word.starts_with('^')) return;
-        if (value.find_first_of("/\\") != std::string_view::npos)
-            throw InputError(name + ": its label points at " +
-                             in_quotes(value.substr(value.find_first_not_of(" \t\r\n"))) +
-                             "; accepted: the name of a file beside it, without folders");
+        require_plain_name(value, name);
         add_names(value, out);
     });
     return out;
@@ -124,22 +134,23 @@ std::vector<std::string> label_pointers(const std::string& text, const std::stri
 
 MapFiles find_map_files(const fs::path& file, const std::string& name) {
     MapFiles out{fs::absolute(file).lexically_normal(), {}};
-    const std::vector<std::string> pointers = label_pointers(label_of(out.file, name), name);
-    const std::string stem = lower(out.file.stem().string());
+    out.label = label_of(out.file, name);
+    const std::vector<std::string> pointers = label_pointers(out.label, name);
+    const std::string stem = small_letters(out.file.stem().string());
     std::error_code error;
     for (fs::directory_iterator at(out.file.parent_path(), error), end; !error && at != end;
          at.increment(error)) {
         const std::string own = at->path().filename().string();
-        const bool is_pointed_at =
-            std::any_of(pointers.begin(), pointers.end(),
-                        [&](const std::string& pointer) { return lower(pointer) == lower(own); });
-        if (!is_pointed_at && !lower(own).starts_with(stem)) continue;
+        const bool is_pointed_at = std::any_of(
+            pointers.begin(), pointers.end(),
+            [&](const std::string& pointer) { return small_letters(pointer) == small_letters(own); });
+        if (!is_pointed_at && !small_letters(own).starts_with(stem)) continue;
         std::error_code absent;
         const fs::file_status status = fs::status(at->path(), absent);
         if (!fs::exists(status) || fs::is_directory(status)) continue;
         if (!fs::is_regular_file(status)) require_regular(at->path());
         if (is_pointed_at) out.pointed_at.push_back(own);
-        if (lower(own).starts_with(stem)) out.beside.push_back(own);
+        if (small_letters(own).starts_with(stem)) out.beside.push_back(own);
     }
     return out;
 }

@@ -12,14 +12,15 @@ struct MapFiles {
     std::filesystem::path file;       // absolute
     std::vector<std::string> beside;  // names of files in its folder that begin as it does, itself among them
     std::vector<std::string>
-        pointed_at{};  // names in its folder that the label gives, as they are spelt there
+        pointed_at{};     // names in its folder that the label gives, as they are spelt there
+    std::string label{};  // text of its PDS3, PDS4 or ISIS label; empty: it has none
 };
 
 // Throws InputError, one line that begins with `name`, unless all of them are regular files of the map's own folder: a pipe would keep
 // whoever opens it, a device has no end, and a label may not name what lies elsewhere.
 MapFiles find_map_files(const std::filesystem::path& file, const std::string& name);
 
-// Returns all that may be the name of a file which the text of a PDS3 or ISIS label points at; words that are none are among it. Throws
+// Returns all that may be the name of a file which the text of a PDS3, PDS4 or ISIS label points at; words that are none are among it. Throws
 // InputError, which begins with `name`, where a pointer is no plain name, and where the values are in a file of another format.
 std::vector<std::string> label_pointers(const std::string& text, const std::string& name);
 

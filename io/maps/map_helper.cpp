@@ -7,6 +7,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "io/maps/longitude_latitude.h"
@@ -64,12 +65,13 @@ class HelpedRaster final : public GroundRaster {
                        config.bounds_deg[3]};
         constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 50;  // a petabyte is no map
         open_input_file(config.file, {kMostBytes, "a map"});
-        shape_ = opened();
+        shape_ = opened(reading_);
     }
 
     void find_posts(std::span<const Vec3d> places, std::span<Vec2d> posts) override {
         if (bounds_) {
-            for (std::size_t i = 0; i < places.size(); ++i) posts[i] = post_at(*bounds_, shape_, places[i]);
+            for (std::size_t i = 0; i < places.size(); ++i)
+                posts[i] = post_at(*bounds_, shape_, places[i], factor_);
             return;
         }
         for (std::size_t i = 0; i < places.size(); i += kMostPlaces) {
@@ -110,6 +112,7 @@ class HelpedRaster final : public GroundRaster {
     std::filesystem::path file_;  // absolute: a reader may be started later, from another folder
     MappedBody body_;
     std::optional<MapBounds> bounds_;
+    double factor_ = 1;                      // see latitude_factor()
     std::unique_ptr<HelperProcess> helper_;  // null: it has ended, and is not started again
     std::vector<float> piece_;
 
@@ -118,7 +121,7 @@ class HelpedRaster final : public GroundRaster {
     }
 
     // Starts a reader and has it open the map. Throws InputError.
-    Shape opened() {
+    Shape opened(Reading& reading) {
         std::error_code error;
         if (!std::filesystem::is_regular_file(program_, error))
             refuse(std::string("is read by ") + kMapProgram +
@@ -131,6 +134,8 @@ class HelpedRaster final : public GroundRaster {
         if (const std::string fault = ask(request, answer, kOpening); !fault.empty())
             refuse("does not parse: " + fault);
         if (answer.refused_bytes > 0) throw InputError(refusal(answer));
+        factor_ = latitude_factor(body_.figure, answer.planetocentric != 0);
+        reading = reading_in(answer);
         return believable(answer);
     }
 
@@ -146,6 +151,10 @@ class HelpedRaster final : public GroundRaster {
         out.ground_kind = static_cast<std::uint32_t>(config_.kind);
         out.coding = static_cast<std::uint32_t>(config_.coding);
         out.holes = static_cast<std::uint32_t>(config_.holes);
+        out.latitudes = static_cast<std::uint32_t>(config_.latitudes);
+        out.longitudes = static_cast<std::uint32_t>(config_.longitudes);
+        out.no_data = static_cast<std::uint32_t>(config_.no_data.size());
+        std::copy(config_.no_data.begin(), config_.no_data.end(), out.no_data_values);
         out.bounds = static_cast<std::uint32_t>(config_.bounds_deg.size());
         std::copy(config_.bounds_deg.begin(), config_.bounds_deg.end(), out.bounds_deg);
         out.scale = config_.scale, out.offset = config_.offset;
@@ -162,6 +171,17 @@ class HelpedRaster final : public GroundRaster {
         absolute.file = file_;
         const std::string begin = name_of(absolute);
         return text.starts_with(begin) ? name_of(config_) + text.substr(begin.size()) : text;
+    }
+
+    // Its words are shown, within bounds and without what turns a terminal over.
+    Reading reading_in(const MapAnswer& answer) const {
+        const std::size_t size = std::min<std::size_t>(answer.reading_bytes, kMostText_bytes);
+        std::istringstream lines(std::string(reinterpret_cast<const char*>(helper_->memory().data()), size));
+        Reading out;
+        std::string line;
+        if (std::getline(lines, line)) out.taken = harmless(line);
+        while (std::getline(lines, line)) out.doubts.push_back(harmless(line));
+        return out;
     }
 
     Shape believable(const MapAnswer& a) const {
@@ -198,7 +218,8 @@ class HelpedRaster final : public GroundRaster {
     bool has_reader() {
         if (!helper_ || helper_->is_own()) return helper_ != nullptr;
         try {
-            const Shape now = opened();
+            Reading again;
+            const Shape now = opened(again);
             if (now.columns == shape_.columns && now.rows == shape_.rows && now.channels == shape_.channels)
                 return true;
         } catch (const std::exception&) {

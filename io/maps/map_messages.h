@@ -20,9 +20,11 @@ struct MapRequest {
     Kind kind = Kind::kOpen;
     // kOpen: a GroundMapConfig and a MappedBody; three texts lie in the memory one after another.
     std::uint32_t file_bytes = 0, where_bytes = 0, body_bytes = 0;
-    std::uint32_t ground_kind = 0, coding = 0, holes = 0;
-    std::uint32_t bounds = 0;  // 0 or 4
+    std::uint32_t ground_kind = 0, coding = 0, holes = 0, latitudes = 0, longitudes = 0;
+    std::uint32_t bounds = 0;   // 0 or 4
+    std::uint32_t no_data = 0;  // 0 to 4
     double bounds_deg[4] = {};
+    double no_data_values[4] = {};
     double scale = 1, offset = 0;
     double equatorial_radius_m = 0, polar_radius_m = 0;
     // kFind: so many places lie in the memory (Vec3d), and their posts are to be written at kPosts_at (Vec2d).
@@ -38,6 +40,8 @@ struct MapAnswer {
     // kOpen: a GroundRaster::Shape.
     std::int32_t columns = 0, rows = 0, channels = 0, bands = 0;
     std::uint32_t has_overviews = 0, whole_turn = 0, pole_above_first_row = 0, pole_below_last_row = 0;
+    // Kind of its latitudes, and a GroundRaster::Reading as text in the memory: what was taken, then a line for each doubt.
+    std::uint32_t planetocentric = 0, reading_bytes = 0;
     double spacing_m = 0;
 };
 

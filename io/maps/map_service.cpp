@@ -94,11 +94,15 @@ class MapService {
         config.kind = static_cast<GroundKind>(r.ground_kind);
         config.coding = static_cast<MapCoding>(r.coding);
         config.holes = static_cast<MapHoles>(r.holes);
+        config.latitudes = static_cast<MapLatitudes>(r.latitudes);
+        config.longitudes = static_cast<MapLongitudes>(r.longitudes);
         config.scale = r.scale, config.offset = r.offset;
+        config.no_data.assign(r.no_data_values, r.no_data_values + r.no_data);
         config.bounds_deg.assign(r.bounds_deg, r.bounds_deg + r.bounds);
         const MapFiles files = find_map_files(config.file, map_name(config));
         confine(files);
         raster_ = open_gdal_raster(config, body, files);
+        put(raster_->reading(), answer);
         const GroundRaster::Shape& shape = raster_->shape();
         answer.columns = shape.columns, answer.rows = shape.rows;
         answer.channels = shape.channels, answer.bands = shape.bands;
@@ -106,6 +110,15 @@ class MapService {
         answer.pole_above_first_row = shape.pole_above_first_row;
         answer.pole_below_last_row = shape.pole_below_last_row;
         answer.spacing_m = shape.spacing_m;
+    }
+
+    void put(const GroundRaster::Reading& reading, MapAnswer& answer) {
+        answer.planetocentric = reading.planetocentric;
+        std::string text = reading.taken;
+        for (const std::string& doubt : reading.doubts) text += '\n' + doubt;
+        text.resize(std::min(text.size(), kMostText_bytes));
+        std::memcpy(memory_, text.data(), text.size());
+        answer.reading_bytes = static_cast<std::uint32_t>(text.size());
     }
 
     // Leaves the process what this one map needs, before anybody has looked into it.

@@ -24,10 +24,20 @@ class PictureRaster final : public GroundRaster {
             bounds_ = {config.bounds_deg[0], config.bounds_deg[1], config.bounds_deg[2],
                        config.bounds_deg[3]};
         set_bounds(bounds_, body.figure.equatorial_radius_m, shape_);
+        const bool planetocentric = config.latitudes == MapLatitudes::kPlanetocentric;
+        factor_ = latitude_factor(body.figure, planetocentric);
+        if (body.figure.polar_radius_m == body.figure.equatorial_radius_m) return;
+        reading_.taken = planetocentric ? "latitudes planetocentric (latitudes)"
+                                        : "latitudes planetographic (" +
+                                              std::string(config.latitudes == MapLatitudes::kLabel
+                                                              ? "taken: a picture does not say"
+                                                              : "latitudes") +
+                                              ")";
     }
 
     void find_posts(std::span<const Vec3d> places, std::span<Vec2d> posts) override {
-        for (std::size_t i = 0; i < places.size(); ++i) posts[i] = post_at(bounds_, shape_, places[i]);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            posts[i] = post_at(bounds_, shape_, places[i], factor_);
     }
 
     // Means of what a post of the level stands for.
@@ -47,6 +57,7 @@ class PictureRaster final : public GroundRaster {
 
   private:
     MapBounds bounds_;
+    double factor_ = 1;  // see latitude_factor()
     std::vector<float> values_;
 
     float at(int column, int row, int channel) const {

@@ -7,6 +7,7 @@
 //   TIFF  libtiff        the first page
 //   WebP  libwebp        one picture, no animation
 //   BMP   stb_image      without run lengths
+//   FITS  this program   numbers: the first image of two axes, not compressed
 //
 // An alpha channel is left out.
 
@@ -50,6 +51,16 @@ Texture decode_bmp(PictureBytes bytes);
 // A number for each pixel, of pictures of one channel: PNG to 16 bits, TIFF of 8 to 32 bits or of floats.
 PixelMap decode_png_numbers(PictureBytes bytes);
 PixelMap decode_tiff_numbers(PictureBytes bytes);
+
+// FITS 4.0 (IAU FITS Working Group, 2018): the primary image, or the first extension that is an image of two axes; 8 to 32 bits or
+// floats, with BSCALE and BZERO. The value BLANK is NaN. Pixel (x, y) is data[y][x], the first row of the file; with ROWORDER BOTTOM-UP the
+// last. Library-free: the one that both Debians package, cfitsio, brings network code into the program.
+bool is_fits_picture(PictureBytes bytes);
+struct FitsSize {
+    std::uint64_t width = 0, height = 0;
+};
+FitsSize fits_picture_size(PictureBytes bytes);
+PixelMap decode_fits_numbers(PictureBytes bytes);
 
 enum class SampleKind { kGray8, kGray16, kRgb8 };
 // Rows without padding; 16-bit numbers as the machine has them, colours as red, green, blue.

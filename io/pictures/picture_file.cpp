@@ -17,13 +17,17 @@ namespace {
 // stored, and what progressive JPEG and lossless WebP keep of all of it.
 constexpr std::uint64_t kBytesPerPixel = 16;
 
+void allow_for(std::uint64_t width, std::uint64_t height) {
+    require_few_pixels(width, height);
+    // 0.3 us a pixel is ten times what PNG takes, the slowest of them.
+    const std::uint64_t pixels = width * height;
+    allow_more(kBytesPerPixel * pixels, 3e-7 * static_cast<double>(pixels));
+}
+
 PictureKind require_size(PictureBytes bytes) {
     const std::optional<PictureSize> size = picture_size(bytes);
     if (!size) throw undecodable("");
-    require_few_pixels(size->width, size->height);
-    // 0.3 us a pixel is ten times what PNG takes, the slowest of them.
-    const std::uint64_t pixels = size->width * size->height;
-    allow_more(kBytesPerPixel * pixels, 3e-7 * static_cast<double>(pixels));
+    allow_for(size->width, size->height);
     return size->kind;
 }
 
@@ -85,10 +89,15 @@ const InputKind& picture_kind() {
 }
 
 PixelMap decode_numbers(PictureBytes bytes) {
+    if (is_fits_picture(bytes)) {
+        const FitsSize size = fits_picture_size(bytes);
+        allow_for(size.width, size.height);
+        return decode_fits_numbers(bytes);
+    }
     const PictureKind kind = require_size(bytes);
     if (kind == PictureKind::kPng) return decode_png_numbers(bytes);
     if (kind == PictureKind::kTiff) return decode_tiff_numbers(bytes);
-    throw PictureFault("is a picture of colours; accepted: TIFF or PNG of one channel");
+    throw PictureFault("is a picture of colours; accepted: TIFF, PNG or FITS of one channel");
 }
 
 Texture decode_texture(std::span<const std::uint8_t> bytes, const std::string& what) {

@@ -20,8 +20,8 @@ const InputKind& picture_kind();
 
 // An 8-bit colour picture as a texture. InputError when it is too large or does not decode.
 Texture read_picture(const std::filesystem::path& file);
-// A number for each pixel: TIFF of one channel (whole numbers of 8 to 32 bits, floats), or PNG of one channel
-// (8 or 16 bits). InputError when it is missing, too large, does not decode, has several channels or a value
+// A number for each pixel: TIFF of one channel (whole numbers of 8 to 32 bits, floats), PNG of one channel
+// (8 or 16 bits), or FITS. InputError when it is missing, too large, does not decode, has several channels or a value
 // that is negative (unless any_sign) or not a number.
 PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign);
 

@@ -38,6 +38,15 @@ class Reader {
             throw InputError(pool_.find(key(item))->where + ": " + key(item) + ": has no direction");
         return normalized(out);
     }
+    std::optional<Vec2d> pair(const char* item, double most) const {
+        const auto found = pool_.numbers(key(item));
+        if (!found) return {};
+        const auto v = pool_.require_numbers(key(item), 2, "a point of the detector");
+        if (!(std::abs(v[0]) <= most && std::abs(v[1]) <= most))
+            throw InputError(pool_.find(key(item))->where + ": " + key(item) + ": found " + plain(v[0]) +
+                             ", " + plain(v[1]) + "; accepted: -" + plain(most) + " to " + plain(most));
+        return Vec2d{v[0], v[1]};
+    }
     std::string word(const char* item) const {
         const auto found = pool_.text(key(item));
         std::string out;
@@ -85,6 +94,19 @@ std::optional<double> half_field_of(const Reader& r, const std::optional<Vec3d>&
     return out;
 }
 
+std::optional<Vec2d> center_of(const Reader& r, const InstrumentKernel& k) {
+    constexpr double kMost_px = 16384, kFirst_px = 0.5;
+    const auto x = r.number("DISTORTION_X", -kMost_px, kMost_px),
+               y = r.number("DISTORTION_Y", -kMost_px, kMost_px);
+    if (x && y) return Vec2d{*x + kFirst_px, *y + kFirst_px};
+    const auto center = r.pair("CCD_CENTER", kMost_px);
+    if (!center) return {};
+    const bool from_one = k.samples && k.lines && center->x == 0.5 * (static_cast<double>(*k.samples) + 1) &&
+                          center->y == 0.5 * (static_cast<double>(*k.lines) + 1);
+    const double first_px = from_one ? -kFirst_px : kFirst_px;
+    return Vec2d{center->x + first_px, center->y + first_px};
+}
+
 }  // namespace
 
 InstrumentKernel instrument_kernel(const KernelPool& pool, std::string_view name, const std::string& key) {
@@ -101,6 +123,7 @@ InstrumentKernel instrument_kernel(const KernelPool& pool, std::string_view name
     out.pitch_m = pitch_of(r);
     if (const auto n = r.number("PIXEL_SAMPLES", 1, 65535)) out.samples = static_cast<std::int64_t>(*n);
     if (const auto n = r.number("PIXEL_LINES", 1, 65535)) out.lines = static_cast<std::int64_t>(*n);
+    out.center_px = center_of(r, out);
     out.half_field_rad = half_field_of(r, out.boresight);
     return out;
 }

@@ -18,6 +18,10 @@ struct InstrumentKernel {
     // 100 um); _PIXEL_SAMPLES and _PIXEL_LINES.
     std::optional<double> focal_length_m, pitch_m;
     std::optional<std::int64_t> samples, lines;
+    // Point where the boresight meets the detector [px; the first pixel's middle is (0.5, 0.5)]: _DISTORTION_X and _DISTORTION_Y, the centre of the
+    // distortion (JunoCam's and others'), else _CCD_CENTER, which count from the first pixel's middle as (0, 0), or as (1, 1) where
+    // _CCD_CENTER is the middle of the pixels so.
+    std::optional<Vec2d> center_px;
     // Half the field of view, from the boresight to the farthest corner or edge.
     std::optional<double> half_field_rad;
 };

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "render/vocabulary/vec.h"
 
@@ -24,8 +26,15 @@ class GroundRaster {
         bool pole_above_first_row = false;  // the pole is half a post beyond
         bool pole_below_last_row = false;
     };
+    // Tells people how a map was understood.
+    struct Reading {
+        bool planetocentric = false;  // kind of the map's latitudes
+        std::string taken;  // kinds of latitudes and longitudes, unit, and what says so; may be empty
+        std::vector<std::string> doubts;  // remarks on what is probably not meant, a line each
+    };
     virtual ~GroundRaster() = default;
     const Shape& shape() const { return shape_; }
+    const Reading& reading() const { return reading_; }
     // Returns how many reads have met what cannot be read so far.
     std::uint64_t failed_reads() const { return failed_reads_; }
 
@@ -39,6 +48,7 @@ class GroundRaster {
 
   protected:
     Shape shape_;
+    Reading reading_;
     std::uint64_t failed_reads_ = 0;
 };
 

@@ -153,9 +153,13 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
     Spectrum texel;
     texel.bin.fill(1);
     if (!scene.map.empty()) {
-        // Latitude is the normal's own; longitude runs with u from 180 W.
+        // Longitude runs with u from 180 W. Latitude is the normal's own, or flatter (Snyder, USGS Professional Paper 1395, 1987, eq. 3-28).
         const auto u = static_cast<float>(std::atan2(level.y, level.x) / (2 * kPi) + 0.5);
-        const auto v = static_cast<float>(0.5 - std::asin(std::clamp(level.z, -1.0, 1.0)) / kPi);
+        const double latitude_rad =
+            scene.map_latitude_factor == 1
+                ? std::asin(std::clamp(level.z, -1.0, 1.0))
+                : std::atan2(scene.map_latitude_factor * level.z, std::hypot(level.x, level.y));
+        const auto v = static_cast<float>(0.5 - latitude_rad / kPi);
         // Against the equator's length.
         const double slant = std::max(0.25, dot(level, to_viewer_dir));
         const double footprint = pixel_rad_ * length(point_m - body.camera_m) /

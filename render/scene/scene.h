@@ -41,6 +41,8 @@ struct SceneBody {
     BodyLook look;
     MipTexture map;            // empty: uniform. Relative to its mean where the look is tied to a magnitude
     double map_reference = 0;  // or to this value, linear; 0: the mean
+    // Factor on tan(latitude) of the normal that makes the map's latitude: (b/a)^2 for a planetocentric map.
+    double map_latitude_factor = 1;
     BodyRelief relief{};       // empty: smooth
     bool planetshine = false;  // other bodies light it
     bool rings = false;        // Saturn's

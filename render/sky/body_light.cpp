@@ -126,6 +126,10 @@ Fields fields(BodyConfig& c) {
         section("regolith", c.regolith, "parameters of law hapke; left out: the Moon's"),
         path("albedo_map", c.albedo_map,
              "equirectangular picture, left edge 180 W, top 90 N; left out: uniform"),
+        choice(
+            "albedo_map_latitudes", c.albedo_map_latitudes, {"planetographic", "planetocentric"},
+            "kind of the picture's latitudes, which differ where the body is flattened: maps of Mars, Ceres "
+            "and Vesta mostly are planetocentric"),
         number("albedo_map_reference", c.albedo_map_reference, 1, {0, 1},
                "value of the map, linear, at which the law's albedo or the magnitude holds; 0: its mean"),
         path("height_map", c.height_map,
@@ -146,6 +150,8 @@ void validate(const BodyConfig& c) {
                        "found true with law: hapke, which has its own scale; accepted: false");
     if (c.albedo_map_reference > 0 && c.albedo_map.empty())
         throw KeyError("albedo_map_reference", "has no effect without albedo_map; accepted: both or neither");
+    if (c.albedo_map_latitudes != MapLatitude::kPlanetographic && c.albedo_map.empty())
+        throw KeyError("albedo_map_latitudes", "has no effect without albedo_map; accepted: both or neither");
     if ((c.height_step_m != 1 || c.height_zero_m != 0) && c.height_map.empty())
         throw KeyError(c.height_step_m != 1 ? "height_step_m" : "height_zero_m",
                        "has no effect without height_map; accepted: both or neither");

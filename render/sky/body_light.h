@@ -33,6 +33,8 @@
 namespace hilcam {
 
 enum class SurfaceLaw { kLambert, kLommelSeeliger, kHapke };
+// Latitudes of a map: angles of the ellipsoid's normal, or of the line from the body's middle, to the equator.
+enum class MapLatitude { kPlanetographic, kPlanetocentric };
 
 // Hapke's law but for w; the defaults are the Moon's.
 struct RegolithConfig {
@@ -51,6 +53,7 @@ struct BodyConfig {
     bool has_albedo = false, has_measured = false;
     RegolithConfig regolith;
     std::filesystem::path albedo_map;  // equirectangular, left edge 180 W, top 90 N
+    MapLatitude albedo_map_latitudes = MapLatitude::kPlanetographic;
     double albedo_map_reference = 0;   // linear value of the map that has the law's own light; 0: its mean
     std::filesystem::path height_map;  // likewise; value x step + zero
     double height_step_m = 1, height_zero_m = 0;

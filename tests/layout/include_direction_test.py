@@ -24,6 +24,8 @@ ROOMS = (
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
     "render/frame", "render/sunlit_ground", "render/light", "render/kept", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/levels", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
 )
+GDAL_FILES = {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_placement.cpp", "io/maps/gdal_placement.h",
+              "io/maps/gdal_raster.cpp"}
 ONLY_IN = {
     "embree": {"render/levels/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
     "meshoptimizer": {"render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
@@ -48,9 +50,9 @@ ONLY_IN = {
             "render/visibility/lane_vectors-inl.h", "render/visibility/sixteen_lanes-inl.h",
             "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp",
             "sensor/convolution/half_rows.cpp", "sensor/convolution/point_tables.cpp"},
-    "gdal": {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_raster.cpp"},
-    "ogr_": {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_raster.cpp"},
-    "cpl_": {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_raster.cpp"},
+    "gdal": GDAL_FILES,
+    "ogr_": GDAL_FILES,
+    "cpl_": GDAL_FILES,
     "seccomp": {"io/system/confinement.cpp"},
     "libusb": {"io/commands/command_link_usb.cpp", "io/commands/commands_usb.cpp", "io/commands/usb_device.cpp"},
     "erfa": {"render/sky/bodies.cpp", "render/sky/earth_frames.cpp", "render/sky/stars.cpp", "render/vocabulary/time.cpp",

@@ -138,6 +138,19 @@ class Pictures(unittest.TestCase):
             self.assertGreater(spec.getattribute("exposure_s"), 0)
             self.assertGreater(image.read_image().max(), 0)
 
+    def test_truth_has_the_pixels_of_its_picture(self):
+        """Charge and light are shown before a camera bins them."""
+        sizes = {}
+        for stage, ending, binned in (("electrons", "exr", False), ("frame", "png", True)):
+            file, _ = self.render(f"binned_{stage}.{ending}", "--stage", stage, "--truth", self.folder / "binned",
+                                  "--set", "camera.binning_x=2", "--set", "camera.binning_y=2")
+            truth = json.loads((self.folder / f"binned/binned_{stage}.truth.jsonl").read_text().splitlines()[1])
+            mask = Image.open(self.folder / f"binned/binned_{stage}.truth.object.png")
+            sizes[stage] = mask.size
+            self.assertEqual(truth["image"]["binning"], [2, 2] if binned else [1, 1])
+        self.assertEqual(sizes["frame"], Image.open(file).size)
+        self.assertEqual(sizes["electrons"], tuple(2 * side for side in sizes["frame"]))
+
     def test_truth_masks_are_sixteen_bits(self):
         oiio = reader("OpenImageIO")
         self.render("frame.raw", "--truth", self.folder / "truth")

@@ -10,7 +10,7 @@ import sys
 import time
 
 # As characterise_test.cpp asks of its cameras: relative deviations; of the MTF the absolute one. Three of the laboratory's own
-# uncertainties come on top: a noisy camera is known less well, and 17 cameras times 8 figures are more than a hundred trials.
+# uncertainties come on top: a noisy camera is known less well, and 20 cameras times 8 figures are more than a hundred trials.
 BOUNDS = {"gain_dn_e": 0.01, "qe_peak": 0.01, "read_noise_e": 0.02, "dark_current_e_s": 0.02, "prnu_fraction": 0.05, "dsnu_e": 0.05}
 MTF_BOUND = 0.01
 MTFS = ("mtf_nyquist", "mtf_nyquist_vertical")

@@ -1,5 +1,7 @@
 #include "io/gige/device/gige_acquisition.h"
 
+#include <cmath>
+
 #include "io/gige/device/gige_registers.h"
 
 namespace hilcam {
@@ -59,6 +61,7 @@ void GigeAcquisition::stop() {
     if (!core_.stream.acquiring) return;
     core_.stream.acquiring = false;
     core_.publish_stream();
+    if (ended_) ended_();
 }
 
 // --- exposure, gain, black level
@@ -68,12 +71,12 @@ void GigeAcquisition::add_exposure() {
     const auto settings = [this] { return core_.camera.settings(); };
     r.constant(reg::kExposureMode, 1);  // Timed
     r.number(
-        reg::kExposureAuto, [settings] { return settings().automatic_exposure; },
-        [this](std::uint64_t on) {
-            if (on > 1 || (on && !core_.limits.has_automatic_exposure)) return Status::kInvalidParameter;
-            if (!core_.limits.has_automatic_exposure) return Status::kSuccess;
-            return core_.change({.automatic_exposure = on != 0});
-        });
+        reg::kExposureAuto,
+        [this, settings] {
+            if (!settings().automatic_exposure) return std::uint64_t{kOff};
+            return std::uint64_t{finding_ ? kOnce : kContinuous};
+        },
+        [this](std::uint64_t mode) { return set_automatic(mode); });
     r.real(
         reg::kExposureTime_us, [settings] { return settings().exposure_s * 1e6; },
         [this](double us) { return core_.change({.exposure_s = us * 1e-6}); });
@@ -87,6 +90,32 @@ void GigeAcquisition::add_exposure() {
         [this](double dn) { return core_.change({.black_level_dn = dn}); });
 }
 
+Status GigeAcquisition::set_automatic(std::uint64_t mode) {
+    if (mode > kOnce || (mode != kOff && !core_.limits.has_automatic_exposure))
+        return Status::kInvalidParameter;
+    if (!core_.limits.has_automatic_exposure) return Status::kSuccess;
+    const Status status = core_.change({.automatic_exposure = mode != kOff});
+    if (status != Status::kSuccess) return status;
+    finding_ = mode == kOnce;
+    found_s_ = 0, steady_ = looked_at_ = 0;
+    return status;
+}
+
+// Once ends when the exposure has been the same to a fiftieth for four frames, or after 64, whatever it is then: the control needs some ten
+// frames for a scene that stands, and never comes to rest on one that moves.
+void GigeAcquisition::happened(const CameraEvent& event) {
+    if (!finding_ || event.kind != CameraEvent::Kind::kExposureStart) return;
+    constexpr double kSame = 0.02;
+    constexpr int kSteadyFrames = 4, kMostFrames = 64;
+    const CameraSettings now = core_.camera.settings();
+    finding_ = now.automatic_exposure;  // or somebody else has ended it
+    if (!finding_) return;
+    steady_ = std::abs(now.exposure_s - found_s_) <= kSame * found_s_ ? steady_ + 1 : 0;
+    found_s_ = now.exposure_s;
+    if (steady_ < kSteadyFrames && ++looked_at_ < kMostFrames) return;
+    finding_ = core_.change({.automatic_exposure = false}) != Status::kSuccess;
+}
+
 // --- frame rate
 
 // Adds the frame rate; without AcquisitionFrameRateEnable the camera is as fast as it can be.
@@ -98,6 +127,7 @@ void GigeAcquisition::add_frame_rate() {
     r.real(
         reg::kFrameRate_hz, [this] { return core_.camera.settings().frame_rate_hz; },
         [this](double rate_hz) { return set_rate(rate_hz); });
+    r.real(reg::kResultingFrameRate_hz, [this] { return core_.camera.resulting_frame_rate_hz(); });
 }
 
 Status GigeAcquisition::enable_rate(bool on) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/contract/camera_control.h"
 #include "io/contract/fault.h"
@@ -22,6 +23,7 @@ struct GigeIdentity {
     std::uint32_t packet_bytes = 1500;
     std::uint32_t link_speed_mbit_s = 0;  // 0: not known
     bool multipart = false;  // announce multipart payloads, as some clients test what is announced
+    std::vector<std::string> more_lines{};  // names of the trigger input beside Line0
 };
 
 // The counters of the stream side, which features show.
@@ -77,6 +79,9 @@ struct GigeSettings {
     std::uint32_t frame_count = 1;  // MultiFrame's
     std::uint32_t burst_count = 1;  // FrameBurstStart's
     bool burst_trigger = false;     // true: FrameBurstStart is the trigger when one is on; false: FrameStart
+    bool acquisition_trigger =
+        false;               // AcquisitionStart's trigger is on; the camera waits for it, or has had it
+    std::uint32_t line = 0;  // name by which the trigger input was chosen; 0: Line0
     bool rate_enabled = true;
     double rate_hz = 0;  // while not enabled: what to go back to
     bool chunk_mode = false;

@@ -49,12 +49,14 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
       user_sets(core,
                 [this] {
                     image.fit();
+                    trigger.rearm();
                     core.publish_stream();
                 }),
-      xml(padded(genicam_xml(gige_features(core.limits, id.multipart), id.model))),
+      xml(padded(genicam_xml(gige_features(core.limits, id.multipart, id.more_lines), id.model))),
       zip(zip_of("hilcam.xml", xml)) {
     bootstrap.add_description(bytes_of(xml), zip);
     add_device_registers();
+    acquisition.on_end([this] { trigger.rearm(); });
     core.publish_stream();
 }
 
@@ -111,6 +113,8 @@ std::string GigeDevice::xml() const { return parts_->xml; }
 void GigeDevice::happened(const CameraEvent& event, std::uint64_t block, std::int64_t now_ns) {
     parts_->core.now_ns = now_ns;
     parts_->messages.happened(event, block);
+    parts_->trigger.happened(event);
+    parts_->acquisition.happened(event);
 }
 
 // --- time

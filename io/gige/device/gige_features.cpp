@@ -15,11 +15,15 @@ void FeatureTable::add(const char* category, std::vector<Feature> rows) {
     }
 }
 
-FeatureTable gige_features(const CameraLimits& limits, bool multipart) {
-    FeatureTable table(limits, multipart);
+FeatureTable gige_features(const CameraLimits& limits, bool multipart,
+                           const std::vector<std::string>& more_lines) {
+    std::vector<std::string> lines = {"Line0"};
+    lines.insert(lines.end(), more_lines.begin(), more_lines.end());
+    FeatureTable table(limits, multipart, std::move(lines));
     add_device_features(table);
     add_image_features(table);
     add_acquisition_features(table);
+    add_line_features(table);
     add_chunk_features(table);
     add_event_features(table);
     add_transport_features(table);

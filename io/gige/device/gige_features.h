@@ -138,9 +138,11 @@ struct FeatureFormula {
 };
 
 struct FeatureTable {
-    FeatureTable(const CameraLimits& l, bool has_parts) : limits(l), multipart(has_parts) {}
+    FeatureTable(const CameraLimits& l, bool has_parts, std::vector<std::string> line_names)
+        : limits(l), multipart(has_parts), lines(std::move(line_names)) {}
     const CameraLimits limits;
     const bool multipart;
+    const std::vector<std::string> lines;  // names of the trigger input, Line0 and others
     std::vector<Feature> features;
     std::vector<FeaturePort> ports;
     std::vector<FeatureFormula> formulas;
@@ -148,13 +150,15 @@ struct FeatureTable {
     void add(const char* category, std::vector<Feature> rows);
 };
 
-// Returns the features in the order of the description.
-FeatureTable gige_features(const CameraLimits& limits, bool multipart);
+// Returns the features in the order of the description. more_lines: names of the trigger input beside Line0.
+FeatureTable gige_features(const CameraLimits& limits, bool multipart,
+                           const std::vector<std::string>& more_lines = {});
 
 // Its parts.
 void add_device_features(FeatureTable& table);
 void add_image_features(FeatureTable& table);
 void add_acquisition_features(FeatureTable& table);
+void add_line_features(FeatureTable& table);
 void add_chunk_features(FeatureTable& table);
 void add_event_features(FeatureTable& table);
 void add_transport_features(FeatureTable& table);

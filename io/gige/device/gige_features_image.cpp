@@ -18,6 +18,13 @@ std::vector<EnumEntry> pixel_formats(const CameraLimits& l) {
     return entries;
 }
 
+// Software, the trigger input by its first name, the action; then the input's other names.
+std::vector<EnumEntry> trigger_sources(const std::vector<std::string>& lines) {
+    std::vector<EnumEntry> entries = counted({"Software", "Line0", "Action1"});
+    for (std::size_t i = 1; i < lines.size(); ++i) entries.push_back({lines[i], entries.size()});
+    return entries;
+}
+
 }  // namespace
 
 void add_image_features(FeatureTable& t) {
@@ -116,23 +123,35 @@ void add_acquisition_features(FeatureTable& t) {
                 .locked_by("AcquisitionFrameRateFixed"),
             boolean("AcquisitionFrameRateEnable", r::kFrameRateEnable, "Off: as fast as the camera can")
                 .read_only(l.frame_rate_is_own),
+            real("AcquisitionResultingFrameRate", r::kResultingFrameRate_hz,
+                 "What exposure and shutter leave of AcquisitionFrameRate")
+                .between(0, l.max_frame_rate_hz)
+                .unit("Hz")
+                .read_only(),
+            real("ResultingFrameRate", r::kResultingFrameRate_hz,
+                 "AcquisitionResultingFrameRate by another name")
+                .between(0, l.max_frame_rate_hz)
+                .unit("Hz")
+                .read_only(),
             enumeration("ExposureMode", r::kExposureMode, {{"Timed", 1}}, "What ends the exposure")
                 .read_only(),
             enumeration("ExposureAuto", r::kExposureAuto,
-                        l.has_automatic_exposure ? counted({"Off", "Continuous"}) : counted({"Off"}),
-                        "Whether the camera chooses its exposure"),
+                        l.has_automatic_exposure ? counted({"Off", "Continuous", "Once"}) : counted({"Off"}),
+                        "Whether the camera chooses its exposure; Once: until it has found it, then Off"),
             real("ExposureTime", r::kExposureTime_us, "Of the next frame that has not begun")
                 .between(l.min_exposure_s * 1e6, l.max_exposure_s * 1e6)
                 .unit("us")
                 .read_only(l.exposure_is_own)
                 .locked_by("ExposureAutoReg"),
-            enumeration("TriggerSelector", r::kTriggerSelector, counted({"FrameStart", "FrameBurstStart"}),
-                        "What a trigger starts; one of them can be on")
+            enumeration("TriggerSelector", r::kTriggerSelector,
+                        counted({"FrameStart", "FrameBurstStart", "AcquisitionStart"}),
+                        "What a trigger starts; one of them can be on. AcquisitionStart: the stream's frames "
+                        "wait for one trigger")
                 .selects(
                     {"TriggerMode", "TriggerSource", "TriggerSoftware", "TriggerActivation", "TriggerDelay"}),
             enumeration("TriggerMode", r::kTriggerMode, counted({"Off", "On"}),
                         "Whether frames wait for a trigger"),
-            enumeration("TriggerSource", r::kTriggerSource, counted({"Software", "Line0", "Action1"}),
+            enumeration("TriggerSource", r::kTriggerSource, trigger_sources(t.lines),
                         "Where triggers come from"),
             command("TriggerSoftware", r::kTriggerSoftware, "A trigger"),
             enumeration("TriggerActivation", r::kTriggerActivation, counted({"RisingEdge"}), "Of a line"),
@@ -155,6 +174,21 @@ void add_acquisition_features(FeatureTable& t) {
                   .between(0, l.max_black_level_dn)
                   .unit("DN"),
           });
+}
+
+void add_line_features(FeatureTable& t) {
+    std::vector<EnumEntry> lines;
+    for (const std::string& name : t.lines) lines.push_back({name, lines.size()});
+    t.add(
+        "DigitalIOControl",
+        {
+            enumeration("LineSelector", r::kLineSelector, std::move(lines),
+                        "A name of the trigger input, which the command expose drives")
+                .selects({"LineMode", "LineStatus"}),
+            enumeration("LineMode", r::kLineMode, counted({"Input"}), "Which way it goes"),
+            boolean("LineStatus", r::kLineStatus, "Its level: off, as its pulses have no length").read_only(),
+            integer("LineStatusAll", r::kLineStatusAll, "All levels").between(0, 0).read_only(),
+        });
 }
 
 // --- chunks

@@ -70,6 +70,8 @@ inline constexpr std::uint32_t kAcquisitionMode = 0xA100, kAcquisitionStart = 0x
                                kFrameRateEnable = 0xA118, kExposureMode = 0xA11C, kExposureAuto = 0xA120;
 inline constexpr std::uint32_t kTriggerSelector = 0xA124, kTriggerMode = 0xA128, kTriggerSource = 0xA12C,
                                kTriggerSoftware = 0xA130, kTriggerActivation = 0xA134;
+inline constexpr std::uint32_t kLineSelector = 0xA138, kLineMode = 0xA13C, kLineStatus = 0xA158,
+                               kLineStatusAll = 0xA15C, kResultingFrameRate_hz = 0xA160;
 inline constexpr std::uint32_t kExposureTime_us = 0xA140, kFrameRate_hz = 0xA148, kTriggerDelay_us = 0xA150;
 // Analog.
 inline constexpr std::uint32_t kGainSelector = 0xA180, kBlackLevelSelector = 0xA184, kGain_db = 0xA188,

@@ -7,19 +7,22 @@ namespace hilcam {
 namespace reg = feature_register;
 using gvcp::Status;
 
+namespace {
+
+constexpr std::uint64_t kLine0 = static_cast<std::uint64_t>(TriggerSource::kLine0),
+                        kLastSource = static_cast<std::uint64_t>(TriggerSource::kAction1);
+
+}  // namespace
+
 GigeTrigger::GigeTrigger(GigeCore& core) : core_(core) {
     GigeRegisterFile& r = core.registers;
     const auto settings = [this] { return core_.camera.settings(); };
-    r.variable(reg::kTriggerSelector, selector_, {kFrameStart, kFrameBurstStart});
+    r.variable(reg::kTriggerSelector, selector_, {kFrameStart, kAcquisitionStart});
     r.number(
         reg::kTriggerMode, [this] { return on(); },
         [this](std::uint64_t v) { return v > 1 ? Status::kInvalidParameter : set_mode(v != 0); });
     r.number(
-        reg::kTriggerSource, [settings] { return static_cast<std::uint64_t>(settings().trigger_source); },
-        [this](std::uint64_t v) {
-            if (v > static_cast<std::uint64_t>(TriggerSource::kAction1)) return Status::kInvalidParameter;
-            return core_.change({.trigger_source = static_cast<TriggerSource>(v)});
-        });
+        reg::kTriggerSource, [this] { return source(); }, [this](std::uint64_t v) { return set_source(v); });
     r.variable(reg::kTriggerActivation, activation_, {0, 0});
     r.real(
         reg::kTriggerDelay_us, [settings] { return settings().trigger_delay_s * 1e6; },
@@ -28,19 +31,71 @@ GigeTrigger::GigeTrigger(GigeCore& core) : core_(core) {
     r.number(
         reg::kBurstFrameCount, [this] { return burst_count(); },
         [this](std::uint64_t v) { return set_burst_count(v); });
+    add_lines();
+}
+
+// The trigger input under each of its names. Its pulses have no length, so that its level always is low.
+void GigeTrigger::add_lines() {
+    GigeRegisterFile& r = core_.registers;
+    const auto names = static_cast<std::uint32_t>(core_.identity.more_lines.size());
+    r.variable(reg::kLineSelector, line_selector_, {0, names});
+    r.variable(reg::kLineMode, line_mode_, {0, 0});  // input
+    r.constant(reg::kLineStatus, 0);
+    r.constant(reg::kLineStatusAll, 0);
+}
+
+// Sources beyond the camera's own are other names of its line.
+std::uint64_t GigeTrigger::source() const {
+    const auto own = static_cast<std::uint64_t>(core_.camera.settings().trigger_source);
+    return own == kLine0 && core_.settings.line > 0 ? kLastSource + core_.settings.line : own;
+}
+
+Status GigeTrigger::set_source(std::uint64_t wanted) {
+    if (wanted > kLastSource + core_.identity.more_lines.size()) return Status::kInvalidParameter;
+    const std::uint64_t own = wanted > kLastSource ? kLine0 : wanted;
+    const Status status = core_.change({.trigger_source = static_cast<TriggerSource>(own)});
+    if (status == Status::kSuccess && own == kLine0)
+        core_.settings.line = static_cast<std::uint32_t>(wanted > kLastSource ? wanted - kLastSource : 0);
+    return status;
 }
 
 bool GigeTrigger::on() const {
+    if (selector_ == kAcquisitionStart || core_.settings.acquisition_trigger)
+        return selector_ == kAcquisitionStart && core_.settings.acquisition_trigger;
     return core_.camera.settings().triggered &&
            core_.settings.burst_trigger == (selector_ == kFrameBurstStart);
 }
 
+Status GigeTrigger::set_acquisition_mode(bool wanted) {
+    if (wanted == core_.settings.acquisition_trigger) return Status::kSuccess;
+    SettingsChange change{.triggered = wanted};
+    if (wanted) change.burst_frames = 1;
+    const Status status = core_.change(change);
+    if (status != Status::kSuccess) return status;
+    core_.settings.acquisition_trigger = wanted;
+    armed_ns_ = core_.now_ns;
+    return status;
+}
+
+void GigeTrigger::rearm() {
+    if (!core_.settings.acquisition_trigger || core_.camera.settings().triggered) return;
+    if (core_.change({.triggered = true, .burst_frames = 1}) == Status::kSuccess) armed_ns_ = core_.now_ns;
+}
+
+void GigeTrigger::happened(const CameraEvent& event) {
+    if (event.kind == CameraEvent::Kind::kExposureStart && event.monotonic_ns >= armed_ns_ &&
+        core_.settings.acquisition_trigger && core_.stream.acquiring && core_.camera.settings().triggered)
+        core_.change({.triggered = false});
+}
+
 Status GigeTrigger::set_mode(bool wanted) {
+    if (selector_ == kAcquisitionStart) return set_acquisition_mode(wanted);
     if (!wanted) return on() ? core_.change({.triggered = false}) : Status::kSuccess;
     const bool burst = selector_ == kFrameBurstStart;
     const Status status = core_.change(
         {.triggered = true, .burst_frames = burst ? std::int64_t{core_.settings.burst_count} : 1});
-    if (status == Status::kSuccess) core_.settings.burst_trigger = burst;
+    if (status == Status::kSuccess)
+        core_.settings.burst_trigger = burst, core_.settings.acquisition_trigger = false;
     return status;
 }
 
@@ -62,8 +117,9 @@ Status GigeTrigger::set_burst_count(std::uint64_t count) {
 }
 
 // A trigger that comes too early is taken by the register and missed by the camera, which says so with an
-// event. One that the camera does not listen to is refused.
+// event. One that the camera does not listen to is refused, and one for a stream that has not begun.
 Status GigeTrigger::software_trigger() {
+    if (core_.settings.acquisition_trigger && !core_.stream.acquiring) return Status::kAccessDenied;
     TriggerOrder order;
     order.source = TriggerSource::kSoftware;
     const TriggerResult result = core_.camera.trigger(order);

@@ -220,6 +220,60 @@ class ComingAndGoing(CameraTest):
         self.assertLess(self.emulator.memory_bytes() - memory, 4 << 20)
 
 
+class DriversWords(CameraTest):
+    """What drivers set by way of Aravis: a line of their own name, every trigger off, exposure found once."""
+    sets = ("outputs.gige.lines=[Line1, Line2]",)
+
+    def acquiring(self, camera):
+        stream = camera.create_stream(None, None)
+        for _ in range(4):
+            stream.push_buffer(Aravis.Buffer.new_allocate(camera.get_payload()))
+        camera.start_acquisition()
+        return stream
+
+    def test_a_line_of_another_name_is_the_trigger_input(self):
+        camera = Aravis.Camera.new(self.address)
+        camera.set_trigger("Line1")
+        self.assertEqual(camera.get_string("TriggerSource"), "Line1")
+        self.assertEqual(camera.get_string("TriggerMode"), "On")
+        camera.clear_triggers()
+        for selector in ("FrameStart", "FrameBurstStart", "AcquisitionStart"):
+            camera.set_string("TriggerSelector", selector)
+            camera.set_string("TriggerMode", "Off")
+        self.assertEqual(list(camera.dup_available_enumerations_as_strings("LineSelector")), ["Line0", "Line1", "Line2"])
+        for line in ("Line0", "Line2"):
+            camera.set_string("LineSelector", line)
+            camera.set_string("LineMode", "Input")
+            self.assertEqual(camera.get_string("LineMode"), "Input")
+            self.assertFalse(camera.get_boolean("LineStatus"))
+
+    def test_the_resulting_frame_rate_follows_the_exposure(self):
+        camera = Aravis.Camera.new(self.address)
+        camera.set_exposure_time_auto(Aravis.Auto.OFF)
+        camera.set_frame_rate(5)
+        for feature in ("AcquisitionResultingFrameRate", "ResultingFrameRate"):
+            camera.set_exposure_time(1000)
+            self.assertAlmostEqual(camera.get_float(feature), 5, places=6)
+            camera.set_exposure_time(900_000)
+            self.assertAlmostEqual(camera.get_float(feature), 1 / 0.9, places=6)
+        self.assertEqual(camera.get_frame_rate(), 5)
+
+    def test_exposure_is_found_once(self):
+        camera = Aravis.Camera.new(self.address)
+        stream = self.acquiring(camera)
+        camera.set_exposure_time_auto(Aravis.Auto.ONCE)
+        for _ in range(200):
+            buffer = stream.timeout_pop_buffer(5_000_000)
+            if buffer:
+                stream.push_buffer(buffer)
+            if camera.get_exposure_time_auto() == Aravis.Auto.OFF:
+                break
+        self.assertEqual(camera.get_exposure_time_auto(), Aravis.Auto.OFF)
+        found_us = camera.get_exposure_time()
+        camera.stop_acquisition()
+        camera.set_exposure_time(found_us)  # it is the client's again
+
+
 class Tool(CameraTest):
     def test_the_camera_is_listed_and_its_features_read_and_written(self):
         name = f"hilcam-test-camera-T{self.emulator.port}"

@@ -144,6 +144,28 @@ class Events(CameraTest):
         self.off(features, "FrameTriggerMissed")
 
 
+class AcquisitionTriggers(CameraTest):
+    def test_a_stream_waits_for_one_trigger_and_then_runs_by_itself(self):
+        client = self.controller()
+        features = Features(client)
+        features.set("TriggerSelector", "AcquisitionStart")
+        features.set("TriggerSource", "Software")
+        features.set("TriggerMode", "On")
+        with StreamReceiver(client, CLIENT) as stream:
+            stream.open()
+            for _ in range(2):  # and the next acquisition waits again
+                features.execute("AcquisitionStart")
+                self.assertIsNone(stream.next_frame(0.5), "a frame before the trigger")
+                features.execute("TriggerSoftware")
+                for _ in range(5):
+                    self.assertIsNotNone(stream.next_frame(5))
+                features.execute("AcquisitionStop")
+                while stream.next_frame(0.3):
+                    pass
+        features.set("TriggerMode", "Off")
+        features.set("TriggerSelector", "FrameStart")
+
+
 class Actions(CameraTest):
     DEVICE, GROUP, MASK = 0x1234ABCD, 0x00000011, 0x0000000F
 

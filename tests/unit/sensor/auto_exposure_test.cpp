@@ -95,11 +95,32 @@ TEST(AutoExposure, FullScaleIsWhereTheCameraSaturates) {
     c.binning = BinningKind::kSum;
     EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 4095);
     EXPECT_EQ(dn_scale_of(c, at_gain(0)).black_dn, 120);
+    c.sum_bits = 14;
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 4120);
+    EXPECT_EQ(dn_scale_of(c, at_gain(20)).full_dn, 8190);
+    c.sum_bits = 0;
     c.binning = BinningKind::kMean;
     EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 2060);
     EXPECT_EQ(dn_scale_of(c, at_gain(0)).black_dn, 60);
     c.nonlinearity = {-0.1, 0.05};
     EXPECT_DOUBLE_EQ(dn_scale_of(c, at_gain(0)).full_dn, 1960) << "read as less than it is";
+}
+
+// A code of a table stands for the middle of the numbers that have it.
+TEST(AutoExposure, CodesOfATableAreUndone) {
+    CameraModel c;
+    c.gain_dn_e = 0.1, c.full_well_e = 1e6, c.offset_dn = 0, c.bits = 12;
+    c.converter.companding = Companding::kTable;
+    c.converter.companding_table = {{0, 100, 3000, 4095}, {0, 100, 200, 200}};
+    FrameHistogram histogram(8);
+    DnImage frame(10, 10);
+    const auto fraction = [&](std::uint16_t code) {
+        for (std::uint16_t& dn : frame.all()) dn = code;
+        return histogram.measure(frame, 0, 0, 50, dn_scale_of(c, at_gain(0))).fraction;
+    };
+    EXPECT_NEAR(fraction(50), 50 / 4095.0, 1e-9);
+    EXPECT_NEAR(fraction(150), 1550 / 4095.0, 1e-9);
+    EXPECT_NEAR(fraction(200), 1, 1e-9);  // the last code goes to the table's end
 }
 
 }  // namespace

@@ -13,8 +13,12 @@ namespace {
 
 TEST(CameraModel, RefusesWhatCannotBeByName) {
     const std::vector<std::pair<const char*, std::function<void(CameraModel&)>>> wrong = {
-        {"exposure_ms: lies outside exposure_range_ms at power-up",
+        {"exposure_ms: lies outside exposure_range_ms at power-up: found 100000; accepted: a value inside "
+         "[0.001, 10000], or another exposure_range_ms",
          [](CameraModel& c) { c.exposure_s = 100; }},
+        {"sum_bits: has no effect without binning: sum", [](CameraModel& c) { c.sum_bits = 14; }},
+        {"sum_bits: found 11; accepted: no less than bits 12",
+         [](CameraModel& c) { c.sum_bits = 11, c.binning = BinningKind::kSum; }},
         {"offset_dn: 5000 leaves nothing of the ADC's 12 bits", [](CameraModel& c) { c.offset_dn = 5000; }},
         {"bits 12 do not fit into container_bits 8", [](CameraModel& c) { c.container_bits = 8; }},
         {"packing gige with 14 bits; accepted: 10 or 12",

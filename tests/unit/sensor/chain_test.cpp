@@ -248,6 +248,25 @@ TEST(Chain, BinnedNumbersAreCompandedAfterwards) {
     }
 }
 
+// Four numbers of 12 bits make a sum of 14, which ends at its own width and not at the converter's.
+TEST(Chain, SumsHaveAWidthOfTheirOwn) {
+    CameraModel c = camera_64();
+    c.offset_dn = 3000, c.binning_x = c.binning_y = 2, c.binning = BinningKind::kSum;
+    EXPECT_EQ(Bench(c).digitise_flat(0).row(3)[5], 4095);
+    EXPECT_EQ(c.frame_bits(), 12);
+    c.sum_bits = 14;
+    EXPECT_EQ(Bench(c).digitise_flat(0).row(3)[5], 12000);
+    EXPECT_EQ(c.frame_bits(), 14);
+    c.sum_bits = 13;
+    EXPECT_EQ(Bench(c).digitise_flat(0).row(3)[5], 8191);
+    // Two columns alone, which an exposure asks for, are of the same width.
+    c.sum_bits = 14, c.binning_y = 1;
+    EXPECT_EQ(Bench(c).digitise_flat(0).row(3)[5], 6000);
+    c.converter.companding = Companding::kTable, c.converter.companding_table = {{0, 16383}, {0, 255}};
+    EXPECT_EQ(Bench(c).digitise_flat(0).row(3)[5], 93);  // 6000 / 16383 * 255
+    EXPECT_EQ(c.frame_bits(), 8);
+}
+
 TEST(Chain, ALargeImageAndAWindowOfOnePixelWork) {
     CameraModel c = noisy_camera();
     c.width_px = c.height_px = 5000;

@@ -84,6 +84,27 @@ TEST(Converter, SquareRootCompandingKeepsShotNoiseEven) {
     EXPECT_THAT(out, testing::ElementsAre(0, 16, 128, 255));  // 255 sqrt(DN / 4095), rounded
 }
 
+// Straight between the table's points and rounded, and as the ends beyond them; the numbers may be sums of more bits than the converter has.
+TEST(Converter, ATableCompandsToItsCodes) {
+    const Converter converter({0, 0, Companding::kTable, {{0, 100, 4000}, {0, 100, 255}}}, 12, 1, 13);
+    std::vector<std::uint16_t> numbers = {0, 7, 100, 2050, 4000, 4095, 8191};
+    converter.compand(numbers);
+    EXPECT_THAT(numbers, testing::ElementsAre(0, 7, 100, 178, 255, 255, 255));
+}
+
+TEST(Converter, ATableThatIsNotUsedOrFallsIsRefused) {
+    ConverterConfig c;
+    EXPECT_NO_THROW(validate(c));
+    c.companding = Companding::kTable;
+    EXPECT_THROW(validate(c), KeyError);
+    c.companding_table = {{0, 10, 20}, {0, 5, 4}};
+    EXPECT_THROW(validate(c), KeyError);
+    c.companding_table = {{0, 10, 20}, {0, 5, 5}};
+    EXPECT_NO_THROW(validate(c));
+    c.companding = Companding::kSquareRoot;
+    EXPECT_THROW(validate(c), KeyError);
+}
+
 // --- read-out
 
 CameraModel quiet_256() {

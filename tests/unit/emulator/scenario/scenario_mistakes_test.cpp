@@ -178,6 +178,16 @@ const Mistake kMistakes[] = {
     {"FullWellInThousands", 12, "  full_well_e: 20", "", "does the data sheet count in ke-?"},
     {"BlackLevelCutsTheNoise", 14, "  bits: 12\n  read_noise_e: 20", "",
      "camera.offset_dn is 0, and the noise in the dark 4 DN"},
+    {"LineTwice", 25, "outputs: {gige: {interface: 127.0.0.1, lines: [Line1, Line0]}}", "25:48",
+     "lines: found 'Line0'; accepted: names that differ"},
+    {"LineOfSigns", 25, "outputs: {gige: {interface: 127.0.0.1, lines: ['Line 1']}}", "25:48",
+     "lines: found 'Line 1'; accepted: letters and digits"},
+    {"MapOfTwoPlaces", 20,
+     "terrain: {material: x.yaml, globe: {body: moon, maps: [{file: a.png, bounds_deg: [0, 0, 1, 1], "
+     "longitudes: west}]}}\nobjects:",
+     "20:109", "longitudes: has no effect with bounds_deg"},
+    {"TableWithoutUse", 14, "  bits: 12\n  converter: {companding_table: [[0, 0], [4095, 255]]}", "15:33",
+     "companding_table: has no effect without companding: table"},
     {"NoSuchInterface", 25, "outputs: {gige: {interface: nowhere0}}", "",
      "interface 'nowhere0' does not exist"},
     // Values and places that are in range, and not meant.

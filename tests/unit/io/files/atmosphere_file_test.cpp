@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 
@@ -150,6 +151,78 @@ TEST_F(AtmosphereFiles, AModtranRunGivesItsQuantitiesBack) {
         table_error(write(
             "cut.csv", "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file\n60,20,90,800,cut.scn\n")),
         HasSubstr("cut.scn:"));
+}
+
+// MODTRAN 3's and 4's own layout: names of two words, numbers by places. The quantities: tau_1 0.80, tau_2 0.85, path 0.02 sr^-1, a ground
+// of 0.3 under the Sun at 30 degrees.
+class ModtranFour : public AtmosphereFiles {
+  protected:
+    static std::string field(const char* format, double value) {
+        char text[40];
+        std::snprintf(text, sizeof text, format, value);
+        return text;
+    }
+    // Rows of tape7: F7.0, F11.6, eight of E11.3, two of E9.2, F8.3; of tape7.scn: F12.6, F7.4, and blanks where thermal scattering and
+    // depth are not computed.
+    static std::string run(bool scan, const std::string& suffix = "") {
+        std::string out =
+            scan ? " card\n WAVLEN MCRN  TRANS  PTH THRML  THRML SCT  SURF EMIS   SOL SCAT  SING SCAT  GRND "
+                   "RFLT  DRCT RFLT  TOTAL RAD  REF SOL  SOL@OBS   DEPTH\n"
+                 : " card\n  FREQ   TOT TRANS  PTH THRML  THRML SCT  SURF EMIS   SOL SCAT  SING SCAT  GRND "
+                   "RFLT  DRCT RFLT  TOTAL RAD  REF SOL  SOL@OBS   DEPTH\n";
+        const double sun = 2e-5, direct = 0.3 / kPi * 0.8660254 * sun * 0.8 * 0.85;
+        for (const double nm : {700.0, 550.0, 400.0}) {
+            out += scan ? field("%12.6f", nm * 1e-3) + field("%7.4f", 0.85)
+                        : field("%7.0f", 1e7 / nm) + field("%11.6f", 0.85);
+            out += field("%11.4E", 0) + (scan ? std::string(11, ' ') : field("%11.4E", 0));
+            for (const double v :
+                 {0.0, 0.02 * sun, 0.016 * sun, 1.1 * direct, direct, 0.02 * sun + 1.1 * direct})
+                out += field("%11.4E", v);
+            out += field("%9.2E", sun * 0.8 * 0.85) + field("%9.2E", sun) +
+                   (scan ? "" : field("%8.3f", 0.16)) + suffix + "\n";
+        }
+        return out + "-9999.\n";
+    }
+    AtmosphereTable::Cell cell_of(const std::string& text) {
+        write("tape7", text);
+        return read_atmosphere(write("runs.csv", kIndex), kAirGrid).cells.at(0);
+    }
+    std::string refusal_of(const std::string& text) {
+        write("tape7", text);
+        return table_error(write("runs.csv", kIndex));
+    }
+    const std::string kIndex =
+        "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file\n30,0,0,800,tape7\n";
+};
+
+TEST_F(ModtranFour, NamesOfTwoWordsAndBlankFieldsAreRead) {
+    // Two digits of the Sun's irradiance are 0.4 % of tau_1.
+    for (const bool scan : {false, true}) {
+        const AtmosphereTable::Cell cell = cell_of(run(scan));
+        for (int b = 0; b < 2; ++b) {
+            EXPECT_NEAR(cell.tau_2[b], 0.85, 1e-4) << scan;
+            EXPECT_NEAR(cell.tau_1[b], 0.80, 0.004) << scan;
+            EXPECT_NEAR(cell.radiance_sr[b], 0.02, 1e-4) << scan;
+            EXPECT_NEAR(cell.sky[b], 0.1 * 0.8660254 * 0.8, 1e-3) << scan;
+        }
+    }
+    EXPECT_NEAR(cell_of(run(true, "\r")).tau_2[0], 0.85, 1e-4);
+}
+
+// Fields that touch, that overflow (***) and that leave out the exponent's letter, as Fortran writes them.
+TEST_F(ModtranFour, FieldsAreThoseOfFortran) {
+    std::string text = run(false);
+    for (std::size_t at; (at = text.find("   0.160")) != std::string::npos;) text.replace(at, 8, "********");
+    for (std::size_t at; (at = text.find(" 0.0000E+00 0.0000E+00")) != std::string::npos;)
+        text.replace(at, 22, " 0.0000-100-1.0000E-30");
+    EXPECT_NEAR(cell_of(text).tau_1[0], 0.80, 0.004);
+    // A row that ends early, and one whose numbers are elsewhere, are no rows of these columns.
+    const std::string whole = run(false);
+    EXPECT_THAT(refusal_of(whole.substr(0, whole.rfind("   0.160") - 25)), HasSubstr("has no number"));
+    std::string moved = whole;
+    moved.replace(moved.find("  14286   0.850000 "), 19, "14286 0.850000     ");
+    moved.replace(moved.find("   0.160\n"), 8, "");
+    EXPECT_THAT(refusal_of(moved), HasSubstr("tape7:3: "));
 }
 
 }  // namespace

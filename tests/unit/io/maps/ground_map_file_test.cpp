@@ -205,6 +205,32 @@ TEST(GroundMapFile, ScalesOffsetsAndHolesAreAsTheFileAndTheScenarioSay) {
     EXPECT_EQ(height_at(config, -180 + 40.5 * kColumn_deg, 90 - 20.5 * kRow_deg), 0);
 }
 
+// A sphere under a flattened body has planetocentric latitudes, an ellipsoid the normal's own, and the Earth's maps have geodetic ones on spheres, too.
+TEST(GroundMapFile, TheFigureOfAProjectionTellsTheKindOfItsLatitudes) {
+    const MappedBody mars{"mars", {3396.19e3, 3376.20e3}}, earth{"earth", {6378137, 6356752.3142}};
+    MadeMap map;
+    map.to_ground = {0, 0.05, 0, 45, 0, -0.05};
+    map.columns = map.rows = 100;
+    map.value = [](int, int r) { return r < 50 ? 1000 : 0; };
+    const auto step_is_at = [&](const std::string& projection, const MappedBody& body, double latitude_deg) {
+        map.projection = projection;
+        std::vector<GroundMap> maps;
+        maps.push_back(open_ground_map(config_of(made("figure.tif", map)), body));
+        GroundSurface surface(body.figure, std::move(maps), std::size_t{1} << 20);
+        const std::vector<Vec3d> places = {place_on_sphere(2.5, latitude_deg - 0.01),
+                                           place_on_sphere(2.5, latitude_deg + 0.01)};
+        std::vector<double> heights_m(2);
+        surface.find_heights(places, 0, heights_m);
+        return heights_m[0] < 500 && heights_m[1] > 500;
+    };
+    EXPECT_TRUE(step_is_at("+proj=longlat +R=3396190 +no_defs", mars, 42.837));
+    EXPECT_TRUE(step_is_at("+proj=longlat +a=3396190 +b=3376200 +no_defs", mars, 42.5));
+    EXPECT_TRUE(step_is_at("+proj=longlat +R=6371007.181 +no_defs", earth, 42.5));
+    EXPECT_TRUE(step_is_at("+proj=longlat +datum=WGS84 +no_defs", earth, 42.5));
+    // Mars' polar radius is its own, too.
+    EXPECT_TRUE(step_is_at("+proj=longlat +R=3376200 +no_defs", mars, 42.837));
+}
+
 TEST(GroundMapFile, WhatLiesElsewhereIsNamed) {
     MadeMap map = whole_moon();
     map.projection = "";

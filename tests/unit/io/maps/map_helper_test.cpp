@@ -43,10 +43,11 @@ class MapHelper : public FilesTest {
         return reader(
             "#!/usr/bin/python3\nimport mmap, os, socket, struct, time\ns = socket.socket(fileno=3)\nm = "
             "mmap.mmap(4, 0)\n"
-            "refused, failed, columns, rows, channels, bands, spacing, whole = 0, 0, 8, 8, 1, 1, 1.0, 0\n"
-            "def answer(): s.send(struct.pack('<IIiiiiIIIId', refused, failed, columns, rows, channels, "
+            "refused, failed, columns, rows, channels, bands, spacing, whole, reading = 0, 0, 8, 8, 1, 1, "
+            "1.0, 0, 0\n"
+            "def answer(): s.send(struct.pack('<IIiiiiIIIIIId', refused, failed, columns, rows, channels, "
             "bands, 1, "
-            "whole, 0, 0, spacing))\n" +
+            "whole, 0, 0, 0, reading, spacing))\n" +
             fields + "\ns.recv(1000)\nanswer()\n" + after + "\n");
     }
     std::string refusal_by(const std::filesystem::path& program) {
@@ -80,6 +81,14 @@ TEST_F(MapHelper, WhatAReaderSaysIsNotBelieved) {
         HasSubstr("does not parse"));
     // A refusal's words are shown, within bounds and without what turns a terminal over.
     EXPECT_EQ(refusal_by(liar("m[0:13] = b'so\\x1b[31m it is'; refused = 13")), "so [31m it is");
+    const auto reading =
+        open_map_by(liar("m[0:16] = b'so\\x1b[31m\\ndoubt\\n\\x07b'; reading = 16"), map(), moon_)->reading();
+    EXPECT_EQ(reading.taken, "so [31m");
+    EXPECT_THAT(reading.doubts, testing::ElementsAre("doubt", " b"));
+    EXPECT_LE(open_map_by(liar("m[0:9999] = b'a' * 9999; reading = 4000000000"), map(), moon_)
+                  ->reading()
+                  .taken.size(),
+              kMostText_bytes);
     EXPECT_LE(refusal_by(liar("m[0:9999] = b'a' * 9999; refused = 4000000000")).size(), kMostText_bytes);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -98,7 +99,7 @@ TEST_F(PictureCodecs, WhatIsNoMapOfNumbersIsRefusedByWhatItIs) {
               "has a palette of colours; accepted: one channel");
     EXPECT_EQ(fault_of([] { decode_numbers(bytes_in(seed("jpeg.tiff"))); }), "has 3 channels; accepted: one");
     EXPECT_EQ(fault_of([] { decode_numbers(bytes_in(seed("color.jpg"))); }),
-              "is a picture of colours; accepted: TIFF or PNG of one channel");
+              "is a picture of colours; accepted: TIFF, PNG or FITS of one channel");
 }
 
 TEST_F(PictureCodecs, ACutPictureIsRefusedInTheWordsOfItsLibraryAndNothingIsPrinted) {
@@ -146,6 +147,112 @@ TEST_F(PictureCodecs, NotesStandInThePicture) {
     for (const char* text : {"what", "who", "which", "2026:03:20 06:00:00"})
         EXPECT_THAT(tiff, HasSubstr(text));
     EXPECT_EQ(png, encode_png(picture, {{{"seed", "12"}, {"name", "\xC3\x84ther"}}, 2.2}));
+}
+
+// FITS as archives have flat fields and darks: cards of 80 letters, numbers with their most significant byte first.
+class FitsNumbers : public PictureCodecs {
+  protected:
+    static std::string card(std::string text) {
+        text.resize(80, ' ');
+        return text;
+    }
+    static std::string block(std::string text, char fill) {
+        text.resize((text.size() + 2879) / 2880 * 2880, fill);
+        return text;
+    }
+    static std::string header(const std::vector<std::string>& cards) {
+        std::string out;
+        for (const std::string& one : cards) out += card(one);
+        return block(out + card("END"), ' ');
+    }
+    static std::string big_endian(std::uint64_t word, int bytes) {
+        std::string out;
+        for (int i = bytes; i-- > 0;) out += static_cast<char>(word >> (8 * i) & 0xFF);
+        return out;
+    }
+    static std::string whole(int bits, const std::vector<std::int64_t>& values) {
+        std::string out;
+        for (const std::int64_t value : values)
+            out += big_endian(static_cast<std::uint64_t>(value), bits / 8);
+        return block(out, '\0');
+    }
+    static std::vector<std::string> axes(int bits, int width, int height,
+                                         std::vector<std::string> more = {}) {
+        std::vector<std::string> out = {
+            "SIMPLE  =                    T / a picture", "BITPIX  = " + std::to_string(bits), "NAXIS   = 2",
+            "NAXIS1  = " + std::to_string(width), "NAXIS2  = " + std::to_string(height)};
+        out.insert(out.end(), more.begin(), more.end());
+        return out;
+    }
+    static std::vector<float> numbers(const std::string& file) {
+        const PixelMap map = decode_numbers(bytes_in(file));
+        return {map.all().begin(), map.all().end()};
+    }
+};
+
+TEST_F(FitsNumbers, EachKindOfNumberIsRead) {
+    using testing::ElementsAre;
+    EXPECT_THAT(numbers(header(axes(8, 3, 1)) + whole(8, {0, 7, 255})), ElementsAre(0, 7, 255));
+    EXPECT_THAT(numbers(header(axes(16, 2, 2, {"BZERO   = 32768", "BSCALE  = 1.0"})) +
+                        whole(16, {-32768, 0, 5, 32767})),
+                ElementsAre(0, 32768, 32773, 65535));
+    EXPECT_THAT(
+        numbers(header(axes(32, 2, 1, {"BSCALE  = 0.5D0 / a Fortran number"})) + whole(32, {-4, 100000})),
+        ElementsAre(-2, 50000));
+    EXPECT_THAT(
+        numbers(header(axes(-32, 2, 1)) + block(big_endian(0x3F800000, 4) + big_endian(0xC0200000, 4), '\0')),
+        ElementsAre(1, -2.5));
+    EXPECT_THAT(numbers(header(axes(-64, 1, 1)) + block(big_endian(0x3FF8000000000000, 8), '\0')),
+                ElementsAre(1.5));
+}
+
+// The value BLANK is no number, which a detector's map refuses with its place; rows stand as the file has them.
+TEST_F(FitsNumbers, BlanksAndTheOrderOfRowsAreTaken) {
+    const std::string blank = header(axes(16, 2, 2, {"BLANK   = -1"})) + whole(16, {1, 2, -1, 4});
+    EXPECT_TRUE(std::isnan(numbers(blank)[2]));
+    EXPECT_THAT(error_of([&] { read_pixel_map(write("blank.fits", blank), true); }),
+                HasSubstr("pixel (0, 1) is nan"));
+    const std::string turned = header(axes(16, 1, 3, {"ROWORDER= 'BOTTOM-UP'"})) + whole(16, {1, 2, 3});
+    EXPECT_THAT(numbers(turned), testing::ElementsAre(3, 2, 1));
+    EXPECT_THAT(numbers(header(axes(16, 1, 3)) + whole(16, {1, 2, 3})), testing::ElementsAre(1, 2, 3));
+    const PixelMap map = read_pixel_map(write("flat.fits", turned), false);
+    EXPECT_EQ(map.row(0)[0], 3);
+}
+
+// A primary header without data and a table come before the image in many archives.
+TEST_F(FitsNumbers, TheFirstImageOfTwoAxesCounts) {
+    const std::string empty = header({"SIMPLE  = T", "BITPIX  = 8", "NAXIS   = 0", "EXTEND  = T"});
+    const std::string table = header({"XTENSION= 'BINTABLE'", "BITPIX  = 8", "NAXIS   = 2", "NAXIS1  = 4",
+                                      "NAXIS2  = 3", "PCOUNT  = 10", "GCOUNT  = 1"}) +
+                              block(std::string(22, 'x'), '\0');
+    const std::string image = header({"XTENSION= 'IMAGE   '", "BITPIX  = 16", "NAXIS   = 3", "NAXIS1  = 2",
+                                      "NAXIS2  = 1", "NAXIS3  = 1", "PCOUNT  = 0", "GCOUNT  = 1"}) +
+                              whole(16, {5, 6});
+    EXPECT_THAT(numbers(empty + table + image), testing::ElementsAre(5, 6));
+    const std::string packed = header({"XTENSION= 'BINTABLE'", "BITPIX  = 8", "NAXIS   = 2", "NAXIS1  = 4",
+                                       "NAXIS2  = 1", "PCOUNT  = 0", "GCOUNT  = 1", "ZIMAGE  = T"}) +
+                               block("abcd", '\0');
+    EXPECT_THAT(fault_of([&] { numbers(empty + packed); }), HasSubstr("compressed"));
+    EXPECT_THAT(fault_of([&] { numbers(empty + table); }), HasSubstr("no image of two axes"));
+}
+
+TEST_F(FitsNumbers, WhatIsBrokenIsNamed) {
+    const std::string whole_file = header(axes(16, 40, 40)) + whole(16, std::vector<std::int64_t>(1600, 1));
+    EXPECT_THAT(fault_of([&] { numbers(whole_file.substr(0, 2880 + 3000)); }),
+                HasSubstr("ends before its last row"));
+    EXPECT_THAT(fault_of([&] { numbers(whole_file.substr(0, 400)); }), HasSubstr("FITS"));
+    EXPECT_THAT(fault_of([&] { numbers(header(axes(12, 2, 2))); }), HasSubstr("BITPIX 12"));
+    EXPECT_THAT(fault_of([&] { numbers(header(axes(16, 2, 0))); }), HasSubstr("no pixels"));
+    EXPECT_THAT(fault_of([&] { numbers(header(axes(16, 1000000, 1000000))); }),
+                HasSubstr("accepted: at most"));
+    EXPECT_THAT(fault_of([&] {
+                    numbers(header({"SIMPLE  = T", "BITPIX  = 16", "NAXIS   = 2", "NAXIS1  = two"}));
+                }),
+                HasSubstr("NAXIS1"));
+    EXPECT_THAT(fault_of([&] {
+                    numbers(header({"SIMPLE  = T", "BITPIX  = 1e300", "NAXIS   = 1", "NAXIS1  = 1e9"}));
+                }),
+                HasSubstr("too large"));
 }
 
 }  // namespace

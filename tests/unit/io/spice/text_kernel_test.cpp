@@ -165,6 +165,26 @@ TEST(FrameDefinition, OffsetsByAnglesMatrixAndQuaternionAreTheSame) {
     EXPECT_EQ(frame_coded(KernelPool(), 10040, "k").class_code, 602);
 }
 
+// JunoCam's kernel has the middle of the distortion, from the first pixel's middle as 0, and of a strip's own rows; Cassini's has CCD_CENTER = (511.5,
+// 511.5) of 1024 pixels; others count from 1.
+TEST(InstrumentKernel, TheBoresightsPixelIsRead) {
+    const auto center = [](const std::string& text) {
+        return instrument_kernel(pool_of("INS-1_PIXEL_SAMPLES = 1024\nINS-1_PIXEL_LINES = 1024\n" + text),
+                                 "-1", "k")
+            .center_px.value_or(Vec2d{-1, -1});
+    };
+    EXPECT_EQ(center("").x, -1);
+    EXPECT_EQ(center("INS-1_DISTORTION_X = 814.21\nINS-1_DISTORTION_Y = -151.52\n").x, 814.71);
+    EXPECT_EQ(center("INS-1_DISTORTION_X = 814.21\nINS-1_DISTORTION_Y = -151.52\n").y, -151.02);
+    EXPECT_EQ(center("INS-1_CCD_CENTER = ( 511.5 511.5 )\n").x, 512);
+    EXPECT_EQ(center("INS-1_CCD_CENTER = ( 512.5 512.5 )\n").y, 512);
+    EXPECT_EQ(center("INS-1_CCD_CENTER = ( 500 498 )\n").y, 498.5);
+    EXPECT_EQ(center("INS-1_DISTORTION_X = 814.21\n").x, -1);
+    EXPECT_THAT(refusal([&] { center("INS-1_CCD_CENTER = ( 1e9 0 )\n"); }),
+                HasSubstr("INS-1_CCD_CENTER: found"));
+    EXPECT_THAT(refusal([&] { center("INS-1_CCD_CENTER = ( 1 2 3 )\n"); }), HasSubstr("INS-1_CCD_CENTER"));
+}
+
 TEST(InstrumentKernel, ACameraIsReadWithItsUnits) {
     const InstrumentKernel k = instrument_kernel(
         pool_of("INS-99100_FOCAL_LENGTH = 150\nINS-99100_PIXEL_SIZE = ( 14.0 13.9 )\nINS-99100_PIXEL_SAMPLES "

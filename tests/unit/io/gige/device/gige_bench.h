@@ -81,7 +81,7 @@ struct GigeBench {
     std::uint16_t id = 1;
     GigeDevice device;
 
-    explicit GigeBench(const CameraLimits* limits = nullptr)
+    explicit GigeBench(const CameraLimits* limits = nullptr, std::vector<std::string> lines = {})
         : camera(limits ? with(*limits) : PlainCamera()),
           device({.model = "cam",
                   .serial = "S1",
@@ -89,7 +89,8 @@ struct GigeBench {
                   .ip = 0x7F000001,
                   .mask = 0xFF000000,
                   .mac = 0x020000000001,
-                  .multipart = true},
+                  .multipart = true,
+                  .more_lines = std::move(lines)},
                  camera, faults, effects()) {
         device.tick(now_ns);
     }

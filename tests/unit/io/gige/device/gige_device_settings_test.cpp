@@ -146,6 +146,107 @@ TEST(GigeSettings, TriggersAreForFramesOrBursts) {
     EXPECT_EQ(b.write(reg::kTriggerSoftware, 1), gvcp::kAccessDenied);
 }
 
+// Drivers switch every trigger off before they switch on theirs: AcquisitionStart is among those that Basler's and others' cameras have.
+TEST(GigeSettings, AnAcquisitionWaitsForItsTrigger) {
+    GigeBench b;
+    b.take_control();
+    const auto exposure_starts = [&] {
+        b.now_ns += 1'000'000;
+        b.device.happened({CameraEvent::Kind::kExposureStart, 1, b.now_ns}, 0, b.now_ns);
+    };
+    b.write(reg::kTriggerSelector, 2);  // AcquisitionStart
+    EXPECT_EQ(b.read(reg::kTriggerMode), 0u);
+    EXPECT_EQ(b.write(reg::kTriggerMode, 0), gvcp::kSuccess);
+    EXPECT_FALSE(b.camera.s.triggered);
+    EXPECT_EQ(b.write(reg::kTriggerMode, 1), gvcp::kSuccess);
+    EXPECT_EQ(b.read(reg::kTriggerMode), 1u);
+    EXPECT_TRUE(b.camera.s.triggered);
+    EXPECT_EQ(b.camera.s.burst_frames, 1);
+    b.write(reg::kTriggerSelector, 0);
+    EXPECT_EQ(b.read(reg::kTriggerMode), 0u);  // of frames it is off
+    // Before the stream has begun no trigger counts.
+    EXPECT_EQ(b.write(reg::kTriggerSoftware, 1), gvcp::kAccessDenied);
+    for (int acquisition = 0; acquisition < 2; ++acquisition) {
+        b.write(reg::kAcquisitionStart, 1);
+        EXPECT_TRUE(b.camera.s.triggered);
+        EXPECT_EQ(b.write(reg::kTriggerSoftware, 1), gvcp::kSuccess);
+        exposure_starts();
+        EXPECT_FALSE(b.camera.s.triggered);  // it runs freely from there
+        exposure_starts();
+        EXPECT_FALSE(b.camera.s.triggered);
+        b.write(reg::kAcquisitionStop, 1);
+        EXPECT_TRUE(b.camera.s.triggered);  // and waits again
+    }
+    b.write(reg::kTriggerMode, 1);  // FrameStart takes over
+    b.write(reg::kTriggerSelector, 2);
+    EXPECT_EQ(b.read(reg::kTriggerMode), 0u);
+    EXPECT_TRUE(b.camera.s.triggered);
+    b.write(reg::kAcquisitionStart, 1);
+    exposure_starts();
+    EXPECT_TRUE(b.camera.s.triggered);
+    EXPECT_EQ(b.write(reg::kTriggerSelector, 3), gvcp::kInvalidParameter);
+}
+
+TEST(GigeSettings, TheTriggerInputHasTheNamesThatClientsHaveForIt) {
+    GigeBench b(nullptr, {"Line1", "Line2"});
+    b.take_control();
+    EXPECT_EQ(b.write(reg::kTriggerSource, 4), gvcp::kSuccess);  // Line2
+    EXPECT_EQ(b.camera.s.trigger_source, TriggerSource::kLine0);
+    EXPECT_EQ(b.read(reg::kTriggerSource), 4u);
+    EXPECT_EQ(b.write(reg::kTriggerSource, 5), gvcp::kInvalidParameter);
+    b.write(reg::kTriggerSource, 1);
+    EXPECT_EQ(b.read(reg::kTriggerSource), 1u);
+    for (const std::uint32_t line : {0u, 1u, 2u}) {
+        EXPECT_EQ(b.write(reg::kLineSelector, line), gvcp::kSuccess);
+        EXPECT_EQ(b.write(reg::kLineMode, 0), gvcp::kSuccess);  // Input
+        EXPECT_EQ(b.write(reg::kLineMode, 1), gvcp::kInvalidParameter);
+        EXPECT_EQ(b.read(reg::kLineStatus), 0u);
+    }
+    EXPECT_EQ(b.write(reg::kLineSelector, 3), gvcp::kInvalidParameter);
+    const std::string xml = b.device.xml();
+    for (const char* const entry : {"<EnumEntry Name=\"Line1\">", "<EnumEntry Name=\"Line2\">"}) {
+        const std::size_t first = xml.find(entry);
+        ASSERT_NE(first, std::string::npos) << entry;  // of TriggerSource, then of LineSelector
+        EXPECT_NE(xml.find(entry, first + 1), std::string::npos) << entry;
+    }
+}
+
+TEST(GigeSettings, ExposureIsFoundOnce) {
+    GigeBench b;
+    b.take_control();
+    const auto frame = [&](double exposure_s) {
+        b.camera.s.exposure_s = exposure_s;
+        b.now_ns += 1'000'000;
+        b.device.happened({CameraEvent::Kind::kExposureStart, 1, b.now_ns}, 0, b.now_ns);
+    };
+    EXPECT_EQ(b.write(reg::kExposureAuto, 2), gvcp::kSuccess);
+    for (const double exposure_s : {0.001, 0.01, 0.05, 0.05, 0.0501, 0.05}) {
+        frame(exposure_s);
+        EXPECT_EQ(b.read(reg::kExposureAuto), 2u);
+        EXPECT_TRUE(b.camera.s.automatic_exposure);
+    }
+    frame(0.05);
+    EXPECT_EQ(b.read(reg::kExposureAuto), 0u);
+    EXPECT_FALSE(b.camera.s.automatic_exposure);
+    // A scene that does not come to rest does not keep a client waiting, and Continuous goes on.
+    b.write(reg::kExposureAuto, 2);
+    for (int i = 0; i < 64; ++i) frame(i % 2 ? 0.001 : 0.1);
+    EXPECT_EQ(b.read(reg::kExposureAuto), 0u);
+    b.write(reg::kExposureAuto, 1);
+    for (int i = 0; i < 100; ++i) frame(0.05);
+    EXPECT_EQ(b.read(reg::kExposureAuto), 1u);
+    EXPECT_EQ(b.write(reg::kExposureAuto, 3), gvcp::kInvalidParameter);
+}
+
+TEST(GigeSettings, TheResultingFrameRateIsWhatExposuresLeave) {
+    GigeBench b;
+    b.take_control();
+    EXPECT_EQ(b.read_real(reg::kResultingFrameRate_hz), 30);
+    b.write_real(reg::kExposureTime_us, 900e3);
+    EXPECT_NEAR(b.read_real(reg::kResultingFrameRate_hz), 1 / 0.9, 1e-12);
+    EXPECT_EQ(b.read_real(reg::kFrameRate_hz), 30);
+}
+
 TEST(GigeSettings, ChunksAreChosenOneByOneAndCounted) {
     GigeBench b;
     b.take_control();
