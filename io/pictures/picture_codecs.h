@@ -7,6 +7,8 @@
 //   TIFF  libtiff        the first page
 //   WebP  libwebp        one picture, no animation
 //   BMP   stb_image      without run lengths
+//   PPM   own            and PGM: in bytes or words, of any depth to 16 bits, cut to 8
+//   TGA   stb_image      colours, grey and palettes, also by run lengths
 //
 // An alpha channel is left out.
 
@@ -24,7 +26,7 @@ namespace hilcam {
 
 using PictureBytes = std::span<const std::uint8_t>;
 
-inline constexpr const char* kPictureKinds = "PNG, JPEG, TIFF, BMP, WebP";
+inline constexpr const char* kPictureKinds = "PNG, JPEG, TIFF, BMP, WebP, PPM, PGM, TGA";
 
 // Why a picture is not taken: the rest of a sentence that begins with its name.
 class PictureFault : public std::runtime_error {
@@ -47,9 +49,12 @@ Texture decode_jpeg(PictureBytes bytes);
 Texture decode_tiff(PictureBytes bytes);
 Texture decode_webp(PictureBytes bytes);
 Texture decode_bmp(PictureBytes bytes);
-// A number for each pixel, of pictures of one channel: PNG to 16 bits, TIFF of 8 to 32 bits or of floats.
+Texture decode_pnm(PictureBytes bytes);
+Texture decode_tga(PictureBytes bytes);
+// A number for each pixel, of pictures of one channel: PNG and PGM to 16 bits, TIFF of 8 to 32 bits or of floats.
 PixelMap decode_png_numbers(PictureBytes bytes);
 PixelMap decode_tiff_numbers(PictureBytes bytes);
+PixelMap decode_pnm_numbers(PictureBytes bytes);
 
 enum class SampleKind { kGray8, kGray16, kRgb8 };
 // Rows without padding; 16-bit numbers as the machine has them, colours as red, green, blue.
