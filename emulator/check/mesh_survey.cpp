@@ -161,7 +161,11 @@ MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file) {
     const Vec3d size_m = out.most_m - out.least_m;
     out.probably_mm = std::max({size_m.x, size_m.y, size_m.z}) > kLongestSide_m;
     out.coarse_step_m = coarse_step_m(out.least_m, out.most_m);
+    out.opposed_normals += contents.opposed_facets;
+    out.leaning_normals = contents.leaning_facets;
     out.missing_materials = contents.missing_materials;
+    out.unreadable_textures = contents.unreadable_textures;
+    out.remarks = contents.remarks;
     return out;
 }
 
@@ -182,6 +186,8 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
     for (const std::string& file : s.missing_materials)
         out.push_back(
             fmt::format("no file {}: surfaces whose materials it would have are grey", in_quotes(file)));
+    out.insert(out.end(), s.unreadable_textures.begin(), s.unreadable_textures.end());
+    out.insert(out.end(), s.remarks.begin(), s.remarks.end());
     tell(s.open_edges, "open edges", "the mesh is not closed there, and shows its other side");
     tell(s.inconsistent_edges, "inconsistent edges", "the triangles on both sides look to different sides");
     tell(s.inverted_shells, "inverted shells", "closed surfaces whose triangles look inwards");
@@ -189,6 +195,8 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
          "surfaces that meet inside others, or are there twice");
     tell(s.opposed_normals, "triangles with opposed normals",
          "the file's normals look to the other side than the order of the corners");
+    tell(s.leaning_normals, "facets with leaning normals",
+         "the file's normals are not those of the corners' order, which counts");
     tell(s.collapsed_triangles, "collapsed triangles", "two corners at one place; they are left out");
     tell(s.sliver_triangles, "slivers", "triangles whose corners are on a line");
     tell(s.repeated_triangles, "repeated triangles", "which of two on the same places is seen is chance");

@@ -37,12 +37,15 @@ struct MeshSurvey {
     std::uint64_t sliver_triangles = 0;     // three places on a line
     std::uint64_t repeated_triangles = 0;   // on the same places as another
     std::uint64_t opposed_normals = 0;      // triangles whose normals in the file look to their other side
+    std::uint64_t leaning_normals = 0;  // facets of an STL whose normals lie more than 26 degrees from theirs
     bool has_normals = false;
     bool probably_mm = false;
     // The step of single precision at the farthest coordinate, where it is more than a ten-thousandth of the
     // mesh's size; else 0.
     double coarse_step_m = 0;
     std::vector<std::string> missing_materials;
+    std::vector<std::string> unreadable_textures;
+    std::vector<std::string> remarks;  // each says that something was taken for another thing, or left out
 };
 
 // file: for messages.

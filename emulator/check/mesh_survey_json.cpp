@@ -32,9 +32,11 @@ std::string to_json(const MeshSurvey& s) {
         {"crowded_edges", s.crowded_edges},
         {"inverted_shells", s.inverted_shells},
         {"opposed_normals", s.opposed_normals},
+        {"leaning_normals", s.leaning_normals},
         {"collapsed_triangles", s.collapsed_triangles},
         {"sliver_triangles", s.sliver_triangles},
         {"repeated_triangles", s.repeated_triangles},
+        {"unreadable_textures", s.unreadable_textures},
         {"problems", problems_of(s)}};
     // Names may be any bytes: what is no UTF-8 is replaced.
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -38,6 +38,7 @@ Lines mesh_warnings(const ObjectConfig& object, const std::string& key, const Ke
     for (const std::string& file : survey.missing_materials)
         out.push_back(places.at(key, name + " names the materials " + in_quotes(file) +
                                          ", and there is no such file: its surfaces are grey"));
+    for (const std::string& remark : survey.remarks) out.push_back(places.at(key, name + ": " + remark));
     return out;
 }
 

@@ -2,9 +2,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <cstdio>
+#include <optional>
+
 #include "emulator/check/mesh_survey.h"
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
+#include "render/vocabulary/check.h"
 
 namespace hilcam {
 namespace {
@@ -18,7 +22,12 @@ struct MeshArguments {
 int carry_out(const MeshArguments& o) {
     const MeshSurvey found = survey_mesh(load_mesh_contents(o.file, o.surface), o.file.string());
     fmt::print("{}", o.json ? to_json(found) : to_text(found));
-    return 0;
+    if (found.unreadable_textures.empty()) return 0;
+    std::fflush(stdout);  // the list comes before the message
+    throw InputError(
+        fmt::format("{}: {} of its textures cannot be read (they are listed under 'problems'); accepted: "
+                    "textures that are there and decode",
+                    o.file.string(), found.unreadable_textures.size()));
 }
 
 }  // namespace

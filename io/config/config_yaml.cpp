@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "io/system/input_file.h"
 #include "io/system/program_files.h"
 #include "io/system/shipped_parts.h"
+#include "io/system/text_mark.h"
 #include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
@@ -55,6 +57,46 @@ std::string in_place_of(const std::string& accepted, const std::string& word) {
     return word.empty() ? accepted : accepted + ", or '" + word + "'";
 }
 
+// Returns what a word means by YAML 1.1 (the type "bool"; without y and n, which PyYAML leaves words): scripts that read a file by it and write it
+// again have true where it had `on`.
+std::optional<bool> to_flag(const std::string& word) {
+    for (const bool value : {true, false})
+        for (const char* known : {value ? "true" : "false", value ? "yes" : "no", value ? "on" : "off"}) {
+            const std::string small = known;
+            std::string first = small, capitals = small;
+            first[0] = static_cast<char>(std::toupper(first[0]));
+            for (char& c : capitals) c = static_cast<char>(std::toupper(c));
+            if (word == small || word == first || word == capitals) return value;
+        }
+    return {};
+}
+
+// The key as a section has it: `on` where a script wrote true.
+std::string known_key(const std::string& key, const Fields& known) {
+    const auto is_known = [&](std::string_view word) {
+        return std::any_of(known.begin(), known.end(), [&](const Field& f) { return f.key == word; });
+    };
+    const std::optional<bool> flag = is_known(key) ? std::nullopt : to_flag(key);
+    return flag && is_known(*flag ? "on" : "off") ? (*flag ? "on" : "off") : key;
+}
+
+// The value of a section's key.
+YAML::Node value_of(const YAML::Node& map, const std::string& key, const Fields& known) {
+    if (const YAML::Node own = map[key]; own.IsDefined() || !to_flag(key)) return own;
+    for (const auto& entry : map)
+        if (entry.first.IsScalar() && known_key(entry.first.Scalar(), known) == key) return entry.second;
+    return YAML::Node(YAML::NodeType::Undefined);
+}
+
+// A whole number, which scripts may write as a decimal (256.0, 2.56e2).
+std::optional<std::int64_t> to_whole(const std::string& text) {
+    if (const auto value = parsed_as<std::int64_t>(text)) return value;
+    constexpr double kExact = 9007199254740992;  // 2^53: each whole number up to it is a double
+    const auto value = number_of(text);
+    if (!value || std::abs(*value) > kExact || *value != std::floor(*value)) return {};
+    return static_cast<std::int64_t>(*value);
+}
+
 struct Override {
     std::string path;
     YAML::Node value;
@@ -80,13 +122,14 @@ class Reader {
         read_section(mapping_in(text, place, path), place, section, path, depth);
     }
 
-    static YAML::Node only_document(std::string_view text, const Place& place) {
+    static YAML::Node only_document(std::string_view bytes, const Place& place) {
+        const std::string text = in_utf8(bytes);
         if (const auto line = line_of_second_document(text))
             throw InputError(place.name + ":" + std::to_string(*line) +
                              ":1: a second document ('---') begins here; accepted: one a file");
         try {
             // An alias makes one node stand in many places; without any there is nothing to blow up.
-            return YAML::Load(std::string(text));
+            return YAML::Load(text);
         } catch (const YAML::Exception& error) {
             const std::string open = unpaired_bracket(text);
             throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
@@ -218,7 +261,7 @@ class Reader {
             const std::string field_path = join(path, field.key);
             const Override* override = override_at(field_path);
             // yaml-cpp's nodes are references: one is only ever made, never assigned.
-            const YAML::Node given = override ? override->value : map[field.key];
+            const YAML::Node given = override ? override->value : value_of(map, field.key, section.fields);
             const bool absent = !given.IsDefined() || given.IsNull();
             const bool opened = absent && holds_section(field) && override_below(field_path);
             if (absent && !opened) {
@@ -286,7 +329,7 @@ class Reader {
         std::vector<std::string> seen;
         for (const auto& entry : map) {
             const std::string key =
-                entry.first.IsScalar() ? entry.first.Scalar() : std::string("(not a word)");
+                entry.first.IsScalar() ? known_key(entry.first.Scalar(), known) : std::string("(not a word)");
             if (std::none_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; }))
                 fail(place, entry.first, join(path, shortened(key)),
                      "unknown key" + advice_for(key, known, root_));
@@ -333,9 +376,9 @@ class Reader {
                 },
                 [&](const IntegerField& f) { *f.value = integer(node, f.range, refuse); },
                 [&](const FlagField& f) {
-                    if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false"))
-                        refuse(node, "true or false");
-                    *f.value = node.Scalar() == "true";
+                    const std::optional<bool> flag = node.IsScalar() ? to_flag(node.Scalar()) : std::nullopt;
+                    if (!flag) refuse(node, "true or false");
+                    *f.value = *flag;
                 },
                 [&](const TextField& f) {
                     if (!node.IsScalar()) refuse(node, "a text");
@@ -361,7 +404,12 @@ class Reader {
                     // free-run is as good as free_run.
                     std::string given = node.IsScalar() ? node.Scalar() : "";
                     std::replace(given.begin(), given.end(), '-', '_');
-                    const auto word = std::find(f.words.begin(), f.words.end(), given);
+                    auto word = std::find(f.words.begin(), f.words.end(), given);
+                    // A script that read `off` may have written false.
+                    if (word == f.words.end())
+                        word = std::find_if(f.words.begin(), f.words.end(), [&](const std::string& w) {
+                            return to_flag(w) && to_flag(w) == to_flag(given);
+                        });
                     if (word == f.words.end()) {
                         std::string words;
                         for (const std::string& w : f.words) words += (words.empty() ? "" : " | ") + w;
@@ -414,7 +462,7 @@ class Reader {
 
     template <class Refuse>
     static std::int64_t integer(const YAML::Node& node, const Range& range, const Refuse& refuse) {
-        const auto value = node.IsScalar() ? parsed_as<std::int64_t>(node.Scalar()) : std::nullopt;
+        const auto value = node.IsScalar() ? to_whole(node.Scalar()) : std::nullopt;
         const auto as_double = static_cast<double>(value.value_or(0));
         if (!value || as_double < range.least || as_double > range.most)
             refuse(node, "a whole number, " + accepted(range));
@@ -511,7 +559,7 @@ void read_config_text(std::string_view text, const std::string& name, const std:
 
 bool has_top_level_key(const std::filesystem::path& file, const std::string& key) {
     try {
-        const YAML::Node node = YAML::Load(read_input_file(file, kYamlFile));
+        const YAML::Node node = YAML::Load(in_utf8(read_input_file(file, kYamlFile)));
         return node.IsMap() && node[key].IsDefined();
     } catch (const YAML::Exception&) {
         return false;

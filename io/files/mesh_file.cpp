@@ -117,14 +117,88 @@ std::vector<MeshNode> read_nodes(ConfinedResult& in) {
     return nodes;
 }
 
+void write_texts(const std::vector<std::string>& texts, ConfinedOutput& out) {
+    out.value(texts.size());
+    for (const std::string& text : texts) out.text(text);
+}
+
+std::vector<std::string> read_texts(ConfinedResult& in) {
+    std::vector<std::string> texts;
+    for (auto left = in.value<std::size_t>(); left > 0; --left) texts.push_back(in.text());
+    return texts;
+}
+
+void write_contents(const MeshContents& contents, ConfinedOutput& out) {
+    write_mesh(contents.mesh, out);
+    write_nodes(contents.nodes, out);
+    out.value(contents.collapsed_triangles);
+    out.value(contents.opposed_facets);
+    out.value(contents.leaning_facets);
+    write_texts(contents.missing_materials, out);
+    write_texts(contents.unreadable_textures, out);
+    write_texts(contents.remarks, out);
+}
+
+MeshContents read_contents(ConfinedResult& in) {
+    MeshContents contents;
+    contents.mesh = read_mesh(in);
+    contents.nodes = read_nodes(in);
+    contents.collapsed_triangles = in.value<std::uint64_t>();
+    contents.opposed_facets = in.value<std::uint64_t>();
+    contents.leaning_facets = in.value<std::uint64_t>();
+    contents.missing_materials = read_texts(in);
+    contents.unreadable_textures = read_texts(in);
+    contents.remarks = read_texts(in);
+    return contents;
+}
+
+// Writes the files that the parent is to look at, before anything else.
+void write_wanted(const std::vector<FileName>& wanted, ConfinedOutput& out) {
+    out.value(wanted.size());
+    for (const FileName& name : wanted) {
+        out.text(name.name);
+        out.value(name.folders.size());
+        for (const std::filesystem::path& folder : name.folders) out.text(folder.string());
+    }
+}
+
+std::vector<FileName> read_wanted(ConfinedResult& in) {
+    std::vector<FileName> wanted;
+    auto left = in.value<std::size_t>();
+    if (left > kMostWantedFiles) in.refuse();
+    for (; left > 0; --left) {
+        FileName& name = wanted.emplace_back();
+        name.name = in.text();
+        for (auto folders = in.value<std::size_t>(); folders > 0; --folders)
+            name.folders.emplace_back(in.text());
+    }
+    return wanted;
+}
+
 // Shapes of small bodies have no nodes; a shape kernel tells its segments in their place.
 bool is_shape_kernel(const std::string& kind) { return kind == ".bds" || kind == ".xds"; }
 bool is_shape(const std::string& kind) { return is_shape_kernel(kind) || is_shape_table(kind); }
 
+// Reads the label beside a table, the name of which differs by the ending.
+Longitudes labelled_longitudes(const std::filesystem::path& table) {
+    const InputKind kind{1u << 20, "a PDS label"};
+    for (const char* ending : {".lbl", ".LBL", ".Lbl"}) {
+        std::filesystem::path label = table;
+        std::error_code error;
+        if (std::filesystem::is_regular_file(label.replace_extension(ending), error))
+            return longitudes_of_label(read_input_file(label, kind));
+    }
+    return Longitudes::kUnsaid;
+}
+
 MeshContents shape_contents(const std::filesystem::path& file, const std::string& kind,
                             std::optional<int> surface) {
     const std::string bytes = read_input_file(file, mesh_kind());
-    if (!is_shape_kernel(kind)) return {read_shape_table(bytes, file.string()), {}, 0};
+    if (!is_shape_kernel(kind)) {
+        MeshContents out;
+        out.mesh = read_shape_table(bytes, file.string(), labelled_longitudes(file), &out.remarks);
+        return out;
+    }
     MeshContents out;
     std::uint64_t plates = 0;
     out.mesh = read_dsk_shape(bytes, file.string(), surface);
@@ -138,10 +212,8 @@ MeshContents shape_contents(const std::filesystem::path& file, const std::string
     return out;
 }
 
-// Has `work` read the file in a child process; it gets the file's kind.
-template <class Work>
-ConfinedResult read_confined(const std::filesystem::path& file, std::optional<int> surface,
-                             const Work& work) {
+// Returns the ending of a mesh file in small letters; throws InputError for what is no mesh.
+std::string required_kind(const std::filesystem::path& file, std::optional<int> surface) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::array<std::string, 10> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply",
@@ -154,47 +226,80 @@ ConfinedResult read_confined(const std::filesystem::path& file, std::optional<in
     if (surface && !is_shape_kernel(kind))
         throw refused(file.string(), "the surface " + std::to_string(*surface),
                       "none: only shape kernels (.bds, .xds) have surfaces by number");
+    return kind;
+}
+
+// Has `import` read the file in a child process, which gets the file's kind and the files that the mesh names, and what it returns
+// written by `write`. Where some of these files lie outside the mesh's folders, the child says so in place of results; those that may
+// be read are then open to another child.
+template <class Import, class Write>
+ConfinedResult read_confined(const std::filesystem::path& file, std::optional<int> surface,
+                             const Import& import, const Write& write) {
+    const std::string kind = required_kind(file, surface);
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
     const ConfinedLimits limits{kMinMemory_bytes + kMeshMemoryPerByte * bytes,
                                 kMinCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
-    return run_confined(file.string(), limits, mesh_folders(file),
-                        [&](ConfinedOutput& out) { work(kind, out); });
+    std::vector<std::filesystem::path> readable = mesh_folders(file);
+    GrantedFiles granted;
+    const auto work = [&](ConfinedOutput& out) {
+        NamedFiles files(file, granted);
+        std::optional<decltype(import(kind, files))> found;
+        try {
+            found = import(kind, files);
+        } catch (const InputError&) {
+            if (files.wanted().empty()) throw;
+        }
+        write_wanted(files.wanted(), out);
+        if (files.wanted().empty()) write(*found, out);
+    };
+    // Materials outside name textures, which may lie outside, too. A child that goes on asking is broken.
+    constexpr int kMostRounds = 4;
+    for (int round = 1;; ++round) {
+        ConfinedResult result = run_confined(file.string(), limits, readable, work);
+        const std::vector<FileName> wanted = read_wanted(result);
+        if (wanted.empty()) return result;
+        if (round == kMostRounds) result.refuse();
+        for (const FileName& name : wanted) {
+            const GrantedFile& grant = granted[name] = granted_file(file, name);
+            if (!grant.file.empty() && grant.refusal.empty()) readable.push_back(grant.file);
+        }
+    }
+}
+
+MeshContents import_contents(const std::string& kind, NamedFiles& files, std::optional<int> surface) {
+    return is_shape(kind) ? shape_contents(files.mesh(), kind, surface) : import_mesh_contents(files, kind);
+}
+
+std::vector<Mesh> import_parts(const std::string& kind, NamedFiles& files, std::optional<int> surface,
+                               std::span<const std::string> nodes) {
+    if (!is_shape(kind)) return import_mesh_parts(files, kind, nodes);
+    if (!nodes.empty())
+        throw refused(files.mesh().string(), "the node " + in_quotes(nodes[0]), "none: it has no nodes");
+    std::vector<Mesh> meshes;
+    meshes.push_back(shape_contents(files.mesh(), kind, surface).mesh);
+    return meshes;
 }
 
 }  // namespace
 
 MeshContents load_mesh_contents(const std::filesystem::path& file, std::optional<int> surface) {
-    ConfinedResult result = read_confined(file, surface, [&](const std::string& kind, ConfinedOutput& out) {
-        const MeshContents contents =
-            is_shape(kind) ? shape_contents(file, kind, surface) : import_mesh_contents(file, kind);
-        write_mesh(contents.mesh, out);
-        write_nodes(contents.nodes, out);
-        out.value(contents.collapsed_triangles);
-        out.value(contents.missing_materials.size());
-        for (const std::string& name : contents.missing_materials) out.text(name);
-    });
-    MeshContents contents;
-    contents.mesh = read_mesh(result);
-    contents.nodes = read_nodes(result);
-    contents.collapsed_triangles = result.value<std::uint64_t>();
-    for (auto left = result.value<std::size_t>(); left > 0; --left)
-        contents.missing_materials.push_back(result.text());
-    return contents;
+    ConfinedResult result = read_confined(
+        file, surface,
+        [&](const std::string& kind, NamedFiles& files) { return import_contents(kind, files, surface); },
+        write_contents);
+    return read_contents(result);
 }
 
 Mesh load_mesh(const std::filesystem::path& file) { return std::move(load_mesh_parts(file, {}).front()); }
 
 std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes,
                                   std::optional<int> surface) {
-    ConfinedResult result = read_confined(file, surface, [&](const std::string& kind, ConfinedOutput& out) {
-        if (is_shape(kind)) {
-            if (!nodes.empty())
-                throw refused(file.string(), "the node " + in_quotes(nodes[0]), "none: it has no nodes");
-            write_mesh(shape_contents(file, kind, surface).mesh, out);
-            return;
-        }
-        for (const Mesh& mesh : import_mesh_parts(file, kind, nodes)) write_mesh(mesh, out);
-    });
+    ConfinedResult result = read_confined(
+        file, surface,
+        [&](const std::string& kind, NamedFiles& files) { return import_parts(kind, files, surface, nodes); },
+        [](const std::vector<Mesh>& meshes, ConfinedOutput& out) {
+            for (const Mesh& mesh : meshes) write_mesh(mesh, out);
+        });
     std::vector<Mesh> meshes;
     for (std::size_t part = 0; part <= nodes.size(); ++part) meshes.push_back(read_mesh(result));
     return meshes;

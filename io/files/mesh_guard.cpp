@@ -107,34 +107,6 @@ void require_few_nodes(std::string_view gltf_json, const std::string& name) {
         if (scene.is_object() && scene.contains("nodes")) counter.count_all(scene["nodes"], 0);
 }
 
-void require_ply_header(std::string_view ply, const std::string& name) {
-    TextLines lines(ply, name);
-    for (std::string_view line; lines.number() < 1000 && lines.next(line);)
-        if (line.starts_with("end_header")) return;
-    refuse(name, "does not parse: its PLY header has no end_header");
-}
-
-void require_whole_stl(std::string_view stl, const std::string& name) {
-    // Binary ones may begin with that word, too, but their numbers are no ASCII.
-    const std::string_view begin = stl.substr(0, 500);
-    const bool is_text = trimmed(begin).starts_with("solid") &&
-                         std::all_of(begin.begin(), begin.end(), [](char c) { return c > 0; });
-    if (is_text) return;
-    // A header and the number of triangles, then each of them; little-endian (3D Systems, StereoLithography
-    // Interface Specification, 1989).
-    constexpr std::size_t kCountAt = 80, kTrianglesAt = 84, kTriangleBytes = 50;
-    if (stl.size() < kTrianglesAt)
-        refuse(name, "does not parse: found " + std::to_string(stl.size()) +
-                         " bytes; accepted: a binary STL, whose triangles begin at byte 84, or one in text, "
-                         "which begins with 'solid'");
-    const std::uint64_t triangles = little(stl, kCountAt), bytes = kTrianglesAt + kTriangleBytes * triangles;
-    if (stl.size() != bytes)
-        refuse(name, "does not parse: its " + std::to_string(triangles) +
-                         " triangles, as a binary STL, take " + std::to_string(bytes) +
-                         " bytes, and the file has " + std::to_string(stl.size()) + ", room for " +
-                         std::to_string((stl.size() - kTrianglesAt) / kTriangleBytes));
-}
-
 void ObjMaterials::add(std::string_view text, const std::string& name) {
     TextLines lines(text, name);
     for (std::string_view line; lines.next(line);) {

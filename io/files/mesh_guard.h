@@ -30,10 +30,6 @@ GlbChunks require_glb_chunks(std::string_view glb, const std::string& name);
 
 // The nodes of the scene, each as often as it is a child of another.
 void require_few_nodes(std::string_view gltf_json, const std::string& name);
-// A header without an end keeps readers busy.
-void require_ply_header(std::string_view ply, const std::string& name);
-// A binary STL is as long as it says that it is; one in text is left to the reader.
-void require_whole_stl(std::string_view stl, const std::string& name);
 
 // Materials of an OBJ file and of those that it names, together.
 class ObjMaterials {

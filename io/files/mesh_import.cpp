@@ -19,6 +19,9 @@
 
 #include "io/files/gltf_webp.h"
 #include "io/files/mesh_guard.h"
+#include "io/files/obj_source.h"
+#include "io/files/ply_source.h"
+#include "io/files/stl_source.h"
 #include "io/pictures/picture_file.h"
 #include "io/system/confined.h"
 #include "render/vocabulary/check.h"
@@ -36,55 +39,70 @@ constexpr std::uint64_t kBytesPerTriangle = 250;
     throw InputError(file.string() + ": " + what);
 }
 
-// Throws InputError, which begins with `what`, where a file lies outside the folders of the mesh that names it.
-void require_in_folders(const std::filesystem::path& mesh, const std::filesystem::path& file,
-                        const std::string& what) {
-    std::error_code error;
-    const std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
-    for (const std::filesystem::path& folder : mesh_folders(mesh)) {
-        const std::filesystem::path inside = real.lexically_relative(folder);
-        if (!inside.empty() && *inside.begin() != "..") return;
-    }
-    throw InputError(what + " lies outside the mesh's folder, at " + real.string() +
-                     "; accepted: files in that folder or below it");
+// A file as assimp is to read it: at a path whose ending says what it is.
+struct Source {
+    std::string path, bytes;
+    ObjLibraries libraries = {};  // an OBJ has some
+    std::vector<std::string> remarks = {};
+    bool is_flat = false;   // the corners' order is the normal
+    bool has_uris = false;  // names of files are URIs
+};
+
+// Returns the names of a file that a mesh names by a URI: what it stands for, and the URI itself, as some writers have it.
+std::vector<FileName> names_of_uri(const FileName& uri) {
+    FileName name = uri;
+    name.name = without_percents(uri.name);
+    return name == uri ? std::vector{uri} : std::vector{name, uri};
 }
 
 class Loader {
   public:
     // part: which of `nodes` to take, or -1 for what none of them takes.
-    Loader(const std::filesystem::path& file, const aiScene& scene, std::span<const std::string> nodes,
+    Loader(NamedFiles& files, const Source& source, const aiScene& scene, std::span<const std::string> nodes,
            int part)
-        : file_(file), scene_(scene), nodes_(nodes), part_(part) {}
+        : file_(files.mesh()), files_(files), source_(source), scene_(scene), nodes_(nodes), part_(part) {}
 
+    // Throws InputError when textures cannot be read, all of them in one line.
     Mesh load() {
+        MeshContents contents = load_contents();
+        const std::vector<std::string>& bad = contents.unreadable_textures;
+        if (bad.empty()) return std::move(contents.mesh);
+        if (bad.size() == 1) refuse(file_, bad.front());
+        std::string all;
+        for (const std::string& one : bad)
+            if (all.size() < 600) all += "; " + one;
+        refuse(file_,
+               std::to_string(bad.size()) + " textures cannot be read ('hilcam mesh' lists all)" + all);
+    }
+
+    MeshContents load_contents() {
         read_materials();
         count_normals_and_uvs();
         if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1, 0);
         if (mesh_.triangles.empty()) refuse_empty();
-        return std::move(mesh_);
+        read_textures();
+        out_.mesh = std::move(mesh_);
+        return std::move(out_);
     }
-
-    // The nodes that load() came across.
-    std::vector<MeshNode>& nodes() { return found_nodes_; }
-    std::uint64_t collapsed_triangles() const { return collapsed_triangles_; }
 
   private:
     const std::filesystem::path& file_;
+    NamedFiles& files_;
+    const Source& source_;
     const aiScene& scene_;
     std::span<const std::string> nodes_;
     int part_;
     Mesh mesh_;
-    std::map<std::string, int> texture_index_;
+    MeshContents out_;
+    std::map<FileName, int> texture_index_;
     bool any_normals_ = false;
     bool any_uvs_ = false;
     std::uint64_t texels_ = 0;
-    std::vector<MeshNode> found_nodes_;
-    std::uint64_t collapsed_triangles_ = 0;
 
     // One part without normals or uvs must not take them from the others, so the missing ones are filled in.
     void count_normals_and_uvs() {
         for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
-            any_normals_ |= scene_.mMeshes[i]->HasNormals();
+            any_normals_ |= scene_.mMeshes[i]->HasNormals() && !source_.is_flat;
             any_uvs_ |= scene_.mMeshes[i]->HasTextureCoords(0);
         }
     }
@@ -108,44 +126,70 @@ class Loader {
             surface.metallic = std::clamp(value, 0.0f, 1.0f);
         if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == AI_SUCCESS)
             surface.roughness = std::clamp(value, 0.0f, 1.0f);
-        aiString path;
-        for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
-            if (material.GetTexture(type, 0, &path) == AI_SUCCESS) {
-                surface.base_color_texture = texture_of(path.C_Str(), surface.name);
-                break;
-            }
         return surface;
     }
 
-    int texture_of(const std::string& path, const std::string& material) {
-        const auto known = texture_index_.find(path);
+    // Reads the textures of the surfaces that triangles have: libraries of materials have others, too.
+    void read_textures() {
+        std::vector<bool> used(mesh_.surfaces.size());
+        for (const std::uint16_t surface : mesh_.surface_of_triangle) used[surface] = true;
+        for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
+            aiString name;
+            for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
+                if (used[i] && scene_.mMaterials[i]->GetTexture(type, 0, &name) == AI_SUCCESS) {
+                    mesh_.surfaces[i].base_color_texture = texture_of(name.C_Str(), mesh_.surfaces[i].name);
+                    break;
+                }
+        }
+    }
+
+    // Returns the texture's number, or -1 for one that cannot be read.
+    int texture_of(const std::string& name, const std::string& material) {
+        FileName file{name, {}};
+        const auto& folders = source_.libraries.folder_of_material;
+        if (const auto folder = folders.find(material); folder != folders.end())
+            file.folders.push_back(folder->second);
+        const auto known = texture_index_.find(file);
         if (known != texture_index_.end()) return known->second;
-        Texture texture = decode(
-            path, file_.string() + ": texture " + in_quotes(path) + " of material " + in_quotes(material));
-        texture.name = path;
-        texels_ += texture.texels.size();
+        int index = -1;
+        try {
+            Texture texture =
+                decode(file, "texture " + in_quotes(name) + " of material " + in_quotes(material));
+            texture.name = name;
+            texels_ += texture.texels.size();
+            mesh_.textures.push_back(std::move(texture));
+            index = static_cast<int>(mesh_.textures.size()) - 1;
+        } catch (const InputError& fault) {
+            out_.unreadable_textures.emplace_back(fault.what());
+        }
         if (texels_ > kMaxTexels)
             refuse(file_, "its textures have more than " + std::to_string(kMaxTexels) + " pixels together");
-        mesh_.textures.push_back(std::move(texture));
-        return texture_index_[path] = static_cast<int>(mesh_.textures.size()) - 1;
+        return texture_index_[file] = index;
     }
 
     // `what` begins messages.
-    Texture decode(const std::string& path, const std::string& what) const {
-        const aiTexture* const embedded = scene_.GetEmbeddedTexture(path.c_str());
+    Texture decode(const FileName& name, const std::string& what) const {
+        const aiTexture* const embedded = scene_.GetEmbeddedTexture(name.name.c_str());
         if (!embedded) {
-            const std::filesystem::path beside = file_.parent_path() / path;
-            std::error_code error;
-            if (!std::filesystem::exists(beside, error))
-                throw InputError(what + " is missing; expected at " + beside.string());
-            require_in_folders(file_, beside, what);
-            const std::string bytes = read_input_file(beside, picture_kind());
+            std::optional<std::filesystem::path> found;
+            for (const FileName& one : source_.has_uris ? names_of_uri(name) : std::vector{name})
+                if (!found) found = files_.find(one, what);
+            if (!found)
+                throw InputError(what + " is missing; expected at " +
+                                 (file_.parent_path() / name.name).string());
+            const std::string bytes = [&] {
+                try {
+                    return read_input_file(*found, picture_kind());
+                } catch (const InputError& fault) {
+                    throw InputError(what + ": " + fault.what());
+                }
+            }();
             return decode_texture({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, what);
         }
         if (embedded->mHeight == 0)  // compressed: mWidth is the number of bytes
             return decode_texture({reinterpret_cast<const std::uint8_t*>(embedded->pcData), embedded->mWidth},
                                   what);
-        throw InputError(what + " is not compressed; accepted: PNG, JPEG, TIFF, BMP, WebP");
+        throw InputError(what + " is not compressed; accepted: " + picture_kind().accepted);
     }
 
     // Returns which of the names takes a node, or -1.
@@ -168,7 +212,7 @@ class Loader {
         if (part == part_)
             for (unsigned i = 0; i < node.mNumMeshes; ++i)
                 read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
-        found_nodes_.push_back({node.mName.C_Str(), depth, mesh_.triangles.size() - before});
+        out_.nodes.push_back({node.mName.C_Str(), depth, mesh_.triangles.size() - before});
         for (unsigned i = 0; i < node.mNumChildren; ++i)
             read_node(*node.mChildren[i], body_from_node, part, depth + 1);
     }
@@ -225,14 +269,26 @@ class Loader {
             // By place: some of assimp's loaders give each corner a vertex of its own.
             const auto at = [&](std::size_t corner) { return mesh_.vertices_m[base + t[corner]]; };
             if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) {
-                ++collapsed_triangles_;
+                ++out_.collapsed_triangles;
                 continue;
             }
+            if (source_.is_flat && part.HasNormals()) compare_normals(part, face);
             if (mirrored) std::swap(t[1], t[2]);
             for (std::uint32_t& index : t) index += base;
             mesh_.triangles.push_back(t);
             mesh_.surface_of_triangle.push_back(surface);
         }
+    }
+
+    // Counts a facet whose normal in the file is not that of its corners' order; one of 0 says nothing.
+    void compare_normals(const aiMesh& part, const aiFace& face) {
+        const aiVector3D said = part.mNormals[face.mIndices[0]];
+        const aiVector3D a = part.mVertices[face.mIndices[0]], b = part.mVertices[face.mIndices[1]];
+        const aiVector3D own = (b - a) ^ (part.mVertices[face.mIndices[2]] - a);
+        const float both = said * own, sizes = said.Length() * own.Length();
+        if (!(sizes > 0)) return;
+        out_.opposed_facets += both < 0;
+        out_.leaning_facets += both >= 0 && both < 0.9f * sizes;
     }
 
     void require_finite(const aiMesh& part) const {
@@ -250,35 +306,35 @@ class Loader {
     }
 };
 
-// The files that assimp opens: the mesh is in memory already, others are opened as every file is.
+// The name by which assimp asks for an OBJ's materials, all of them in one text.
+constexpr const char* kMaterials = "hilcam_materials.mtl";
+
+// The files that assimp opens: the mesh and its materials are in memory already, others are opened as every file is.
 class MeshFiles final : public Assimp::IOSystem {
   public:
-    // `bytes` are those of `mesh`, and stand for the file `path`.
-    MeshFiles(std::filesystem::path mesh, std::string path, std::string_view bytes)
-        : mesh_(std::move(mesh)), path_(std::move(path)), bytes_(bytes) {
-        if (path_.ends_with(".obj")) materials_.add(bytes_, path_);
-    }
+    MeshFiles(NamedFiles& files, const Source& source) : files_(files), source_(source) {}
 
     // The error in a file: assimp has words of its own for it, or goes on without the file.
     const std::optional<InputError>& refused() const { return refused_; }
 
     bool Exists(const char* file) const override {
         std::error_code error;
-        return file == path_ || std::filesystem::exists(file, error);
+        return file == source_.path || std::filesystem::exists(file, error);
     }
     char getOsSeparator() const override { return '/'; }
     Assimp::IOStream* Open(const char* file, const char*) override {
-        if (file == path_) return stream_of(bytes_);
-        if (!Exists(file)) {
-            missing_.push_back(std::filesystem::path(file).filename().string());
-            return nullptr;
-        }
+        const std::filesystem::path path = file;
+        if (file == source_.path) return stream_of(source_.bytes);
+        if (path.filename() == kMaterials) return stream_of(source_.libraries.text);
         try {
-            require_in_folders(mesh_, file, mesh_.string() + ": " + in_quotes(file));
-            beside_.push_back(read_input_file(file, mesh_kind()));
+            const std::string uri = path.lexically_proximate(files_.mesh().parent_path()).string();
+            std::optional<std::filesystem::path> found;
+            for (const FileName& name : names_of_uri({uri, {}}))
+                if (!found) found = files_.find_for_mesh(name, in_quotes(name.name));
+            if (!found) return nullptr;
+            beside_.push_back(read_input_file(*found, mesh_kind()));
             const std::string& text = beside_.back();
             allow_more(kMeshMemoryPerByte * text.size(), kMeshCpu_s_byte * static_cast<double>(text.size()));
-            if (path_.ends_with(".obj")) materials_.add(text, file);
             return stream_of(text);
         } catch (const InputError& error) {
             refused_ = error;
@@ -287,42 +343,32 @@ class MeshFiles final : public Assimp::IOSystem {
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
 
-    // What an OBJ names that is not there. assimp looks for each in several ways, and then for a file of the
-    // mesh's own name: one that was read stands for all.
-    std::vector<std::string> missing_materials() const {
-        std::vector<std::string> out;
-        if (!path_.ends_with(".obj") || !beside_.empty()) return out;
-        for (const std::string& name : missing_)
-            if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-        const std::string own = std::filesystem::path(path_).stem().string() + ".mtl";
-        if (out.size() > 1) std::erase(out, own);
-        return out;
-    }
-
   private:
-    std::vector<std::string> missing_;
-    std::filesystem::path mesh_;
-    std::string path_;
-    std::string_view bytes_;
+    NamedFiles& files_;
+    const Source& source_;
     std::optional<InputError> refused_;
     std::deque<std::string> beside_;  // in use as long as assimp reads
-    ObjMaterials materials_;
 
     static Assimp::IOStream* stream_of(std::string_view bytes) {
         return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     }
 };
 
-// A file as assimp is to read it: at a path whose ending says what it is.
-struct Source {
-    std::string path, bytes;
-};
-
-Source source_of(const std::filesystem::path& file, const std::string& kind) {
+Source source_of(NamedFiles& files, const std::string& kind) {
+    const std::filesystem::path& file = files.mesh();
     const std::string name = file.string();
     Source source{(file.parent_path() / file.stem()).string() + kind, read_input_file(file, mesh_kind())};
-    if (kind == ".ply") require_ply_header(source.bytes, name);
-    if (kind == ".stl") require_whole_stl(source.bytes, name);
+    if (kind == ".obj") {
+        ObjSource obj = plain_obj(source.bytes, name);
+        source.libraries = read_obj_libraries(obj, files);
+        source.bytes = std::move(obj.text);
+        if (!source.libraries.text.empty())
+            source.bytes.insert(0, std::string("mtllib ") + kMaterials + "\n");
+    }
+    if (kind == ".ply") source.bytes = plain_ply(source.bytes, name);
+    if (kind == ".stl") source.bytes = plain_stl(source.bytes, name, source.remarks);
+    source.is_flat = kind == ".stl";
+    source.has_uris = kind == ".gltf" || kind == ".glb";
     if (kind == ".gltf") require_few_nodes(source.bytes, name);
     if (kind != ".glb") return source;
     const GlbChunks chunks = require_glb_chunks(source.bytes, name);
@@ -330,7 +376,7 @@ Source source_of(const std::filesystem::path& file, const std::string& kind) {
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(source.bytes.data());
     if (!chunks.has_binary) {
         // assimp takes the first buffer of a GLB for its binary chunk. Without one, the JSON is all there is.
-        source = {source.path + ".gltf", std::string(chunks.json)};
+        source.path += ".gltf", source.bytes = std::string(chunks.json);
     } else if (const auto changed = with_plain_webp_sources({bytes, source.bytes.size()})) {
         source.bytes.assign(changed->begin(), changed->end());
     }
@@ -388,16 +434,14 @@ void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     }
 }
 
-const aiScene& read_scene(Assimp::Importer& importer, const Source& source, const std::filesystem::path& file,
-                          std::vector<std::string>* missing_materials = nullptr) {
+const aiScene& read_scene(Assimp::Importer& importer, const Source& source, NamedFiles& names) {
+    const std::filesystem::path& file = names.mesh();
     keep_importer_of(std::filesystem::path(source.path).extension().string(), importer);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    auto* const files =
-        new MeshFiles(file, source.path, source.bytes);  // the importer's from the next line on
+    auto* const files = new MeshFiles(names, source);  // the importer's from the next line on
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(source.path, 0);
     if (files->refused()) throw InputError(*files->refused());
-    if (missing_materials) *missing_materials = files->missing_materials();
     if (scene) {
         require_few(*scene, file);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
@@ -410,39 +454,29 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, cons
 
 }  // namespace
 
-std::vector<std::filesystem::path> mesh_folders(const std::filesystem::path& file) {
-    std::error_code error;
-    std::vector<std::filesystem::path> out{
-        std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error)};
-    const std::filesystem::path real = std::filesystem::canonical(file, error).parent_path();
-    if (!error && real != out.front()) out.push_back(real);
-    return out;
-}
-
 const InputKind& mesh_kind() {
     static const InputKind kind{std::uintmax_t{4} << 30, "a mesh file, or what one names beside it"};
     return kind;
 }
 
-MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind) {
-    const Source source = source_of(file, kind);
+MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind) {
+    const Source source = source_of(files, kind);
     Assimp::Importer importer;
-    MeshContents out;
-    Loader loader(file, read_scene(importer, source, file, &out.missing_materials), {}, -1);
-    out.mesh = loader.load();
-    out.nodes = std::move(loader.nodes());
-    out.collapsed_triangles = loader.collapsed_triangles();
+    MeshContents out = Loader(files, source, read_scene(importer, source, files), {}, -1).load_contents();
+    out.missing_materials = source.libraries.missing;
+    out.remarks = source.remarks;
+    out.remarks.insert(out.remarks.end(), files.remarks().begin(), files.remarks().end());
     return out;
 }
 
-std::vector<Mesh> import_mesh_parts(const std::filesystem::path& file, const std::string& kind,
+std::vector<Mesh> import_mesh_parts(NamedFiles& files, const std::string& kind,
                                     std::span<const std::string> nodes) {
-    const Source source = source_of(file, kind);
+    const Source source = source_of(files, kind);
     Assimp::Importer importer;
-    const aiScene& scene = read_scene(importer, source, file);
+    const aiScene& scene = read_scene(importer, source, files);
     std::vector<Mesh> meshes;
     for (int part = -1; part < static_cast<int>(nodes.size()); ++part)
-        meshes.push_back(Loader(file, scene, nodes, part).load());
+        meshes.push_back(Loader(files, source, scene, nodes, part).load());
     return meshes;
 }
 

@@ -3,11 +3,11 @@
 // The only unit that knows assimp.
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "io/files/named_files.h"
 #include "io/system/input_file.h"
 #include "render/vocabulary/mesh.h"
 
@@ -19,10 +19,6 @@ const InputKind& mesh_kind();
 inline constexpr double kMeshCpu_s_byte = 3e-6;
 // A line of an OBJ becomes objects some tens of times its size.
 inline constexpr std::uint64_t kMeshMemoryPerByte = 64;
-
-// Returns the folders in and below which a mesh and what it names have to lie: the one that the file is named in, and the one that it is in
-// where that is a link.
-std::vector<std::filesystem::path> mesh_folders(const std::filesystem::path& file);
 
 // A node of a file's tree, in the order of the file, parents first.
 struct MeshNode {
@@ -38,13 +34,20 @@ struct MeshContents {
     std::uint64_t collapsed_triangles = 0;
     // Files of materials that an OBJ names and that are not there.
     std::vector<std::string> missing_materials = {};
+    // Textures that its triangles have and that are missing or do not decode, a line each; the surfaces are without them.
+    std::vector<std::string> unreadable_textures = {};
+    // Each says that something was taken for another thing, or left out.
+    std::vector<std::string> remarks = {};
+    // Facets of an STL whose normals look to the other side than the order of their corners, or lie more than 26 degrees
+    // (a cosine of 0.9) from what that order says. The order counts.
+    std::uint64_t opposed_facets = 0, leaning_facets = 0;
 };
-// Does what load_mesh_contents() of mesh_file.h does; `kind` as below.
-MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind);
+// Does what load_mesh_contents() of mesh_file.h does; `files` are those of the mesh, `kind` as below.
+MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind);
 
 // Does what load_mesh_parts() of mesh_file.h does. `kind`: the ending, in small letters. std::bad_alloc when
 // memory is limited and runs out.
-std::vector<Mesh> import_mesh_parts(const std::filesystem::path& file, const std::string& kind,
+std::vector<Mesh> import_mesh_parts(NamedFiles& files, const std::string& kind,
                                     std::span<const std::string> nodes);
 
 }  // namespace hilcam

@@ -1,10 +1,12 @@
 #include "io/files/shape_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "io/files/mesh_guard.h"
 #include "io/files/text_lines.h"
+#include "io/system/text_mark.h"
 
 namespace hilcam {
 namespace {
@@ -31,20 +33,36 @@ struct Words {
     }
 };
 
+// A number, whose exponent may be Fortran's of double precision.
+std::optional<double> shape_number(std::string_view text) {
+    if (const auto value = number_of(text)) return value;
+    std::string plain(text);
+    const std::size_t d = plain.find_first_of("dD");
+    if (d == std::string::npos) return {};
+    plain[d] = 'e';
+    return number_of(plain);
+}
+
+// Leaves out what stands behind the end of a text of DOS, and zeros with which records are filled.
+std::string_view text_of_table(std::string_view bytes, const std::string& name) {
+    std::string_view text = without_mark(bytes, name);
+    text = text.substr(0, text.find('\x1A'));
+    while (text.ends_with('\0')) text.remove_suffix(1);
+    return text;
+}
+
 class ShapeReader {
   public:
-    ShapeReader(std::string_view text, const std::string& name) : lines_(text, name) {
-        mesh_.surfaces.push_back({.name = "shape"});
-    }
+    ShapeReader(std::string_view text, const std::string& name) : lines_(text_of_table(text, name), name) {}
 
-    Mesh read() {
+    Mesh read(Longitudes longitudes, std::vector<std::string>* remarks) {
         const Words first = next("a line of numbers");
-        if (first.count == 4 && (first.word[0] == "v" || first.word[0] == "V"))
-            read_letters(first);
-        else if (first.count == 1 || first.count == 2)
-            read_counted(first);
-        else
-            lines_.refuse(lines_text(first), "v x y z, or how many vertices (.plt), or Q (.icq)");
+        if (first.count >= 3 && shape_number(first.word[0])) {
+            read_radii(first, longitudes, remarks);
+        } else {
+            mesh_.surfaces.push_back({.name = "shape"});
+            read_facets(first);
+        }
         if (mesh_.triangles.empty()) lines_.fail("has no facet; accepted: one or more");
         turn_outwards();
         mesh_.surface_of_triangle.assign(mesh_.triangles.size(), 0);
@@ -77,7 +95,7 @@ class ShapeReader {
         return words;
     }
     double number(std::string_view text) const {
-        const auto value = number_of(text);
+        const auto value = shape_number(text);
         if (!value || std::abs(*value) > 1e9) lines_.refuse(text, "a number below 1e9");
         return *value;
     }
@@ -131,6 +149,17 @@ class ShapeReader {
             for (std::uint32_t& corner : t) --corner;
     }
 
+    void read_facets(const Words& first) {
+        if (first.count == 4 && (first.word[0] == "v" || first.word[0] == "V"))
+            read_letters(first);
+        else if (first.count == 1 || first.count == 2)
+            read_counted(first);
+        else
+            lines_.refuse(
+                lines_text(first),
+                "v x y z; how many vertices, and facets; Q (.icq); or a latitude, a longitude and a radius");
+    }
+
     void read_letters(Words words) {
         do {
             if (words.word[0] == "v" || words.word[0] == "V")
@@ -143,12 +172,14 @@ class ShapeReader {
         settle_corners();
     }
 
-    // Plates number their lines, quadrilaterals do not.
+    // Plates number their lines, polyhedra and quadrilaterals do not.
     void read_counted(const Words& head) {
         const std::size_t first = count(head.word[0], static_cast<double>(kMaxTriangles));
         const Words line = next("a vertex");
         if (line.count >= 4)
             read_plates(first, head, line);
+        else if (head.count == 2)
+            read_polyhedron(first, count(head.word[1], static_cast<double>(kMaxTriangles)), line);
         else
             read_quadrilaterals(first, line);
     }
@@ -164,6 +195,29 @@ class ShapeReader {
                             : count(next("how many plates").word[0], static_cast<double>(kMaxTriangles));
         for (std::size_t i = 0; i < plates; ++i) add_corners(next("a plate"), 1);
         settle_corners();
+    }
+    void read_polyhedron(std::size_t vertices, std::size_t facets, Words line) {
+        for (std::size_t i = 0; i < vertices; ++i) {
+            if (i > 0) line = next("a vertex");
+            if (line.count != 3) lines_.refuse(lines_text(line), "three coordinates");
+            add_vertex(vertex(line, 0));
+        }
+        for (std::size_t i = 0; i < facets; ++i) add_polyhedron_facet(next("a facet"));
+        settle_corners();
+    }
+    // Corners alone, or behind their count, which may have a line of its own.
+    void add_polyhedron_facet(Words line) {
+        const auto counts = [](const Words& words) {
+            return words.word[0] == "3" ? 3u : words.word[0] == "4" ? 4u : 0u;
+        };
+        if (line.count == 3) return add_corners(line, 0);
+        const std::size_t corners = counts(line);
+        if (corners == 0 || (line.count != 1 && line.count != 1 + corners))
+            lines_.refuse(lines_text(line), "three corners, or 3 or 4 and as many corners");
+        if (line.count > 1) return add_corners(line, 1);
+        line = next("a facet's corners");
+        if (line.count != corners) lines_.refuse(lines_text(line), std::to_string(corners) + " corners");
+        add_corners(line, 0);
     }
     void read_quadrilaterals(std::size_t q, Words line) {
         if (q > 4096) lines_.refuse(std::to_string(q), "Q of 1 to 4096");
@@ -188,6 +242,23 @@ class ShapeReader {
                 }
     }
 
+    void read_radii(Words line, Longitudes longitudes, std::vector<std::string>* remarks) {
+        std::vector<RadiusRow> rows;
+        do {
+            if (line.count < 3) lines_.refuse(lines_text(line), "a latitude, a longitude and a radius");
+            if (rows.size() == kMaxTriangles) lines_.fail("has more than 100000000 radii");
+            rows.push_back(
+                {number(line.word[0]), number(line.word[1]), number(line.word[2]), lines_.number()});
+        } while (more(line));
+        mesh_ = mesh_of_radii(rows, longitudes, lines_.name());
+        if (longitudes == Longitudes::kUnsaid && remarks)
+            remarks->push_back(
+                "its longitudes are taken as east, which neither the table nor a label (.lbl) beside it "
+                "says; where "
+                "they are west the shape is mirrored: a label with POSITIVE_LONGITUDE_DIRECTION = WEST says "
+                "so");
+    }
+
     // Six times the volume that the facets enclose is the sum of their corners' triple products.
     void turn_outwards() {
         double volume = 0;
@@ -203,8 +274,9 @@ class ShapeReader {
 
 bool is_shape_table(std::string_view kind) { return kind == ".tab" || kind == ".plt" || kind == ".icq"; }
 
-Mesh read_shape_table(std::string_view text, const std::string& name) {
-    return ShapeReader(text, name).read();
+Mesh read_shape_table(std::string_view text, const std::string& name, Longitudes longitudes,
+                      std::vector<std::string>* remarks) {
+    return ShapeReader(text, name).read(longitudes, remarks);
 }
 
 }  // namespace hilcam

@@ -8,6 +8,8 @@
 //   WebP  libwebp        one picture, no animation
 //   BMP   stb_image      without run lengths
 //   FITS  this program   numbers: the first image of two axes, not compressed
+//   PPM   own            and PGM: in bytes or words, of any depth to 16 bits, cut to 8
+//   TGA   stb_image      colours, grey and palettes, also by run lengths
 //
 // An alpha channel is left out.
 
@@ -25,7 +27,7 @@ namespace hilcam {
 
 using PictureBytes = std::span<const std::uint8_t>;
 
-inline constexpr const char* kPictureKinds = "PNG, JPEG, TIFF, BMP, WebP";
+inline constexpr const char* kPictureKinds = "PNG, JPEG, TIFF, BMP, WebP, PPM, PGM, TGA";
 
 // Why a picture is not taken: the rest of a sentence that begins with its name.
 class PictureFault : public std::runtime_error {
@@ -48,9 +50,12 @@ Texture decode_jpeg(PictureBytes bytes);
 Texture decode_tiff(PictureBytes bytes);
 Texture decode_webp(PictureBytes bytes);
 Texture decode_bmp(PictureBytes bytes);
-// A number for each pixel, of pictures of one channel: PNG to 16 bits, TIFF of 8 to 32 bits or of floats.
+Texture decode_pnm(PictureBytes bytes);
+Texture decode_tga(PictureBytes bytes);
+// A number for each pixel, of pictures of one channel: PNG and PGM to 16 bits, TIFF of 8 to 32 bits or of floats.
 PixelMap decode_png_numbers(PictureBytes bytes);
 PixelMap decode_tiff_numbers(PictureBytes bytes);
+PixelMap decode_pnm_numbers(PictureBytes bytes);
 
 // FITS 4.0 (IAU FITS Working Group, 2018): the primary image, or the first extension that is an image of two axes; 8 to 32 bits or
 // floats, with BSCALE and BZERO. The value BLANK is NaN. Pixel (x, y) is data[y][x], the first row of the file; with ROWORDER BOTTOM-UP the

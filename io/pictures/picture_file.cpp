@@ -43,6 +43,10 @@ Texture decode_colors(PictureBytes bytes) {
             return decode_bmp(bytes);
         case PictureKind::kWebp:
             return decode_webp(bytes);
+        case PictureKind::kPnm:
+            return decode_pnm(bytes);
+        case PictureKind::kTga:
+            return decode_tga(bytes);
     }
     throw undecodable("");
 }
@@ -97,7 +101,8 @@ PixelMap decode_numbers(PictureBytes bytes) {
     const PictureKind kind = require_size(bytes);
     if (kind == PictureKind::kPng) return decode_png_numbers(bytes);
     if (kind == PictureKind::kTiff) return decode_tiff_numbers(bytes);
-    throw PictureFault("is a picture of colours; accepted: TIFF, PNG or FITS of one channel");
+    if (kind == PictureKind::kPnm) return decode_pnm_numbers(bytes);
+    throw PictureFault("is a picture of colours; accepted: TIFF, PNG, PGM or FITS of one channel");
 }
 
 Texture decode_texture(std::span<const std::uint8_t> bytes, const std::string& what) {

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures from outside: textures, maps of bodies, maps of a detector. PNG, JPEG, TIFF, BMP, WebP.
+// Pictures from outside: textures, maps of bodies, maps of a detector. PNG, JPEG, TIFF, BMP, WebP, PPM, PGM, TGA.
 //
 // A picture's size is read from its header before anything is decoded, and bounded; files are decoded in a
 // child process with limits (confined.h).
@@ -20,7 +20,7 @@ const InputKind& picture_kind();
 
 // An 8-bit colour picture as a texture. InputError when it is too large or does not decode.
 Texture read_picture(const std::filesystem::path& file);
-// A number for each pixel: TIFF of one channel (whole numbers of 8 to 32 bits, floats), PNG of one channel
+// A number for each pixel: TIFF of one channel (whole numbers of 8 to 32 bits, floats), PNG or PGM of one channel
 // (8 or 16 bits), or FITS. InputError when it is missing, too large, does not decode, has several channels or a value
 // that is negative (unless any_sign) or not a number.
 PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign);

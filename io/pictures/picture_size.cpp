@@ -1,52 +1,28 @@
 #include "io/pictures/picture_size.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <string_view>
+
+#include "io/pictures/picture_opening.h"
+#include "io/pictures/pnm_header.h"
+#include "io/pictures/tga_header.h"
 
 namespace hilcam {
 namespace {
 
-// Bytes that may not be there: what lies beyond the end is 0.
-class Opening {
-  public:
-    explicit Opening(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-    std::uint64_t size() const { return bytes_.size(); }
-    std::uint8_t byte(std::uint64_t at) const { return at < bytes_.size() ? bytes_[at] : std::uint8_t{0}; }
-    std::uint64_t little(std::uint64_t at, unsigned count) const {
-        std::uint64_t value = 0;
-        for (unsigned i = count; i-- > 0;) value = value << 8 | byte(at + i);
-        return value;
-    }
-    std::uint64_t big(std::uint64_t at, unsigned count) const {
-        std::uint64_t value = 0;
-        for (unsigned i = 0; i < count; ++i) value = value << 8 | byte(at + i);
-        return value;
-    }
-    bool has(std::uint64_t at, std::string_view text) const {
-        return at <= bytes_.size() && text.size() <= bytes_.size() - at &&
-               std::equal(text.begin(), text.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(at),
-                          [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
-    }
-
-  private:
-    std::span<const std::uint8_t> bytes_;
-};
-
 // PNG specification (W3C, third edition), 5.2 and 11.2.1: the signature, then the chunk IHDR.
-PictureSize png_size(const Opening& h) { return {h.big(16, 4), h.big(20, 4)}; }
+PictureSize png_size(const PictureOpening& h) { return {h.big(16, 4), h.big(20, 4)}; }
 
 // BITMAPCOREHEADER of 12 bytes has 16-bit sizes, BITMAPINFOHEADER and later ones signed 32-bit sizes, where a
-// negative height means rows from the top (Microsoft, "Bitmap Opening Types").
-PictureSize bmp_size(const Opening& h) {
+// negative height means rows from the top (Microsoft, "Bitmap Header Types").
+PictureSize bmp_size(const PictureOpening& h) {
     if (h.little(14, 4) == 12) return {h.little(18, 2), h.little(20, 2)};
     const auto height = static_cast<std::int32_t>(h.little(22, 4));
     return {h.little(18, 4), static_cast<std::uint64_t>(height < 0 ? -std::int64_t{height} : height)};
 }
 
 // RFC 9649, 2.5 to 2.7: the first chunk is VP8X with the canvas, or the picture itself.
-PictureSize webp_size(const Opening& h) {
+PictureSize webp_size(const PictureOpening& h) {
     if (h.has(12, "VP8X")) return {h.little(24, 3) + 1, h.little(27, 3) + 1};
     if (h.has(12, "VP8L")) {
         const std::uint64_t bits = h.little(21, 4);
@@ -57,7 +33,7 @@ PictureSize webp_size(const Opening& h) {
 }
 
 // ITU-T T.81, B.1 and B.2.2: marker segments up to the first frame header (SOF0 to SOF15 but DHT, JPG, DAC).
-PictureSize jpeg_size(const Opening& h) {
+PictureSize jpeg_size(const PictureOpening& h) {
     std::uint64_t at = 2;
     while (at + 9 < h.size()) {
         if (h.byte(at) != 0xFF) return {};
@@ -75,7 +51,7 @@ PictureSize jpeg_size(const Opening& h) {
 
 // TIFF 6.0 (Adobe, 1992), section 2, and BigTIFF: the first directory's ImageWidth (256) and ImageLength
 // (257).
-PictureSize tiff_size(const Opening& h) {
+PictureSize tiff_size(const PictureOpening& h) {
     const bool little = h.byte(0) == 'I';
     const auto number = [&](std::uint64_t at, unsigned bytes) {
         return little ? h.little(at, bytes) : h.big(at, bytes);
@@ -98,7 +74,7 @@ PictureSize tiff_size(const Opening& h) {
 }  // namespace
 
 std::optional<PictureSize> picture_size(std::span<const std::uint8_t> bytes) {
-    const Opening h(bytes);
+    const PictureOpening h(bytes);
     PictureSize size;
     if (h.has(0, "\x89PNG\r\n\x1a\n")) size = png_size(h), size.kind = PictureKind::kPng;
     if (h.has(0, "BM")) size = bmp_size(h), size.kind = PictureKind::kBmp;
@@ -107,6 +83,9 @@ std::optional<PictureSize> picture_size(std::span<const std::uint8_t> bytes) {
     if (h.has(0, "II*") || h.has(0, "II+") || h.has(0, std::string_view("MM\0*", 4)) ||
         h.has(0, std::string_view("MM\0+", 4)))
         size = tiff_size(h), size.kind = PictureKind::kTiff;
+    if (const auto pnm = pnm_header(bytes)) size = {pnm->width, pnm->height, PictureKind::kPnm};
+    if (size.width == 0 && size.height == 0)
+        if (const auto tga = tga_header(h)) size = {tga->width, tga->height, PictureKind::kTga};
     if (size.width == 0 || size.height == 0) return {};
     return size;
 }

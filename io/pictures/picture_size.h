@@ -10,7 +10,7 @@ namespace hilcam {
 // A picture of 16384 x 16384 has so many, a map of 21600 x 10800 fewer: 0.8 GB of colours.
 inline constexpr std::uint64_t kMaxPicturePixels = std::uint64_t{1} << 28;
 
-enum class PictureKind { kPng, kJpeg, kTiff, kBmp, kWebp };
+enum class PictureKind { kPng, kJpeg, kTiff, kBmp, kWebp, kPnm, kTga };
 
 struct PictureSize {
     std::uint64_t width = 0, height = 0;

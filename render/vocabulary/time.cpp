@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -13,6 +14,41 @@
 
 namespace hilcam {
 namespace {
+
+// A zone as ISO 8601 and YAML have it: Z, or +hh:mm, +hhmm or +hh, with - for zones in the west; blanks may stand before it.
+bool scan_zone(const char* rest, int& ahead_min) {
+    while (*rest == ' ') ++rest;
+    if (*rest == '\0') return true;
+    if (*rest == 'Z') return rest[1] == '\0';
+    if (*rest != '+' && *rest != '-') return false;
+    const int sign = *rest++ == '-' ? -1 : 1;
+    std::string digits;
+    for (; *rest != '\0'; ++rest) {
+        if (*rest == ':' && digits.size() == 2) continue;
+        if (*rest < '0' || *rest > '9') return false;
+        digits += *rest;
+    }
+    if (digits.size() != 2 && digits.size() != 4) return false;
+    const int number = std::atoi(digits.c_str());
+    const int hours = digits.size() == 4 ? number / 100 : number,
+              minutes = digits.size() == 4 ? number % 100 : 0;
+    ahead_min = sign * (60 * hours + minutes);
+    return hours < 24 && minutes < 60;
+}
+
+// Sets the clock back to UTC. Leap seconds come at the same instant in all zones, at the end of a minute.
+bool set_back(CalendarTime& t, int ahead_min) {
+    if (ahead_min == 0) return true;
+    double day0 = 0, day = 0, fraction = 0;
+    if (t.hour < 0 || t.hour > 23 || t.minute < 0 || t.minute > 59 ||
+        eraCal2jd(t.year, t.month, t.day, &day0, &day) != 0)
+        return false;
+    constexpr int kDay_min = 24 * 60;
+    const int minute = 60 * t.hour + t.minute - ahead_min;
+    const int days = minute < 0 ? -1 : minute >= kDay_min ? 1 : 0;
+    t.hour = (minute - days * kDay_min) / 60, t.minute = (minute - days * kDay_min) % 60;
+    return eraJd2cal(day0, day + days, &t.year, &t.month, &t.day, &fraction) == 0;
+}
 
 bool scan(std::string_view text, CalendarTime& t) {
     const std::string copy(text);
@@ -24,11 +60,11 @@ bool scan(std::string_view text, CalendarTime& t) {
         return false;
     const char* rest = copy.c_str() + used;
     // strtod would also take "nan", "inf" and hexadecimals.
-    if (*rest < '0' || *rest > '9') return false;
+    if (*rest < '0' || *rest > '9' || copy.find_first_of("xXeEnN") != std::string::npos) return false;
     char* end = nullptr;
     t.second = std::strtod(rest, &end);
-    if (*end == 'Z') ++end;
-    return *end == '\0' && copy.find_first_of("xXeEnN") == std::string::npos;
+    int ahead_min = 0;
+    return scan_zone(end, ahead_min) && set_back(t, ahead_min);
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ inline constexpr double kEpochJulianDay = 2440587.5;  // 1970-01-01T00:00:00
 // Rounds to the nearest nanosecond.
 inline std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
-// Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC. Throws InputError when it is not such a text, or the date
-// lies outside 1950-2200. Leap seconds come from ERFA's table (eraDat); years past its end use its last
+// Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC; the T may be a blank, and the Z a zone ("+01:00"). Throws InputError when it is not
+// such a text, or the date lies outside 1950-2200. Leap seconds come from ERFA's table (eraDat); years past its end use its last
 // value. Before 1960 there was no UTC: UT stands for it, and TAI - UT for 0, right to 3.2 s since 1950 (TT -
 // UT was 29.07 s then: Morrison & Stephenson, J. Hist. Astron. 35, 2004).
 TimeTai parse_utc(std::string_view text);

@@ -33,7 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const Mesh mesh = load_mesh(file);
         // What a child process survived is read here as well, where the sanitizers and the fuzzer see it.
-        HILCAM_CHECK(import_mesh_parts(file, kind_of(text), {}).front().triangles == mesh.triangles);
+        NamedFiles files(file);
+        HILCAM_CHECK(import_mesh_parts(files, kind_of(text), {}).front().triangles == mesh.triangles);
         HILCAM_CHECK(!mesh.triangles.empty() && mesh.triangles.size() == mesh.surface_of_triangle.size());
         for (const Vec3f& v : mesh.vertices_m) HILCAM_CHECK(is_finite(to_double(v)));
         for (const auto& triangle : mesh.triangles)

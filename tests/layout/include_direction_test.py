@@ -38,7 +38,7 @@ ONLY_IN = {
     "turbojpeg": {"io/pictures/jpeg_codec.cpp"},
     "tiff": {"io/pictures/tiff_codec.cpp"},
     "webp": {"io/pictures/webp_codec.cpp"},
-    "stb": {"io/pictures/bmp_codec.cpp"},
+    "stb": {"io/pictures/stb_picture.cpp"},
     "OpenEXR": {"io/pictures/exr_file.cpp", "io/truth/truth_files.cpp"},
     "zlib": {"io/files/earth_map_file.cpp", "io/gige/device/gige_zip.cpp", "io/system/crc32.cpp"},
     "httplib": {"io/preview/sink_preview.cpp"},

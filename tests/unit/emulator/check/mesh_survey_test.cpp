@@ -105,9 +105,33 @@ TEST_F(MeshSurveyTest, AMissingFileOfMaterialsIsTold) {
     EXPECT_THAT(problems("mtllib none.mtl\no box\n" + cube + "o other\nusemtl white\nf 1 2 3\n"),
                 Contains("no file 'none.mtl': surfaces whose materials it would have are grey").Times(1));
     EXPECT_THAT(problems(cube), IsEmpty());
-    // Assimp takes the file of the mesh's own name then, as other programs do.
+    // The file of the mesh's own name is taken then, as other programs do.
     write("mesh.mtl", "newmtl gold\n");
-    EXPECT_THAT(problems("mtllib none.mtl\n" + cube), IsEmpty());
+    EXPECT_THAT(problems("mtllib none.mtl\n" + cube),
+                ElementsAre("materials 'none.mtl': no file of that name; taken: 'mesh.mtl'"));
+}
+
+TEST_F(MeshSurveyTest, TexturesThatCannotBeReadAreToldBesideTheRest) {
+    write("t.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd t.mtl\n");
+    const MeshSurvey s =
+        survey(std::string("mtllib t.mtl\n") + kCorners + "usemtl a\n" + kFaces + "usemtl b\n" + kLast);
+    EXPECT_EQ(s.triangles, 12u);
+    EXPECT_THAT(problems_of(s), ElementsAre(HasSubstr("texture 'gone.png' of material 'a' is missing"),
+                                            HasSubstr("texture 't.mtl' of material 'b' does not decode")));
+    EXPECT_EQ(nlohmann::json::parse(to_json(s))["unreadable_textures"].size(), 2u);
+}
+
+TEST_F(MeshSurveyTest, NormalsOfAnStlThatAreNotThoseOfItsCornersAreTold) {
+    const auto stl = [](const std::string& normal) {
+        return "solid s\nfacet normal " + normal +
+               "\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
+    };
+    EXPECT_THAT(problems_of(survey(stl("0 0 1"), "m.stl")), ElementsAre(HasSubstr("open edges")));
+    EXPECT_THAT(problems_of(survey(stl("0 0 -1"), "m.stl")),
+                Contains(HasSubstr("1 triangles with opposed normals: ")));
+    EXPECT_THAT(problems_of(survey(stl("1 0 0"), "m.stl")),
+                Contains(HasSubstr("1 facets with leaning normals: ")));
+    EXPECT_FALSE(survey(stl("0 0 1"), "m.stl").has_normals);
 }
 
 // Single precision has steps of 0.5 m there: of a plate of ten metres little is left.

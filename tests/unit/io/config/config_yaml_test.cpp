@@ -65,6 +65,60 @@ std::string error_of(const std::string& text, std::vector<std::string> overrides
     return "no error";
 }
 
+// What scripts write that read a file by YAML 1.1 and write it again: PyYAML has True for `on`, also as a key, and a decimal for a
+// number that was computed.
+TEST(ConfigYaml, WordsAndNumbersOfScriptsAreRead) {
+    for (const char* word : {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON"})
+        EXPECT_TRUE(read("name: x\non: " + std::string(word)).on) << word;
+    for (const char* word : {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF"})
+        EXPECT_FALSE(read("name: x\non: " + std::string(word)).on) << word;
+    EXPECT_TRUE(read("name: x\ntrue: true\n").on);
+    EXPECT_TRUE(read("name: x\nTrue: true\n").on);
+    EXPECT_THAT(error_of("name: x\nfalse: true\n"), HasSubstr("unknown key"));
+    EXPECT_THAT(error_of("name: x\non: true\ntrue: true\n"), HasSubstr("the key is given twice"));
+    for (const char* number : {"7", "7.0", "7.", "0.7e1", "+7", "+7.0", "'7'"})
+        EXPECT_EQ(read("name: x\ncount: " + std::string(number)).count, 7) << number;
+    for (const char* number : {"7.5", "7.0000001", "0x7", "7 ", "", "1e99", ".nan", ".inf"})
+        EXPECT_THAT(error_of("name: x\ncount: \"" + std::string(number) + "\""),
+                    HasSubstr("accepted: a whole number"))
+            << number;
+}
+
+// Editors of Windows begin a file with a mark, or write it in letters of 16 bits.
+TEST(ConfigYaml, EveryKindOfLettersIsRead) {
+    const auto wide = [](const std::string& text, bool big) {
+        std::string out = big ? "\xFE\xFF" : "\xFF\xFE";
+        for (const char c : text) out.append(big ? std::string{'\0', c} : std::string{c, '\0'});
+        return out;
+    };
+    const std::string text = "# a comment\n---\nname: x\ncount: 7\n";
+    for (const std::string& bytes : {text, "\xEF\xBB\xBF" + text, wide(text, false), wide(text, true)})
+        EXPECT_EQ(read(bytes).count, 7);
+    for (const std::string& bytes : {text, "\xEF\xBB\xBF" + text, wide(text + "---\nname: y\n", false),
+                                     wide(text + "---\nname: y\n", true)})
+        EXPECT_EQ(error_of(bytes.size() > 100 ? bytes : bytes + "---\nname: y\n"),
+                  "test.yaml:5:1: a second document ('---') begins here; accepted: one a file");
+}
+
+enum class Word { kOff, kOn, kFast };
+struct Words {
+    Word motion = Word::kFast;
+};
+Fields fields(Words& w) { return {choice("motion", w.motion, {"off", "on", "fast"}, "motion")}; }
+
+TEST(ConfigYaml, AChoiceOfOffIsWhatAScriptMakesOfIt) {
+    const auto motion = [](const std::string& text) {
+        Words words;
+        read_config_text("motion: " + text, "test.yaml", ".", section_of(words));
+        return words.motion;
+    };
+    EXPECT_EQ(motion("off"), Word::kOff);
+    EXPECT_EQ(motion("false"), Word::kOff);
+    EXPECT_EQ(motion("True"), Word::kOn);
+    EXPECT_EQ(motion("fast"), Word::kFast);
+    EXPECT_THROW(motion("slow"), InputError);
+}
+
 // A check that several sections share may name its key from the top.
 struct Door {
     std::string address = "here";
@@ -204,7 +258,8 @@ TEST(ConfigYaml, WrongValuesNameFoundAndAccepted) {
                 HasSubstr("found '5ms'; accepted: a number, 0.01 to 1000"));
     EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: .nan}\n"), HasSubstr("accepted: a number"));
     EXPECT_THAT(error_of("name: x\nmode: c\n"), HasSubstr("accepted: a | b"));
-    EXPECT_THAT(error_of("name: x\non: yes\n"), HasSubstr("accepted: true or false"));
+    EXPECT_THAT(error_of("name: x\non: maybe\n"), HasSubstr("accepted: true or false"));
+    EXPECT_THAT(error_of("name: x\non: tRUE\n"), HasSubstr("accepted: true or false"));
     EXPECT_THAT(error_of("name: x\nposition_m: [1, 2]\n"),
                 HasSubstr("found a list of 2; accepted: a list of 3 numbers"));
     EXPECT_THAT(error_of("name: x\nattitude_wxyz: [1, 1, 0, 0]\n"), HasSubstr("quaternion of norm 1.414"));

@@ -145,18 +145,39 @@ TEST_F(MeshAttack, FilesBesideTheMeshAreRegularFilesToo) {
                    "pipe: cannot be read: it is a pipe");
 }
 
-// A mesh in `in/` names files beside that folder, by a path or by a link.
-TEST_F(MeshAttack, FilesOutsideTheFolderAreRefused) {
+// A mesh in `in/` names files beside that folder, by a path or by a link: pictures and materials are read, others are not.
+TEST_F(MeshAttack, FilesOutsideTheFolderAreLookedAtFirst) {
     std::filesystem::create_directories(folder_ / "in/below");
     const std::string shape = "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", texture = "newmtl a\nmap_Kd ";
-    write("a.mtl", "newmtl a\nKd 1 0 0\n");
-    write("a.png", "no picture");
-    expect_refused(write("in/m.obj", "mtllib ../a.mtl\n" + shape), "lies outside the mesh's folder");
-    write("in/t.mtl", texture + "../a.png\n");
-    expect_refused(write("in/t.obj", "mtllib t.mtl\n" + shape), "lies outside the mesh's folder");
-    std::filesystem::create_symlink("../a.png", folder_ / "in/link.png");
-    write("in/l.mtl", texture + "link.png\n");
-    expect_refused(write("in/l.obj", "mtllib l.mtl\n" + shape), "lies outside the mesh's folder");
+    const auto texels = [&](const std::string& name, const std::string& obj) {
+        return load_mesh(write(name, obj)).textures.at(0).texels;
+    };
+    write("a.mtl", texture + "../a.ppm\n");
+    write("a.ppm", "P3 1 1 255 1 2 3");
+    write("secret.png", "no picture");
+    write("secret.txt", "newmtl a\n");
+    const std::vector<std::array<std::uint8_t, 3>> picture = {{1, 2, 3}};
+    write("in/t.mtl", texture + "../a.ppm\n");
+    EXPECT_EQ(texels("in/t.obj", "mtllib t.mtl\n" + shape), picture);
+    // Its texture is beside the folder that the library lies in: a third child reads it.
+    write("b.mtl", texture + "a.ppm\n");
+    EXPECT_EQ(texels("in/m.obj", "mtllib ../b.mtl\n" + shape), picture);
+    std::filesystem::create_symlink("../a.ppm", folder_ / "in/link.ppm");
+    write("in/l.mtl", texture + "link.ppm\n");
+    EXPECT_EQ(texels("in/l.obj", "mtllib l.mtl\n" + shape), picture);
+    const std::string outside = "lies outside the mesh's folder, at .*accepted there: a picture, materials";
+    write("in/s.mtl", texture + "../secret.png\n");
+    expect_refused(write("in/s.obj", "mtllib s.mtl\n" + shape), outside);
+    expect_refused(write("in/x.obj", "mtllib ../secret.txt\n" + shape), outside);
+    ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    write("in/p.mtl", texture + "../pipe\n");
+    expect_refused(write("in/p.obj", "mtllib p.mtl\n" + shape), "pipe: cannot be read: it is a pipe");
+    const json buffer = {{"byteLength", 36}, {"uri", "../a.txt"}};
+    write("a.txt", triangle());
+    expect_refused(write("in/b.gltf", document({{{"mesh", 0}}}, buffer).dump()), outside);
+    write("a.bin", triangle());
+    const json binary = {{"byteLength", 36}, {"uri", "../a.bin"}};
+    EXPECT_EQ(load_mesh(write("in/c.gltf", document({{{"mesh", 0}}}, binary).dump())).triangles.size(), 1u);
     // What lies below is read: this one is no picture, and a link to the mesh is as good as the mesh.
     write("in/below/a.png", "no picture");
     write("in/b.mtl", texture + "below/a.png\n");
@@ -164,6 +185,15 @@ TEST_F(MeshAttack, FilesOutsideTheFolderAreRefused) {
     std::filesystem::create_symlink("in/b.obj", folder_ / "link.obj");
     write("b.mtl", "newmtl a\nKd 1 0 0\n");
     EXPECT_EQ(load_mesh(folder_ / "link.obj").triangles.size(), 1u);
+}
+
+TEST_F(MeshAttack, AUriNamesAFileWithABlank) {
+    write("a b.bin", triangle());
+    for (const char* uri : {"a%20b.bin", "a b.bin"}) {
+        const json buffer = {{"byteLength", 36}, {"uri", uri}};
+        EXPECT_EQ(load_mesh(write("m.gltf", document({{{"mesh", 0}}}, buffer).dump())).triangles.size(), 1u)
+            << uri;
+    }
 }
 
 TEST_F(MeshAttack, AGlbMayHaveItsBufferAsText) {

@@ -53,6 +53,37 @@ TEST(ShapeTable, EveryFormEnclosesItsVolume) {
     EXPECT_EQ(m.surfaces.front().name, "shape");
 }
 
+// An octahedron with half axes 2, 1 and 1 has 4/3 times their product.
+constexpr const char* kCorners = "2 0 0\n-2 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n";
+constexpr const char* kFacets[] = {"1 3 5", "3 2 5", "2 4 5", "4 1 5", "3 1 6", "2 3 6", "4 2 6", "1 4 6"};
+
+// DAMIT, ADAM and Basilisk have facets as corners alone, NAIF's type 4 and others behind their count.
+TEST(ShapeTable, PolyhedraOfTwoCountsAreNoCubes) {
+    for (const char* before : {"", "3 ", "3\n", "3,"}) {
+        std::string text = "  6   8\r\n" + std::string(kCorners) + "\n";
+        for (const char* facet : kFacets) text.append(before).append(facet) += '\n';
+        const Mesh m = read_shape_table(text, "t");
+        EXPECT_EQ(m.vertices_m.size(), 6u) << before;
+        EXPECT_EQ(m.triangles.size(), 8u) << before;
+        EXPECT_NEAR(volume(m), 16.0 / 6, 1e-6) << before;
+    }
+    // The same with its counts on one line and numbers before its lines is a table of plates; a square is two facets.
+    EXPECT_EQ(read_shape_table("4 1\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n4 1 2 3 4\n", "t").triangles.size(), 2u);
+    EXPECT_NEAR(volume(read_shape_table(
+                    "4 4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n1 1 3 2\n2 1 2 4\n3 1 4 3\n4 2 3 4\n", "t")),
+                1.0 / 6, 1e-7);
+}
+
+TEST(ShapeTable, ExponentsOfFortranAndTheEndOfATextOfDosAreKnown) {
+    std::string text = "\xEF\xBB\xBF";
+    for (const char* line : {"v 0.0D+00 0 0\r\n", "v 1.0d0 0 0\r\n", "v 0 .1D1 0\r\n", "v 0 0 10D-1\r\n",
+                             "f 1 2 3\r\nf 1 4 2\r\nf 1 3 4\r\nf 2 4 3\r\n"})
+        text += line;
+    for (const std::string& end : {std::string(), std::string("\x1A"), std::string("\x1A and what was there"),
+                                   std::string(7, '\0'), std::string("\r\n\r\n\x1A\0", 6)})
+        EXPECT_NEAR(volume(read_shape_table(text + end, "t")), 1.0 / 6, 1e-7);
+}
+
 TEST(ShapeTable, MistakesAreNamedWithTheirLine) {
     const auto why = [](const std::string& text) {
         try {
@@ -74,6 +105,13 @@ TEST(ShapeTable, MistakesAreNamedWithTheirLine) {
                 HasSubstr("s.tab:3: found '3'; accepted: the vertex's number, 2"));
     EXPECT_THAT(why(cube().substr(0, 300)), HasSubstr("accepted: "));
     EXPECT_THAT(why("9000\n1 2 3\n"), HasSubstr("Q of 1 to 4096"));
+    EXPECT_THAT(why("3 1\n0 0 0\n1 0 0\n0 1 0\n"), HasSubstr("the file ends; accepted: a facet"));
+    EXPECT_THAT(why("3 1\n0 0 0\n1 0\n"), HasSubstr("s.tab:3: found '1 0'; accepted: three coordinates"));
+    EXPECT_THAT(why("3 1\n0 0 0\n1 0 0\n0 1 0\n7 1 2 3\n"),
+                HasSubstr("s.tab:5: found '7 1 2 3'; accepted: three corners, or 3"));
+    EXPECT_THAT(why("3 1\n0 0 0\n1 0 0\n0 1 0\n3\n1 2\n"),
+                HasSubstr("s.tab:6: found '1 2'; accepted: 3 corners"));
+    EXPECT_THAT(why("v 1D 0 0\n"), HasSubstr("s.tab:1: found '1D'; accepted: a number"));
 }
 
 class ShapeFiles : public FilesTest {};

@@ -55,8 +55,9 @@ TEST_F(PixelMapTest, WhatIsNoMapIsRefusedByName) {
     write("text.tiff", "not a picture");
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "text.tiff", false); }),
                 HasSubstr("does not decode"));
-    EXPECT_THAT(error_of([&] { read_pixel_map(write("grey.pgm", "P5\n1 1\n255\na"), false); }),
-                HasSubstr("grey.pgm: does not decode; accepted: PNG, JPEG, TIFF, BMP, WebP"));
+    EXPECT_THAT(error_of([&] { read_pixel_map(write("bits.pbm", "P4\n1 1\na"), false); }),
+                HasSubstr("bits.pbm: does not decode; accepted: PNG, JPEG, TIFF, BMP, WebP"));
+    EXPECT_EQ(read_pixel_map(write("grey.pgm", "P5\n1 1\n255\na"), false).row(0)[0], 'a');
     const std::vector<std::uint8_t> color = {1, 2, 3};
     write("color.png", encode_png({color, 1, 1, SampleKind::kRgb8}));
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "color.png", false); }),

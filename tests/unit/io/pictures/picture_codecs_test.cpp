@@ -46,7 +46,8 @@ class PictureCodecs : public FilesTest {
 };
 
 TEST_F(PictureCodecs, LosslessKindsGiveTheColoursThatWereWritten) {
-    for (const char* name : {"color.png", "interlaced.png", "color.bmp", "alpha.webp"}) {
+    for (const char* name : {"color.png", "interlaced.png", "color.bmp", "alpha.webp", "color.ppm",
+                             "color_text.ppm", "color.tga"}) {
         const Texture texture = texture_of(name);
         ASSERT_EQ(texture.width, 13) << name;
         ASSERT_EQ(texture.height, 7) << name;
@@ -99,7 +100,7 @@ TEST_F(PictureCodecs, WhatIsNoMapOfNumbersIsRefusedByWhatItIs) {
               "has a palette of colours; accepted: one channel");
     EXPECT_EQ(fault_of([] { decode_numbers(bytes_in(seed("jpeg.tiff"))); }), "has 3 channels; accepted: one");
     EXPECT_EQ(fault_of([] { decode_numbers(bytes_in(seed("color.jpg"))); }),
-              "is a picture of colours; accepted: TIFF, PNG or FITS of one channel");
+              "is a picture of colours; accepted: TIFF, PNG, PGM or FITS of one channel");
 }
 
 TEST_F(PictureCodecs, ACutPictureIsRefusedInTheWordsOfItsLibraryAndNothingIsPrinted) {

@@ -43,7 +43,9 @@ TEST(PictureSize, IsReadFromTheHeaderOfEachKind) {
     EXPECT_EQ(
         size_of("MM\0*\0\0\0\x08\0\x02\x01\0\0\x03\0\0\0\x01\0\x06\0\0\x01\x01\0\x04\0\0\0\x01\0\0\0\x07"s),
         "6 x 7");
-    EXPECT_EQ(size_of("P5\n12 9\n255\n"), "none");
+    EXPECT_EQ(size_of("P5\n12 9\n255\n"), "12 x 9");
+    EXPECT_EQ(size_of("\0\0\x0A"s + std::string(9, '\0') + "\x05\0\x04\0\x18\x20"s), "5 x 4");
+    EXPECT_EQ(size_of("P4\n12 9\n"), "none");
     EXPECT_EQ(size_of("rubbish"), "none");
     EXPECT_EQ(size_of(""), "none");
     EXPECT_EQ(size_of("\xFF\xD8"), "none");
