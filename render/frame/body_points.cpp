@@ -38,7 +38,7 @@ class LittlePicture {
                                   ((y + kAsideY) * step_ - reach_) * down_;
                 const double distance = length(dir);
                 const auto angle_sr = static_cast<float>(step_ * step_ / (distance * distance * distance));
-                const Spectrum light = angle_sr * background_.ground_radiance(body_, dir);
+                const Spectrum light = angle_sr * background_.ground_radiance(body_, dir, step_);
                 const auto all =
                     static_cast<double>(std::accumulate(light.bin.begin(), light.bin.end(), 0.0f));
                 out.irradiance_w_m2_um += light;
@@ -101,7 +101,9 @@ Vec3d light_dir(const FrameView& frame, const PlacedBody& body, const PointField
 void add_body_points(const FrameView& frame, const PointField& field, std::vector<PointSource>& points) {
     const Background& background = *frame.background;
     for (const PlacedBody& body : background.points())
-        field.add(light_dir(frame, body, field), body.distance_m, background.point_irradiance(body), points);
+        if (field.sees(body.world_dir, body.distance_m))
+            field.add(light_dir(frame, body, field), body.distance_m, background.point_irradiance(body),
+                      points);
     for (std::size_t i = 0; i < frame.body_box_count; ++i)
         if (background.disks()[i].in_points && !frame.body_boxes[i].empty())
             add_cells(frame, background.disks()[i], field, points);
