@@ -18,8 +18,8 @@ std::vector<LensState> lens_states(const CameraModel& c) {
     return out;
 }
 
-// What the halo that is drawn by itself has in a point's table: there, and folded in from the fields around. That is smooth: it
-// is worked out 2 px apart. Fields outside 25 x 25 are an even plane from the radius of that square's area on.
+// The share that the halo drawn by itself has in a point's table: there, and folded in from the fields around. The latter is
+// smooth: it is worked out 2 px apart. Fields outside 25 x 25 are an even plane from the radius of that square's area on.
 class HaloInTable {
   public:
     explicit HaloInTable(const PointHalos& halos) : halos_(halos) {

@@ -226,7 +226,7 @@ class Background {
     bool is_seen_in_points(const PlacedBody& body, double pixel_rad) const;
     double met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
     bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*scene_)[index_of(id)].rings; }
-    // How a ray sees rings: up to `until`, in lengths of its direction; dark where their light comes by points.
+    // A ray sees rings up to `until`, in lengths of its direction; dark where their light comes by points.
     struct RingSight {
         double until, width_rad;
         bool lit;

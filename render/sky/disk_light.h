@@ -1,5 +1,5 @@
 #pragma once
-// How bright the whole of a body is as a distant viewer has it, where its V magnitude is measured: what the laws of
+// The light of the whole of a body for a distant viewer, where its V magnitude is measured: what the laws of
 // body_light.h leave to the body's shape, to Uranus' poles and to Saturn's rings.
 //
 // The magnitudes of Jupiter and Saturn are those of flattened disks near their equators. So a body that is seen from its
@@ -63,7 +63,7 @@ class SaturnLight {
     Parts parts(const DiskView& view) const;
 
   private:
-    // What is drawn, without the factor [m^2].
+    // The light that is drawn, without the factor [m^2].
     struct Drawn {
         double globe_m2, rings_m2;
     };

@@ -59,7 +59,7 @@ namespace {
 // A place between two stars of the library.
 struct Between {
     std::size_t star;  // the bluer
-    double share;      // of the redder
+    double share;      // share of the redder
 
     explicit Between(double v_i) {
         const auto* const after =
