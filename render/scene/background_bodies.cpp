@@ -77,8 +77,9 @@ double Background::outer_radius_m(BodyId id) const {
 
 bool Background::is_seen_in_points(const PlacedBody& body, double pixel_rad) const {
     constexpr double kFar = 8;  // in radii: nearer, a few pixels are a large part of the sky
-    const double radius_m = outer_radius_m(body.id);
-    return !is_modelled(body.id) && !has_air(body.id) && body.distance_m > kFar * radius_m &&
+    // Of a ringed body the globe counts: a grid of rays would meet its rings by chance.
+    const double radius_m = has_rings(body.id) ? body.figure.equatorial_radius_m : outer_radius_m(body.id);
+    return !is_modelled(body.id) && !has_air(body.id) && body.distance_m > kFar * outer_radius_m(body.id) &&
            2 * radius_m < kBodyPoints_px * pixel_rad * body.distance_m;
 }
 
