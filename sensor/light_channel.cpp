@@ -5,6 +5,7 @@
 
 #include "render/vocabulary/units.h"
 #include "sensor/mtf.h"
+#include "sensor/stray/point_halos.h"
 
 namespace hilcam {
 namespace {
@@ -16,6 +17,43 @@ std::vector<LensState> lens_states(const CameraModel& c) {
         out.push_back({c.defocus_m + zone.defocus_m, zone.wavefront_rms_m});
     return out;
 }
+
+// The share that the halo drawn by itself has in a point's table: there, and folded in from the fields around. The latter is
+// smooth: it is worked out 2 px apart. Fields outside 25 x 25 are an even plane from the radius of that square's area on.
+class HaloInTable {
+  public:
+    explicit HaloInTable(const PointHalos& halos) : halos_(halos) {
+        constexpr int kCopies = 12;
+        constexpr double kField_px = PointSpread::kField_px;
+        const double beyond =
+            halos.share_beyond((2 * kCopies + 1) * kField_px / std::sqrt(kPi)) / (kField_px * kField_px);
+        for (int y = 0; y < kNodes; ++y)
+            for (int x = 0; x < kNodes; ++x) {
+                double sum = beyond;
+                for (int j = -kCopies; j <= kCopies; ++j)
+                    for (int i = -kCopies; i <= kCopies; ++i)
+                        if (i != 0 || j != 0)
+                            sum += halos.share(
+                                std::hypot(x * kStep_px - i * kField_px, y * kStep_px - j * kField_px));
+                folded_.push_back(sum);
+            }
+    }
+    double at(double x_px, double y_px) const {
+        const double x = std::abs(x_px) / kStep_px, y = std::abs(y_px) / kStep_px;
+        const int i = std::min(static_cast<int>(x), kNodes - 2),
+                  j = std::min(static_cast<int>(y), kNodes - 2);
+        const double u = x - i, v = y - j;
+        const double* top = folded_.data() + j * kNodes + i;
+        const double* bottom = top + kNodes;
+        return halos_.share(std::hypot(x_px, y_px)) + (1 - v) * ((1 - u) * top[0] + u * top[1]) +
+               v * ((1 - u) * bottom[0] + u * bottom[1]);
+    }
+
+  private:
+    static constexpr int kStep_px = 2, kNodes = PointSpread::kField_px / (2 * kStep_px) + 1;
+    const PointHalos& halos_;
+    std::vector<double> folded_;
+};
 
 double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
@@ -62,6 +100,12 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
     for (const SystemMtf& mtf : mtfs) {
         spreads.emplace_back([&](double u, double v) { return mtf.of_point(u, v); }, view.camera.fill_factor);
         transfers.push_back(transfer_of(mtf, sampling.samples_per_axis));
+    }
+    if (view.camera.stray_light.has_halo()) {
+        const PointHalos halos(view.camera.stray_light, view.detector);
+        const HaloInTable in_table(halos);
+        for (const PointSpread& spread : spreads)
+            cores.push_back(spread.less([&](double x, double y) { return in_table.at(x, y); }));
     }
     // Light that runs over the picture's right and lower edges stays dark.
     const int width = fft_size(view.image.padded_width()), height = fft_size(view.image.padded_height());

@@ -46,6 +46,8 @@ struct LightChannel {
     Spectrum per_irradiance;           // e- s^-1 per W m^-2 um^-1
     std::vector<SystemMtf> mtfs;       // by zone of the field, at least one
     std::vector<PointSpread> spreads;  // likewise
+    // Likewise, without the halo of glare that point_halos.h draws; none where there is no halo.
+    std::vector<PointSpread> cores;
     std::optional<Convolver> convolver;
     // Do the same, faster, for pictures of the grids that there are.
     struct GridKernel {

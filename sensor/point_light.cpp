@@ -72,6 +72,8 @@ PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& chan
     for (std::size_t band = 0; band < kBands; ++band)
         band_of_row_.resize(height * (band + 1) / kBands, static_cast<std::uint8_t>(band));
     for (const FarWings& w : wings) near_wings_.push_back(near_wings(w));
+    if (view.camera.stray_light.has_halo())
+        halos_.assign(channels.size(), PointHalos(view.camera.stray_light, view.detector));
 }
 
 void PointLight::begin(const Exposure& exposure) {
@@ -82,17 +84,19 @@ void PointLight::begin(const Exposure& exposure) {
     if (jitter_px_ < 0.01) jitter_px_ = 0;
     trails_.begin(exposure, jitter_px_);
     std::fill(glare_e_.begin(), glare_e_.end(), 0.0);
+    for (PointHalos& halos : halos_) halos.clear();
 }
 
 PointLight::Source PointLight::source_of(const PointSource& point, std::size_t c) const {
     const double m = view_.sampling.oversampling;
     const Vec2d middle_px{static_cast<double>(point.position_px.x) / m,
                           static_cast<double>(point.position_px.y) / m};
-    Source out{{middle_px, {}, false, 0}, 0, static_cast<int>(c)};
+    Source out{{middle_px, {}, false, 0}, 0, static_cast<int>(c), false};
     if (!std::isfinite(middle_px.x) || !std::isfinite(middle_px.y)) return out;
     out.electrons =
         std::min(channels_[c].electrons_of(point.irradiance_w_m2_um, bins_, exposure_.exposure_s), 1e9);
     if (!(out.electrons > 0)) return out;
+    out.wide_halo = !halos_.empty() && out.electrons > halos_[c].least_e();
     const double way = exposure_.exposure_s / m;
     out.trail = trails_.of_sky(middle_px, {way * static_cast<double>(point.drift_px_s.x),
                                            way * static_cast<double>(point.drift_px_s.y)});
@@ -135,7 +139,7 @@ void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
             const Vec2d px = trails_.scattered_px(trails_.place(trail, part), i);
             const double electrons = pixel.electrons * (1.0 / trail.parts) * trails_.share(i);
             // They count the fill factor already.
-            const Spot spot = spot_of(pixel.channel, px, electrons / view_.camera.fill_factor);
+            const Spot spot = spot_of(pixel.channel, px, electrons / view_.camera.fill_factor, false);
             glare_e_[static_cast<std::size_t>(pixel.channel)] += spot.glare_e;
             draw(spot, all_rows(), light_e);
             take_off_wings(px, pixel.channel, electrons, light_e);
@@ -157,7 +161,12 @@ void PointLight::draw_sources(ElectronImage& light_e) {
 
 void PointLight::finish_spots(ElectronImage& light_e) {
     if (view_.camera.stray_light.veiling_glare_fraction > 0)
-        for (const Spot& spot : spots_) glare_e_[static_cast<std::size_t>(spot.channel)] += spot.glare_e;
+        for (const Spot& spot : spots_) {
+            const auto channel = static_cast<std::size_t>(spot.channel);
+            glare_e_[channel] += spot.glare_e;
+            if (spot.wide_halo)
+                halos_[channel].collect(spot.at_px, spot.electrons * view_.camera.fill_factor);
+        }
     draw_spots(light_e);
 }
 
@@ -183,17 +192,19 @@ PointLight::Part PointLight::part_of(const Source& source, int number) const {
     const Vec2d place_px = trails_.place(source.trail, number);
     const bool near = std::abs(place_px.x) <= 1e6 && std::abs(place_px.y) <= 1e6;
     const double electrons = source.electrons * (1.0 / source.trail.parts);
-    return {place_px, near ? electrons * view_.light_of_point(place_px.x, place_px.y) : 0, source.channel};
+    return {place_px, near ? electrons * view_.light_of_point(place_px.x, place_px.y) : 0, source.channel,
+            source.wide_halo};
 }
 
 PointLight::Spot PointLight::spot_of(const Part& part, std::size_t i) const {
     if (!(part.electrons > 0)) return {};
-    return spot_of(part.channel, trails_.scattered_px(part.place_px, i), part.electrons * trails_.share(i));
+    return spot_of(part.channel, trails_.scattered_px(part.place_px, i), part.electrons * trails_.share(i),
+                   part.wide_halo);
 }
 
-PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) const {
+PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons, bool wide_halo) const {
     const StrayLightConfig& stray = view_.camera.stray_light;
-    Spot out{at_px, electrons, 0, 0, c, 0};
+    Spot out{at_px, electrons, 0, 0, c, wide_halo, 0};
     if (stray.glare_radius_px <= 0) {
         out.glare_e = electrons * view_.camera.fill_factor * stray.veiling_glare_fraction;
         out.electrons *= 1 - stray.veiling_glare_fraction;
@@ -205,7 +216,7 @@ PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) const
         out.spikes_e = spikes.share() * out.electrons;
         out.electrons -= out.spikes_e;
     }
-    for (const PointSpread& spread : channel.spreads)
+    for (const PointSpread& spread : spreads_of(out))
         out.radius_px = std::max(out.radius_px, spread.radius_for(out.electrons));
     return out;
 }
@@ -252,18 +263,18 @@ PictureWindow PointLight::window_of(Rows rows, ElectronImage& light_e) const {
 
 void PointLight::draw(const Spot& spot, Rows rows, ElectronImage& light_e) const {
     const Vec2d at_px = spot.at_px;
-    const LightChannel& channel = channels_[static_cast<std::size_t>(spot.channel)];
-    if (view_.mosaic.one_color() && channel.spreads.size() == 1 && spot.spikes_e == 0 &&
-        channel.spreads.front().add(at_px.x, at_px.y, spot.electrons, window_of(rows, light_e)))
+    const std::vector<PointSpread>& spreads = spreads_of(spot);
+    if (view_.mosaic.one_color() && spreads.size() == 1 && spot.spikes_e == 0 &&
+        spreads.front().add(at_px.x, at_px.y, spot.electrons, window_of(rows, light_e)))
         return;
     PointSpread::Room room;
     if (spot.spikes_e > 0) draw_spikes(spot, rows, light_e);
-    const double field = channel.spreads.size() > 1 ? view_.lens.field_fraction(at_px.x, at_px.y) : 0;
-    for (std::size_t z = 0; z < channel.spreads.size(); ++z) {
+    const double field = spreads.size() > 1 ? view_.lens.field_fraction(at_px.x, at_px.y) : 0;
+    for (std::size_t z = 0; z < spreads.size(); ++z) {
         const double weight = zone_weight(view_.camera.field_zones, z, field);
         if (weight > 0)
-            add_patch(channel.spreads[z].at(at_px.x, at_px.y, spot.electrons * weight, room), spot.channel,
-                      rows, light_e);
+            add_patch(spreads[z].at(at_px.x, at_px.y, spot.electrons * weight, room), spot.channel, rows,
+                      light_e);
     }
 }
 
@@ -327,7 +338,33 @@ void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronIm
         }
 }
 
-void PointLight::finish(ElectronImage& light_e) const {
+void PointLight::finish_halos(ElectronImage& light_e) {
+    bool any = false;
+    for (PointHalos& halos : halos_) {
+        if (halos.empty()) continue;
+        halos.spread();
+        any = true;
+    }
+    if (!any) return;
+    const auto left = static_cast<std::size_t>(view_.camera.black_columns);
+    const auto top = static_cast<int>(view_.camera.black_rows);
+    tbb::parallel_for(tbb::blocked_range<int>(0, view_.detector.height_px, 16), [&](const auto& range) {
+        for (int y = range.begin(); y < range.end(); ++y) {
+            const std::span<float> row =
+                light_e.row(y + top).subspan(left, static_cast<std::size_t>(view_.detector.width_px));
+            const int period = view_.mosaic.period(y);
+            for (int phase = 0; phase < std::min(period, view_.detector.width_px); ++phase) {
+                const PointHalos& halos = halos_[static_cast<std::size_t>(view_.mosaic.channel(phase, y))];
+                if (!halos.empty())
+                    halos.add_to_row(y, static_cast<std::size_t>(phase), static_cast<std::size_t>(period),
+                                     row);
+            }
+        }
+    });
+}
+
+void PointLight::finish(ElectronImage& light_e) {
+    finish_halos(light_e);
     if (std::all_of(glare_e_.begin(), glare_e_.end(), [](double e) { return e == 0; })) return;
     const double pixels = static_cast<double>(view_.detector.padded_width()) * view_.detector.padded_height();
     for (int y = 0; y < view_.detector.height_px; ++y) {

@@ -17,6 +17,7 @@
 #include "sensor/light_channel.h"
 #include "sensor/point_trail.h"
 #include "sensor/stray/far_wings.h"
+#include "sensor/stray/point_halos.h"
 
 namespace hilcam {
 
@@ -30,8 +31,8 @@ class PointLight {
     void begin(const Exposure& exposure);
     void add(const BrightPixel& pixel, ElectronImage& light_e);
     void add(std::span<const PointSource> points, ElectronImage& light_e);
-    // Adds the share of all added light that glare spreads evenly.
-    void finish(ElectronImage& light_e) const;
+    // Adds the share of all added light that glare spreads evenly, or the wide halos of bright points.
+    void finish(ElectronImage& light_e);
 
     // Returns, for this exposure, the standard deviation of what a jitter's density leaves within it [px], 0
     // if not seen.
@@ -43,12 +44,14 @@ class PointLight {
         PointTrails::Trail trail;
         double electrons;
         int channel;
+        bool wide_halo;  // the halo of glare is drawn by itself
     };
     // A place on its way, and what of its light falls there.
     struct Part {
         Vec2d place_px;
         double electrons = 0;
         int channel = 0;
+        bool wide_halo = false;
     };
     // An image that is still to be drawn.
     struct Spot {
@@ -57,6 +60,7 @@ class PointLight {
         double glare_e = 0;   // charge that glare has taken of it
         double spikes_e = 0;  // charge of a spider's spikes, which reach over the frame
         int channel = 0;
+        bool wide_halo = false;
         int radius_px = kNone;
         static constexpr int kNone = -1;  // nothing is drawn
     };
@@ -72,7 +76,12 @@ class PointLight {
     void finish_spots(ElectronImage& light_e);
     Part part_of(const Source& source, int number) const;
     Spot spot_of(const Part& part, std::size_t i) const;
-    Spot spot_of(int channel, Vec2d at_px, double electrons) const;
+    Spot spot_of(int channel, Vec2d at_px, double electrons, bool wide_halo) const;
+    const std::vector<PointSpread>& spreads_of(const Spot& spot) const {
+        const LightChannel& channel = channels_[static_cast<std::size_t>(spot.channel)];
+        return spot.wide_halo ? channel.cores : channel.spreads;
+    }
+    void finish_halos(ElectronImage& light_e);
     void sort_into_bands();
     PictureWindow window_of(Rows rows, ElectronImage& light_e) const;
     void draw(const Spot& spot, Rows rows, ElectronImage& light_e) const;
@@ -87,7 +96,8 @@ class PointLight {
     int bins_;
     Exposure exposure_;
     double jitter_px_ = 0;
-    std::vector<double> glare_e_;  // by channel
+    std::vector<double> glare_e_;    // by channel
+    std::vector<PointHalos> halos_;  // by channel; none where there is no halo
     PointTrails trails_;
     std::vector<Source> sources_;           // some points at a time
     std::vector<std::size_t> spots_until_;  // number of spots of all sources up to each

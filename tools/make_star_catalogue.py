@@ -19,7 +19,7 @@ from star_catalogue import merge, packages
 SHIPPED = pathlib.Path(__file__).resolve().parents[1] / "configs/stars/hipparcos.csv"
 FAINTEST_SHIPPED = 8.0
 FAINTEST_POSSIBLE = 10.5
-COLUMNS = "hip,hd,ra_deg,dec_deg,epoch_year,pm_ra_mas_yr,pm_dec_mas_yr,parallax_mas,v_mag,b_v"
+COLUMNS = "hip,hd,ra_deg,dec_deg,epoch_year,pm_ra_mas_yr,pm_dec_mas_yr,parallax_mas,v_mag,b_v,v_i"
 
 
 def number(value, digits):
@@ -32,12 +32,13 @@ def line(light):
     ra_deg, dec_deg = numpy.degrees(numpy.arctan2(y, x)) % 360, numpy.degrees(numpy.arcsin(z))
     pm_ra, pm_dec = light.motion_mas_yr
     return ",".join([str(light.hip), str(light.hd), number(ra_deg, 6), number(dec_deg, 6), number(merge.EPOCH_YEAR, 1), number(pm_ra, 1),
-                     number(pm_dec, 1), number(light.parallax_mas, 1), number(light.v_mag, 2), number(light.b_v, 2)])
+                     number(pm_dec, 1), number(light.parallax_mas, 1), number(light.v_mag, 2), number(light.b_v, 2),
+                     "" if light.v_i is None else number(light.v_i, 2)])
 
 
 def write(lights, counts, versions, faintest, file):
     print(f"# {len(lights)} stars to V {faintest:g} of the Hipparcos and Tycho-2 catalogues (ESA SP-1200, 1997; Hog et al., A&A 355, L27, 2000).", file=file)
-    print(f"# Places: ICRS at epoch_year; pm_ra has the factor cos(dec); V and B-V: Johnson. hip, hd and parallax are 0 where there is none.", file=file)
+    print(f"# Places: ICRS at epoch_year; pm_ra has the factor cos(dec); V and B-V: Johnson; v_i: V-Ic of M stars by their class. hip, hd and parallax are 0 where there is none.", file=file)
     print(f"# Made by tools/make_star_catalogue.py from {', '.join(versions)}; terms: NOTICE.", file=file)
     for what, count in counts.items():
         print(f"# {what}: {count}", file=file)

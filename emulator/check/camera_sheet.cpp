@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "emulator/loop/shutter_timing.h"
-#include "render/sky/stars.h"
+#include "render/sky/star_spectra.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/units.h"
 #include "sensor/chain.h"
@@ -149,8 +149,9 @@ void set_scenes(const SpectralGrid& grid, const Spectrum& response, CameraSheet&
 
 void set_stars(const CameraModel& c, const SpectralGrid& grid, const Curve* filter, CameraSheet& s) {
     const Spectrum per_irradiance = electrons_per_s_per_irradiance(c, grid, filter);
+    const StarSpectra spectra(grid);
     const auto electrons = [&](double magnitude) {
-        return s.exposure_s * sum_of(per_irradiance, star_irradiance_w_m2_um(magnitude, 0, grid));
+        return s.exposure_s * sum_of(per_irradiance, spectra.irradiance_w_m2_um(magnitude, {}));
     };
     for (const double magnitude : {0.0, 5.0}) {
         const double total_e = electrons(magnitude), peak_e = total_e * s.peak_share;

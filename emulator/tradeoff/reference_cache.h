@@ -19,7 +19,7 @@ std::string reference_key(const ScenarioConfig& reference, const Pose& body, con
 
 // Raised when the same key would give another reference: the path tracer, the sensor's optics, a default, a
 // generated mesh.
-inline constexpr std::uint32_t kReferenceVersion = 3;
+inline constexpr std::uint32_t kReferenceVersion = 4;
 
 // The name of that key's file in the cache.
 std::string reference_name(const std::string& key);

@@ -9,6 +9,7 @@
 #include "io/system/input_file.h"
 #include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
 
@@ -23,6 +24,7 @@ struct Column {
     double least, most;
     void (*set)(CatalogueStar& star, double value);
     bool must_be_there = false;
+    bool may_be_empty = false;  // in some lines
 };
 
 constexpr std::array kStarColumns = {
@@ -41,6 +43,7 @@ constexpr std::array kStarColumns = {
            [](CatalogueStar& s, double v) { s.parallax_rad = std::max(0.0, v) * kMas_rad; }},
     Column{"v_mag", -3, 30, [](CatalogueStar& s, double v) { s.magnitude_v = v; }, true},
     Column{"b_v", -3, 10, [](CatalogueStar& s, double v) { s.color_b_v = v; }},
+    Column{"v_i", -3, 15, [](CatalogueStar& s, double v) { s.color_v_i = v; }, false, true},
 };
 
 std::string_view without_line_end(std::string_view line) {
@@ -82,14 +85,32 @@ std::vector<const Column*> parse_header(std::string_view line) {
     return found;
 }
 
-bool parse_row(std::string_view line, const std::vector<const Column*>& columns, CatalogueStar& star) {
-    if (std::count(line.begin(), line.end(), ',') + 1 != std::ssize(columns)) return false;
+std::string names_of(const std::vector<const Column*>& columns) {
+    std::string names;
+    for (const Column* column : columns) add_name(names, column->name);
+    return names;
+}
+
+// Throws InputError that begins with `where` and names the value that is none.
+CatalogueStar parse_row(const std::string& where, std::string_view line,
+                        const std::vector<const Column*>& columns) {
+    const std::string_view whole = line;
+    const auto fields = std::count(line.begin(), line.end(), ',') + 1;
+    if (fields != std::ssize(columns))
+        throw refused(where, std::to_string(fields) + " values in " + in_quotes(whole),
+                      std::to_string(columns.size()) + ": " + names_of(columns));
+    CatalogueStar star;
     for (const Column* column : columns) {
-        const auto value = parsed_as<double>(take_field(line));
-        if (!value || !(*value >= column->least && *value <= column->most)) return false;
+        const std::string_view field = take_field(line);
+        if (field.empty() && column->may_be_empty) continue;
+        const auto value = parsed_as<double>(field);
+        if (!value || !(*value >= column->least && *value <= column->most))
+            throw refused(where + ": " + std::string(column->name),
+                          in_quotes(field) + " in " + in_quotes(whole),
+                          "a number, " + plain(column->least) + " to " + plain(column->most));
         column->set(star, *value);
     }
-    return true;
+    return star;
 }
 
 }  // namespace
@@ -102,22 +123,16 @@ StarCatalogue load_catalogue(const std::filesystem::path& file) {
     for (int number = 1; std::getline(in, text); ++number) {
         const std::string_view line = without_line_end(text);
         if (line.empty() || line.starts_with('#')) continue;
-        const auto refuse = [&](const std::string& accepted) {
-            throw refused(file.string() + ":" + std::to_string(number), in_quotes(line), accepted);
-        };
+        const std::string where = file.string() + ":" + std::to_string(number);
         if (columns.empty()) {
             columns = parse_header(line);
             if (columns.empty())
-                refuse("the names of the columns, each once: ra_deg, dec_deg and v_mag of " + all_columns());
+                throw refused(
+                    where, in_quotes(line),
+                    "the names of the columns, each once: ra_deg, dec_deg and v_mag of " + all_columns());
             continue;
         }
-        CatalogueStar star;
-        if (!parse_row(line, columns, star)) {
-            std::string names;
-            for (const Column* column : columns) add_name(names, column->name);
-            refuse(names);
-        }
-        catalogue.stars.push_back(star);
+        catalogue.stars.push_back(parse_row(where, line, columns));
     }
     if (catalogue.stars.empty()) throw InputError(file.string() + ": holds no star");
     return catalogue;

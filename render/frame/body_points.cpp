@@ -19,7 +19,8 @@ class LittlePicture {
           down_(cross(body.world_dir, right_)),
           reach_(std::sqrt(1 - cone_cosine * cone_cosine) / cone_cosine) {
         const double size_px = 2 * reach_ * frame.geometry.focal_length_px;
-        cells_ = std::clamp(static_cast<int>(std::ceil(2 * size_px)), 1, kMostCells);
+        const int most = frame.background->scene_of(body).rings ? kMostRingedCells : kMostCells;
+        cells_ = std::clamp(static_cast<int>(std::ceil(2 * size_px)), 1, most);
         rays_ = (rays_across + cells_ - 1) / cells_;
         step_ = 2 * reach_ / (cells_ * rays_);
     }
@@ -38,7 +39,7 @@ class LittlePicture {
                                   ((y + kAsideY) * step_ - reach_) * down_;
                 const double distance = length(dir);
                 const auto angle_sr = static_cast<float>(step_ * step_ / (distance * distance * distance));
-                const Spectrum light = angle_sr * background_.ground_radiance(body_, dir);
+                const Spectrum light = angle_sr * background_.ground_radiance(body_, dir, step_);
                 const auto all =
                     static_cast<double>(std::accumulate(light.bin.begin(), light.bin.end(), 0.0f));
                 out.irradiance_w_m2_um += light;
@@ -49,8 +50,9 @@ class LittlePicture {
     }
 
   private:
-    static constexpr int kMostCells = 16;
+    static constexpr int kMostCells = 16, kMostRingedCells = 37;
     static_assert(kMostCells * kMostCells == kMostBodyPoints);
+    static_assert(kMostRingedCells * kMostRingedCells == kMostRingedPoints);
     // The rays' places in their squares: a grid that lay evenly about the disk's middle would have each error at its rim
     // four or eight times.
     static constexpr double kAsideX = 0.29, kAsideY = 0.11;
@@ -101,7 +103,9 @@ Vec3d light_dir(const FrameView& frame, const PlacedBody& body, const PointField
 void add_body_points(const FrameView& frame, const PointField& field, std::vector<PointSource>& points) {
     const Background& background = *frame.background;
     for (const PlacedBody& body : background.points())
-        field.add(light_dir(frame, body, field), body.distance_m, background.point_irradiance(body), points);
+        if (field.sees(body.world_dir, body.distance_m))
+            field.add(light_dir(frame, body, field), body.distance_m, background.point_irradiance(body),
+                      points);
     for (std::size_t i = 0; i < frame.body_box_count; ++i)
         if (background.disks()[i].in_points && !frame.body_boxes[i].empty())
             add_cells(frame, background.disks()[i], field, points);

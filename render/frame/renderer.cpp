@@ -103,7 +103,7 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 std::size_t Renderer::max_points() const {
     const FramePlacer& placer = implementation_->placer;
     return placer.max_stars() + placer.objects() * ObjectProbes::most_points(placer) +
-           kMaxBodies * kMostBodyPoints + placer.lamps().all().size();
+           kMaxBodies * kMostBodyPoints + kMostRingedPoints + placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {

@@ -30,6 +30,9 @@ Background::Background(const std::array<SceneBody, kMaxBodies>& bodies, const At
       bands_(grid),
       rings_(grid),
       bins_(grid.size()) {
+    if (const SceneBody& saturn = bodies[index_of(BodyId::kSaturn)];
+        saturn.visible && saturn.look.is_measured())
+        saturn_light_.emplace(saturn.look);
     for (std::size_t i = 0; i < kMaxBodies; ++i) {
         map_factor_[i].bin.fill(1);
         map_mean_[i].bin.fill(1);
@@ -77,7 +80,8 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
             continue;
         }
         disks_[disk_count_] = body;
-        disks_[disk_count_++].in_points = is_seen_in_points(body, pixel_rad);
+        disks_[disk_count_].in_points = is_seen_in_points(body, pixel_rad);
+        set_brightness(disks_[disk_count_++]);
         const bool reaches = !(*scene_)[i].relief.empty() || has_rings(body.id);
         const double reach_m = reaches ? outer_radius_m(body.id) : radius_m;
         nearest_m_ = std::min(nearest_m_, std::max(0.0, body.distance_m - reach_m));
@@ -95,7 +99,8 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
         const double sine = std::min(1.0, radius_m / length(to_body_m));
         body_lights_[body_light_count_++] = {
             normalized(to_body_m), static_cast<float>(sine * sine),
-            static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), sun_share * most};
+            static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
+            body.globe_factor * sun_share * most};
     }
 
     const double au = kAstronomicalUnit_m / sun_distance_m;
@@ -201,20 +206,28 @@ bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Sp
                 weight = weight * sight.transmittance;
             }
         }
-        if (has_rings(body.id)) add_rings(body, origin, d, hit ? distance : kInfinity, weight, radiance);
+        const bool lit = !(body.in_points && cone.of_pixel);
+        if (has_rings(body.id))
+            add_rings(body, origin, d, {hit ? distance : kInfinity, pixel_rad_, lit}, weight, radiance);
         if (!hit) continue;
-        if (!(body.in_points && cone.of_pixel))
-            radiance += weight * surface_radiance(body, origin + distance * d, -normalized(d));
+        if (lit) radiance += weight * surface_radiance(body, origin + distance * d, -normalized(d));
         return true;
     }
     return false;
 }
 
-Spectrum Background::ground_radiance(const PlacedBody& body, Vec3d dir) const {
+Spectrum Background::ground_radiance(const PlacedBody& body, Vec3d dir, double width_rad) const {
     const Vec3d d = body.fixed_from_world * dir;
     const double distance = met(body, body.camera_m, d);
-    if (distance < 0) return {};
-    return surface_radiance(body, body.camera_m + distance * d, -normalized(d));
+    Spectrum weight, radiance;
+    weight.bin.fill(1);
+    if (has_rings(body.id))
+        add_rings(body, body.camera_m, d,
+                  {distance < 0 ? kInfinity : distance, width_rad > 0 ? width_rad : pixel_rad_, true}, weight,
+                  radiance);
+    if (distance < 0) return radiance;
+    const Spectrum ground = surface_radiance(body, body.camera_m + distance * d, -normalized(d));
+    return has_rings(body.id) ? radiance + weight * ground : ground;
 }
 
 Atmosphere::Sight Background::air_before(Vec3d dir, double distance_m) const {

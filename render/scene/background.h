@@ -11,6 +11,7 @@
 #include "render/earth/earth_rays.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/scene.h"
+#include "render/sky/disk_light.h"
 #include "render/sky/saturn_rings.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/pixel_box.h"
@@ -20,7 +21,7 @@ namespace hilcam {
 class EarthPatch;
 
 // A body this small is drawn as points, as an object is (plan.h): a grid of rays would meet too much of it or too little, and
-// otherwise from frame to frame. Those with rings or air are not, nor is the Earth by its model.
+// otherwise from frame to frame. Those with air are not, nor is the Earth by its model.
 inline constexpr double kBodyPoints_px = 8.0;
 
 // A body that shines on the objects: the cone that holds it.
@@ -51,6 +52,8 @@ struct PlacedBody {
     };
     std::array<Shine, 2> shine{};
     std::size_t shine_count = 0;
+    // Factors on its look that give the whole of it the light of its magnitude (disk_light.h).
+    float globe_factor = 1, ring_factor = 1;
     bool may_be_eclipsed = false;  // another body can stand between it and the Sun
     bool in_points = false;        // a disk whose light comes by points: rays of the camera find it dark
 };
@@ -84,9 +87,9 @@ class Background {
     std::span<const BodyLight> body_lights() const { return {body_lights_.data(), body_light_count_}; }
     // Irradiance of a point body at the camera [W m^-2 um^-1].
     Spectrum point_irradiance(const PlacedBody& body) const;
-    // Returns the radiance of a body's ground in a direction of any length from the camera, whatever stands before it; 0
-    // beside it [W m^-2 sr^-1 um^-1]. Loop.
-    Spectrum ground_radiance(const PlacedBody& body, Vec3d dir) const;
+    // Returns the radiance of a body's ground and rings in a direction of any length from the camera, whatever stands before
+    // it; 0 beside it [W m^-2 sr^-1 um^-1]. width_rad: cone of which the rings show the mean; 0: a pixel's. Loop.
+    Spectrum ground_radiance(const PlacedBody& body, Vec3d dir, double width_rad = 0) const;
     const Atmosphere* air() const { return air_; }
     const EarthModel* earth() const { return earth_; }
     // Returns where this frame lies between the Earth's maps.
@@ -186,6 +189,7 @@ class Background {
     SunDisk disk_;
     ColorBands bands_;
     SaturnRings rings_;
+    std::optional<SaturnLight> saturn_light_;  // none: no magnitude says how bright Saturn is
     int bins_;
     std::array<Spectrum, kMaxBodies> map_factor_;  // on texel colours
     std::array<Spectrum, kMaxBodies> map_mean_;    // mean colour after that; 1 without a map
@@ -216,13 +220,19 @@ class Background {
                    Spectrum& radiance) const;
     bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
     void add_planetshine(const WorldSnapshot& world, PlacedBody& body) const;
+    void set_brightness(PlacedBody& body) const;
     // Radius with air or mountains.
     double outer_radius_m(BodyId id) const;
     bool is_seen_in_points(const PlacedBody& body, double pixel_rad) const;
     double met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
     bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*scene_)[index_of(id)].rings; }
-    void add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,
-                   Spectrum& radiance) const;
+    // A ray sees rings up to `until`, in lengths of its direction; dark where their light comes by points.
+    struct RingSight {
+        double until, width_rad;
+        bool lit;
+    };
+    void add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, const RingSight& sight,
+                   Spectrum& weight, Spectrum& radiance) const;
     bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }
     bool is_modelled(BodyId id) const { return earth_ && id == BodyId::kEarth; }
     Spectrum surface_radiance(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir) const;

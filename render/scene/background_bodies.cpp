@@ -77,9 +77,24 @@ double Background::outer_radius_m(BodyId id) const {
 
 bool Background::is_seen_in_points(const PlacedBody& body, double pixel_rad) const {
     constexpr double kFar = 8;  // in radii: nearer, a few pixels are a large part of the sky
-    const double radius_m = outer_radius_m(body.id);
-    return !is_modelled(body.id) && !has_air(body.id) && !has_rings(body.id) &&
-           body.distance_m > kFar * radius_m && 2 * radius_m < kBodyPoints_px * pixel_rad * body.distance_m;
+    // Of a ringed body the globe counts: a grid of rays would meet its rings by chance.
+    const double radius_m = has_rings(body.id) ? body.figure.equatorial_radius_m : outer_radius_m(body.id);
+    return !is_modelled(body.id) && !has_air(body.id) && body.distance_m > kFar * outer_radius_m(body.id) &&
+           2 * radius_m < kBodyPoints_px * pixel_rad * body.distance_m;
+}
+
+// Bodies whose magnitude is measured have its light whole; shape and poles make no difference to the others.
+void Background::set_brightness(PlacedBody& body) const {
+    const BodyLook& look = (*scene_)[index_of(body.id)].look;
+    if (!look.is_measured() || !(body.distance_m > 0)) return;
+    const DiskView view{body.camera_m / body.distance_m, body.sun_dir};
+    if (has_rings(body.id) && saturn_light_) {
+        const SaturnLight::Factor by = saturn_light_->factor(view);
+        body.globe_factor = static_cast<float>(by.globe), body.ring_factor = static_cast<float>(by.rings);
+        return;
+    }
+    body.globe_factor = static_cast<float>(shape_factor(body.figure, look.law(), view) *
+                                           latitude_factor(body.id, body.figure, view));
 }
 
 // Each of the others as a disk of the phase at which this body sees it, its air apart.
@@ -94,9 +109,13 @@ void Background::add_planetshine(const WorldSnapshot& world, PlacedBody& out) co
         if (other_m <= radius_m) continue;
         const double phase = std::acos(std::clamp(dot(to_other_m, to_sun_m) / (-other_m * sun_m), -1.0, 1.0));
         const double au = kAstronomicalUnit_m / sun_m, part = au * radius_m / other_m;
+        // A magnitude is that of the outline from the equator.
+        const double outline = (*scene_)[i].look.is_measured()
+                                   ? this->figure(i).polar_radius_m / this->figure(i).equatorial_radius_m
+                                   : 1;
         const PlacedBody::Shine shine{
             out.fixed_from_world * (to_other_m / other_m),
-            static_cast<float>(part * part) *
+            static_cast<float>(part * part * outline) *
                 (sun_irradiance_1au_ * (*scene_)[i].look.disk_albedo(phase) * map_mean_[i])};
         // The strongest two.
         std::size_t at = out.shine_count;
@@ -137,6 +156,7 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
     Spectrum light =
         scene.look.reflectance_sr(static_cast<float>(mu0), static_cast<float>(dot(normal, to_viewer_dir)),
                                   static_cast<float>(dot(body.sun_dir, to_viewer_dir)));
+    if (body.globe_factor != 1) light = body.globe_factor * light;
     if (has_air(body.id)) {
         // tau_1 dims the Sun; the sky adds its own light on the ground, taken as Lambert.
         const Vec3d p = stretched(figure, point_m), s = normalized(stretched(figure, body.sun_dir));
@@ -183,16 +203,16 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
 }
 
 // Adds the rings that a ray meets before `until`; Saturn's shadow lies on them.
-void Background::add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,
-                           Spectrum& radiance) const {
+void Background::add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, const RingSight& sight,
+                           Spectrum& weight, Spectrum& radiance) const {
     const SaturnRings::Met there = SaturnRings::meet(origin_m, dir);
-    if (there.distance < 0 || there.distance >= until) return;
+    if (there.distance < 0 || there.distance >= sight.until) return;
     const Vec3d to_viewer = normalized(-dir);
     const double slant = std::max(0.1, std::abs(to_viewer.z));
-    const double footprint_m = pixel_rad_ * there.distance * length(dir) / std::sqrt(slant);
+    const double footprint_m = sight.width_rad * there.distance * length(dir) / std::sqrt(slant);
     const SaturnRings::Look look = rings_.look(there.point_m, footprint_m, to_viewer, body.sun_dir);
-    if (intersect_ellipsoid(this->figure(index_of(body.id)), there.point_m, body.sun_dir) < 0)
-        radiance += weight * body.irradiance_w_m2_um * look.radiance_sr;
+    if (sight.lit && intersect_ellipsoid(this->figure(index_of(body.id)), there.point_m, body.sun_dir) < 0)
+        radiance += body.ring_factor * (weight * body.irradiance_w_m2_um * look.radiance_sr);
     weight = look.transmittance * weight;
 }
 
@@ -235,15 +255,22 @@ Spectrum Background::point_irradiance(const PlacedBody& body) const {
     if (is_modelled(body.id))
         return static_cast<float>(a * a / (body.distance_m * body.distance_m)) *
                (body.irradiance_w_m2_um * earth_->disk_albedo(to_camera, body.sun_dir, 400));
-    const double phase = std::acos(std::clamp(dot(to_camera, body.sun_dir), -1.0, 1.0));
+    const DiskView view{to_camera, body.sun_dir};
+    const BodyLook& look = (*scene_)[i].look;
     // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's
     // latitude.
-    const double sine = to_camera.z;
-    const double area_ratio =
-        a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);
+    const double sine = to_camera.z, distance2 = body.distance_m * body.distance_m;
+    const double area_ratio = a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / distance2;
     Spectrum out = static_cast<float>(area_ratio) *
-                   (body.irradiance_w_m2_um * (*scene_)[i].look.disk_albedo(phase) * map_mean_[i]);
-    return out;
+                   (body.irradiance_w_m2_um * look.disk_albedo(view.phase_rad()) * map_mean_[i]);
+    if (!look.is_measured()) return out;
+    if (body.id == BodyId::kSaturn && saturn_light_) {
+        // Its rings are in its magnitude, whether they are drawn from near by or not.
+        const SaturnLight::Parts parts = saturn_light_->parts(view);
+        return static_cast<float>(parts.globe_share) * out +
+               static_cast<float>(parts.rings_m2 / distance2) * (body.irradiance_w_m2_um * rings_.color());
+    }
+    return static_cast<float>(latitude_factor(body.id, figure, view)) * out;
 }
 
 }  // namespace hilcam

@@ -28,14 +28,14 @@ constexpr double kMaxPhase_deg = 165;
 double disk_phase(SurfaceLaw law, double phase_rad) {
     return law == SurfaceLaw::kLambert ? lambert_phase(phase_rad) : lommel_seeliger_phase(phase_rad);
 }
-// Geometric albedo of a sphere whose c(0) is 1: 2/3 for Lambert, 1/8 for Lommel-Seeliger.
-double full_disk(SurfaceLaw law) { return law == SurfaceLaw::kLambert ? 2.0 / 3 : 1.0 / 8; }
-
 std::string name_of(BodyId id) {
     return index_of(id) < kBodyCount ? std::string(kBodyNames[index_of(id)]) : "look";
 }
 
+Curve moon_color();
+
 Curve color_of(BodyId id) {
+    if (id == BodyId::kMoon) return moon_color();
     const double blue = std::pow(10.0, -0.4 * (kColorBv[index_of(id)] - kSunColorBv));
     const double slope = (1 - blue) / 0.11;
     return {{0.28, 0.44, 0.55, 0.65, 2.5},
@@ -43,7 +43,23 @@ Curve color_of(BodyId id) {
             {}};
 }
 
+// ROLO's disk reflectance at 30 deg of phase, waxing and waning meaned, over that of its bands at 544 to 554 nm: Kieffer &
+// Stone, Astron. J. 129, 2887, 2005, eq. 10 and table 4 at the mean libration, neighbouring bands as one.
+Curve moon_color() {
+    return {{0.353, 0.411, 0.442, 0.476, 0.549, 0.687, 0.761, 0.873, 0.937, 1.06, 1.243, 1.586, 1.982, 2.254},
+            {0.558, 0.762, 0.791, 0.851, 1, 1.262, 1.351, 1.474, 1.429, 1.669, 1.823, 2.219, 2.489, 2.986},
+            {}};
+}
+
 }  // namespace
+
+double sphere_brightness(SurfaceLaw law, double phase_rad) {
+    return (law == SurfaceLaw::kLambert ? 2.0 / 3 : 1.0 / 8) * disk_phase(law, phase_rad);
+}
+
+double disk_m2_of_magnitude(double magnitude) {
+    return std::pow(10.0, -0.4 * (magnitude - kSunMagnitudeV)) * kAstronomicalUnit_m * kAstronomicalUnit_m;
+}
 
 double lambert_phase(double g) { return (std::sin(g) + (kPi - g) * std::cos(g)) / kPi; }
 
@@ -101,6 +117,7 @@ BodyConfig default_body(BodyId id) {
     // Airless, dark surfaces against clouds (and Mars, bright and dusty).
     const bool airless = id == BodyId::kMercury || id == BodyId::kMoon;
     config.law = airless ? SurfaceLaw::kLommelSeeliger : SurfaceLaw::kLambert;
+    config.rings = id == BodyId::kSaturn;
     return config;
 }
 
@@ -140,7 +157,10 @@ Fields fields(BodyConfig& c) {
         number("height_zero_m", c.height_zero_m, 1, {-1e6, 1e6}, "height where height_map has 0"),
         flag("planetshine", c.planetshine,
              "true: light that the other bodies send onto it is added (earthshine)"),
-        flag("rings", c.rings, "true: Saturn's rings are drawn, shade it and are shaded by it"),
+        flag("rings", c.rings,
+             "true, as is usual for saturn: its rings are drawn, shade it and are shaded by it; as a point "
+             "it has "
+             "their light either way"),
     };
 }
 
@@ -203,10 +223,11 @@ BodyLook::BodyLook(BodyId id, const BodyConfig& config, const SpectralGrid& grid
             continue;
         }
         const double g = std::min(static_cast<double>(i), kMaxPhase_deg) * kDegree_rad;
-        // Geometric albedo times phase function: flux ratio over (R / 1 au)^2.
-        const double ratio = kAstronomicalUnit_m / kFigures[index_of(id)].equatorial_radius_m;
-        const double flux = std::pow(10.0, -0.4 * (magnitude_v_1au(id, g) - kSunMagnitudeV)) * ratio * ratio;
-        by_degree_[i] = static_cast<float>(flux / (full_disk(law_) * disk_phase(law_, g)));
+        // Geometric albedo times phase function: the disk over the ellipse that is seen from the equator.
+        const Figure& figure = kFigures[index_of(id)];
+        const double disk = disk_m2_of_magnitude(magnitude_v_1au(id, g)) /
+                            (figure.equatorial_radius_m * figure.polar_radius_m);
+        by_degree_[i] = static_cast<float>(disk / sphere_brightness(law_, g));
     }
 }
 
@@ -276,9 +297,11 @@ Spectrum BodyLook::disk_albedo(double phase_rad) const {
         const auto share = static_cast<float>(degrees - static_cast<double>(i));
         return (1 - share) * disk_by_degree_[i] + share * disk_by_degree_[i + 1];
     }
-    return static_cast<float>(static_cast<double>(coefficient(phase_rad)) * full_disk(law_) *
-                              disk_phase(law_, phase_rad)) *
-           albedo_;
+    return static_cast<float>(disk_brightness(phase_rad)) * albedo_;
+}
+
+double BodyLook::disk_brightness(double phase_rad) const {
+    return static_cast<double>(coefficient(phase_rad)) * sphere_brightness(law_, phase_rad);
 }
 
 }  // namespace hilcam

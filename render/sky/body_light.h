@@ -5,12 +5,13 @@
 // A surface element sends L = E_s c(g) law(mu_0, mu): Lambert mu_0 / pi, or Lommel-Seeliger mu_0 / (4 pi
 // (mu_0 + mu)). c(g), a function of the phase angle g at the element, makes the disk of a distant body as
 // bright as its V magnitude says: Mallama & Hilton, Astronomy and Computing 25 (2018), without the terms of
-// rotation and season; Saturn without its rings; the Moon by Allen (Krisciunas & Schaefer, PASP 103, 1991,
+// rotation and season; a flattened body has the law's light when it is seen from its equator (disk_light.h has what is
+// left: its shape, Uranus' poles, Saturn's rings); the Moon by Allen (Krisciunas & Schaefer, PASP 103, 1991,
 // eq. 9). The Earth has no such law: its albedo and map say all. V of the Sun at 1 au: -26.76 (Willmer, ApJS
 // 236, 2018). Colour: the ratio of reflectances at B (0.44 um) and V (0.55 um) from the B-V index
 // (Explanatory Supplement to the Astronomical Almanac, 1992, table 15.8; Sun 0.653, Ramirez et al., ApJ 752,
 // 2012), straight on to 0.65 um and flat beyond. What is not in it: bands of methane, which make Uranus and
-// Neptune several times darker beyond 0.7 um.
+// Neptune several times darker beyond 0.7 um. The Moon's colour is ROLO's at 30 deg of phase (below) over that at V.
 //
 // Or Hapke's law (render/brdf/hapke.h), L = E_s mu_0 f, with no magnitude behind it: the Moon as LROC's Wide Angle Camera
 // measured it, Sato et al., J. Geophys. Res. Planets 119, 1775 (2014), with the medians of their maps at 643 nm
@@ -78,6 +79,10 @@ class BodyLook {
     // Irradiance of the whole disk at distance d, over (R/d)^2 and the solar irradiance at the body:
     // geometric albedo times phase function.
     Spectrum disk_albedo(double phase_rad) const;
+    // The same of a colourless body without the factor `albedo`.
+    double disk_brightness(double phase_rad) const;
+    bool is_measured() const { return measured_; }
+    SurfaceLaw law() const { return law_; }
     bool plain_lambert() const { return law_ == SurfaceLaw::kLambert && !measured_; }
     bool is_hapke() const { return law_ == SurfaceLaw::kHapke; }
     const Spectrum& albedo() const { return albedo_; }
@@ -101,7 +106,12 @@ class BodyLook {
 // 2012, 6.6).
 double lambert_phase(double phase_rad);
 double lommel_seeliger_phase(double phase_rad);
-// V magnitude at 1 au from Sun and observer. HILCAM_CHECK: not for the Earth.
+// Geometric albedo of a sphere whose c(0) is 1: 2/3 for Lambert, 1/8 for Lommel-Seeliger; times its phase function.
+double sphere_brightness(SurfaceLaw law, double phase_rad);
+// V magnitude at 1 au from Sun and observer, Saturn's without its rings. HILCAM_CHECK: not for the Earth.
 double magnitude_v_1au(BodyId id, double phase_rad);
+// Flux of a V magnitude at 1 au over that of the Sun at 1 au, times the square of an au: a disk's area times its geometric
+// albedo and phase function, over pi [m^2].
+double disk_m2_of_magnitude(double magnitude_v_1au);
 
 }  // namespace hilcam

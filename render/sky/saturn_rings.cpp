@@ -56,8 +56,7 @@ SaturnRings::Met SaturnRings::meet(Vec3d origin_m, Vec3d dir) {
     if (!(distance > 0)) return {};
     const Vec3d point_m{origin_m.x + distance * dir.x, origin_m.y + distance * dir.y, 0};
     const double radius2 = point_m.x * point_m.x + point_m.y * point_m.y;
-    const double inner_m = depths().x.front() * 1e3;
-    if (radius2 > kOuter_m * kOuter_m || radius2 < inner_m * inner_m) return {};
+    if (radius2 > kOuter_m * kOuter_m || radius2 < kInner_m * kInner_m) return {};
     return {distance, point_m};
 }
 
@@ -68,28 +67,39 @@ double SaturnRings::transmittance(Vec3d origin_m, Vec3d dir) {
     return std::exp(-depth(std::hypot(met.point_m.x, met.point_m.y)) / std::max(1e-6, mu));
 }
 
-SaturnRings::Look SaturnRings::look(Vec3d point_m, double footprint_m, Vec3d to_viewer, Vec3d to_sun) const {
+double SaturnRings::brightness(double phase_rad) {
+    return 1.3 * (1 + 0.35 * std::exp(-2.25 * phase_rad / kDegree_rad));
+}
+
+double SaturnRings::radiance_sr(double radius_m, Vec3d to_viewer, Vec3d to_sun) {
     const double mu = std::max(1e-6, std::abs(to_viewer.z)), mu0 = std::max(1e-6, std::abs(to_sun.z));
-    const bool lit_face = to_viewer.z * to_sun.z > 0;
     const double phase = std::acos(std::clamp(dot(to_viewer, to_sun), -1.0, 1.0));
+    const double tau = depth(radius_m);
+    double share = 0;
+    if (to_viewer.z * to_sun.z > 0)  // its lit face
+        share = mu0 / (mu0 + mu) * -std::expm1(-tau / mu0 - tau / mu);
+    else if (std::abs(mu0 - mu) > 1e-4 * mu)
+        share = mu0 / (mu0 - mu) * (std::exp(-tau / mu0) - std::exp(-tau / mu));
+    else
+        share = tau / mu * std::exp(-tau / mu);
+    return albedo(radius_m) * share * phase_function(phase) * brightness(phase) / (4 * kPi);
+}
+
+SaturnRings::Look SaturnRings::look(Vec3d point_m, double footprint_m, Vec3d to_viewer, Vec3d to_sun) const {
+    const double mu = std::max(1e-6, std::abs(to_viewer.z));
     const double radius_m = std::hypot(point_m.x, point_m.y);
+    // The part of the footprint that lies on the rings: their light is theirs however wide it is.
+    const double from_m = std::clamp(radius_m - 0.5 * footprint_m, kInner_m, radius_m),
+                 to_m = std::clamp(radius_m + 0.5 * footprint_m, radius_m, kOuter_m);
     constexpr int kParts = 5;
-    double scattered = 0, passed = 0;
+    double scattered = 0, passed = 0, area = 0;
     for (int i = 0; i < kParts; ++i) {
-        const double here_m = radius_m + ((i + 0.5) / kParts - 0.5) * footprint_m;
-        const double tau = depth(here_m);
-        passed += std::exp(-tau / mu) / kParts;
-        double share = 0;
-        if (lit_face)
-            share = mu0 / (mu0 + mu) * -std::expm1(-tau / mu0 - tau / mu);
-        else if (std::abs(mu0 - mu) > 1e-4 * mu)
-            share = mu0 / (mu0 - mu) * (std::exp(-tau / mu0) - std::exp(-tau / mu));
-        else
-            share = tau / mu * std::exp(-tau / mu);
-        scattered += albedo(here_m) * share / kParts;
+        const double here_m = from_m + (i + 0.5) / kParts * (to_m - from_m);
+        passed += here_m * std::exp(-depth(here_m) / mu);
+        scattered += here_m * radiance_sr(here_m, to_viewer, to_sun);
+        area += here_m;
     }
-    return {static_cast<float>(scattered * phase_function(phase) / (4 * kPi)) * color_,
-            static_cast<float>(passed)};
+    return {static_cast<float>(scattered / area) * color_, static_cast<float>(passed / area)};
 }
 
 }  // namespace hilcam

@@ -6,38 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/sky/star_spectra.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
 
-double color_temperature_k(double color_b_v) {
-    const double c = std::clamp(color_b_v, -0.4, 2.5);
-    return 4600 * (1 / (0.92 * c + 1.7) + 1 / (0.92 * c + 0.62));
-}
-
-Spectrum star_irradiance_w_m2_um(double magnitude_v, double color_b_v, const SpectralGrid& grid) {
-    constexpr double kZeroMagnitude_w_m2_um = 3.63e-8;
-    constexpr double kVBand_um = 0.55;
-    const double temperature_k = color_temperature_k(color_b_v);
-    const double scale = kZeroMagnitude_w_m2_um * std::pow(10.0, -0.4 * magnitude_v) /
-                         planck_w_m2_sr_um(kVBand_um, temperature_k);
-    Spectrum out;
-    for (int b = 0; b < grid.size(); ++b) {
-        // Three-point Gauss-Legendre over the bin: exact to fifth order.
-        const double middle = grid.center_um(b);
-        const double reach = 0.5 * grid.width_um(b) * std::sqrt(0.6);
-        const double mean = (5 * planck_w_m2_sr_um(middle - reach, temperature_k) +
-                             8 * planck_w_m2_sr_um(middle, temperature_k) +
-                             5 * planck_w_m2_sr_um(middle + reach, temperature_k)) /
-                            18;
-        out[b] = static_cast<float>(scale * mean);
-    }
-    return out;
-}
-
 std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double faintest_magnitude,
                            const SpectralGrid& grid) {
     const JulianDate now = julian_tt(time);
+    const StarSpectra spectra(grid);
     std::vector<Star> stars;
     for (std::size_t row = 0; row < catalogue.stars.size(); ++row) {
         const CatalogueStar& star = catalogue.stars[row];
@@ -57,7 +34,8 @@ std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double 
         const Vec3d east{-sin_ra, cos_ra, 0}, north{-sin_dec * cos_ra, -sin_dec * sin_ra, cos_dec};
         out.motion_rad_yr = to_float((pm_ra * cos_dec) * east + pm_dec * north);
         out.parallax_rad = static_cast<float>(star.parallax_rad);
-        out.irradiance_w_m2_um = star_irradiance_w_m2_um(star.magnitude_v, star.color_b_v, grid);
+        out.irradiance_w_m2_um =
+            spectra.irradiance_w_m2_um(star.magnitude_v, {star.color_b_v, star.color_v_i});
         out.magnitude_v = static_cast<float>(star.magnitude_v);
         out.row = static_cast<std::uint32_t>(row);
         out.hip = static_cast<std::uint32_t>(star.hip);

@@ -4,10 +4,8 @@
 // Place: the catalogue's with its proper motion, from its epoch to the run's start by ERFA's eraPmsafe
 // without a radial velocity, and from there on along the same straight line. Each frame sees it from where
 // the camera is (annual parallax) and as fast as the camera moves (stellar aberration). Not modelled: the
-// Sun's bending of light (4 mas at 90 degrees, 0.05 arcsec at 9), variability, orbits of double stars. Light:
-// a black body of the star's colour temperature, scaled to its V magnitude at 0.55 um.
-//   temperature from B-V: Ballesteros, EPL 97 (2012) 34008, eq. 14, good to a few percent from 3,000 to
-//   30,000 K. V = 0: 3.63e-8 W m^-2 um^-1 at the V band (Bessell, Castelli & Plez, A&A 333, 1998, table A2).
+// Sun's bending of light (4 mas at 90 degrees, 0.05 arcsec at 9), variability, orbits of double stars. Light: by
+// V and colours (star_spectra.h).
 
 #include <cstdint>
 #include <vector>
@@ -63,11 +61,6 @@ class StarObserver {
     double inverse_lorentz_ = 1;
 };
 
-// Colour temperature [K] of a Johnson B-V index; B-V is limited to -0.4 .. 2.5, beyond which the formula runs
-// away.
-double color_temperature_k(double color_b_v);
-// Bin means of a star's spectral irradiance [W m^-2 um^-1].
-Spectrum star_irradiance_w_m2_um(double magnitude_v, double color_b_v, const SpectralGrid& grid);
 // Stars not fainter than `faintest_magnitude`, in the catalogue's order, with their places at an instant.
 std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double faintest_magnitude,
                            const SpectralGrid& grid);

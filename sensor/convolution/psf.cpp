@@ -11,7 +11,8 @@
 namespace hilcam {
 
 PointSpread::PointSpread(const std::function<std::complex<double>(double, double)>& transfer,
-                         double fill_factor) {
+                         double fill_factor)
+    : fill_factor_(fill_factor) {
     constexpr int n = kField_px * kOversampling;
     constexpr int half = n / 2 + 1;
     std::vector<std::complex<float>> spectrum(std::size_t{n} * half);
@@ -41,6 +42,26 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
                     phases_[at++] = fine[static_cast<std::size_t>(fy) * n + static_cast<std::size_t>(fx)];
                 }
 
+    sum_up();
+}
+
+PointSpread PointSpread::less(const std::function<double(double, double)>& taken_off) const {
+    PointSpread out = *this;
+    float* value = out.phases_.data();
+    const auto place_px = [](int pixel, int phase) {
+        return pixel - kField_px / 2 + static_cast<double>(phase) / kOversampling;
+    };
+    for (int py = 0; py < kOversampling; ++py)
+        for (int px = 0; px < kOversampling; ++px)
+            for (int y = 0; y < kField_px; ++y)
+                for (int x = 0; x < kField_px; ++x)
+                    *value++ -=
+                        static_cast<float>(fill_factor_ * taken_off(place_px(x, px), place_px(y, py)));
+    out.sum_up();
+    return out;
+}
+
+void PointSpread::sum_up() {
     phase_sums_.resize(std::size_t{kOversampling} * kOversampling);
     for (std::size_t p = 0; p < phase_sums_.size(); ++p) {
         const std::span<const float> table =

@@ -6,7 +6,7 @@
 // The PSF is the inverse transform of MTF_sys up to 8 cycles/px, tabulated at 1/16 px over 64 px and
 // interpolated by cubic convolution (Keys, IEEE Trans. ASSP 29(6), 1981), for faint points by lines. Every
 // electron is kept: what falls farther than 32 px from the point (Airy wings, halo: about 1 % at f/4 and 5.5
-// um) is folded into the 64 px, and what a smaller square leaves out is given to those inside. With a fill
+// um) is folded into the 64 px, but for the halo of bright points (stray/point_halos.h), and what a smaller square leaves out is given to those inside. With a fill
 // factor of 1 the sum over the pixels is then 1 within 1e-6 wherever the point falls; with gaps between
 // pixels it varies as on a real detector, about the fill factor.
 
@@ -39,6 +39,10 @@ class PointSpread {
   public:
     // transfer: of cycles/px. Owner thread.
     PointSpread(const std::function<std::complex<double>(double u, double v)>& transfer, double fill_factor);
+
+    // The same less a share that is drawn otherwise: taken_off(x, y) is that of a pixel whose centre lies so far from the point
+    // [px], on a full-fill detector, with what of it the table has folded in. Owner thread.
+    PointSpread less(const std::function<double(double x_px, double y_px)>& taken_off) const;
 
     static constexpr int kField_px = 64;  // farther light comes back from the other side
     static constexpr int kMaxRadius_px = 30;
@@ -75,6 +79,7 @@ class PointSpread {
     // Samples of one phase lie together: phases_[py][px][y][x].
     const float* phase(int px, int py) const;
     float value(int x, int y, int px, int py) const;
+    void sum_up();
     double whole_at(int x, int y) const;
     double inside_at(int x, int y, int radius_px) const;
     bool is_linear(double electrons, int ring_px) const;
@@ -86,6 +91,7 @@ class PointSpread {
                      const std::array<double, kSamples>& y_weights, double electrons, Room& room) const;
     LargeImage large(const Place& place, int radius_px, double electrons) const;
 
+    double fill_factor_;
     std::vector<float> phases_;  // and a row that is read but not used
     std::vector<float> least_;   // least_[place y][place x][y][x]; with the light that the square leaves out
     // Error of a line between phases per electron of a point, by ring about the middle pixel: there and beyond.

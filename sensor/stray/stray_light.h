@@ -25,6 +25,8 @@ struct StrayLightConfig {
     double ghost_fraction = 0;   // share of a source's light, which its image lacks
     double ghost_scale = -1;     // image height of the ghost over that of its source; negative: mirrored
     double ghost_radius_px = 32;
+
+    bool has_halo() const { return veiling_glare_fraction > 0 && glare_radius_px > 0; }
 };
 Fields fields(StrayLightConfig& config);
 

@@ -9,7 +9,7 @@ import dataclasses
 import numpy
 from scipy.spatial import cKDTree
 
-from . import celestial, kstars, stellarium, tycho_index
+from . import celestial, kstars, m_stars, stellarium, tycho_index
 
 ARCSEC = numpy.pi / 180 / 3600
 EPOCH_YEAR = 2000.0
@@ -50,6 +50,7 @@ class Light:
     v_mag: float
     b_v: float | None
     spectrum: str = ""
+    v_i: float | None = None
     colour_assumed: str = ""
 
 
@@ -285,6 +286,9 @@ def catalogue(stellarium_folder, kstars_folder, celestial_file, tycho_index_file
         light.v_mag = round(float(light.v_mag), 2)
     lights = [light for light in lights if light.v_mag <= faintest]
     assume_colours(lights)
+    for light in lights:
+        light.v_i = m_stars.v_i(light.spectrum)
+    counts["V-Ic by class"] = sum(light.v_i is not None for light in lights)
     for reason, number in collections.Counter(light.colour_assumed for light in lights if light.colour_assumed).items():
         counts[f"B-V assumed: {reason}"] = number
     return sorted(lights, key=lambda light: (light.v_mag, light.hip)), counts

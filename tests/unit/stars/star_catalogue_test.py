@@ -20,7 +20,7 @@ SOURCE = pathlib.Path(sys.argv[1])
 HERE = pathlib.Path(__file__).parent
 CATALOGUE = SOURCE / "configs/stars/hipparcos.csv"
 BRIGHT_STARS = SOURCE.parent / "shared/data/stars/bsc5-short.json"
-COLUMNS = "hip,hd,ra_deg,dec_deg,epoch_year,pm_ra_mas_yr,pm_dec_mas_yr,parallax_mas,v_mag,b_v".split(",")
+COLUMNS = "hip,hd,ra_deg,dec_deg,epoch_year,pm_ra_mas_yr,pm_dec_mas_yr,parallax_mas,v_mag,b_v,v_i".split(",")
 FAINTEST = 8.0
 ARCSEC = numpy.pi / 180 / 3600
 CELL_RAD = 20 * ARCSEC
@@ -91,7 +91,7 @@ class StarCatalogue(unittest.TestCase):
     def setUpClass(cls):
         lines = [line for line in CATALOGUE.read_text().splitlines() if not line.startswith("#")]
         cls.header = lines[0]
-        values = numpy.array([line.split(",") for line in lines[1:]], float)
+        values = numpy.array([[value or "nan" for value in line.split(",")] for line in lines[1:]], float)
         cls.star = dict(zip(COLUMNS, values.T))
         cls.places = directions(cls.star["ra_deg"], cls.star["dec_deg"])
         cls.neighbours = Neighbours(cls.places)
@@ -120,6 +120,17 @@ class StarCatalogue(unittest.TestCase):
         numbered = self.star["hip"] > 0
         self.assertGreater(numpy.count_nonzero(numbered), 0.99 * 41411)
         self.assertGreater(numpy.count_nonzero(numbered & (self.star["v_mag"] <= 6)), 0.99 * 5044)
+
+    def test_m_stars_have_the_v_i_of_their_class(self):
+        """By their types in SIMBAD: Betelgeuse M1-M2 Ia-ab, Antares M1.5 Iab-b, Mirach M0 III, gamma Crucis M3.5 III; Arcturus and Vega are of no class M."""
+        row_of = {int(hip): row for row, hip in enumerate(self.star["hip"]) if hip}
+        for hip, v_i in {27989: 2.2, 80763: 2.1, 5447: 1.7, 61084: 2.3}.items():
+            self.assertAlmostEqual(self.star["v_i"][row_of[hip]], v_i, delta=0.15)
+        for hip in (69673, 91262):
+            self.assertTrue(numpy.isnan(self.star["v_i"][row_of[hip]]))
+        given = self.star["v_i"][~numpy.isnan(self.star["v_i"])]
+        self.assertGreater(len(given), 1500)
+        self.assertTrue(((given > 1.6) & (given < 4.2)).all())
 
     def test_colours_are_known(self):
         # Real colours of exactly 0.00 are 1 % of the stars; Capella (0.80) and Procyon (0.43) once had none.

@@ -15,7 +15,7 @@ import numpy
 SOURCE = pathlib.Path(sys.argv[1])
 sys.path.insert(0, str(SOURCE / "tools"))
 try:
-    from star_catalogue import kstars, merge, stellarium
+    from star_catalogue import kstars, m_stars, merge, stellarium
 except ImportError as error:
     print(f"skipped: {error}")
     sys.exit(77)
@@ -100,6 +100,15 @@ class Merging(unittest.TestCase):
             self.assertEqual([light.hip for light in lights], [7, 0])
             self.assertAlmostEqual(lights[0].v_mag, expected[0], delta=0.001)
             self.assertAlmostEqual(lights[1].v_mag, expected[1], delta=0.001)
+
+
+class ColoursOfMStars(unittest.TestCase):
+    def test_they_go_by_class_and_luminosity(self):
+        for spectral_type, v_i in {"M0III": 1.64, "M2III": 1.86, "gM4": 2.40, "M5IIIe": 2.80, "M0/1III": 1.695, "M1-M2Ia-Iab": 2.16, "M1.5Iab-b": 2.16,
+                                   "M4II": 2.40, "M2V": 2.01, "dM3": 2.43, "M6.5e": 3.57, "M9III": 3.88}.items():
+            self.assertAlmostEqual(m_stars.v_i(spectral_type), v_i, delta=0.001, msg=spectral_type)
+        for spectral_type in ("K5III", "K5/M0III", "G2V", "M", "", "C6", "S5"):
+            self.assertIsNone(m_stars.v_i(spectral_type), spectral_type)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include "emulator/check/check_command.h"
 #include "emulator/check/expected_signal.h"
 #include "io/config/config_yaml.h"
+#include "render/sky/star_spectra.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
 
@@ -54,12 +55,15 @@ TEST(CameraSheet, LightOfTheInspectorIsTheIntegralOverItsCurves) {
     // Eight bins, the curves averaged in each before they are multiplied: half a percent.
     EXPECT_NEAR(s.response_e_s / response, 1, 0.005);
     EXPECT_NEAR(s.saturation_w_m2_sr_um / ((13500 - 125 * 0.15e-3) / (response * 0.15e-3)), 1, 0.005);
-    // A black body of B-V = 0, by Ballesteros' formula 4600 (1/1.7 + 1/0.62) = 10125 K.
-    const double zero = planck_w_m2_sr_um(0.55, 10125);
-    const double star = 0.15e-3 * aperture_m2 * over_band([&](double um) {
-                            return 3.63e-8 * planck_w_m2_sr_um(um, 10125) / zero * electrons_per_j(c, um);
-                        });
-    EXPECT_NEAR(s.stars[0].total_e / star, 1, 0.01);
+    // A star of B-V = 0, V = 0, by its spectrum in bins of 5 nm.
+    double star = 0;
+    for (int i = 0; i < 110; ++i) {
+        const double from_um = 0.40 + 0.005 * i, middle_um = from_um + 0.0025;
+        const SpectralGrid grid({from_um, from_um + 0.005});
+        star += 0.15e-3 * aperture_m2 * 0.005 * electrons_per_j(c, middle_um) *
+                static_cast<double>(StarSpectra(grid).irradiance_w_m2_um(0, {})[0]);
+    }
+    EXPECT_NEAR(s.stars[0].total_e / star, 1, 0.015);
     EXPECT_NEAR(s.stars[1].total_e / s.stars[0].total_e, 0.01, 1e-6);
 }
 

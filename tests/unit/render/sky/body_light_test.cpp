@@ -35,8 +35,11 @@ TEST(BodyLight, DiskSumsUpToTheMagnitude) {
                 }
             EXPECT_NEAR(sum / static_cast<double>(look.disk_albedo(phase)[0]), 1, 2e-3)
                 << static_cast<int>(id);
-            const double ratio = kFigures[index_of(id)].equatorial_radius_m / kAstronomicalUnit_m;
-            EXPECT_NEAR(-2.5 * std::log10(sum * ratio * ratio) - 26.76, magnitude_v_1au(id, phase), 0.005);
+            // From the equator the outline is an ellipse.
+            const Figure& figure = kFigures[index_of(id)];
+            const double outline_au2 = figure.equatorial_radius_m * figure.polar_radius_m /
+                                       (kAstronomicalUnit_m * kAstronomicalUnit_m);
+            EXPECT_NEAR(-2.5 * std::log10(sum * outline_au2) - 26.76, magnitude_v_1au(id, phase), 0.005);
         }
     }
     EXPECT_NEAR(magnitude_v_1au(BodyId::kMoon, 0) + 5 * std::log10(384400e3 / kAstronomicalUnit_m), -12.73,

@@ -43,7 +43,8 @@ TEST(SaturnRings, AThinRingScattersAsItsDepthSays) {
         const Vec3d viewer{std::sqrt(1 - mu * mu), 0, side * mu};
         const SaturnRings::Look look = rings.look(in_gap, 0, viewer, sun);
         const double p = SaturnRings::phase_function(std::acos(dot(viewer, sun)));
-        const double thin = 0.3 * p / (4 * kPi) * tau / mu;
+        const double thin =
+            SaturnRings::brightness(std::acos(dot(viewer, sun))) * 0.3 * p / (4 * kPi) * tau / mu;
         EXPECT_NEAR(static_cast<double>(look.radiance_sr[0]) / thin, 1, 0.16) << side;  // tau / mu is 0.14
         EXPECT_LT(static_cast<double>(look.radiance_sr[0]), thin);
         EXPECT_NEAR(static_cast<double>(look.transmittance), std::exp(-tau / mu), 1e-6);

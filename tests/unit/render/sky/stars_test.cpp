@@ -31,18 +31,6 @@ CatalogueStar sirius() {
 
 StarCatalogue only(const CatalogueStar& star) { return {{star}}; }
 
-TEST(Stars, VegaHasTheFluxOfMagnitudeZero) {
-    const SpectralGrid grid({0.545, 0.555});
-    // 3.63e-8 W m^-2 um^-1 at 0.55 um for V = 0 (Bessell et al. 1998); 100 times less five magnitudes on.
-    EXPECT_NEAR(star_irradiance_w_m2_um(0, 0, grid)[0] / 3.63e-8, 1, 1e-3);
-    EXPECT_NEAR(star_irradiance_w_m2_um(5, 0, grid)[0] / 3.63e-10, 1, 1e-3);
-}
-
-TEST(Stars, ColourTemperatureOfTheSun) {
-    // B-V = 0.656 (Gray 1992) gives 5772 K within 2 % by Ballesteros' formula.
-    EXPECT_NEAR(color_temperature_k(0.656) / 5772, 1, 0.02);
-}
-
 TEST(Stars, ProperMotionMovesSirius) {
     // Sirius: -546.01, -1223.07 mas/yr (Hipparcos); J1991.25 place to J2000.0 (SIMBAD: 101.287155
     // -16.716116).
