@@ -162,6 +162,7 @@ MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file) {
     out.probably_mm = std::max({size_m.x, size_m.y, size_m.z}) > kLongestSide_m;
     out.coarse_step_m = coarse_step_m(out.least_m, out.most_m);
     out.missing_materials = contents.missing_materials;
+    out.left_out = mesh.left_out;
     return out;
 }
 
@@ -182,6 +183,7 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
     for (const std::string& file : s.missing_materials)
         out.push_back(
             fmt::format("no file {}: surfaces whose materials it would have are grey", in_quotes(file)));
+    for (const std::string& look : s.left_out) out.push_back(harmless(look));
     tell(s.open_edges, "open edges", "the mesh is not closed there, and shows its other side");
     tell(s.inconsistent_edges, "inconsistent edges", "the triangles on both sides look to different sides");
     tell(s.inverted_shells, "inverted shells", "closed surfaces whose triangles look inwards");

@@ -43,6 +43,7 @@ struct MeshSurvey {
     // mesh's size; else 0.
     double coarse_step_m = 0;
     std::vector<std::string> missing_materials;
+    std::vector<std::string> left_out;  // Mesh::left_out
 };
 
 // file: for messages.

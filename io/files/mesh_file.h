@@ -6,7 +6,7 @@
 // exactly degenerate triangles (a repeated corner) are dropped. Coordinates are taken as metres (a shape kernel has km), axes as the
 // file has them (glTF: +y up). Normals are those of the file; a mesh without any is shaded flat. Materials
 // give glTF metallic-roughness values or the nearest the format has; textures may be embedded or beside the
-// file.
+// file. docs/materials.md lists what is taken of a file's looks; Mesh::left_out names the rest.
 
 #include <filesystem>
 #include <optional>

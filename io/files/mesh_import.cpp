@@ -17,50 +17,43 @@
 #include <optional>
 #include <sstream>
 
-#include "io/files/gltf_webp.h"
+#include "io/files/gltf_import.h"
+#include "io/files/left_out.h"
 #include "io/files/mesh_guard.h"
+#include "io/files/node_names.h"
+#include "io/files/obj_maps.h"
 #include "io/pictures/picture_file.h"
 #include "io/system/confined.h"
+#include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
 
-// All textures of a file together have at most so many: 3 GB of colours.
-constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 30;
-// Vertices, normals, places on textures, corners, and the same once more as assimp has them.
-constexpr std::uint64_t kBytesPerTriangle = 250;
-
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw InputError(file.string() + ": " + what);
 }
 
-// Throws InputError, which begins with `what`, where a file lies outside the folders of the mesh that names it.
-void require_in_folders(const std::filesystem::path& mesh, const std::filesystem::path& file,
-                        const std::string& what) {
-    std::error_code error;
-    const std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
-    for (const std::filesystem::path& folder : mesh_folders(mesh)) {
-        const std::filesystem::path inside = real.lexically_relative(folder);
-        if (!inside.empty() && *inside.begin() != "..") return;
-    }
-    throw InputError(what + " lies outside the mesh's folder, at " + real.string() +
-                     "; accepted: files in that folder or below it");
-}
+// The looks that assimp does not tell of.
+struct LooksBeside {
+    ObjMaps maps;
+    bool whole_colors = false;
+};
 
 class Loader {
   public:
     // part: which of `nodes` to take, or -1 for what none of them takes.
-    Loader(const std::filesystem::path& file, const aiScene& scene, std::span<const std::string> nodes,
-           int part)
-        : file_(file), scene_(scene), nodes_(nodes), part_(part) {}
+    Loader(const std::filesystem::path& file, const aiScene& scene, const LooksBeside& beside,
+           std::span<const std::string> nodes, int part)
+        : file_(file), scene_(scene), beside_(beside), nodes_(nodes), part_(part) {}
 
     Mesh load() {
-        read_materials();
         count_normals_and_uvs();
+        read_materials();
         if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1, 0);
         if (mesh_.triangles.empty()) refuse_empty();
+        mesh_.left_out = left_out_.lines();
         return std::move(mesh_);
     }
 
@@ -71,12 +64,15 @@ class Loader {
   private:
     const std::filesystem::path& file_;
     const aiScene& scene_;
+    const LooksBeside& beside_;
     std::span<const std::string> nodes_;
     int part_;
     Mesh mesh_;
     std::map<std::string, int> texture_index_;
     bool any_normals_ = false;
     bool any_uvs_ = false;
+    bool any_colors_ = false;
+    LeftOut left_out_;
     std::uint64_t texels_ = 0;
     std::vector<MeshNode> found_nodes_;
     std::uint64_t collapsed_triangles_ = 0;
@@ -86,7 +82,25 @@ class Loader {
         for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
             any_normals_ |= scene_.mMeshes[i]->HasNormals();
             any_uvs_ |= scene_.mMeshes[i]->HasTextureCoords(0);
+            any_colors_ |= has_colors(*scene_.mMeshes[i]);
         }
+    }
+
+    // White ones say nothing.
+    static bool has_colors(const aiMesh& part) {
+        if (!part.HasVertexColors(0)) return false;
+        return std::any_of(part.mColors[0], part.mColors[0] + part.mNumVertices,
+                           [](const aiColor4D& c) { return c.r != 1 || c.g != 1 || c.b != 1; });
+    }
+    // A colour at a corner as a factor, linear.
+    Vec3f color_of(const aiColor4D& c) const {
+        const auto factor = [this](float v) {
+            const float share = v >= 0 ? std::min(v, 1.0f) : 0.0f;
+            return beside_.whole_colors
+                       ? linear_from_srgb(static_cast<std::uint8_t>(std::lround(255 * share)))
+                       : share;
+        };
+        return {factor(c.r), factor(c.g), factor(c.b)};
     }
 
     void read_materials() {
@@ -108,26 +122,61 @@ class Loader {
             surface.metallic = std::clamp(value, 0.0f, 1.0f);
         if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == AI_SUCCESS)
             surface.roughness = std::clamp(value, 0.0f, 1.0f);
+        // The grey that assimp has for what a file says nothing of would dim the colours that it does give.
+        if (any_colors_ && surface.name == AI_DEFAULT_MATERIAL_NAME) surface.base_color = {1, 1, 1};
         aiString path;
         for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
             if (material.GetTexture(type, 0, &path) == AI_SUCCESS) {
                 surface.base_color_texture = texture_of(path.C_Str(), surface.name);
                 break;
             }
+        read_opacity(material, surface);
+        name_the_rest(material, surface.name);
         return surface;
     }
 
+    // `d` and `Tr` of an OBJ. Many writers mean "opaque" by 0.
+    void read_opacity(const aiMaterial& material, MeshSurface& surface) {
+        ai_real value = 1;
+        if (material.Get(AI_MATKEY_OPACITY, value) != AI_SUCCESS || !(value < 1)) return;
+        if (value <= 0) return left_out_.add("dissolve 0, which is taken for opaque,", surface.name);
+        surface.opacity = value;
+    }
+
+    void name_the_rest(const aiMaterial& material, const std::string& name) {
+        aiColor3D emission;
+        if (material.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == AI_SUCCESS && !emission.IsBlack())
+            left_out_.add("emission", name);
+        constexpr std::array<std::pair<aiTextureType, const char*>, 6> kMaps = {
+            {{aiTextureType_EMISSIVE, "emission map"},
+             {aiTextureType_OPACITY, "opacity map"},
+             {aiTextureType_NORMALS, "normal map"},
+             {aiTextureType_HEIGHT, "bump map"},
+             {aiTextureType_SPECULAR, "specular map"},
+             {aiTextureType_DISPLACEMENT, "displacement map"}}};
+        for (const auto& [type, what] : kMaps)
+            if (material.GetTextureCount(type) > 0) left_out_.add(what, name);
+    }
+
+    ObjMap map_of(const std::string& material) const {
+        const auto found = beside_.maps.find(material);
+        return found == beside_.maps.end() ? ObjMap{} : found->second;
+    }
+
     int texture_of(const std::string& path, const std::string& material) {
-        const auto known = texture_index_.find(path);
+        const bool clamp = map_of(material).clamp;
+        const std::string key = path + (clamp ? "|clamp" : "");
+        const auto known = texture_index_.find(key);
         if (known != texture_index_.end()) return known->second;
         Texture texture = decode(
             path, file_.string() + ": texture " + in_quotes(path) + " of material " + in_quotes(material));
         texture.name = path;
+        if (clamp) texture.wrap = {TextureWrap::kClamp, TextureWrap::kClamp};
         texels_ += texture.texels.size();
         if (texels_ > kMaxTexels)
             refuse(file_, "its textures have more than " + std::to_string(kMaxTexels) + " pixels together");
         mesh_.textures.push_back(std::move(texture));
-        return texture_index_[path] = static_cast<int>(mesh_.textures.size()) - 1;
+        return texture_index_[key] = static_cast<int>(mesh_.textures.size()) - 1;
     }
 
     // `what` begins messages.
@@ -148,20 +197,9 @@ class Loader {
         throw InputError(what + " is not compressed; accepted: PNG, JPEG, TIFF, BMP, WebP");
     }
 
-    // Returns which of the names takes a node, or -1.
-    int taken_by(const std::string& name) const {
-        for (std::size_t k = 0; k < nodes_.size(); ++k) {
-            const std::string& pattern = nodes_[k];
-            const bool open = !pattern.empty() && pattern.back() == '*';
-            if (open ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern)
-                return static_cast<int>(k);
-        }
-        return -1;
-    }
-
     // above: the part that a node further up belongs to.
     void read_node(const aiNode& node, const aiMatrix4x4& parent, int above, std::uint32_t depth) {
-        const int own = taken_by(node.mName.C_Str());
+        const int own = taken_by(nodes_, node.mName.C_Str());
         const int part = own >= 0 ? own : above;
         const aiMatrix4x4 body_from_node = parent * node.mTransformation;
         const std::size_t before = mesh_.triangles.size();
@@ -174,16 +212,12 @@ class Loader {
     }
 
     [[noreturn]] void refuse_empty() const {
-        if (part_ < 0)
-            refuse(file_, nodes_.empty() ? "holds no triangle; accepted: a mesh with at least one"
-                                         : "holds no triangle besides its parts");
-        std::string names;
-        list_names(*scene_.mRootNode, names);
-        refuse(file_, "no triangle under a node " + in_quotes(nodes_[static_cast<std::size_t>(part_)]) +
-                          "; its nodes:" + harmless(names));
+        std::vector<std::string> all;
+        list_names(*scene_.mRootNode, all);
+        refuse(file_, empty_part(nodes_, part_, all));
     }
-    static void list_names(const aiNode& node, std::string& names) {
-        if (names.size() < 400) names.append(" ").append(node.mName.C_Str());
+    static void list_names(const aiNode& node, std::vector<std::string>& names) {
+        names.emplace_back(node.mName.C_Str());
         for (unsigned i = 0; i < node.mNumChildren; ++i) list_names(*node.mChildren[i], names);
     }
 
@@ -194,6 +228,7 @@ class Loader {
         aiMatrix3x3 normal_matrix(body_from_part);
         const bool mirrored = normal_matrix.Determinant() < 0;
         normal_matrix.Inverse().Transpose();
+        const ObjMap map = map_of(scene_.mMaterials[part.mMaterialIndex]->GetName().C_Str());
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
             const aiVector3D p = body_from_part * part.mVertices[i];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
@@ -202,9 +237,14 @@ class Loader {
             mesh_.vertices_m.push_back({p.x, p.y, p.z});
             if (any_uvs_) {
                 const bool has = part.HasTextureCoords(0);
-                mesh_.uvs.push_back(has ? Vec2f{part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y}
-                                        : Vec2f{});
+                // These formats have v upwards from the picture's bottom.
+                const Vec2f uv =
+                    has ? map.of({part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y}) : Vec2f{};
+                mesh_.uvs.push_back(finite_or_zero({uv.x, 1 - uv.y}));
             }
+            if (any_colors_)
+                mesh_.colors.push_back(part.HasVertexColors(0) ? color_of(part.mColors[0][i])
+                                                               : Vec3f{1, 1, 1});
             if (any_normals_) {
                 const aiVector3D n =
                     part.HasNormals() ? normal_matrix * part.mNormals[i] : aiVector3D(0, 0, 0);
@@ -233,6 +273,10 @@ class Loader {
             mesh_.triangles.push_back(t);
             mesh_.surface_of_triangle.push_back(surface);
         }
+    }
+
+    static Vec2f finite_or_zero(Vec2f uv) {
+        return std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : Vec2f{};
     }
 
     void require_finite(const aiMesh& part) const {
@@ -278,7 +322,7 @@ class MeshFiles final : public Assimp::IOSystem {
             beside_.push_back(read_input_file(file, mesh_kind()));
             const std::string& text = beside_.back();
             allow_more(kMeshMemoryPerByte * text.size(), kMeshCpu_s_byte * static_cast<double>(text.size()));
-            if (path_.ends_with(".obj")) materials_.add(text, file);
+            if (path_.ends_with(".obj")) materials_.add(text, file), add_obj_maps(text, maps_);
             return stream_of(text);
         } catch (const InputError& error) {
             refused_ = error;
@@ -286,6 +330,8 @@ class MeshFiles final : public Assimp::IOSystem {
         }
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
+
+    const ObjMaps& maps() const { return maps_; }
 
     // What an OBJ names that is not there. assimp looks for each in several ways, and then for a file of the
     // mesh's own name: one that was read stands for all.
@@ -307,6 +353,7 @@ class MeshFiles final : public Assimp::IOSystem {
     std::optional<InputError> refused_;
     std::deque<std::string> beside_;  // in use as long as assimp reads
     ObjMaterials materials_;
+    ObjMaps maps_;
 
     static Assimp::IOStream* stream_of(std::string_view bytes) {
         return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
@@ -323,17 +370,6 @@ Source source_of(const std::filesystem::path& file, const std::string& kind) {
     Source source{(file.parent_path() / file.stem()).string() + kind, read_input_file(file, mesh_kind())};
     if (kind == ".ply") require_ply_header(source.bytes, name);
     if (kind == ".stl") require_whole_stl(source.bytes, name);
-    if (kind == ".gltf") require_few_nodes(source.bytes, name);
-    if (kind != ".glb") return source;
-    const GlbChunks chunks = require_glb_chunks(source.bytes, name);
-    require_few_nodes(chunks.json, name);
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(source.bytes.data());
-    if (!chunks.has_binary) {
-        // assimp takes the first buffer of a GLB for its binary chunk. Without one, the JSON is all there is.
-        source = {source.path + ".gltf", std::string(chunks.json)};
-    } else if (const auto changed = with_plain_webp_sources({bytes, source.bytes.size()})) {
-        source.bytes.assign(changed->begin(), changed->end());
-    }
     return source;
 }
 
@@ -380,16 +416,14 @@ void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     const std::string_view ending = std::string_view(kind).substr(1);
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         const aiImporterDesc& about = *importer.GetImporterInfo(i);
-        // The importer of glTF 1 and that of glTF 2 have the same endings.
-        const bool is_old = std::string_view(about.mName) == "glTF Importer";
-        if (has_word(about.mFileExtensions, ending) && !is_old) continue;
+        if (has_word(about.mFileExtensions, ending)) continue;
         const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
         importer.UnregisterLoader(other.get());
     }
 }
 
 const aiScene& read_scene(Assimp::Importer& importer, const Source& source, const std::filesystem::path& file,
-                          std::vector<std::string>* missing_materials = nullptr) {
+                          LooksBeside& beside, std::vector<std::string>* missing_materials = nullptr) {
     keep_importer_of(std::filesystem::path(source.path).extension().string(), importer);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     auto* const files =
@@ -398,6 +432,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, cons
     const aiScene* scene = importer.ReadFile(source.path, 0);
     if (files->refused()) throw InputError(*files->refused());
     if (missing_materials) *missing_materials = files->missing_materials();
+    beside = {files->maps(), source.path.ends_with(".ply") && has_whole_colors(source.bytes)};
     if (scene) {
         require_few(*scene, file);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
@@ -410,25 +445,20 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, cons
 
 }  // namespace
 
-std::vector<std::filesystem::path> mesh_folders(const std::filesystem::path& file) {
-    std::error_code error;
-    std::vector<std::filesystem::path> out{
-        std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(), error)};
-    const std::filesystem::path real = std::filesystem::canonical(file, error).parent_path();
-    if (!error && real != out.front()) out.push_back(real);
-    return out;
-}
+namespace {
 
-const InputKind& mesh_kind() {
-    static const InputKind kind{std::uintmax_t{4} << 30, "a mesh file, or what one names beside it"};
-    return kind;
-}
+bool is_gltf(const std::string& kind) { return kind == ".glb" || kind == ".gltf"; }
+
+}  // namespace
 
 MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind) {
+    if (is_gltf(kind)) return gltf_contents(file, kind);
     const Source source = source_of(file, kind);
     Assimp::Importer importer;
     MeshContents out;
-    Loader loader(file, read_scene(importer, source, file, &out.missing_materials), {}, -1);
+    LooksBeside beside;
+    const aiScene& scene = read_scene(importer, source, file, beside, &out.missing_materials);
+    Loader loader(file, scene, beside, {}, -1);
     out.mesh = loader.load();
     out.nodes = std::move(loader.nodes());
     out.collapsed_triangles = loader.collapsed_triangles();
@@ -437,12 +467,14 @@ MeshContents import_mesh_contents(const std::filesystem::path& file, const std::
 
 std::vector<Mesh> import_mesh_parts(const std::filesystem::path& file, const std::string& kind,
                                     std::span<const std::string> nodes) {
+    if (is_gltf(kind)) return gltf_parts(file, kind, nodes);
     const Source source = source_of(file, kind);
     Assimp::Importer importer;
-    const aiScene& scene = read_scene(importer, source, file);
+    LooksBeside beside;
+    const aiScene& scene = read_scene(importer, source, file, beside);
     std::vector<Mesh> meshes;
     for (int part = -1; part < static_cast<int>(nodes.size()); ++part)
-        meshes.push_back(Loader(file, scene, nodes, part).load());
+        meshes.push_back(Loader(file, scene, beside, nodes, part).load());
     return meshes;
 }
 

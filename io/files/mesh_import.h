@@ -1,6 +1,6 @@
 #pragma once
-// Mesh files through assimp, in this process: no caller but the child that mesh_file.cpp makes, and fuzzing.
-// The only unit that knows assimp.
+// Mesh files of all kinds but shapes, in this process: no caller but the child that mesh_file.cpp makes, and fuzzing. glTF has a
+// reader of its own (gltf_import.h), the others are read through assimp, which no other unit knows.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,21 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "io/system/input_file.h"
+#include "io/files/mesh_folder.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
-
-// The kind as which mesh files, and the files that they name, are opened.
-const InputKind& mesh_kind();
-// The processor time that a byte of a mesh file may cost: a hundred times what large files take a megabyte.
-inline constexpr double kMeshCpu_s_byte = 3e-6;
-// A line of an OBJ becomes objects some tens of times its size.
-inline constexpr std::uint64_t kMeshMemoryPerByte = 64;
-
-// Returns the folders in and below which a mesh and what it names have to lie: the one that the file is named in, and the one that it is in
-// where that is a link.
-std::vector<std::filesystem::path> mesh_folders(const std::filesystem::path& file);
 
 // A node of a file's tree, in the order of the file, parents first.
 struct MeshNode {

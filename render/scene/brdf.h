@@ -28,7 +28,9 @@ struct Scatterer : SurfaceLook {
     // Some light goes in exactly one direction, which no lamp is met in by chance.
     bool has_exact() const { return is_glass() || (alpha == 0 && material->has_facets()); }
     // Some light goes in all directions.
-    bool has_lobes() const { return !is_glass() && !(alpha == 0 && material->is_bare()); }
+    bool has_lobes() const {
+        return is_glass() ? material->traits().has_body : !(alpha == 0 && material->is_bare());
+    }
 };
 
 struct BrdfSample {

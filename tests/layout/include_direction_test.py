@@ -26,7 +26,8 @@ ROOMS = (
 )
 ONLY_IN = {
     "embree": {"render/levels/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
-    "meshoptimizer": {"render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
+    "meshoptimizer": {"io/files/gltf_meshopt.cpp", "render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
+    "draco": {"io/files/gltf_draco.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},
