@@ -128,7 +128,7 @@ void GltfLooks::read_specular(Material& m, const Json& given) {
     s.roughness = std::clamp(1 - glossiness, 0.0f, 1.0f);
     // Fresnel's reflectance at normal incidence is ((n - 1) / (n + 1))^2.
     const float root = std::sqrt(std::min(most, 0.36f));
-    s.refractive_index = (1 + root) / (1 - root);
+    s.refractive_index = std::clamp((1 + root) / (1 - root), 1.0f, 4.0f);
     m.alpha = std::clamp(diffuse[3], 0.0f, 1.0f);
     set_colors(m, gltf_member(given, "diffuseTexture"));
     if (gltf_member(given, "specularGlossinessTexture")) left_out.add("specular-glossiness texture", m.name);

@@ -53,6 +53,7 @@ class Loader {
         read_materials();
         if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1, 0);
         if (mesh_.triangles.empty()) refuse_empty();
+        name_the_rest();
         mesh_.left_out = left_out_.lines();
         return std::move(mesh_);
     }
@@ -131,7 +132,6 @@ class Loader {
                 break;
             }
         read_opacity(material, surface);
-        name_the_rest(material, surface.name);
         return surface;
     }
 
@@ -139,11 +139,20 @@ class Loader {
     void read_opacity(const aiMaterial& material, MeshSurface& surface) {
         ai_real value = 1;
         if (material.Get(AI_MATKEY_OPACITY, value) != AI_SUCCESS || !(value < 1)) return;
-        if (value <= 0) return left_out_.add("dissolve 0, which is taken for opaque,", surface.name);
-        surface.opacity = value;
+        if (value > 0) surface.opacity = value;
     }
 
+    // Names what is left out of the surfaces that triangles have.
+    void name_the_rest() {
+        std::vector<bool> used(mesh_.surfaces.size());
+        for (const std::uint16_t surface : mesh_.surface_of_triangle) used[surface] = true;
+        for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
+            if (used[i]) name_the_rest(*scene_.mMaterials[i], mesh_.surfaces[i].name);
+    }
     void name_the_rest(const aiMaterial& material, const std::string& name) {
+        ai_real opacity = 1;
+        if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity <= 0)
+            left_out_.add("dissolve 0, which is taken for opaque,", name);
         aiColor3D emission;
         if (material.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == AI_SUCCESS && !emission.IsBlack())
             left_out_.add("emission", name);
@@ -322,8 +331,10 @@ class MeshFiles final : public Assimp::IOSystem {
             beside_.push_back(read_input_file(file, mesh_kind()));
             const std::string& text = beside_.back();
             allow_more(kMeshMemoryPerByte * text.size(), kMeshCpu_s_byte * static_cast<double>(text.size()));
-            if (path_.ends_with(".obj")) materials_.add(text, file), add_obj_maps(text, maps_);
-            return stream_of(text);
+            if (!path_.ends_with(".obj")) return stream_of(text);
+            materials_.add(text, file);
+            beside_.push_back(take_map_options(text, maps_));
+            return stream_of(beside_.back());
         } catch (const InputError& error) {
             refused_ = error;
             throw;

@@ -1,41 +1,59 @@
 #include "io/files/obj_maps.h"
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <vector>
 
 #include "io/files/text_lines.h"
+#include "io/system/text_number.h"
 
 namespace hilcam {
 namespace {
 
-std::vector<std::string> words_of(std::string_view line) {
-    std::istringstream in{std::string(line)};
-    std::vector<std::string> out;
-    for (std::string word; in >> word;) out.push_back(word);
-    return out;
+// Takes the next word off a line, and the blanks before it.
+std::string_view take_word(std::string_view& line) {
+    line = trimmed(line);
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    const std::string_view word = line.substr(0, end);
+    line.remove_prefix(end);
+    return word;
 }
 
-// Reads as many numbers as follow, three at most, into u and v.
-void read_numbers(const std::vector<std::string>& words, std::size_t& at, Vec2f& to) {
-    for (int k = 0; k < 3 && at + 1 < words.size(); ++k) {
-        std::istringstream in(words[at + 1]);
-        in.imbue(std::locale::classic());
-        float value = 0;
-        if (!(in >> value) || !in.eof() || !std::isfinite(value)) return;
-        if (k < 2) (k == 0 ? to.x : to.y) = value;
-        ++at;
+// Takes as many numbers as come next, three at most, into u and v.
+void take_numbers(std::string_view& line, Vec2f& to) {
+    for (int k = 0; k < 3; ++k) {
+        std::string_view rest = line;
+        const auto value = number_of(take_word(rest));
+        if (!value || std::abs(*value) > 1e30) return;
+        if (k < 2) (k == 0 ? to.x : to.y) = static_cast<float>(*value);
+        line = rest;
     }
 }
 
-ObjMap map_of(const std::vector<std::string>& words) {
+// Takes the options off what stands behind map_Kd: the file's name is left. A name may begin with a sign, too.
+ObjMap take_options(std::string_view& line) {
     ObjMap map;
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        if (words[i] == "-s") read_numbers(words, i, map.scale);
-        if (words[i] == "-o") read_numbers(words, i, map.offset);
-        if (words[i] == "-clamp" && i + 1 < words.size()) map.clamp = words[++i] == "on";
+    for (;;) {
+        std::string_view rest = line;
+        const std::string_view option = take_word(rest);
+        Vec2f unused;
+        if (option == "-s") {
+            take_numbers(rest, map.scale);
+        } else if (option == "-o") {
+            take_numbers(rest, map.offset);
+        } else if (option == "-t" || option == "-mm" || option == "-boost" || option == "-texres" ||
+                   option == "-bm") {
+            take_numbers(rest, unused);
+        } else if (option == "-clamp") {
+            map.clamp = take_word(rest) == "on";
+        } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-imfchan" ||
+                   option == "-type") {
+            take_word(rest);
+        } else {
+            line = trimmed(line);
+            return map;
+        }
+        line = rest;
     }
-    return map;
 }
 
 bool is_plain(const ObjMap& m) {
@@ -44,24 +62,30 @@ bool is_plain(const ObjMap& m) {
 
 }  // namespace
 
-void add_obj_maps(std::string_view mtl, ObjMaps& maps) {
+std::string take_map_options(std::string_view mtl, ObjMaps& maps) {
     TextLines lines(mtl, "");
-    std::string material;
-    for (std::string_view line; lines.next(line);) {
-        line = trimmed(line);
-        if (line.starts_with("newmtl")) material = trimmed(line.substr(6));
-        if (!line.starts_with("map_Kd") && !line.starts_with("map_kd")) continue;
-        const ObjMap map = map_of(words_of(line));
+    std::string material, out;
+    for (std::string_view line; lines.next(line); out += '\n') {
+        std::string_view rest = line;
+        const std::string_view word = take_word(rest);
+        if (word == "newmtl") material = trimmed(rest);
+        if (word != "map_Kd" && word != "map_kd") {
+            out += line;
+            continue;
+        }
+        const ObjMap map = take_options(rest);
         if (!is_plain(map)) maps[material] = map;
+        out.append("map_Kd ").append(rest);
     }
+    return out;
 }
 
 bool has_whole_colors(std::string_view ply) {
     TextLines lines(ply, "");
     for (std::string_view line; lines.next(line) && !line.starts_with("end_header");) {
-        const std::vector<std::string> words = words_of(line);
-        if (words.size() == 3 && words[0] == "property" && (words[2] == "red" || words[2] == "diffuse_red"))
-            return !words[1].starts_with("float") && words[1] != "double";
+        if (take_word(line) != "property") continue;
+        const std::string_view type = take_word(line), name = take_word(line);
+        if (name == "red" || name == "diffuse_red") return !type.starts_with("float") && type != "double";
     }
     return false;
 }

@@ -18,8 +18,9 @@ struct ObjMap {
 // By the names of materials; those without options are left out.
 using ObjMaps = std::map<std::string, ObjMap, std::less<>>;
 
-// Adds what a library says. Numbers that are none count as not there.
-void add_obj_maps(std::string_view mtl, ObjMaps& maps);
+// Adds what a library says of its map_Kd, and returns the library with their options left out, since assimp takes the name of the file for
+// a number that an option may have.
+std::string take_map_options(std::string_view mtl, ObjMaps& maps);
 
 // True where a PLY file gives its colours as whole numbers, which are those of pictures; floats are linear.
 bool has_whole_colors(std::string_view ply);

@@ -74,26 +74,26 @@ class GltfWriter {
                  {"accessors", Json::array()},    {"bufferViews", Json::array()}};
 
     // Adds bytes as a view; returns its number.
-    int view(const std::string& bytes) {
+    std::size_t view(const std::string& bytes) {
         bytes_.resize((bytes_.size() + 3) / 4 * 4);
         root["bufferViews"].push_back(
             {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
         bytes_ += bytes;
-        return static_cast<int>(root["bufferViews"].size()) - 1;
+        return root["bufferViews"].size() - 1;
     }
     // Adds numbers as an accessor; returns its number.
     template <class T>
-    int accessor(const std::vector<T>& values, const char* type, int component, std::size_t width) {
+    std::size_t accessor(const std::vector<T>& values, const char* type, int component, std::size_t width) {
         std::string bytes(values.size() * sizeof(T), '\0');
         if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-        const int at = view(bytes);
+        const std::size_t at = view(bytes);
         root["accessors"].push_back({{"bufferView", at},
                                      {"componentType", component},
                                      {"type", type},
                                      {"count", values.size() / width}});
-        return static_cast<int>(root["accessors"].size()) - 1;
+        return root["accessors"].size() - 1;
     }
-    int floats(const std::vector<float>& values, std::size_t width) {
+    std::size_t floats(const std::vector<float>& values, std::size_t width) {
         const char* const type = width == 1   ? "SCALAR"
                                  : width == 2 ? "VEC2"
                                  : width == 3 ? "VEC3"
@@ -103,8 +103,8 @@ class GltfWriter {
     }
     // A primitive: a square of side 2 about the origin that faces +z; attributes come to it.
     Json quad() {
-        const int places = floats({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, 3);
-        const int corners = accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR", 5123, 1);
+        const std::size_t places = floats({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, 3);
+        const std::size_t corners = accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR", 5123, 1);
         return {{"attributes", {{"POSITION", places}}}, {"indices", corners}};
     }
     // The same with the whole picture on it, upright.

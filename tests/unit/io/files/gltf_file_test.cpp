@@ -177,8 +177,8 @@ TEST_F(GltfFile, SkinsAreWhereTheirJointsAre) {
 TEST_F(GltfFile, SparseAccessorsSayTheirValuesApart) {
     GltfWriter file;
     Json quad = file.quad();
-    const int places = file.accessor<std::uint16_t>({1, 2, 3}, "SCALAR", 5123, 1);
-    const int values = file.floats({2, 0, 0, 2, 2, 0, 0, 2, 0}, 3);
+    const std::size_t places = file.accessor<std::uint16_t>({1, 2, 3}, "SCALAR", 5123, 1);
+    const std::size_t values = file.floats({2, 0, 0, 2, 2, 0, 0, 2, 0}, 3);
     const Json& accessors = file.root["accessors"];
     const Json sparse = {
         {"count", 3},
@@ -275,8 +275,8 @@ TEST_F(GltfFile, MeshoptBuffersAreUnpacked) {
     Json quad = {{"attributes", {{"POSITION", file.floats(places, 3)}}},
                  {"indices", file.accessor<unsigned>(corners, "SCALAR", 5125, 1)}};
     // What the views say of themselves is a fallback that nobody reads.
-    const auto pack = [&](int view, const std::string& bytes, const Json& more) {
-        const int packed = file.view(bytes);
+    const auto pack = [&](std::size_t view, const std::string& bytes, const Json& more) {
+        const std::size_t packed = file.view(bytes);
         Json compression = file.root["bufferViews"][packed];
         compression.update(more);
         file.root["bufferViews"][view]["buffer"] = 7;
@@ -313,7 +313,7 @@ TEST_F(GltfFile, DracoPrimitivesAreUnpacked) {
     draco::EncoderBuffer buffer;
     ASSERT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
     GltfWriter file;
-    const int view = file.view(std::string(buffer.data(), buffer.size()));
+    const std::size_t view = file.view(std::string(buffer.data(), buffer.size()));
     file.root["accessors"] = {{{"componentType", 5126}, {"type", "VEC3"}, {"count", 4}},
                               {{"componentType", 5123}, {"type", "SCALAR"}, {"count", 6}}};
     const Json packed = {{"bufferView", view},
@@ -346,7 +346,7 @@ TEST_F(GltfFile, WhatLiesNowhereIsRefused) {
         {"/meshes/0/primitives/0/material", "materials[4000000]: there is none"},
         {"/meshes/0/primitives/0/mode", "mode: found 4000000; accepted: 0 to 6"},
         {"/nodes/0/mesh", "meshes[4000000]: there is none"},
-        {"/scenes/0/nodes/0", "a node is named that does not exist: 4000000"},
+        {"/scenes/0/nodes/0", "a node is named that does not exist: '4000000'"},
         {"/scene", "scenes[4000000]: there is none"},
     };
     for (const auto& [place, words] : wrong) {
