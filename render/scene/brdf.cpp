@@ -25,9 +25,6 @@ const LobeAlbedo* facets_of(const Material& material) {
 
 namespace {
 
-// The share of a veil's samples that its body takes.
-constexpr float kBody = 0.5f;
-
 // top: the model's chance of a highlight.
 template <class Model>
 float density_of(const Model& model, const Scatterer& at, Cosines c, float top) {
@@ -39,7 +36,7 @@ float density_of(const Model& model, const Scatterer& at, Cosines c, float top) 
 
 float brdf_density(const Scatterer& at, Cosines c) {
     if (!(c.no > 0 && c.ni > 0) || !at.has_lobes()) return 0;
-    if (at.is_glass()) return kBody * c.ni / kPiF;
+    if (at.is_glass()) return 0;
     return std::visit(
         [&](const auto& model) { return density_of(model, at, c, model.highlight_chance(at, c.no)); },
         at.material->brdf);
@@ -77,34 +74,10 @@ BrdfSample sample_sheet(const Scatterer& at, Vec3f normal, Vec3f view_dir, float
     return out;
 }
 
-// Draws by the cosine, for what goes in all directions below no facets.
-BrdfSample sample_body(const Scatterer& at, Vec3f normal, Vec3f view_dir, float u1, float u2) {
-    BrdfSample out;
-    out.dir = Frame(normal).to_world(sample_cosine(u1, u2));
-    out.diffuse = true;
-    const Cosines c{std::max(dot(normal, view_dir), 1e-4f), dot(normal, out.dir), dot(view_dir, out.dir)};
-    out.density = c.ni > 0 ? c.ni / kPiF : 0.0f;
-    out.valid = out.density > 0;
-    if (out.valid) out.weight = kPiF * brdf_value(at, c);
-    return out;
-}
-
-// A sheet with a body: half of the samples go to either.
-BrdfSample sample_veil(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u) {
-    const bool body = u[0] < kBody;
-    BrdfSample out =
-        body ? sample_body(at, normal, view_dir, u[1], u[2]) : sample_sheet(at, normal, view_dir, u[1]);
-    out.weight = (1 / kBody) * out.weight;
-    out.density *= kBody;
-    return out;
-}
-
 }  // namespace
 
 BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u) {
-    if (at.is_glass())
-        return at.has_lobes() ? sample_veil(at, normal, view_dir, u)
-                              : sample_sheet(at, normal, view_dir, u[1]);
+    if (at.is_glass()) return sample_sheet(at, normal, view_dir, u[1]);
     const float no = std::max(dot(normal, view_dir), 1e-4f);
     return std::visit(
         [&](const auto& model) {

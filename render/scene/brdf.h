@@ -48,7 +48,7 @@ Spectrum brdf_value(const Scatterer& at, Cosines c);
 // Returns how much a material's facets reflect; null: it has none.
 const LobeAlbedo* facets_of(const Material& material);
 
-// Density of sample() for a direction, exact parts left out.
+// Density of sample() for a direction, exact parts left out. None is drawn in a veil's body, so that what lies behind is seen without noise.
 float brdf_density(const Scatterer& at, Cosines c);
 // A direction in proportion to f cos, about. u: three uniform numbers.
 BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u);

@@ -121,9 +121,10 @@ Material clear_sheet(const MeshSurface& surface, const SpectralGrid& grid) {
 Material veil_of(const MeshSurface& surface, const Curve& color, const SpectralGrid& grid) {
     MaterialConfig veil;
     veil.model = kModel<brdf::Veil>;
-    veil.reflectance = color;
+    veil.reflectance = Curve::constant(1);
     veil.cover = static_cast<double>(surface.opacity);
     Material out = make_material(veil, grid);
+    out.base = out.base * grid.average(color);
     out.texture = surface.base_color_texture;
     return out;
 }

@@ -33,10 +33,11 @@ double area_m2(
 }
 
 // Radiance of the quad in the middle of each of its parts from left to right, over that of a white Lambert surface there.
-std::vector<float> row_of(Mesh mesh, std::size_t parts, Vec2f middle = {0, 0}, bool kept = false) {
+std::vector<float> row_of(Mesh mesh, std::size_t parts, Vec2f middle = {0, 0}, bool kept = false,
+                          int depth = 1) {
     Stage stage;
     stage.camera(64, 0.5);
-    stage.quality.max_depth = 1;
+    stage.quality.max_depth = depth;
     if (kept) stage.quality.path_model = "kept";
     SceneObject object;
     for (const MeshSurface& surface : mesh.surfaces)
@@ -313,7 +314,7 @@ TEST_F(MeshLooks, AlphaIsCoverage) {
     file.root["materials"].push_back({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
     file.root["nodes"].push_back({{"mesh", 1}, {"translation", {0, 0, -0.1}}});
     file.root["scenes"][0]["nodes"] = {0, 1};
-    EXPECT_NEAR(row_of(load(file), 1)[0], 0.3f + 0.7f * 0.7f, 0.03f);
+    EXPECT_NEAR(row_of(load(file), 1, {0, 0}, false, 2)[0], 0.3f + 0.7f * 0.7f, 0.03f);
     file.root["materials"][0] = {
         {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}};
     const SpectralGrid grid({0.5, 0.6});
