@@ -23,7 +23,7 @@ using Json = GltfWriter::Json;
 
 constexpr std::array<std::uint8_t, 3> kDark = {20, 20, 20}, kBright = {230, 230, 230};
 
-double area_m2(
+double seen_area_m2(
     const Mesh& mesh, std::function<bool(const MeshSurface&)> has = [](const MeshSurface&) { return true; }) {
     double sum = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -212,7 +212,7 @@ TEST_F(MeshLooks, AMaskCutsHoles) {
     file.picture(png_with_alpha(rgba, 8), 33071);
     file.root["materials"][0]["alphaMode"] = "MASK";
     const Mesh mesh = load(file);
-    EXPECT_NEAR(area_m2(mesh), 2, 1e-5);
+    EXPECT_NEAR(seen_area_m2(mesh), 2, 1e-5);
     EXPECT_THAT(mesh.left_out, IsEmpty());
     const std::vector<float> row = row_of(mesh, 4);
     EXPECT_NEAR(row[0], 0.78f, 0.06f);
@@ -224,11 +224,11 @@ TEST_F(MeshLooks, AMaskCutsHoles) {
     many.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = {
         {"KHR_texture_transform", {{"scale", {5, 5}}}}};
     many.root["samplers"][0] = {{"magFilter", 9728}};
-    EXPECT_NEAR(area_m2(load(many)), 2, 1e-4);
+    EXPECT_NEAR(seen_area_m2(load(many)), 2, 1e-4);
     many.root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.4};
     EXPECT_THAT(error_of([&] { load(many); }), HasSubstr("holds no triangle that its masks leave"));
     file.root["materials"][0]["alphaMode"] = "OPAQUE";
-    EXPECT_NEAR(area_m2(load(file)), 4, 1e-5);
+    EXPECT_NEAR(seen_area_m2(load(file)), 4, 1e-5);
 }
 
 // A disk of alpha on a smooth slope: its area is that of the circle, and its border none of the texels' staircase.
@@ -246,7 +246,7 @@ TEST_F(MeshLooks, AMaskOfFewTexelsHasASmoothBorder) {
     file.root["samplers"][0].erase("magFilter");
     file.root["materials"][0]["alphaMode"] = "MASK";
     const double radius_m = 10 * 2.0 / kSize;
-    EXPECT_NEAR(area_m2(load(file)), kPi * radius_m * radius_m, 0.01 * kPi * radius_m * radius_m);
+    EXPECT_NEAR(seen_area_m2(load(file)), kPi * radius_m * radius_m, 0.01 * kPi * radius_m * radius_m);
 }
 
 // Metal to the left, paint to the right, each as rough as the picture says (glTF 2.0, section 5.22.5: green and blue).
@@ -255,13 +255,13 @@ TEST_F(MeshLooks, AMetallicRoughnessTextureMakesSurfacesOfItsKinds) {
     file.picture(half_picture({0, 40, 255}, {0, 255, 0}));
     file.root["materials"][0]["pbrMetallicRoughness"] = {{"metallicRoughnessTexture", {{"index", 0}}}};
     const Mesh mesh = load(file);
-    EXPECT_NEAR(area_m2(mesh,
-                        [](const MeshSurface& s) {
-                            return s.metallic == 1 && std::abs(s.roughness - 40 / 255.0f) < 0.01f;
-                        }),
+    EXPECT_NEAR(seen_area_m2(mesh,
+                             [](const MeshSurface& s) {
+                                 return s.metallic == 1 && std::abs(s.roughness - 40 / 255.0f) < 0.01f;
+                             }),
                 2, 1e-5);
-    EXPECT_NEAR(area_m2(mesh, [](const MeshSurface& s) { return s.metallic == 0 && s.roughness == 1; }), 2,
-                1e-5);
+    EXPECT_NEAR(seen_area_m2(mesh, [](const MeshSurface& s) { return s.metallic == 0 && s.roughness == 1; }),
+                2, 1e-5);
     for (const Vec3f v : mesh.vertices_m)
         EXPECT_FALSE(std::abs(v.x) > 1e-5f && std::abs(v.x) < 1 - 1e-5f) << v.x;
     // One that lies otherwise than the colours is left out by name.
