@@ -89,7 +89,7 @@ bool is_index(Component type) {
            type == Component::kUnsignedInt;
 }
 
-// What an accessor says of itself, checked.
+// An accessor as it says of itself, checked.
 class Accessor {
   public:
     Accessor(GltfDocument& document, std::uint64_t index, std::string use)

@@ -20,7 +20,7 @@ namespace {
 
 using Json = GltfDocument::Json;
 
-// What of the extensions that a file may require is obeyed. The names are those of Khronos' registry.
+// The extensions that a file may require, as they are obeyed. The names are those of Khronos' registry.
 constexpr std::array<std::string_view, 12> kObeyed = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",

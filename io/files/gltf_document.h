@@ -52,7 +52,7 @@ class GltfDocument {
     GltfBytes binary_;
     bool has_binary_ = false;
     Json root_;
-    std::map<std::uint64_t, std::string> buffers_;                 // as they are asked for
+    std::map<std::uint64_t, std::string> buffers_;                 // those that were asked for
     std::map<std::uint64_t, std::vector<std::uint8_t>> unpacked_;  // decompressed views
 
     void require_extensions() const;

@@ -179,7 +179,7 @@ void GltfLooks::add_kinds(const Material& m, SurfaceCut cut) {
     if (cut.kinds.size() > 1 || cut.source.cutoff > 0) cuts.push_back(std::move(cut));
 }
 
-// Where the picture of colours has an alpha channel that counts. False: the surface is whole.
+// Reads the alpha channel of the picture of colours, where it counts. False: the surface is whole.
 bool GltfLooks::read_alpha(const Material& m, SurfaceCut& cut) {
     const std::string mode = gltf_text(m.json, "alphaMode");
     cut.source.cutoff = 0;

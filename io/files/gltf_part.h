@@ -19,7 +19,7 @@ namespace hilcam {
 struct GltfPart {
     std::size_t surface = 0;
     std::vector<Vec3f> places, normals, colors;  // one per vertex; the last two may be empty
-    std::vector<Vec2f> uvs;                      // of the surface's textures, moved; may be empty
+    std::vector<Vec2f> uvs;                      // places on the surface's textures, moved; may be empty
     std::vector<std::array<std::uint32_t, 3>> triangles;
     // Sets of four joints and their weights per vertex; empty: it hangs on its node alone.
     std::vector<std::vector<std::uint32_t>> joints;

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kBands = 4;  // of roughness
+constexpr int kBands = 4;  // bands of roughness
 // A picture of few texels is made this wide at least: smooth borders go between its texels.
 constexpr int kFineEnough = 512;
 constexpr int kLargest = 4096;
@@ -85,7 +85,7 @@ std::size_t nearest(std::span<const Kind> kinds, const Kind& look) {
     return best;
 }
 
-// What is nowhere to be found in a channel is 255.
+// A channel that is not there is 255 everywhere.
 float at(const Channel& channel, int x, int y) { return channel.empty() ? 255.0f : channel.at(x, y); }
 
 }  // namespace

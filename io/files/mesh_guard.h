@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxCorners = 10'000;
 inline constexpr std::uint64_t kMaxNodes = 200'000;
 // 120 bytes each in memory, before the tree of the ray tracer.
 inline constexpr std::uint64_t kMaxTriangles = 100'000'000;
-// How deep nodes may lie: their tree is gone down by recursion.
+// The depth to which nodes may lie: their tree is gone down by recursion.
 inline constexpr std::uint32_t kDeepestNode = 1000;
 // All textures of a file together have at most so many: 3 GB of colours.
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 30;

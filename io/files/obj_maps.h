@@ -15,7 +15,7 @@ struct ObjMap {
 
     Vec2f of(Vec2f uv) const { return {scale.x * uv.x + offset.x, scale.y * uv.y + offset.y}; }
 };
-// By the names of materials; those without options are left out.
+// Options by the names of materials; materials without any are left out.
 using ObjMaps = std::map<std::string, ObjMap, std::less<>>;
 
 // Adds what a library says of its map_Kd, and returns the library with their options left out, since assimp takes the name of the file for

@@ -208,7 +208,7 @@ class Cutter {
     std::vector<std::uint16_t> surfaces_;
     std::size_t triangle_ = 0;
     const KindMap* map_ = nullptr;
-    std::vector<Piece> pieces_;  // of the triangle
+    std::vector<Piece> pieces_;  // pieces of the triangle
 
     void add(const std::array<std::uint32_t, 3>& corners, std::int32_t surface) {
         if (surface == SurfaceCut::kNothing) return;

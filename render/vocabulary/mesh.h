@@ -33,9 +33,9 @@ struct MeshSurface {
     float metallic = 0;                  // 0 dielectric .. 1 metal
     float roughness = 1;                 // perceptual; GGX alpha is its square
     int base_color_texture = -1;         // index into Mesh::textures; multiplies base_color
-    float refractive_index = 1.5f;  // of a dielectric's clear layer: 1.5 reflects 4 % (glTF 2.0, appendix B)
-    float opacity = 1;              // share of it that is no hole; below 1 it is a veil
-    float transmission = 0;         // share that goes through; from one half on it is a sheet of glass
+    float refractive_index = 1.5f;       // index of a dielectric's clear layer: 1.5 reflects 4 % (glTF 2.0)
+    float opacity = 1;                   // share of it that is no hole; below 1 it is a veil
+    float transmission = 0;              // share that goes through; from one half on it is a sheet of glass
 };
 
 struct Mesh {
@@ -48,7 +48,7 @@ struct Mesh {
     std::vector<std::uint16_t> surface_of_triangle;  // index into surfaces
     std::vector<MeshSurface> surfaces;
     std::vector<Texture> textures;
-    // What of the file's looks is not in here, each the rest of a sentence: "emission of 'lamp': not used".
+    // Looks of the file that are not in here, each the rest of a sentence: "emission of 'lamp': not used".
     std::vector<std::string> left_out;
 };
 
