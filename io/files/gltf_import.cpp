@@ -273,8 +273,8 @@ class GltfImport {
         mesh_.uvs.resize(mesh_.vertices_m.size());
         const int halvings = cut_mesh(mesh_, looks_.cuts);
         if (halvings > 0)
-            looks_.left_out.add("detail of masks and metallic-roughness textures, which are taken " +
-                                    std::to_string(1 << std::min(halvings, 20)) + " times coarser,",
+            looks_.left_out.add("detail of masks and metallic-roughness textures finer than " +
+                                    std::to_string(1 << std::min(halvings, 20)) + " texels",
                                 "");
         if (mesh_.triangles.empty()) document_.refuse("holds no triangle that its masks leave");
     }

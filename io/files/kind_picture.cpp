@@ -11,7 +11,7 @@ namespace {
 constexpr int kBands = 4;  // bands of roughness
 // A picture of few texels is made this wide at least: smooth borders go between its texels.
 constexpr int kFineEnough = 512;
-constexpr int kLargest = 4096;
+constexpr int kLargest = 2048;
 
 BytePlane halved(const BytePlane& p) {
     BytePlane out{std::max(1, p.width / 2), std::max(1, p.height / 2), {}};
@@ -41,11 +41,13 @@ class Channel {
         }
         scale_x_ = static_cast<float>(plane_.width) / static_cast<float>(width);
         scale_y_ = static_cast<float>(plane_.height) / static_cast<float>(height);
+        is_same_ = plane_.width == width && plane_.height == height;
     }
 
     bool empty() const { return plane_.empty(); }
     // Returns the value at the middle of a place of the other size.
     float at(int column, int row) const {
+        if (is_same_) return plane_.at(column, row);
         const float x = (static_cast<float>(column) + 0.5f) * scale_x_,
                     y = (static_cast<float>(row) + 0.5f) * scale_y_;
         if (!smooth_) return value(static_cast<int>(x), static_cast<int>(y));
@@ -59,7 +61,7 @@ class Channel {
   private:
     BytePlane plane_;
     std::array<TextureWrap, 2> wrap_;
-    bool smooth_;
+    bool smooth_, is_same_ = false;
     float scale_x_ = 1, scale_y_ = 1;
 
     float value(int x, int y) const {
@@ -84,6 +86,26 @@ std::size_t nearest(std::span<const Kind> kinds, const Kind& look) {
     }
     return best;
 }
+
+// Tells the kind of each pair of values, rounded.
+class KindTable {
+  public:
+    KindTable(const KindSource& source, std::span<const Kind> kinds) {
+        for (int metallic = 0; metallic < 256; ++metallic)
+            for (int roughness = 0; roughness < 256; ++roughness) {
+                const Kind look =
+                    look_of(source, static_cast<float>(metallic), static_cast<float>(roughness));
+                kinds_.push_back(static_cast<std::uint8_t>(1 + (kinds.empty() ? 0 : nearest(kinds, look))));
+            }
+    }
+    std::uint8_t at(float metallic, float roughness) const {
+        return kinds_[256 * static_cast<std::size_t>(metallic + 0.5f) +
+                      static_cast<std::size_t>(roughness + 0.5f)];
+    }
+
+  private:
+    std::vector<std::uint8_t> kinds_;
+};
 
 // A channel that is not there is 255 everywhere.
 float at(const Channel& channel, int x, int y) { return channel.empty() ? 255.0f : channel.at(x, y); }
@@ -151,6 +173,7 @@ KindPicture kind_picture(const KindSource& s, const std::vector<Kind>& kinds, in
     const Channel alpha(s.alpha, s.wrap, s.smooth, out.width, out.height),
         metallic(s.metallic, s.wrap, s.smooth, out.width, out.height),
         roughness(s.roughness, s.wrap, s.smooth, out.width, out.height);
+    const KindTable table(s, kinds);
     out.kinds.reserve(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
@@ -158,8 +181,7 @@ KindPicture kind_picture(const KindSource& s, const std::vector<Kind>& kinds, in
                 out.kinds.push_back(0);
                 continue;
             }
-            const Kind look = look_of(s, at(metallic, x, y), at(roughness, x, y));
-            out.kinds.push_back(static_cast<std::uint8_t>(1 + (kinds.empty() ? 0 : nearest(kinds, look))));
+            out.kinds.push_back(table.at(at(metallic, x, y), at(roughness, x, y)));
         }
     return out;
 }

@@ -315,7 +315,7 @@ int cut_mesh(Mesh& mesh, std::span<const SurfaceCut> cuts) {
     // A net of 1000 x 1000 meshes has as many; a spacecraft whose textures are noise stays of its size.
     constexpr std::size_t kMostOfMasks = 1'000'000, kLeast = 100'000;
     constexpr std::uint64_t kBytesOfPicture =
-        200 << 20;  // a picture of 4096 x 4096 kinds with its sums, and what it is made of
+        200 << 20;  // a picture of 2048 x 2048 kinds with its sums, and what it is made of
     if (cuts.empty()) return 0;
     const bool masks =
         std::any_of(cuts.begin(), cuts.end(), [](const SurfaceCut& c) { return c.source.cutoff > 0; });

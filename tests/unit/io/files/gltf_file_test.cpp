@@ -244,11 +244,11 @@ TEST_F(GltfFile, UrisHavePercentSigns) {
     file.text();
     file.root["buffers"][0]["uri"] = "quad%20%C3%BC.bin";
     EXPECT_EQ(load_mesh(write("m.gltf", file.root.dump())).triangles.size(), 2u);
-    file.root["buffers"][0]["uri"] = "..%2Fquad.bin";
-    write("../quad.bin", file.bytes());
+    file.root["buffers"][0]["uri"] = "..%2Fquad.dat";
+    write("../quad.dat", file.bytes());
     EXPECT_THAT(error_of([&] { load_mesh(write("n.gltf", file.root.dump())); }),
                 HasSubstr("lies outside the mesh's folder"));
-    std::filesystem::remove(folder_ / "../quad.bin");
+    std::filesystem::remove(folder_ / "../quad.dat");
 }
 
 // EXT_meshopt_compression, by the library's own encoder: vertices with a filter, and indices.
