@@ -37,6 +37,7 @@ Json object_of(const SeenObject& o) {
             {"reflectance", o.loaded.mean_reflectance()},
             {"surfaces", surfaces_of(o.loaded)},
             {"idle_rules", o.loaded.idle_rules},
+            {"left_out", o.loaded.left_out},
             {"place", word_of(o.place)},
             {"distance_m", o.distance_m},
             {"off_boresight_deg", degrees(o.off_boresight_rad)},

@@ -166,6 +166,7 @@ MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file) {
     out.missing_materials = contents.missing_materials;
     out.unreadable_textures = contents.unreadable_textures;
     out.remarks = contents.remarks;
+    out.left_out = mesh.left_out;
     return out;
 }
 
@@ -188,6 +189,7 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
             fmt::format("no file {}: surfaces whose materials it would have are grey", in_quotes(file)));
     out.insert(out.end(), s.unreadable_textures.begin(), s.unreadable_textures.end());
     out.insert(out.end(), s.remarks.begin(), s.remarks.end());
+    for (const std::string& look : s.left_out) out.push_back(harmless(look));
     tell(s.open_edges, "open edges", "the mesh is not closed there, and shows its other side");
     tell(s.inconsistent_edges, "inconsistent edges", "the triangles on both sides look to different sides");
     tell(s.inverted_shells, "inverted shells", "closed surfaces whose triangles look inwards");

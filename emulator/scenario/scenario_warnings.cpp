@@ -358,24 +358,26 @@ std::vector<std::string> place_warnings(const ScenarioConfig& scenario) {
 
 std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects, const KeyPlaces& places) {
     struct Warning {
-        std::string object, meaning;
+        std::string object, key, meaning;
         std::size_t number = 0, others = 0;
     };
     std::vector<Warning> warnings;
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        const LoadedObject& object = objects[i];
-        std::string meaning = meaning_of_idle_rules(object);
-        if (meaning.empty()) continue;
+    const auto warn = [&](std::size_t i, const char* key, std::string meaning) {
+        if (meaning.empty()) return;
         const auto same = std::find_if(warnings.begin(), warnings.end(),
                                        [&](const Warning& w) { return w.meaning == meaning; });
         if (same != warnings.end())
             ++same->others;
         else
-            warnings.push_back({object.name, std::move(meaning), i});
+            warnings.push_back({objects[i].name, key, std::move(meaning), i});
+    };
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        warn(i, "materials", meaning_of_idle_rules(objects[i]));
+        for (const std::string& look : objects[i].left_out) warn(i, "mesh", look);
     }
     std::vector<std::string> out;
     for (const Warning& w : warnings)
-        out.push_back(places.at("objects." + std::to_string(w.number) + ".materials",
+        out.push_back(places.at("objects." + std::to_string(w.number) + "." + w.key,
                                 "object '" + w.object + "'" +
                                     (w.others > 0 ? " and " + std::to_string(w.others) + " more" : "") +
                                     ": " + w.meaning));

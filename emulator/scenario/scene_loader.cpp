@@ -95,6 +95,7 @@ Vec3d by_component(Vec3d a, Vec3d b, const F& f) {
 void tell(const Mesh& mesh, float scale, const std::vector<Material>& materials, const ObjectConfig& config,
           const SpectralGrid& grid, LoadedObject& out) {
     const bool first = out.surfaces.empty();
+    if (first) out.left_out = mesh.left_out;
     if (first)
         for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
             const SurfaceConfig* rule = find_surface(config.materials.surfaces, mesh.surfaces[i].name);
@@ -216,8 +217,8 @@ UnscaledObject make_object(Mesh mesh, const ObjectConfig& config, const Scenario
     object.mesh = std::move(mesh);
     out.scale = static_cast<float>(config.scale * bring_near_one(object.mesh));
     const double brightest = paint(object.mesh, config);
-    // A level's vertices would each have the albedo of one of many facets, not their mean.
-    if (wants_levels_of_detail(scenario) && !config.has_albedo_file) {
+    // A level's vertices would each have the albedo of one of many facets, or the colour of one of many corners, not their mean.
+    if (wants_levels_of_detail(scenario) && !config.has_albedo_file && object.mesh.colors.empty()) {
         const Progress progress("levels of detail of " + config.name);
         object.levels = cached_levels(object.mesh, user_cache(!scenario.is_used_once));
     }

@@ -24,6 +24,7 @@ struct LoadedObject {
     std::size_t triangles = 0;
     std::vector<LoadedSurface> surfaces;
     std::vector<std::string> idle_rules;  // rules of its materials that no surface takes
+    std::vector<std::string> left_out;    // looks of its mesh file that are not used (Mesh::left_out)
 
     double mean_reflectance() const;  // by area
 };

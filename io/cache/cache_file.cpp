@@ -128,6 +128,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
     add(mesh.uvs);
     add(mesh.triangles);
     add(mesh.surface_of_triangle);
+    if (!mesh.colors.empty()) add(mesh.colors);
     return hash;
 }
 

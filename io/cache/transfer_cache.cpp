@@ -27,6 +27,7 @@ std::uint64_t hash_of_looks(std::uint64_t hash, const Mesh& mesh) {
     for (const Texture& texture : mesh.textures) {
         hash = hash_of(hash, &texture.width, sizeof texture.width);
         hash = hash_of(hash, texture.texels.data(), texture.texels.size() * sizeof texture.texels[0]);
+        hash = hash_of(hash, texture.wrap.data(), sizeof texture.wrap);
     }
     return hash;
 }

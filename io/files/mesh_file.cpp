@@ -25,6 +25,9 @@ void write_surface(const MeshSurface& s, ConfinedOutput& out) {
     out.value(s.metallic);
     out.value(s.roughness);
     out.value(s.base_color_texture);
+    out.value(s.refractive_index);
+    out.value(s.opacity);
+    out.value(s.transmission);
 }
 
 MeshSurface read_surface(ConfinedResult& in) {
@@ -34,6 +37,9 @@ MeshSurface read_surface(ConfinedResult& in) {
     s.metallic = in.value<float>();
     s.roughness = in.value<float>();
     s.base_color_texture = in.value<int>();
+    s.refractive_index = in.value<float>();
+    s.opacity = in.value<float>();
+    s.transmission = in.value<float>();
     return s;
 }
 
@@ -42,6 +48,7 @@ void write_texture(const Texture& t, ConfinedOutput& out) {
     out.value(t.width);
     out.value(t.height);
     out.list(std::span(t.texels));
+    out.value(t.wrap);
 }
 
 Texture read_texture(ConfinedResult& in) {
@@ -50,6 +57,8 @@ Texture read_texture(ConfinedResult& in) {
     t.width = in.value<int>();
     t.height = in.value<int>();
     t.texels = in.list<std::array<std::uint8_t, 3>>();
+    t.wrap = in.value<std::array<TextureWrap, 2>>();
+    if (std::max(t.wrap[0], t.wrap[1]) > TextureWrap::kMirror) in.refuse();
     if (t.width < 1 || t.height < 1 ||
         t.texels.size() != static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height))
         in.refuse();
@@ -60,12 +69,15 @@ void write_mesh(const Mesh& m, ConfinedOutput& out) {
     out.list(std::span(m.vertices_m));
     out.list(std::span(m.normals));
     out.list(std::span(m.uvs));
+    out.list(std::span(m.colors));
     out.list(std::span(m.triangles));
     out.list(std::span(m.surface_of_triangle));
     out.value(m.surfaces.size());
     for (const MeshSurface& s : m.surfaces) write_surface(s, out);
     out.value(m.textures.size());
     for (const Texture& t : m.textures) write_texture(t, out);
+    out.value(m.left_out.size());
+    for (const std::string& line : m.left_out) out.text(line);
 }
 
 // Checks for what would lead astray whoever uses it: the child may have been broken by the file.
@@ -76,11 +88,14 @@ bool is_whole(const Mesh& m) {
     return m.surface_of_triangle.size() == m.triangles.size() &&
            (m.normals.empty() || m.normals.size() == m.vertices_m.size()) &&
            (m.uvs.empty() || m.uvs.size() == m.vertices_m.size()) &&
+           (m.colors.empty() || m.colors.size() == m.vertices_m.size()) &&
            all_below(m.surface_of_triangle, m.surfaces.size()) &&
            std::all_of(m.triangles.begin(), m.triangles.end(),
                        [&](const auto& t) { return all_below(t, m.vertices_m.size()); }) &&
            std::all_of(m.surfaces.begin(), m.surfaces.end(), [&](const MeshSurface& s) {
-               return s.base_color_texture < static_cast<int>(m.textures.size());
+               return s.base_color_texture < static_cast<int>(m.textures.size()) && s.refractive_index >= 1 &&
+                      s.refractive_index <= 4 && s.opacity >= 0 && s.opacity <= 1 && s.transmission >= 0 &&
+                      s.transmission <= 1;
            });
 }
 
@@ -89,10 +104,12 @@ Mesh read_mesh(ConfinedResult& in) {
     m.vertices_m = in.list<Vec3f>();
     m.normals = in.list<Vec3f>();
     m.uvs = in.list<Vec2f>();
+    m.colors = in.list<Vec3f>();
     m.triangles = in.list<std::array<std::uint32_t, 3>>();
     m.surface_of_triangle = in.list<std::uint16_t>();
     for (auto left = in.value<std::size_t>(); left > 0; --left) m.surfaces.push_back(read_surface(in));
     for (auto left = in.value<std::size_t>(); left > 0; --left) m.textures.push_back(read_texture(in));
+    for (auto left = in.value<std::size_t>(); left > 0; --left) m.left_out.push_back(in.text());
     if (!is_whole(m)) in.refuse();
     return m;
 }

@@ -6,7 +6,8 @@
 // exactly degenerate triangles (a repeated corner) are dropped. Coordinates are taken as metres (a shape kernel has km), axes as the
 // file has them (glTF: +y up). Normals are those of the file; a mesh without any is shaded flat. Materials
 // give glTF metallic-roughness values or the nearest the format has; textures may be embedded or in files (named_files.h),
-// of which those that triangles have are read. The facets of an STL are flat: their corners' order is the normal.
+// of which those that triangles have are read. docs/materials.md lists what is taken of a file's looks; Mesh::left_out names the rest.
+// The facets of an STL are flat: their corners' order is the normal.
 
 #include <filesystem>
 #include <optional>

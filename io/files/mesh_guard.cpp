@@ -14,9 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-// assimp and we go down the tree of nodes by recursion.
-constexpr int kDeepestNode = 1000;
-
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
     throw InputError(name + ": " + what);
 }
@@ -34,7 +31,7 @@ class NodeCounter {
     NodeCounter(const json& nodes, const std::string& name)
         : nodes_(nodes), name_(name), seen_(nodes.size()) {}
 
-    std::uint64_t count_all(const json& list, int depth) {
+    std::uint64_t count_all(const json& list, std::uint32_t depth) {
         if (depth > kDeepestNode)
             refuse(name_, "its nodes lie deeper than " + std::to_string(kDeepestNode) + " levels");
         std::uint64_t count = 0;
@@ -58,7 +55,7 @@ class NodeCounter {
     const std::string& name_;
     std::vector<Seen> seen_;
 
-    std::uint64_t count_at(std::size_t i, int depth) {
+    std::uint64_t count_at(std::size_t i, std::uint32_t depth) {
         if (seen_[i].open) refuse(name_, "its node " + std::to_string(i) + " is a child of itself");
         if (seen_[i].count > 0) return seen_[i].count;
         seen_[i].open = true;
@@ -97,8 +94,7 @@ GlbChunks require_glb_chunks(std::string_view glb, const std::string& name) {
     return out;
 }
 
-void require_few_nodes(std::string_view gltf_json, const std::string& name) {
-    const json document = json::parse(gltf_json.begin(), gltf_json.end(), nullptr, false);
+void require_few_nodes(const json& document, const std::string& name) {
     if (!document.is_object() || !document.contains("nodes") || !document["nodes"].is_array() ||
         !document.contains("scenes") || !document["scenes"].is_array())
         return;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <span>
 #include <string>
@@ -19,6 +20,12 @@ inline constexpr std::size_t kMaxCorners = 10'000;
 inline constexpr std::uint64_t kMaxNodes = 200'000;
 // 120 bytes each in memory, before the tree of the ray tracer.
 inline constexpr std::uint64_t kMaxTriangles = 100'000'000;
+// The depth to which nodes may lie: their tree is gone down by recursion.
+inline constexpr std::uint32_t kDeepestNode = 1000;
+// All textures of a file together have at most so many: 3 GB of colours.
+inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 30;
+// Vertices, normals, places on textures, corners, and the same once more as a reader has them.
+inline constexpr std::uint64_t kBytesPerTriangle = 250;
 
 // The contents of a binary glTF: its parts lie in the file, or it is refused. `binary` is empty without that
 // chunk.
@@ -28,8 +35,8 @@ struct GlbChunks {
 };
 GlbChunks require_glb_chunks(std::string_view glb, const std::string& name);
 
-// The nodes of the scene, each as often as it is a child of another.
-void require_few_nodes(std::string_view gltf_json, const std::string& name);
+// The nodes of the scene of a glTF file, each as often as it is a child of another.
+void require_few_nodes(const nlohmann::json& gltf, const std::string& name);
 
 // Materials of an OBJ file and of those that it names, together.
 class ObjMaterials {

@@ -17,23 +17,22 @@
 #include <optional>
 #include <sstream>
 
-#include "io/files/gltf_webp.h"
+#include "io/files/gltf_import.h"
+#include "io/files/left_out.h"
 #include "io/files/mesh_guard.h"
+#include "io/files/node_names.h"
+#include "io/files/obj_maps.h"
 #include "io/files/obj_source.h"
 #include "io/files/ply_source.h"
 #include "io/files/stl_source.h"
 #include "io/pictures/picture_file.h"
 #include "io/system/confined.h"
+#include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
-
-// All textures of a file together have at most so many: 3 GB of colours.
-constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 30;
-// Vertices, normals, places on textures, corners, and the same once more as assimp has them.
-constexpr std::uint64_t kBytesPerTriangle = 250;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw InputError(file.string() + ": " + what);
@@ -44,16 +43,9 @@ struct Source {
     std::string path, bytes;
     ObjLibraries libraries = {};  // an OBJ has some
     std::vector<std::string> remarks = {};
-    bool is_flat = false;   // the corners' order is the normal
-    bool has_uris = false;  // names of files are URIs
+    bool is_flat = false;       // the corners' order is the normal
+    bool whole_colors = false;  // colours at corners are those of pictures
 };
-
-// Returns the names of a file that a mesh names by a URI: what it stands for, and the URI itself, as some writers have it.
-std::vector<FileName> names_of_uri(const FileName& uri) {
-    FileName name = uri;
-    name.name = without_percents(uri.name);
-    return name == uri ? std::vector{uri} : std::vector{name, uri};
-}
 
 class Loader {
   public:
@@ -62,25 +54,21 @@ class Loader {
            int part)
         : file_(files.mesh()), files_(files), source_(source), scene_(scene), nodes_(nodes), part_(part) {}
 
-    // Throws InputError when textures cannot be read, all of them in one line.
+    // Throws InputError when textures cannot be read.
     Mesh load() {
         MeshContents contents = load_contents();
-        const std::vector<std::string>& bad = contents.unreadable_textures;
-        if (bad.empty()) return std::move(contents.mesh);
-        if (bad.size() == 1) refuse(file_, bad.front());
-        std::string all;
-        for (const std::string& one : bad)
-            if (all.size() < 600) all += "; " + one;
-        refuse(file_,
-               std::to_string(bad.size()) + " textures cannot be read ('hilcam mesh' lists all)" + all);
+        require_textures(contents.unreadable_textures, file_);
+        return std::move(contents.mesh);
     }
 
     MeshContents load_contents() {
-        read_materials();
         count_normals_and_uvs();
+        read_materials();
         if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1, 0);
         if (mesh_.triangles.empty()) refuse_empty();
         read_textures();
+        name_the_rest();
+        mesh_.left_out = left_out_.lines();
         out_.mesh = std::move(mesh_);
         return std::move(out_);
     }
@@ -94,9 +82,11 @@ class Loader {
     int part_;
     Mesh mesh_;
     MeshContents out_;
-    std::map<FileName, int> texture_index_;
+    std::map<std::pair<FileName, bool>, int> texture_index_;  // by name, and whether its edges go on
     bool any_normals_ = false;
     bool any_uvs_ = false;
+    bool any_colors_ = false;
+    LeftOut left_out_;
     std::uint64_t texels_ = 0;
 
     // One part without normals or uvs must not take them from the others, so the missing ones are filled in.
@@ -104,7 +94,25 @@ class Loader {
         for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
             any_normals_ |= scene_.mMeshes[i]->HasNormals() && !source_.is_flat;
             any_uvs_ |= scene_.mMeshes[i]->HasTextureCoords(0);
+            any_colors_ |= has_colors(*scene_.mMeshes[i]);
         }
+    }
+
+    // White ones say nothing.
+    static bool has_colors(const aiMesh& part) {
+        if (!part.HasVertexColors(0)) return false;
+        return std::any_of(part.mColors[0], part.mColors[0] + part.mNumVertices,
+                           [](const aiColor4D& c) { return c.r != 1 || c.g != 1 || c.b != 1; });
+    }
+    // A colour at a corner as a factor, linear.
+    Vec3f color_of(const aiColor4D& c) const {
+        const auto factor = [this](float v) {
+            const float share = v >= 0 ? std::min(v, 1.0f) : 0.0f;
+            return source_.whole_colors
+                       ? linear_from_srgb(static_cast<std::uint8_t>(std::lround(255 * share)))
+                       : share;
+        };
+        return {factor(c.r), factor(c.g), factor(c.b)};
     }
 
     void read_materials() {
@@ -126,7 +134,47 @@ class Loader {
             surface.metallic = std::clamp(value, 0.0f, 1.0f);
         if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == AI_SUCCESS)
             surface.roughness = std::clamp(value, 0.0f, 1.0f);
+        // The grey that assimp has for what a file says nothing of would dim the colours that it does give.
+        if (any_colors_ && surface.name == AI_DEFAULT_MATERIAL_NAME) surface.base_color = {1, 1, 1};
+        read_opacity(material, surface);
         return surface;
+    }
+
+    // `d` and `Tr` of an OBJ. Many writers mean "opaque" by 0.
+    void read_opacity(const aiMaterial& material, MeshSurface& surface) {
+        ai_real value = 1;
+        if (material.Get(AI_MATKEY_OPACITY, value) != AI_SUCCESS || !(value < 1)) return;
+        if (value > 0) surface.opacity = value;
+    }
+
+    // Names what is left out of the surfaces that triangles have.
+    void name_the_rest() {
+        std::vector<bool> used(mesh_.surfaces.size());
+        for (const std::uint16_t surface : mesh_.surface_of_triangle) used[surface] = true;
+        for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
+            if (used[i]) name_the_rest(*scene_.mMaterials[i], mesh_.surfaces[i].name);
+    }
+    void name_the_rest(const aiMaterial& material, const std::string& name) {
+        ai_real opacity = 1;
+        if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity <= 0)
+            left_out_.add("dissolve 0, which is taken for opaque,", name);
+        aiColor3D emission;
+        if (material.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == AI_SUCCESS && !emission.IsBlack())
+            left_out_.add("emission", name);
+        constexpr std::array<std::pair<aiTextureType, const char*>, 6> kMaps = {
+            {{aiTextureType_EMISSIVE, "emission map"},
+             {aiTextureType_OPACITY, "opacity map"},
+             {aiTextureType_NORMALS, "normal map"},
+             {aiTextureType_HEIGHT, "bump map"},
+             {aiTextureType_SPECULAR, "specular map"},
+             {aiTextureType_DISPLACEMENT, "displacement map"}}};
+        for (const auto& [type, what] : kMaps)
+            if (material.GetTextureCount(type) > 0) left_out_.add(what, name);
+    }
+
+    ObjMap map_of(const std::string& material) const {
+        const auto found = source_.libraries.maps.find(material);
+        return found == source_.libraries.maps.end() ? ObjMap{} : found->second;
     }
 
     // Reads the textures of the surfaces that triangles have: libraries of materials have others, too.
@@ -149,13 +197,15 @@ class Loader {
         const auto& folders = source_.libraries.folder_of_material;
         if (const auto folder = folders.find(material); folder != folders.end())
             file.folders.push_back(folder->second);
-        const auto known = texture_index_.find(file);
+        const bool clamp = map_of(material).clamp;
+        const auto known = texture_index_.find({file, clamp});
         if (known != texture_index_.end()) return known->second;
         int index = -1;
         try {
             Texture texture =
                 decode(file, "texture " + in_quotes(name) + " of material " + in_quotes(material));
             texture.name = name;
+            if (clamp) texture.wrap = {TextureWrap::kClamp, TextureWrap::kClamp};
             texels_ += texture.texels.size();
             mesh_.textures.push_back(std::move(texture));
             index = static_cast<int>(mesh_.textures.size()) - 1;
@@ -164,16 +214,14 @@ class Loader {
         }
         if (texels_ > kMaxTexels)
             refuse(file_, "its textures have more than " + std::to_string(kMaxTexels) + " pixels together");
-        return texture_index_[file] = index;
+        return texture_index_[{file, clamp}] = index;
     }
 
     // `what` begins messages.
     Texture decode(const FileName& name, const std::string& what) const {
         const aiTexture* const embedded = scene_.GetEmbeddedTexture(name.name.c_str());
         if (!embedded) {
-            std::optional<std::filesystem::path> found;
-            for (const FileName& one : source_.has_uris ? names_of_uri(name) : std::vector{name})
-                if (!found) found = files_.find(one, what);
+            const auto found = files_.find(name, what);
             if (!found)
                 throw InputError(what + " is missing; expected at " +
                                  (file_.parent_path() / name.name).string());
@@ -192,20 +240,9 @@ class Loader {
         throw InputError(what + " is not compressed; accepted: " + picture_kind().accepted);
     }
 
-    // Returns which of the names takes a node, or -1.
-    int taken_by(const std::string& name) const {
-        for (std::size_t k = 0; k < nodes_.size(); ++k) {
-            const std::string& pattern = nodes_[k];
-            const bool open = !pattern.empty() && pattern.back() == '*';
-            if (open ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern)
-                return static_cast<int>(k);
-        }
-        return -1;
-    }
-
     // above: the part that a node further up belongs to.
     void read_node(const aiNode& node, const aiMatrix4x4& parent, int above, std::uint32_t depth) {
-        const int own = taken_by(node.mName.C_Str());
+        const int own = taken_by(nodes_, node.mName.C_Str());
         const int part = own >= 0 ? own : above;
         const aiMatrix4x4 body_from_node = parent * node.mTransformation;
         const std::size_t before = mesh_.triangles.size();
@@ -218,16 +255,12 @@ class Loader {
     }
 
     [[noreturn]] void refuse_empty() const {
-        if (part_ < 0)
-            refuse(file_, nodes_.empty() ? "holds no triangle; accepted: a mesh with at least one"
-                                         : "holds no triangle besides its parts");
-        std::string names;
-        list_names(*scene_.mRootNode, names);
-        refuse(file_, "no triangle under a node " + in_quotes(nodes_[static_cast<std::size_t>(part_)]) +
-                          "; its nodes:" + harmless(names));
+        std::vector<std::string> all;
+        list_names(*scene_.mRootNode, all);
+        refuse(file_, empty_part(nodes_, part_, all));
     }
-    static void list_names(const aiNode& node, std::string& names) {
-        if (names.size() < 400) names.append(" ").append(node.mName.C_Str());
+    static void list_names(const aiNode& node, std::vector<std::string>& names) {
+        names.emplace_back(node.mName.C_Str());
         for (unsigned i = 0; i < node.mNumChildren; ++i) list_names(*node.mChildren[i], names);
     }
 
@@ -238,6 +271,7 @@ class Loader {
         aiMatrix3x3 normal_matrix(body_from_part);
         const bool mirrored = normal_matrix.Determinant() < 0;
         normal_matrix.Inverse().Transpose();
+        const ObjMap map = map_of(scene_.mMaterials[part.mMaterialIndex]->GetName().C_Str());
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
             const aiVector3D p = body_from_part * part.mVertices[i];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
@@ -246,9 +280,14 @@ class Loader {
             mesh_.vertices_m.push_back({p.x, p.y, p.z});
             if (any_uvs_) {
                 const bool has = part.HasTextureCoords(0);
-                mesh_.uvs.push_back(has ? Vec2f{part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y}
-                                        : Vec2f{});
+                // These formats have v upwards from the picture's bottom.
+                const Vec2f uv =
+                    has ? map.of({part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y}) : Vec2f{};
+                mesh_.uvs.push_back(finite_or_zero({uv.x, 1 - uv.y}));
             }
+            if (any_colors_)
+                mesh_.colors.push_back(part.HasVertexColors(0) ? color_of(part.mColors[0][i])
+                                                               : Vec3f{1, 1, 1});
             if (any_normals_) {
                 const aiVector3D n =
                     part.HasNormals() ? normal_matrix * part.mNormals[i] : aiVector3D(0, 0, 0);
@@ -278,6 +317,10 @@ class Loader {
             mesh_.triangles.push_back(t);
             mesh_.surface_of_triangle.push_back(surface);
         }
+    }
+
+    static Vec2f finite_or_zero(Vec2f uv) {
+        return std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : Vec2f{};
     }
 
     // Counts a facet whose normal in the file is not that of its corners' order; one of 0 says nothing.
@@ -327,10 +370,8 @@ class MeshFiles final : public Assimp::IOSystem {
         if (file == source_.path) return stream_of(source_.bytes);
         if (path.filename() == kMaterials) return stream_of(source_.libraries.text);
         try {
-            const std::string uri = path.lexically_proximate(files_.mesh().parent_path()).string();
-            std::optional<std::filesystem::path> found;
-            for (const FileName& name : names_of_uri({uri, {}}))
-                if (!found) found = files_.find_for_mesh(name, in_quotes(name.name));
+            const std::string name = path.lexically_proximate(files_.mesh().parent_path()).string();
+            const auto found = files_.find_for_mesh({name, {}}, in_quotes(name));
             if (!found) return nullptr;
             beside_.push_back(read_input_file(*found, mesh_kind()));
             const std::string& text = beside_.back();
@@ -365,21 +406,12 @@ Source source_of(NamedFiles& files, const std::string& kind) {
         if (!source.libraries.text.empty())
             source.bytes.insert(0, std::string("mtllib ") + kMaterials + "\n");
     }
-    if (kind == ".ply") source.bytes = plain_ply(source.bytes, name);
+    if (kind == ".ply") {
+        source.bytes = plain_ply(source.bytes, name);
+        source.whole_colors = has_whole_colors(source.bytes);
+    }
     if (kind == ".stl") source.bytes = plain_stl(source.bytes, name, source.remarks);
     source.is_flat = kind == ".stl";
-    source.has_uris = kind == ".gltf" || kind == ".glb";
-    if (kind == ".gltf") require_few_nodes(source.bytes, name);
-    if (kind != ".glb") return source;
-    const GlbChunks chunks = require_glb_chunks(source.bytes, name);
-    require_few_nodes(chunks.json, name);
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(source.bytes.data());
-    if (!chunks.has_binary) {
-        // assimp takes the first buffer of a GLB for its binary chunk. Without one, the JSON is all there is.
-        source.path += ".gltf", source.bytes = std::string(chunks.json);
-    } else if (const auto changed = with_plain_webp_sources({bytes, source.bytes.size()})) {
-        source.bytes.assign(changed->begin(), changed->end());
-    }
     return source;
 }
 
@@ -426,9 +458,7 @@ void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     const std::string_view ending = std::string_view(kind).substr(1);
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         const aiImporterDesc& about = *importer.GetImporterInfo(i);
-        // The importer of glTF 1 and that of glTF 2 have the same endings.
-        const bool is_old = std::string_view(about.mName) == "glTF Importer";
-        if (has_word(about.mFileExtensions, ending) && !is_old) continue;
+        if (has_word(about.mFileExtensions, ending)) continue;
         const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
         importer.UnregisterLoader(other.get());
     }
@@ -452,7 +482,18 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, Name
     return *scene;
 }
 
+bool is_gltf(const std::string& kind) { return kind == ".glb" || kind == ".gltf"; }
+
 }  // namespace
+
+void require_textures(const std::vector<std::string>& bad, const std::filesystem::path& file) {
+    if (bad.empty()) return;
+    if (bad.size() == 1) refuse(file, bad.front());
+    std::string all;
+    for (const std::string& one : bad)
+        if (all.size() < 600) all += "; " + one;
+    refuse(file, std::to_string(bad.size()) + " textures cannot be read ('hilcam mesh' lists all)" + all);
+}
 
 const InputKind& mesh_kind() {
     static const InputKind kind{std::uintmax_t{4} << 30, "a mesh file, or what one names beside it"};
@@ -460,6 +501,7 @@ const InputKind& mesh_kind() {
 }
 
 MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind) {
+    if (is_gltf(kind)) return gltf_contents(files, kind);
     const Source source = source_of(files, kind);
     Assimp::Importer importer;
     MeshContents out = Loader(files, source, read_scene(importer, source, files), {}, -1).load_contents();
@@ -471,6 +513,7 @@ MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind) {
 
 std::vector<Mesh> import_mesh_parts(NamedFiles& files, const std::string& kind,
                                     std::span<const std::string> nodes) {
+    if (is_gltf(kind)) return gltf_parts(files, kind, nodes);
     const Source source = source_of(files, kind);
     Assimp::Importer importer;
     const aiScene& scene = read_scene(importer, source, files);

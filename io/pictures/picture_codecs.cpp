@@ -26,6 +26,12 @@ Texture blank_texture(std::uint64_t width, std::uint64_t height) {
     return texture;
 }
 
+std::vector<std::uint8_t> every_fourth(std::span<const std::uint8_t> samples) {
+    std::vector<std::uint8_t> out(samples.size() / 4);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = samples[4 * i + 3];
+    return out;
+}
+
 std::span<std::uint8_t> bytes_of(Texture& texture) {
     static_assert(sizeof(texture.texels[0]) == 3);
     return {reinterpret_cast<std::uint8_t*>(texture.texels.data()), 3 * texture.texels.size()};

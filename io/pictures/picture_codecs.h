@@ -11,7 +11,7 @@
 //   PPM   own            and PGM: in bytes or words, of any depth to 16 bits, cut to 8
 //   TGA   stb_image      colours, grey and palettes, also by run lengths
 //
-// An alpha channel is left out.
+// An alpha channel is left out, but for decode_png_alpha() and decode_webp_alpha().
 
 #include <cstdint>
 #include <span>
@@ -43,6 +43,8 @@ void require_few_pixels(std::uint64_t width, std::uint64_t height);
 Texture blank_texture(std::uint64_t width, std::uint64_t height);
 // Its memory as bytes: red, green, blue.
 std::span<std::uint8_t> bytes_of(Texture& texture);
+// The last of each four samples: alpha beside red, green and blue.
+std::vector<std::uint8_t> every_fourth(std::span<const std::uint8_t> samples);
 
 // All throw PictureFault. Any thread.
 Texture decode_png(PictureBytes bytes);
@@ -52,6 +54,9 @@ Texture decode_webp(PictureBytes bytes);
 Texture decode_bmp(PictureBytes bytes);
 Texture decode_pnm(PictureBytes bytes);
 Texture decode_tga(PictureBytes bytes);
+// The alpha channel alone, a byte for each pixel, rows from the top; 255 where a picture has none.
+std::vector<std::uint8_t> decode_png_alpha(PictureBytes bytes);
+std::vector<std::uint8_t> decode_webp_alpha(PictureBytes bytes);
 // A number for each pixel, of pictures of one channel: PNG and PGM to 16 bits, TIFF of 8 to 32 bits or of floats.
 PixelMap decode_png_numbers(PictureBytes bytes);
 PixelMap decode_tiff_numbers(PictureBytes bytes);

@@ -113,6 +113,19 @@ Texture decode_texture(std::span<const std::uint8_t> bytes, const std::string& w
     }
 }
 
+std::vector<std::uint8_t> decode_alpha(std::span<const std::uint8_t> bytes, const std::string& what) {
+    try {
+        const PictureKind kind = require_size(bytes);
+        std::vector<std::uint8_t> alpha;
+        if (kind == PictureKind::kPng) alpha = decode_png_alpha(bytes);
+        if (kind == PictureKind::kWebp) alpha = decode_webp_alpha(bytes);
+        const bool opaque = std::all_of(alpha.begin(), alpha.end(), [](std::uint8_t a) { return a == 255; });
+        return opaque ? std::vector<std::uint8_t>{} : alpha;
+    } catch (const PictureFault& fault) {
+        throw InputError(what + " " + fault.what());
+    }
+}
+
 Texture read_picture(const std::filesystem::path& file) {
     ConfinedResult result = confine(file, [&](const std::string& bytes, ConfinedOutput& out) {
         const Texture texture = decode_texture(bytes_of(bytes), file.string() + ":");

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/system/input_file.h"
 #include "render/vocabulary/mesh.h"
@@ -28,6 +29,8 @@ PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign);
 // Decodes here, without a child of its own: for what runs in one. `what` begins messages. The texture has no
 // name.
 Texture decode_texture(std::span<const std::uint8_t> bytes, const std::string& what);
+// The alpha channel of such a picture, a byte for each of its pixels; empty where it has none: PNG and WebP have them.
+std::vector<std::uint8_t> decode_alpha(std::span<const std::uint8_t> bytes, const std::string& what);
 // The same of a map of numbers, of any sign and finite or not. PictureFault of picture_codecs.h.
 PixelMap decode_numbers(std::span<const std::uint8_t> bytes);
 

@@ -95,6 +95,17 @@ class PngReader {
             png_read_update_info(png_, info_);
         }));
     }
+    // Any kind of samples comes as four of 8 bits, the last of them alpha.
+    void ask_for_alpha() {
+        require(guarded(png_, [this] {
+            png_set_strip_16(png_);
+            png_set_expand(png_);
+            png_set_gray_to_rgb(png_);
+            png_set_add_alpha(png_, 0xFF, PNG_FILLER_AFTER);
+            png_set_interlace_handling(png_);
+            png_read_update_info(png_, info_);
+        }));
+    }
     // Grey comes as 8 bits, or as 16 as the machine has them.
     void ask_for_numbers() {
         require(guarded(png_, [this] {
@@ -199,6 +210,17 @@ Texture decode_png(PictureBytes bytes) {
     std::vector<png_bytep> rows = rows_of(bytes_of(texture), reader.row_bytes(), reader.height());
     reader.read(rows);
     return texture;
+}
+
+std::vector<std::uint8_t> decode_png_alpha(PictureBytes bytes) {
+    PngReader reader(bytes);
+    reader.read_header();
+    require_few_pixels(reader.width(), reader.height());
+    reader.ask_for_alpha();
+    std::vector<std::uint8_t> samples(std::size_t{4} * reader.width() * reader.height());
+    std::vector<png_bytep> rows = rows_of(samples, reader.row_bytes(), reader.height());
+    reader.read(rows);
+    return every_fourth(samples);
 }
 
 PixelMap decode_png_numbers(PictureBytes bytes) {

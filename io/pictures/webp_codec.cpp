@@ -26,22 +26,46 @@ const char* reason_of(VP8StatusCode status) {
 
 }  // namespace
 
-Texture decode_webp(PictureBytes bytes) {
+namespace {
+
+// Has libwebp write rows of so many bytes a pixel into memory of ours, which `room` gives for a width and a height.
+template <class Room>
+void decode_into(PictureBytes bytes, WEBP_CSP_MODE mode, int pixel_bytes, const Room& room) {
     WebPDecoderConfig config;
     if (!WebPInitDecoderConfig(&config)) throw undecodable("libwebp: another version of it was expected");
     VP8StatusCode status = WebPGetFeatures(bytes.data(), bytes.size(), &config.input);
     if (status != VP8_STATUS_OK) throw undecodable(reason_of(status));
     if (config.input.has_animation) throw PictureFault("is an animation; accepted: one picture");
-    Texture texture = blank_texture(static_cast<std::uint64_t>(config.input.width),
-                                    static_cast<std::uint64_t>(config.input.height));
-    config.output.colorspace = MODE_RGB;
+    const std::span<std::uint8_t> out =
+        room(static_cast<std::uint64_t>(config.input.width), static_cast<std::uint64_t>(config.input.height));
+    config.output.colorspace = mode;
     config.output.is_external_memory = 1;
-    config.output.u.RGBA = {bytes_of(texture).data(), 3 * texture.width, bytes_of(texture).size()};
+    config.output.u.RGBA = {out.data(), pixel_bytes * config.input.width, out.size()};
     status = WebPDecode(bytes.data(), bytes.size(), &config);
     WebPFreeDecBuffer(&config.output);
     if (status == VP8_STATUS_OUT_OF_MEMORY) throw std::bad_alloc();
     if (status != VP8_STATUS_OK) throw undecodable(reason_of(status));
+}
+
+}  // namespace
+
+Texture decode_webp(PictureBytes bytes) {
+    Texture texture;
+    decode_into(bytes, MODE_RGB, 3, [&](std::uint64_t width, std::uint64_t height) {
+        texture = blank_texture(width, height);
+        return bytes_of(texture);
+    });
     return texture;
+}
+
+std::vector<std::uint8_t> decode_webp_alpha(PictureBytes bytes) {
+    std::vector<std::uint8_t> samples;
+    decode_into(bytes, MODE_RGBA, 4, [&](std::uint64_t width, std::uint64_t height) {
+        require_few_pixels(width, height);
+        samples.resize(4 * width * height);
+        return std::span(samples);
+    });
+    return every_fourth(samples);
 }
 
 }  // namespace hilcam

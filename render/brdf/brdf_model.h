@@ -89,7 +89,7 @@ template <class Model>
 struct BrdfModel {
     static constexpr bool kHasFacets = false;      // FacetModel has them
     static constexpr bool kHasBody = true;         // light goes in all directions even where alpha is 0
-    static constexpr bool kTransmits = false;      // a sheet: mirrored() and passed(), and nothing else
+    static constexpr bool kTransmits = false;      // a sheet: mirrored() and passed(), and of a body value()
     static constexpr bool kTakesTable = false;     // key `table` goes with it
     static constexpr bool kAlbedoIsBound = false;  // albedo() is far above what it reflects
 

@@ -17,11 +17,13 @@
 #include "render/brdf/mirror.h"
 #include "render/brdf/oren_nayar.h"
 #include "render/brdf/phong.h"
+#include "render/brdf/veil.h"
 
 namespace hilcam {
 
-using Brdf = std::variant<brdf::Lambert, brdf::Metal, brdf::Dielectric, brdf::Mirror, brdf::Glass,
-                          brdf::OrenNayar, brdf::Phong, brdf::LommelSeeliger, brdf::Hapke, brdf::Measured>;
+using Brdf =
+    std::variant<brdf::Lambert, brdf::Metal, brdf::Dielectric, brdf::Mirror, brdf::Glass, brdf::OrenNayar,
+                 brdf::Phong, brdf::LommelSeeliger, brdf::Hapke, brdf::Measured, brdf::Veil>;
 
 // --- what follows from the list
 

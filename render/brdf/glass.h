@@ -11,6 +11,7 @@ struct Glass : BrdfModel<Glass> {
     static constexpr std::string_view kName = "glass";
     static constexpr std::array<std::string_view, 1> kSharedKeys{"refractive_index"};
     static constexpr bool kTransmits = true;
+    static constexpr bool kHasBody = false;
 
     struct Keys {
         Curve transmittance = Curve::constant(1);

@@ -42,7 +42,7 @@ KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, c
         other.ggx_alpha = std::max(material.ggx_alpha, min_alpha);
         wide.emplace_back(other);
         const bool is_mirror =
-            material.has_facets() && material.ggx_alpha < kNarrowestKept && material.texture < 0;
+            material.has_facets() && material.ggx_alpha < kNarrowestKept && !material.varies();
         throws.push_back(is_mirror ? largest(own.back().lobe(0.5f)) : 0.0f);
     }
     mirrors = find_flat_mirrors(mesh, surfaces, throws);
@@ -66,7 +66,7 @@ KeptLight::KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedo
 
     const std::vector<LightNode>& nodes = table_->nodes().nodes();
     const bool textured =
-        std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.texture >= 0; });
+        std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.varies(); });
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const Material& material = *materials_[nodes[n].surface];
         Spectrum lobe = albedos_->own[nodes[n].surface].white_lobe(),
@@ -74,7 +74,7 @@ KeptLight::KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedo
         if (textured) {
             colors_.push_back(Spectrum{});
             colors_.back().bin.fill(1);
-            if (material.texture >= 0) colors_.back() = bands.spectrum(nodes[n].color);
+            if (material.varies()) colors_.back() = bands.spectrum(nodes[n].color);
             base = base * colors_.back();
         }
         lobe = facet_color(n, lobe);

@@ -18,10 +18,10 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own) {
     for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : 1.0f;
     return out;
 }
-// Returns the ratio of the texture's spectrum to the material's own there: of its facets, where they have colours of their
+// Returns the ratio of the place's spectrum to the material's own there: of its facets, where they have colours of their
 // own, and of all the rest.
 Spectrum facet_tint(const Scatterer& at) { return ratio(at.highlight, at.material->highlight); }
-bool has_own_colors(const Scatterer& at) { return at.material->texture >= 0 && at.material->is_bare(); }
+bool has_own_colors(const Scatterer& at) { return at.material->varies() && at.material->is_bare(); }
 bool is_tinted(const Scatterer& at) { return at.base.bin != at.material->base.bin; }
 Spectrum base_tint(const Scatterer& at) { return ratio(at.base, at.material->base); }
 

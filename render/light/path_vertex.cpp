@@ -130,8 +130,7 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.surface_number = triangle.surface;
     set_material(material, alpha_least, vertex);
     if (!object.corner_colors.empty())
-        vertex.surface.base =
-            vertex.surface.base * frame.bands->spectrum(object.color_at(hits.triangle[k], u, v));
+        paint(frame.bands->spectrum(object.color_at(hits.triangle[k], u, v)), vertex);
     if (!object.corner_hapke.empty()) vertex.surface.hapke = object.hapke_at(hits.triangle[k], u, v);
 }
 

@@ -299,8 +299,8 @@ void PrimaryVertices::mix_colors(std::size_t k, float share, Vertex& vertex) con
     const Spectrum base = surface.base, highlight = surface.highlight;
     surface.base = surface.material->base, surface.highlight = surface.material->highlight;
     if (!object.corner_colors.empty())
-        surface.base = surface.base * tile_.frame.bands->spectrum(
-                                          object.color_at(hits_.triangle[k], hits_.u[k], hits_.v[k]));
+        paint(tile_.frame.bands->spectrum(object.color_at(hits_.triangle[k], hits_.u[k], hits_.v[k])),
+              vertex);
     if (textured) paint(texture_of(k, vertex), vertex);
     surface.base = (1 - share) * base + share * surface.base;
     surface.highlight = (1 - share) * highlight + share * surface.highlight;

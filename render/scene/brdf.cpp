@@ -36,6 +36,7 @@ float density_of(const Model& model, const Scatterer& at, Cosines c, float top) 
 
 float brdf_density(const Scatterer& at, Cosines c) {
     if (!(c.no > 0 && c.ni > 0) || !at.has_lobes()) return 0;
+    if (at.is_glass()) return 0;
     return std::visit(
         [&](const auto& model) { return density_of(model, at, c, model.highlight_chance(at, c.no)); },
         at.material->brdf);
@@ -64,7 +65,7 @@ BrdfSample sample_sheet(const Scatterer& at, Vec3f normal, Vec3f view_dir, float
     const float chance = std::visit(
         [&](const auto& model) {
             const float back = largest(model.mirrored(at, no)), through = largest(model.passed(at, no));
-            return back / (back + through);
+            return back > 0 ? back / (back + through) : 0.0f;
         },
         at.material->brdf);
     const int part = u < chance ? 0 : 1;

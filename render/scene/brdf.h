@@ -28,7 +28,9 @@ struct Scatterer : SurfaceLook {
     // Some light goes in exactly one direction, which no lamp is met in by chance.
     bool has_exact() const { return is_glass() || (alpha == 0 && material->has_facets()); }
     // Some light goes in all directions.
-    bool has_lobes() const { return !is_glass() && !(alpha == 0 && material->is_bare()); }
+    bool has_lobes() const {
+        return is_glass() ? material->traits().has_body : !(alpha == 0 && material->is_bare());
+    }
 };
 
 struct BrdfSample {
@@ -46,7 +48,7 @@ Spectrum brdf_value(const Scatterer& at, Cosines c);
 // Returns how much a material's facets reflect; null: it has none.
 const LobeAlbedo* facets_of(const Material& material);
 
-// Density of sample() for a direction, exact parts left out.
+// Density of sample() for a direction, exact parts left out. None is drawn in a veil's body, so that what lies behind is seen without noise.
 float brdf_density(const Scatterer& at, Cosines c);
 // A direction in proportion to f cos, about. u: three uniform numbers.
 BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u);

@@ -35,17 +35,32 @@ Spectrum ColorBands::spectrum(Vec3f rgb) const {
 
 namespace {
 
+// The two texels about a place along one side of a picture, and the share of the second.
+struct TexelPair {
+    int first, second;
+    float share;
+};
+
+TexelPair texels_about(float at, int size, TextureWrap wrap) {
+    if (wrap == TextureWrap::kRepeat) {
+        const float x = (at - std::floor(at)) * static_cast<float>(size) - 0.5f;
+        const auto wrapped = [size](float value) {
+            const int i = static_cast<int>(value);
+            return i < 0 ? i + size : (i >= size ? i - size : i);
+        };
+        return {wrapped(std::floor(x)), wrapped(std::floor(x) + 1), x - std::floor(x)};
+    }
+    // There and back is one period of a mirrored picture.
+    const float there =
+        wrap == TextureWrap::kClamp ? std::clamp(at, 0.0f, 1.0f) : at - 2 * std::floor(at / 2);
+    const float x = (there > 1 ? 2 - there : there) * static_cast<float>(size) - 0.5f;
+    const auto within = [size](float value) { return std::clamp(static_cast<int>(value), 0, size - 1); };
+    return {within(std::floor(x)), within(std::floor(x) + 1), x - std::floor(x)};
+}
+
 Vec3f bilinear(const Texture& texture, float u, float v) {
-    const float x = (u - std::floor(u)) * static_cast<float>(texture.width) - 0.5f;
-    const float y = (v - std::floor(v)) * static_cast<float>(texture.height) - 0.5f;
-    const float fx = x - std::floor(x);
-    const float fy = y - std::floor(y);
-    const auto wrap = [](float value, int size) {
-        const int i = static_cast<int>(value);
-        return i < 0 ? i + size : (i >= size ? i - size : i);
-    };
-    const int x0 = wrap(std::floor(x), texture.width), x1 = wrap(std::floor(x) + 1, texture.width);
-    const int y0 = wrap(std::floor(y), texture.height), y1 = wrap(std::floor(y) + 1, texture.height);
+    const auto [x0, x1, fx] = texels_about(u, texture.width, texture.wrap[0]);
+    const auto [y0, y1, fy] = texels_about(v, texture.height, texture.wrap[1]);
     const auto texel = [&](int column, int row) {
         const auto& t =
             texture.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) +
@@ -68,6 +83,7 @@ std::uint8_t srgb_from_linear(float value) {
 // Half as large, at least one texel; an odd last row or column joins its neighbour.
 Texture halved(const Texture& t) {
     Texture out;
+    out.wrap = t.wrap;
     out.width = std::max(1, t.width / 2), out.height = std::max(1, t.height / 2);
     out.texels.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
     const auto range = [](int i, int from, int to) {

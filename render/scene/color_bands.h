@@ -41,8 +41,8 @@ class MipTexture {
     int width() const { return levels_.front().width; }
     int height() const { return levels_.front().height; }
     // Linear RGB, 0..1, averaged over about `footprint` (share of the picture's width that is asked for; 0:
-    // none). Bilinear in a level and linear from half of the way to the next on, wrapping around in both directions; (0, 0) is the
-    // outer corner of texel (0, 0).
+    // none). Bilinear in a level and linear from half of the way to the next on, going on beyond its edges as the
+    // picture says; (0, 0) is the outer corner of texel (0, 0).
     Vec3f sample(float u, float v, float footprint) const;
     // Returns the mean of all texels, weighted by `row_weight(v)`, v of the row's middle.
     Vec3f mean(const std::function<double(double)>& row_weight) const;

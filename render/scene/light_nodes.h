@@ -48,7 +48,8 @@ struct LightNode {
     std::uint32_t mean_normal = 0;                 // mean normal of the points, packed
     std::uint16_t surface = 0;
     std::uint16_t unused = 0;
-    Vec3f color{1, 1, 1};  // colour of the texture about there, linear RGB; 1 without
+    Vec3f color{1, 1,
+                1};  // colour of the texture and of the mesh's corners about there, linear RGB; 1 without
 };
 
 // The shares of what a place just above a surface sees that are further away than each of two distances. Any thread.

@@ -108,12 +108,37 @@ Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
     return m;
 }
 
+namespace {
+
+Material clear_sheet(const MeshSurface& surface, const SpectralGrid& grid) {
+    MaterialConfig sheet;
+    sheet.model = kModel<brdf::Glass>;
+    sheet.refractive_index = static_cast<double>(surface.refractive_index);
+    sheet.transmittance = Curve::constant(static_cast<double>(surface.transmission));
+    return make_material(sheet, grid);
+}
+
+Material veil_of(const MeshSurface& surface, const Curve& color, const SpectralGrid& grid) {
+    MaterialConfig veil;
+    veil.model = kModel<brdf::Veil>;
+    veil.reflectance = Curve::constant(1);
+    veil.cover = static_cast<double>(surface.opacity);
+    Material out = make_material(veil, grid);
+    out.base = out.base * grid.average(color);
+    out.texture = surface.base_color_texture;
+    return out;
+}
+
+}  // namespace
+
 Material make_material(const MeshSurface& surface, const SpectralGrid& grid) {
+    if (surface.transmission >= 0.5f) return clear_sheet(surface, grid);
     // Three broad bands with 20 nm ramps between them.
     const Curve color{{0.48, 0.50, 0.57, 0.59},
                       {static_cast<double>(surface.base_color.z), static_cast<double>(surface.base_color.y),
                        static_cast<double>(surface.base_color.y), static_cast<double>(surface.base_color.x)},
                       {}};
+    if (surface.opacity < 1) return veil_of(surface, color, grid);
     // glTF 2.0, appendix B, blends both looks; here the greater share decides, and a half metal is a darker
     // one.
     const float metallic = std::clamp(surface.metallic, 0.0f, 1.0f);
@@ -129,8 +154,7 @@ Material make_material(const MeshSurface& surface, const SpectralGrid& grid) {
         m.brdf = metal;
         return m;
     }
-    // Dielectrics reflect 4 % at normal incidence there: refractive index 1.5.
-    const brdf::Dielectric dielectric(m.ggx_alpha, 1.5f);
+    const brdf::Dielectric dielectric(m.ggx_alpha, surface.refractive_index);
     m.highlight = dielectric.normal_incidence();
     m.brdf = dielectric;
     m.base = grid.average(color);

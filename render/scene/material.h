@@ -36,7 +36,9 @@ struct Material {
     float ggx_alpha = 0;       // 0: an exact mirror on top
     Spectrum emission;         // radiance of its own [W m^-2 sr^-1 um^-1]
     int texture = -1;  // into the object's textures; scales base, and the highlight where there is no body
+    bool colored = false;  // the mesh has colours at its corners, which scale the same
 
+    bool varies() const { return texture >= 0 || colored; }
     const BrdfTraits& traits() const { return kBrdfTraits[brdf.index()]; }
     bool has_facets() const { return traits().has_facets; }
     bool transmits() const { return traits().transmits; }

@@ -132,11 +132,17 @@ void NodeMaker::add(LightNode& node, std::size_t i, const CellPoint& candidate, 
 }
 
 Vec3f NodeMaker::color(const TriangleSpread& spread, Vec3f w, std::uint16_t surface) const {
+    Vec3f own{1, 1, 1};
+    if (!mesh_.colors.empty()) {
+        const auto at = [&](std::size_t i) { return mesh_.colors[spread.corner[i].vertex]; };
+        own = w.x * at(0) + w.y * at(1) + w.z * at(2);
+    }
     const int texture = mesh_.surfaces[surface].base_color_texture;
-    if (texture < 0 || mesh_.uvs.empty()) return {1, 1, 1};
+    if (texture < 0 || mesh_.uvs.empty()) return own;
     const auto uv = [&](std::size_t i) { return mesh_.uvs[spread.corner[i].vertex]; };
-    return pictures_[static_cast<std::size_t>(texture)].sample(
+    const Vec3f painted = pictures_[static_cast<std::size_t>(texture)].sample(
         w.x * uv(0).x + w.y * uv(1).x + w.z * uv(2).x, w.x * uv(0).y + w.y * uv(1).y + w.z * uv(2).y, 0);
+    return {own.x * painted.x, own.y * painted.y, own.z * painted.z};
 }
 
 }  // namespace hilcam

@@ -81,6 +81,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
                                                            [](const Material& m) { return m.texture >= 0; });
     if (!textured)
         for (Material& material : materials) material.texture = -1;
+    for (Material& material : materials) material.colored = !mesh.colors.empty();
     triangles.reserve(mesh.triangles.size());
     if (textured) {
         corner_uvs.resize(mesh.triangles.size());

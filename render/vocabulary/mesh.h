@@ -11,13 +11,18 @@
 
 namespace hilcam {
 
-// 8-bit sRGB-encoded (IEC 61966-2-1) colour picture, rows downwards from v = 1 (u right, v up as in glTF
-// after the loader's flip: row 0 is v = 0 in the mesh's own uv). Wraps around in both directions.
+// The way in which a picture goes on beyond its edge (glTF 2.0, section 5.26: wrapS and wrapT): it begins anew, its last
+// texels go on, or it comes back as in a mirror.
+enum class TextureWrap : std::uint8_t { kRepeat, kClamp, kMirror };
+
+// 8-bit sRGB-encoded (IEC 61966-2-1) colour picture, rows from the top. A mesh's places on it begin at the outer corner of the
+// top left texel, u to the right and v downwards, as in glTF.
 struct Texture {
     std::string name;
     int width = 0;
     int height = 0;
     std::vector<std::array<std::uint8_t, 3>> texels;
+    std::array<TextureWrap, 2> wrap{TextureWrap::kRepeat, TextureWrap::kRepeat};  // along u, along v
 };
 
 // The look that the mesh file itself gives a surface (glTF metallic-roughness terms); the scenario may
@@ -28,6 +33,9 @@ struct MeshSurface {
     float metallic = 0;                  // 0 dielectric .. 1 metal
     float roughness = 1;                 // perceptual; GGX alpha is its square
     int base_color_texture = -1;         // index into Mesh::textures; multiplies base_color
+    float refractive_index = 1.5f;       // index of a dielectric's clear layer: 1.5 reflects 4 % (glTF 2.0)
+    float opacity = 1;                   // share of it that is no hole; below 1 it is a veil
+    float transmission = 0;              // share that goes through; from one half on it is a sheet of glass
 };
 
 struct Mesh {
@@ -40,6 +48,8 @@ struct Mesh {
     std::vector<std::uint16_t> surface_of_triangle;  // index into surfaces
     std::vector<MeshSurface> surfaces;
     std::vector<Texture> textures;
+    // Looks of the file that are not in here, each the rest of a sentence: "emission of 'lamp': not used".
+    std::vector<std::string> left_out;
 };
 
 // The area of a triangle [m^2] along its normal; corners counterclockwise where it is seen from.

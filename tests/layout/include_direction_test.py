@@ -28,7 +28,8 @@ GDAL_FILES = {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_plac
               "io/maps/gdal_raster.cpp"}
 ONLY_IN = {
     "embree": {"render/levels/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
-    "meshoptimizer": {"render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
+    "meshoptimizer": {"io/files/gltf_meshopt.cpp", "render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
+    "draco": {"io/files/gltf_draco.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
     "pugixml": {"io/files/ndm_xml.cpp"},

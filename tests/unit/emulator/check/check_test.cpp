@@ -222,6 +222,19 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
                       "surfaces: 'DefaultMaterial'")));
 }
 
+TEST_F(CheckScenario, LooksOfAMeshThatAreNotTakenAreSaidOnce) {
+    write("lamp.mtl", "newmtl lamp\nKd 1 1 1\nKe 9 9 9\n");
+    const std::string mesh =
+        write("lamp.obj",
+              "mtllib lamp.mtl\nusemtl lamp\nv -0.05 -0.05 0\nv 0.05 -0.05 0\nv 0.05 0.05 0\nv -0.05 0.05 0\n"
+              "f 1 3 2\nf 1 4 3\n")
+            .string();
+    EXPECT_THAT(warnings({"objects=[{name: a, mesh: " + mesh +
+                          ", pose: {position_m: [0, 0, 4]}}, {name: b, mesh: " + mesh +
+                          ", pose: {position_m: [0.1, 0, 4]}}]"}),
+                ElementsAre(HasSubstr("object 'a' and 1 more: emission of 'lamp': not used")));
+}
+
 TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {
     EXPECT_THAT(
         warnings({"earth.visible=true"}),

@@ -50,6 +50,12 @@ TEST_F(MeshSurveyTest, ACubeIsWhatItIs) {
     EXPECT_THAT(to_text(s), HasSubstr("'box'"));
 }
 
+TEST_F(MeshSurveyTest, LooksThatAreNotTakenAreNamed) {
+    write("lamp.mtl", "newmtl lamp\nKd 1 1 1\nKe 5 5 5\n");
+    EXPECT_THAT(problems(std::string("mtllib lamp.mtl\n") + kCorners + "usemtl lamp\n" + kFaces + kLast),
+                ElementsAre("emission of 'lamp': not used"));
+}
+
 TEST_F(MeshSurveyTest, ASurfaceThatNothingHasIsNotListed) {
     // The importer adds a 'DefaultMaterial' to each OBJ.
     write("gold.mtl", "newmtl gold\n");

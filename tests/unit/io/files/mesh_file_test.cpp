@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "io/files/gltf_webp.h"
 #include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
@@ -160,12 +159,6 @@ TEST_F(Files, ATexturesNameAndItsDecoderPrintNothing) {
     const std::string error = mesh_error(mesh);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_THAT(error, HasSubstr("does not decode (libpng"));
-}
-
-TEST_F(Files, WebpExtensionIsMovedAndBrokenLengthsAreLeftAlone) {
-    EXPECT_FALSE(with_plain_webp_sources({}));
-    std::vector<std::uint8_t> bytes(20, 0xFF);
-    EXPECT_FALSE(with_plain_webp_sources(bytes));
 }
 
 TEST_F(Files, IssLoadsWithItsTextures) {

@@ -60,7 +60,8 @@ std::vector<NamedMaterial> white_materials() {
 
 TEST(Brdf, EveryModelIsHeldToTheseTests) {
     // Those without lobes, and the one that is as good as its data.
-    std::set<std::size_t> tested = {kModel<brdf::Mirror>, kModel<brdf::Glass>, kModel<brdf::Measured>};
+    std::set<std::size_t> tested = {kModel<brdf::Mirror>, kModel<brdf::Glass>, kModel<brdf::Veil>,
+                                    kModel<brdf::Measured>};
     for (const NamedMaterial& named : white_materials()) tested.insert(named.config.model);
     for (std::size_t i = 0; i < BrdfModels::kCount; ++i)
         EXPECT_EQ(tested.count(i), 1u) << BrdfModels::kNames[i];
@@ -229,6 +230,24 @@ TEST(Brdf, GlassKeepsWhatItDoesNotAbsorb) {
     }
     // Two surfaces of 4 %, inner reflections added: T = (1-R)/(1+R).
     EXPECT_NEAR(brdf_exact(scatterer(clear), kUp, kUp, 1).weight[0], 0.96 / 1.04, 1e-5);
+}
+
+// What a veil covers scatters as Lambert's law has it; what it leaves open goes on, and that alone is drawn.
+TEST(Brdf, AVeilScattersWhatItCovers) {
+    MaterialConfig veil = model(kModel<brdf::Veil>, 0.8);
+    veil.cover = 0.2;
+    const Material net = make_material(veil, kGrid);
+    const Scatterer at = scatterer(net);
+    EXPECT_TRUE(at.is_glass() && at.has_lobes());
+    EXPECT_NEAR(brdf_exact(at, kUp, direction(0.3, 0), 1).weight[0], 0.8, 1e-6);
+    EXPECT_EQ(largest(brdf_exact(at, kUp, direction(0.3, 0), 0).weight), 0);
+    EXPECT_NEAR(brdf_value(at, {0.3f, 0.6f, 0.1f})[0], 0.8 * 0.2 / kPi, 1e-6);
+    EXPECT_EQ(brdf_density(at, {0.3f, 0.6f, 0.1f}), 0);
+    for (const float u : {0.0f, 0.3f, 0.9f}) {
+        const BrdfSample sample = brdf_sample(at, kUp, direction(0.5, 0), {u, u, u});
+        EXPECT_TRUE(sample.valid && sample.exact && sample.transmits);
+        EXPECT_NEAR(sample.weight[0], 0.8, 1e-6);
+    }
 }
 
 // Chandrasekhar's H (Radiative Transfer, 1960, chapter V), worked out anew from its integral equation by 200 Gaussian points:
