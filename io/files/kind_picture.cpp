@@ -69,14 +69,14 @@ class Channel {
     }
 };
 
-Kind look_of(const KindSource& s, float metallic, float roughness) {
+LookKind look_of(const KindSource& s, float metallic, float roughness) {
     return {std::clamp(s.metallic_factor * metallic / 255, 0.0f, 1.0f),
             std::clamp(s.roughness_factor * roughness / 255, 0.0f, 1.0f)};
 }
 
-bool is_metal(const Kind& k) { return k.metallic >= 0.5f; }
+bool is_metal(const LookKind& k) { return k.metallic >= 0.5f; }
 
-std::size_t nearest(std::span<const Kind> kinds, const Kind& look) {
+std::size_t nearest(std::span<const LookKind> kinds, const LookKind& look) {
     std::size_t best = 0;
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < kinds.size(); ++i) {
@@ -90,10 +90,10 @@ std::size_t nearest(std::span<const Kind> kinds, const Kind& look) {
 // Tells the kind of each pair of values, rounded.
 class KindTable {
   public:
-    KindTable(const KindSource& source, std::span<const Kind> kinds) {
+    KindTable(const KindSource& source, std::span<const LookKind> kinds) {
         for (int metallic = 0; metallic < 256; ++metallic)
             for (int roughness = 0; roughness < 256; ++roughness) {
-                const Kind look =
+                const LookKind look =
                     look_of(source, static_cast<float>(metallic), static_cast<float>(roughness));
                 kinds_.push_back(static_cast<std::uint8_t>(1 + (kinds.empty() ? 0 : nearest(kinds, look))));
             }
@@ -132,7 +132,7 @@ std::uint8_t KindPicture::at(std::int64_t x, std::int64_t y) const {
                  static_cast<std::size_t>(wrapped(x, width, wrap[0]))];
 }
 
-std::vector<Kind> kinds_of(const KindSource& s) {
+std::vector<LookKind> kinds_of(const KindSource& s) {
     if (s.metallic.empty() || s.metallic.values.size() != s.roughness.values.size()) return {};
     struct Sum {
         double metallic = 0, roughness = 0;
@@ -140,7 +140,7 @@ std::vector<Kind> kinds_of(const KindSource& s) {
     };
     std::array<Sum, 2 * kBands> sums{};
     for (std::size_t i = 0; i < s.metallic.values.size(); ++i) {
-        const Kind look = look_of(s, s.metallic.values[i], s.roughness.values[i]);
+        const LookKind look = look_of(s, s.metallic.values[i], s.roughness.values[i]);
         const int band = std::min(kBands - 1, static_cast<int>(look.roughness * kBands));
         Sum& sum = sums[static_cast<std::size_t>(band + (is_metal(look) ? kBands : 0))];
         sum.metallic += static_cast<double>(look.metallic),
@@ -148,7 +148,7 @@ std::vector<Kind> kinds_of(const KindSource& s) {
         ++sum.count;
     }
     std::sort(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) { return a.count > b.count; });
-    std::vector<Kind> out;
+    std::vector<LookKind> out;
     for (const Sum& sum : sums)
         if (sum.count > 0)
             out.push_back({static_cast<float>(sum.metallic / static_cast<double>(sum.count)),
@@ -156,7 +156,7 @@ std::vector<Kind> kinds_of(const KindSource& s) {
     return out;
 }
 
-KindPicture kind_picture(const KindSource& s, const std::vector<Kind>& kinds, int halvings) {
+KindPicture kind_picture(const KindSource& s, const std::vector<LookKind>& kinds, int halvings) {
     KindPicture out;
     out.width = std::max({1, s.alpha.width, s.metallic.width});
     out.height = std::max({1, s.alpha.height, s.metallic.height});

@@ -40,7 +40,7 @@ struct KindSource {
 };
 
 // The kinds that a source has. Kind 0 is where nothing is; it may not occur.
-struct Kind {
+struct LookKind {
     float metallic = 0, roughness = 1;
 };
 struct KindPicture {
@@ -53,9 +53,9 @@ struct KindPicture {
 
 // Returns the looks of the kinds from 1 on: metal and paint, each in up to four bands of roughness with the mean that occurs in it,
 // the one that covers most first. Nothing without channels of metal and roughness.
-std::vector<Kind> kinds_of(const KindSource& source);
+std::vector<LookKind> kinds_of(const KindSource& source);
 // Returns the kinds place by place. halvings: how often the picture is to be half as wide and high as it could be. A look that is
 // none of `kinds` is the nearest of them; without any, all there is is kind 1.
-KindPicture kind_picture(const KindSource& source, const std::vector<Kind>& kinds, int halvings);
+KindPicture kind_picture(const KindSource& source, const std::vector<LookKind>& kinds, int halvings);
 
 }  // namespace hilcam

@@ -17,7 +17,7 @@ struct SurfaceCut {
     std::uint16_t surface = 0;                  // surface of the mesh that is cut, by its uvs
     std::vector<std::int32_t> surface_of_kind;  // or kNothing
     KindSource source;
-    std::vector<Kind> kinds;
+    std::vector<LookKind> kinds;
 };
 
 // Cuts the triangles of these surfaces into at most so many more than there are; where the pictures' borders would make more, they are taken

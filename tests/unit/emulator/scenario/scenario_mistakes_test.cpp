@@ -271,7 +271,7 @@ const Mistake kMistakes[] = {
      "0, 0]}]}",
      "23:13", "motion of 'plate': keyframes: times do not rise at number 2"},
     {"NoTle", 23, "    motion: {kind: tle, tle: {file: none.tle}}", "23:13",
-     "no such file; accepted: a file of two-line element sets"},
+     "no such file; accepted: a file of element sets (TLE or OMM)"},
     {"CatalogueOfAnotherKind", 24, "stars: {catalogue: table.csv}", "24:20",
      "found 'a,b'; accepted: the names of the columns"},
     {"SeedByWord", 24, "seed: random", "24:7", "seed: found 'random'; accepted: a whole number, 0 to 9e+15"},

@@ -147,6 +147,16 @@ TEST_F(CcsdsDialects, ARepeatedEpochPartsItsSegment) {
     EXPECT_THAT(refusal_of_oem(nothing), HasSubstr("has no two epochs that differ"));
 }
 
+TEST_F(CcsdsDialects, WhatLooksLikePlainTextAndIsNotIsNamed) {
+    EXPECT_THAT(refusal_of_oem("\xFF\xFE" + kOem), HasSubstr("t.oem: is UTF-16; accepted: UTF-8 or ASCII"));
+    EXPECT_THAT(refusal_of_oem(with(kOem, "7001 450",
+                                    "7001\xC2\xA0"
+                                    "450")),
+                HasSubstr("which has U+00A0, a non-breaking blank; accepted: a number, with plain blanks"));
+    // In a name it is a character as any other.
+    EXPECT_EQ(read_oem(with(kOem, "= SAT", "= S\xC2\xA0T"), "t.oem").size(), 1u);
+}
+
 // Short segments have the degree that their states allow, and say so.
 TEST_F(CcsdsDialects, ADegreeOfMoreStatesThanThereAreIsLowered) {
     for (const auto& [method, given, degree] : std::vector<std::tuple<std::string, std::string, int>>{
