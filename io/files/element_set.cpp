@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMaxBytes = 128u << 20;
+constexpr std::uintmax_t kMaxFileBytes = 128u << 20;
 
 // Alpha-5's letters in their order, from 10 on (Space-Track, "Alpha-5 Satellite Catalog Numbers").
 constexpr std::string_view kAlpha5Letters = "ABCDEFGHJKLMNPQRSTUVWXYZ";
@@ -66,7 +66,7 @@ std::vector<ElementSet> read_element_sets(std::string_view text, const std::stri
 }
 
 std::vector<ElementSet> load_element_sets(const std::filesystem::path& file, TleChecksum checksum) {
-    return read_element_sets(read_input_file(file, {kMaxBytes, "a file of element sets (TLE or OMM)"}),
+    return read_element_sets(read_input_file(file, {kMaxFileBytes, "a file of element sets (TLE or OMM)"}),
                              file.string(), checksum);
 }
 

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr double kMinutesPerDay = 1440, kSecondsPerDay = 86400;
+constexpr double kDay_min = 1440, kDay_s = 86400;
 // More keywords than the standard has.
 constexpr std::size_t kMostKeywords = 200;
 
@@ -103,7 +103,7 @@ class OmmReader {
         out_.epoch = *epoch;
         out_.epoch_days_1950 =
             days_since_1950(date->year, date->month, date->day,
-                            (date->hour * 3600 + date->minute * 60 + date->second) / kSecondsPerDay);
+                            (date->hour * 3600 + date->minute * 60 + date->second) / kDay_s);
     }
 
     // Empty: the set is one for SGP4.
@@ -138,7 +138,7 @@ class OmmReader {
         out_.perigee_rad = angle_rad("ARG_OF_PERICENTER");
         out_.mean_anomaly_rad = angle_rad("MEAN_ANOMALY");
         const double turns_day = number("MEAN_MOTION", 1e-8, 20, "above 0 to 20 turns a day");
-        out_.mean_motion_rad_min = turns_day * 2 * kPi / kMinutesPerDay;
+        out_.mean_motion_rad_min = turns_day * 2 * kPi / kDay_min;
     }
 };
 
