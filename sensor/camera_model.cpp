@@ -174,23 +174,27 @@ Fields fields(CameraModel& c) {
 
 namespace {
 
-void check_range(double value, const std::vector<double>& range, const std::string& key,
+// si_per_unit: of the key and its range.
+void check_range(double value, const std::vector<double>& range, double si_per_unit, const std::string& key,
                  const std::string& range_key) {
     if (range[0] > range[1])
         throw KeyError(range_key, "found a lower limit above the upper; accepted: [lower, upper]");
     if (value < range[0] || value > range[1])
-        throw KeyError(key, "lies outside " + range_key + " at power-up; accepted: a value inside");
+        throw KeyError(key, "lies outside " + range_key +
+                                " at power-up; accepted: " + plain(range[0] / si_per_unit) + " to " +
+                                plain(range[1] / si_per_unit) + ", or another " + range_key);
 }
 
 void check_settings(const CameraModel& c) {
     if (c.shutter.kind != ShutterKind::kLineScan)
-        check_range(c.exposure_s, c.exposure_range_s, "exposure_ms", "exposure_range_ms");
-    check_range(c.gain_db, c.gain_range_db, "gain_db", "gain_range_db");
-    check_range(c.frame_rate_hz, c.frame_rate_range_hz, "frame_rate_hz", "frame_rate_range_hz");
+        check_range(c.exposure_s, c.exposure_range_s, 1e-3, "exposure_ms", "exposure_range_ms");
+    check_range(c.gain_db, c.gain_range_db, 1, "gain_db", "gain_range_db");
+    check_range(c.frame_rate_hz, c.frame_rate_range_hz, 1, "frame_rate_hz", "frame_rate_range_hz");
     for (std::size_t i = 0; i < c.sequence.size(); ++i) {
         const std::string step = "sequence." + std::to_string(i) + ".";
-        check_range(c.sequence[i].exposure_s, c.exposure_range_s, step + "exposure_ms", "exposure_range_ms");
-        check_range(c.sequence[i].gain_db, c.gain_range_db, step + "gain_db", "gain_range_db");
+        check_range(c.sequence[i].exposure_s, c.exposure_range_s, 1e-3, step + "exposure_ms",
+                    "exposure_range_ms");
+        check_range(c.sequence[i].gain_db, c.gain_range_db, 1, step + "gain_db", "gain_range_db");
     }
     if (c.auto_exposure.on && !c.sequence.empty())
         throw InputError("auto_exposure.on and sequence: a camera has one or the other; found both");

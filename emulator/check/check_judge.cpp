@@ -121,6 +121,7 @@ bool any_lamp_lit(const ScenarioConfig& s) {
 void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraReport& camera,
                  const std::string& key, std::vector<std::string>& out) {
     if (o.place != SeenObject::Place::kVisible || o.holds_camera || any_lamp_lit(s)) return;
+    if (!std::isfinite(o.phase_rad)) return;  // nothing is expected of what the camera is within
     const std::string name = "object '" + harmless(o.loaded.name) + "'";
     const auto warn = [&](const std::string& text) { out.push_back(s.places.at(key, name + " " + text)); };
     if (o.sunlit < kDark)

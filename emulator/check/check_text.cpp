@@ -28,6 +28,12 @@ std::string place_text(const SeenObject& o) {
     return "behind the camera";
 }
 
+std::string phase_text(const SeenObject& o) {
+    if (!std::isfinite(o.phase_rad)) return "no phase angle, as the camera is at its origin";
+    return fmt::format("phase angle {:.1f} deg ({:.0f} % of a sphere would be lit)", degrees(o.phase_rad),
+                       100 * lit_share(o.phase_rad));
+}
+
 void add_surfaces(const LoadedObject& o, std::string& out) {
     std::size_t listed = 0;
     for (const LoadedSurface& surface : o.surfaces) {
@@ -54,10 +60,7 @@ void add_object(const SeenObject& o, std::size_t number, const CameraSheet& shee
                              size_m.y, size_m.z, o.loaded.triangles, o.loaded.mean_reflectance()));
     line("place", fmt::format("{:.6g} m away, {:.2f} deg off the boresight; {}", o.distance_m,
                               degrees(o.off_boresight_rad), place_text(o)));
-    line("light",
-         fmt::format(
-             "phase angle {:.1f} deg ({:.0f} % of a sphere would be lit), {:.0f} % of the Sun is left to it",
-             degrees(o.phase_rad), 100 * lit_share(o.phase_rad), 100 * o.sunlit));
+    line("light", fmt::format("{}, {:.0f} % of the Sun is left to it", phase_text(o), 100 * o.sunlit));
     line("expected",
          fmt::format(
              "about {:.0f} DN of {:.0f} where it is lit, {:.2g} of full scale, SNR {:.3g}, at {:.4g} ms and "

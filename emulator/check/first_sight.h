@@ -21,7 +21,7 @@ struct SeenObject {
     double off_boresight_rad = 0;  // angle of its origin
     // Angular radius of the sphere about its origin that holds it; pi: the camera is in that.
     double angular_radius_rad = 0;
-    double phase_rad = 0;
+    double phase_rad = 0;  // NaN: the camera is at its origin
     double sunlit = 1;
     double silhouette_px = 0;     // area that it would cover alone
     double picture_share = 0;     // share of the frame's pixels that show it

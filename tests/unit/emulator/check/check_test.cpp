@@ -101,6 +101,26 @@ TEST_F(CheckScenario, WhatIsNotInThePictureIsSaid) {
                 Contains(HasSubstr("object 'plate' is behind the camera, 180.0 deg off its boresight")));
 }
 
+// From an object's own origin there is no angle between the camera and the Sun.
+TEST_F(CheckScenario, AnObjectAtTheCamerasPlaceHasNoPhaseAngle) {
+    const CheckReport report = check({"objects.0.pose.position_m=[0, 0, 0]"});
+    EXPECT_THAT(to_text(report), HasSubstr("no phase angle, as the camera is at its origin, "));
+    EXPECT_THAT(to_text(report), Not(HasSubstr("nan")));
+    const nlohmann::json object = nlohmann::json::parse(to_json(report))["cameras"][0]["objects"][0];
+    EXPECT_TRUE(object["phase_deg"].is_null());
+    EXPECT_EQ(object["distance_m"], 0);
+}
+
+// What was taken for a name that is not there is said once, with the key's place.
+TEST_F(CheckScenario, FilesThatWereTakenForOthersAreSaid) {
+    write("other.mtl", "newmtl a\n");
+    write("named.obj", "mtllib OTHER.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl a\nf 1 3 2\n");
+    EXPECT_THAT(
+        warnings({"objects.0.mesh=" + (folder_ / "named.obj").string()}),
+        Contains(HasSubstr("'named.obj': materials 'OTHER.mtl': no file of that name; taken: 'other.mtl'"))
+            .Times(1));
+}
+
 TEST_F(CheckScenario, AMeshBesideItsOriginIsSaid) {
     write("beside.obj", "v 99 0 0\nv 101 0 0\nv 99 2 0\nf 1 3 2\n");
     EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "beside.obj").string()}),
