@@ -123,17 +123,17 @@ GrantedFile granted_file(const Path& mesh, const FileName& name) {
         if (is_same_word(ending, ".mtl") || is_same_word(ending, ".bin") || opens_as_picture(real))
             return {real, found.whole, {}};
     } catch (const InputError& refusal) {
-        return {real, found.whole, refusal.what()};
+        return {real, found.whole, std::string(": ") + refusal.what()};
     }
     return {real, found.whole,
-            "lies outside the mesh's folder, at " + harmless(real.string()) +
+            " lies outside the mesh's folder, at " + harmless(real.string()) +
                 "; accepted there: a picture, materials (.mtl), a buffer (.bin)"};
 }
 
 std::optional<Path> NamedFiles::find(const FileName& name, const std::string& what) {
     const auto known = granted_.find(name);
     if (known != granted_.end() && !known->second.file.empty()) {
-        if (!known->second.refusal.empty()) throw InputError(what + " " + known->second.refusal);
+        if (!known->second.refusal.empty()) throw InputError(what + known->second.refusal);
         if (!known->second.whole) remark(what, known->second.file);
         return known->second.file;
     }

@@ -37,7 +37,7 @@ struct FileName {
 struct GrantedFile {
     std::filesystem::path file;  // empty: there is none
     bool whole = false;          // found by its whole name
-    std::string refusal;         // empty: it may be read
+    std::string refusal;         // the rest of a message that begins with the name; empty: it may be read
 };
 using GrantedFiles = std::map<FileName, GrantedFile>;
 
