@@ -19,9 +19,7 @@ GroundMaps load_ground(const std::vector<EarthGroundConfig>& configs) {
 
 }  // namespace
 
-std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const Atmosphere* air,
-                                             const SpectralGrid& grid) {
-    if (config.map.empty()) return nullptr;
+EarthMaps load_earth_maps(const EarthConfig& config) {
     CloudMaps clouds;
     if (config.cloud_seed != 0) clouds = seeded_clouds(static_cast<std::uint64_t>(config.cloud_seed));
     if (!config.cloud_map.empty()) clouds = read_earth_map(config.cloud_map);
@@ -33,11 +31,16 @@ std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const At
     }
     if (!config.ground.empty()) {
         if (clouds.empty()) clouds = read_earth_map(config.map);
-        return std::make_shared<EarthModel>(config, load_ground(config.ground), std::move(clouds), air, grid);
+        return {load_ground(config.ground), std::move(clouds), nullptr};
     }
     LayeredEarth earth = with_layers(read_earth_map(config.map), config.layers);
-    return std::make_shared<EarthModel>(config, std::move(earth.map), std::move(clouds), air, grid,
-                                        std::move(earth.detail));
+    return {std::move(earth.map), std::move(clouds), std::move(earth.detail)};
+}
+
+std::shared_ptr<const EarthModel> make_earth(const EarthConfig& config, EarthMaps maps, const Atmosphere* air,
+                                             const SpectralGrid& grid) {
+    return std::make_shared<EarthModel>(config, std::move(maps.ground), std::move(maps.clouds), air, grid,
+                                        std::move(maps.detail));
 }
 
 }  // namespace hilcam

@@ -27,9 +27,11 @@
 #include "io/pictures/picture_file.h"
 #include "render/brdf/brdf_table.h"
 #include "render/earth/air_from_space.h"
+#include "render/earth/earth_albedo.h"
 #include "render/earth/earth_model.h"
 #include "render/frame/plugin.h"
 #include "render/ground/terrain_patch.h"
+#include "render/scene/body_albedo.h"
 #include "render/scene/brdf.h"
 #include "render/sky/motion_bounds.h"
 #include "render/sky/own_bodies.h"
@@ -386,12 +388,23 @@ void load_air_and_earth(const ScenarioConfig& scenario, const SpectralGrid& grid
     const AtmosphereCache cache(user_cache_at(air.cache, !scenario.is_used_once));
     std::optional<AtmosphereTable> table;
     if (!air.table.empty()) table = read_atmosphere(air.table, grid);
-    const Progress progress("air");
-    scene.air =
-        modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr, &cache});
-    if (!scenario.earth_surface.map.empty()) {
+    const EarthConfig& surface = scenario.earth_surface;
+    std::optional<EarthMaps> maps;
+    if (!surface.map.empty()) {
+        const Progress earth("Earth's maps");
+        maps.emplace(load_earth_maps(surface));
+    }
+    {
+        const Progress progress("air");
+        scene.air = modules.atmospheres.make(air.model,
+                                             AtmosphereRequest{air, grid, table ? &*table : nullptr, &cache});
+        if (auto* by_place = dynamic_cast<AirByPlace*>(scene.air.get()); by_place && !air.has_ground_albedo)
+            by_place->put_over(maps ? earth_albedo(surface, maps->ground, maps->clouds, grid)
+                                    : body_albedo(scene.body(BodyId::kEarth), grid));
+    }
+    if (maps) {
         const Progress earth("Earth");
-        scene.earth = load_earth(scenario.earth_surface, scene.air.get(), grid);
+        scene.earth = make_earth(surface, std::move(*maps), scene.air.get(), grid);
     } else if (air.model == "precomputed") {
         scene.air = looked_up_from_space(std::move(scene.air));
     }

@@ -23,31 +23,55 @@ float root_of_cosine(float mu) {
     return std::copysign(std::sqrt(std::abs(share)), share);
 }
 
+// Out of the air even along the horizon.
+constexpr double kAway_m = 4e6;
+
+// Null where light from below is the same everywhere.
+const AirByPlace* lit_by_place(const Atmosphere& air) {
+    const auto* found = dynamic_cast<const AirByPlace*>(&air);
+    return found && found->lifts_by_place() ? found : nullptr;
+}
+AirByPlace::Parts look_in_parts(const Atmosphere& air, const AirByPlace* by_place, Vec3d origin_m, Vec3d dir,
+                                double distance_m, Vec3d sun_dir) {
+    return by_place ? by_place->look_in_parts(origin_m, dir, distance_m, sun_dir)
+                    : AirByPlace::Parts{air.look(origin_m, dir, distance_m, sun_dir), {}};
+}
+
+// Returns the Sun's direction of a row of so many, towards an azimuth.
+Vec3d sun_dir_at(int row, int rows, double azimuth) {
+    const double mu0 = cosine_of_root(static_cast<double>(kLowestRoot) +
+                                      row * (1 - static_cast<double>(kLowestRoot)) / (rows - 1));
+    const double sine0 = std::sqrt(1 - mu0 * mu0);
+    return {sine0 * std::cos(azimuth), sine0 * std::sin(azimuth), mu0};
+}
+
 }  // namespace
 
 AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
-    : top_m_(static_cast<float>(air.top_m())) {
+    : by_place_(lit_by_place(air)), top_m_(static_cast<float>(air.top_m())) {
     transmittance_.resize(2 * kViews);
     radiance_.resize(static_cast<std::size_t>(2) * kAzimuths * kSuns * kViews);
+    if (by_place_) lifted_.resize(static_cast<std::size_t>(2) * kSuns * kViews);
     tbb::parallel_for(0, kAzimuths * kSuns, [&](int row) {
-        // Out of the air even along the horizon.
-        constexpr double kAway_m = 4e6;
-        const double mu0 = cosine_of_root(static_cast<double>(kLowestRoot) +
-                                          row % kSuns * (1 - static_cast<double>(kLowestRoot)) / (kSuns - 1));
-        const double azimuth = kPi * (row / kSuns) / (kAzimuths - 1), sine0 = std::sqrt(1 - mu0 * mu0);
-        const Vec3d sun{sine0 * std::cos(azimuth), sine0 * std::sin(azimuth), mu0};
+        const Vec3d sun_dir = sun_dir_at(row % kSuns, kSuns, kPi * (row / kSuns) / (kAzimuths - 1));
         const auto look_up = [&](double height_m, Vec3d to_viewer) {
             const Vec3d point{0, 0, kEarthEquatorialRadius_m + height_m};
-            return air.look(point + kAway_m * to_viewer, -to_viewer, kAway_m, sun);
+            return look_in_parts(air, by_place_, point + kAway_m * to_viewer, -to_viewer, kAway_m, sun_dir);
         };
+        // What is lifted is taken as it is seen across the Sun's direction.
+        constexpr int kAcross = (kAzimuths - 1) / 2;
         for (int i = 0; i < kViews; ++i) {
             const double mu = cosine_of_root(static_cast<double>(i) / (kViews - 1));
             const Vec3d to_viewer{std::sqrt(1 - mu * mu), 0, mu};
-            const Atmosphere::Sight low = look_up(1, to_viewer);
+            const AirByPlace::Parts low = look_up(1, to_viewer);
             const std::array heights{low, high_m ? look_up(*high_m, to_viewer) : low};
             for (std::size_t k = 0; k < heights.size(); ++k) {
-                radiance_[static_cast<std::size_t>((row * kViews + i) * 2) + k] = heights[k].radiance_sr;
-                if (row == 0) transmittance_[static_cast<std::size_t>(2 * i) + k] = heights[k].transmittance;
+                const AirByPlace::Parts& seen = heights[k];
+                radiance_[static_cast<std::size_t>((row * kViews + i) * 2) + k] = seen.over_black.radiance_sr;
+                if (row == 0)
+                    transmittance_[static_cast<std::size_t>(2 * i) + k] = seen.over_black.transmittance;
+                if (!lifted_.empty() && row / kSuns == kAcross)
+                    lifted_[static_cast<std::size_t>((row % kSuns * kViews + i) * 2) + k] = seen.per_lift_sr;
             }
         }
     });
@@ -57,27 +81,34 @@ AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
 void AirColumns::fill_passing(const Atmosphere& air) {
     passed_.resize(kPassHeights);
     passing_.resize(static_cast<std::size_t>(kPassAzimuths) * kPassSuns * kPassHeights);
+    if (by_place_) passing_lifted_.resize(static_cast<std::size_t>(kPassSuns) * kPassHeights);
+    const auto look_past = [&](int height, Vec3d sun_dir) {
+        const double root = static_cast<double>(height) / (kPassHeights - 1);
+        const Vec3d lowest{0, 0, kEarthEquatorialRadius_m + 1 + root * root * (air.top_m() - 1)},
+            ahead{1, 0, 0};
+        return look_in_parts(air, by_place_, lowest - kAway_m * ahead, ahead,
+                             std::numeric_limits<double>::infinity(), sun_dir);
+    };
     tbb::parallel_for(0, kPassAzimuths * kPassSuns, [&](int row) {
-        constexpr double kAway_m = 4e6;
-        const double mu0 =
-            cosine_of_root(static_cast<double>(kLowestRoot) +
-                           row % kPassSuns * (1 - static_cast<double>(kLowestRoot)) / (kPassSuns - 1));
-        const double share = static_cast<double>(row / kPassSuns) / (kPassAzimuths - 1),
-                     azimuth = kPi * share * share;
-        const double sine0 = std::sqrt(1 - mu0 * mu0);
-        const Vec3d sun{sine0 * std::cos(azimuth), sine0 * std::sin(azimuth), mu0}, ahead{1, 0, 0};
+        const double share = static_cast<double>(row / kPassSuns) / (kPassAzimuths - 1);
+        const Vec3d sun_dir = sun_dir_at(row % kPassSuns, kPassSuns, kPi * share * share);
         for (int i = 0; i < kPassHeights; ++i) {
-            const double root = static_cast<double>(i) / (kPassHeights - 1);
-            const Vec3d lowest{0, 0, kEarthEquatorialRadius_m + 1 + root * root * (air.top_m() - 1)};
-            const Atmosphere::Sight sight =
-                air.look(lowest - kAway_m * ahead, ahead, std::numeric_limits<double>::infinity(), sun);
+            const Atmosphere::Sight sight = look_past(i, sun_dir).over_black;
             passing_[static_cast<std::size_t>(row * kPassHeights + i)] = sight.radiance_sr;
             if (row == 0) passed_[static_cast<std::size_t>(i)] = sight.transmittance;
         }
     });
+    if (passing_lifted_.empty()) return;
+    tbb::parallel_for(0, kPassSuns, [&](int row) {
+        const Vec3d across_dir = sun_dir_at(row, kPassSuns, 0.5 * kPi);
+        for (int i = 0; i < kPassHeights; ++i)
+            passing_lifted_[static_cast<std::size_t>(row * kPassHeights + i)] =
+                look_past(i, across_dir).per_lift_sr;
+    });
 }
 
-Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_dot_sun) const {
+Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_dot_sun,
+                                        const Spectrum& lift) const {
     const float height = std::sqrt(std::clamp(height_m / top_m_, 0.0f, 1.0f)) * (kPassHeights - 1);
     const float sun =
         (std::max(kLowestRoot, root_of_cosine(mu0)) - kLowestRoot) / (1 - kLowestRoot) * (kPassSuns - 1);
@@ -99,6 +130,15 @@ Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_d
         out.radiance_sr += (w * (1 - fh)) * row[0];
         out.radiance_sr += (w * fh) * row[1];
     }
+    if (passing_lifted_.empty()) return out;
+    Spectrum lifted_sr;
+    for (int ds = 0; ds < 2; ++ds) {
+        const float w = ds ? fs : 1 - fs;
+        const Spectrum* row = passing_lifted_.data() + (s + ds) * kPassHeights + h;
+        lifted_sr += (w * (1 - fh)) * row[0];
+        lifted_sr += (w * fh) * row[1];
+    }
+    out.radiance_sr += lift * lifted_sr;
     return out;
 }
 
@@ -118,16 +158,16 @@ std::optional<Atmosphere::Sight> AirColumns::from_space(Vec3d origin_m, Vec3d di
     if (distance_m == std::numeric_limits<double>::infinity())
         return look_past(static_cast<float>(lowest_m - kEarthEquatorialRadius_m),
                          static_cast<float>(dot(lowest, sun_dir) / lowest_m),
-                         static_cast<float>(dot(dir, sun_dir)));
+                         static_cast<float>(dot(dir, sun_dir)), lift(lowest));
     const Vec3d end = origin_m + distance_m * dir;
     const double end_m = length(end);
     if (std::abs(end_m - kEarthEquatorialRadius_m) > kOnGround_m || distance_m > to_lowest_m) return {};
     return look(static_cast<float>(-dot(end, dir) / end_m), static_cast<float>(dot(end, sun_dir) / end_m),
-                static_cast<float>(-dot(dir, sun_dir)))
+                static_cast<float>(-dot(dir, sun_dir)), lift(end))
         .low;
 }
 
-AirColumns::Looks AirColumns::look(float mu, float mu0, float cos_phase) const {
+AirColumns::Looks AirColumns::look(float mu, float mu0, float cos_phase, const Spectrum& lift) const {
     const float view = std::max(0.0f, root_of_cosine(mu)) * (kViews - 1);
     const float root = std::max(kLowestRoot, root_of_cosine(mu0));
     const float sun = (root - kLowestRoot) / (1 - kLowestRoot) * (kSuns - 1);
@@ -152,6 +192,18 @@ AirColumns::Looks AirColumns::look(float mu, float mu0, float cos_phase) const {
         out.low.radiance_sr += (w * fv) * row[2];
         out.high.radiance_sr += (w * fv) * row[3];
     }
+    if (lifted_.empty()) return out;
+    Spectrum low_sr, high_sr;
+    for (int ds = 0; ds < 2; ++ds) {
+        const float w = ds ? fs : 1 - fs;
+        const Spectrum* row = lifted_.data() + ((s + ds) * kViews + v) * 2;
+        low_sr += (w * (1 - fv)) * row[0];
+        high_sr += (w * (1 - fv)) * row[1];
+        low_sr += (w * fv) * row[2];
+        high_sr += (w * fv) * row[3];
+    }
+    out.low.radiance_sr += lift * low_sr;
+    out.high.radiance_sr += lift * high_sr;
     return out;
 }
 

@@ -9,6 +9,12 @@
 
 namespace hilcam {
 
+// Returns c = b tau / (1 + b tau) of a cloud that is `factor` times as thick.
+inline float thickened_cloud(float c, float factor) {
+    if (factor == 1) return c;
+    return factor * c / (1 - c + factor * c + 1e-6f);
+}
+
 class CloudMaps {
   public:
     struct Timed {

@@ -125,10 +125,7 @@ EarthModel::EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps c
 }
 
 float EarthModel::cloud_of(const EarthSample& sample) const {
-    const float c = sample.cloud();
-    if (cloud_factor_ == 1) return c;
-    // c = x / (1 + x): the factor is on x.
-    return cloud_factor_ * c / (1 - c + cloud_factor_ * c + 1e-6f);
+    return thickened_cloud(sample.cloud(), cloud_factor_);
 }
 
 void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const {
@@ -145,14 +142,20 @@ void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place
     }
     const Vec3d low = stretched(place.point_m), sun = normalized(stretched(ray.sun_dir));
     const Vec3d high = low * (1 + static_cast<double>(EarthAspect::kHigh_m) / length(low));
-    out.sun_low = mu0 * air_->sun_transmittance(low, sun), out.sky_low = air_->sky_irradiance(low, sun);
-    out.sun_high = high_mu0 * air_->sun_transmittance(high, sun),
-    out.sky_high = air_->sky_irradiance(high, sun);
+    out.sun_low = mu0 * air_->sun_transmittance(low, sun);
+    out.sun_high = high_mu0 * air_->sun_transmittance(high, sun);
+    const Spectrum lift = columns_->lift_at(out.u, out.v);
+    const auto sky_at = [&](Vec3d point_m) {
+        if (!columns_->by_place()) return air_->sky_irradiance(point_m, sun);
+        const AirByPlace::Sky sky = columns_->by_place()->sky_in_parts(point_m, sun);
+        return sky.over_black + lift * sky.per_lift;
+    };
+    out.sky_low = sky_at(low), out.sky_high = sky_at(high);
     const Vec3d origin = stretched(ray.origin_m);
     const double top_m = kEarth.equatorial_radius_m + air_->top_m();
     AirColumns::Looks looks;
     if (dot(origin, origin) >= top_m * top_m) {
-        looks = columns_->look(place.mu, place.mu0, place.cos_phase);
+        looks = columns_->look(place.mu, place.mu0, place.cos_phase, lift);
     } else {
         const Vec3d dir = stretched(ray.dir);
         const double per_length = length(dir);
@@ -173,6 +176,8 @@ void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place
 EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double height_m) const {
     const Place place(ray.origin_m + distance_m * ray.dir, -ray.dir, ray.sun_dir);
     EarthAspect out;
+    const MapPlace at = hilcam::map_place(place.normal);
+    out.u = at.u, out.v = at.v;
     place_air(ray, distance_m, place, out);
     if (table_) table_->place(place.mu0, place.mu, place.cos_phase, out);
     if (place.mu0 > 0 && glints_)
@@ -189,8 +194,6 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
         u = static_cast<float>(dot(level_m, east) * per_u),
         v = static_cast<float>(dot(level_m, north) * per_v);
     };
-    const MapPlace at = hilcam::map_place(n);
-    out.u = at.u, out.v = at.v;
     // The ray's cone is as wide as it is across, and longer by 1 / mu along. By east and north, as sides along and across turn
     // about where it is looked straight down.
     const Vec3d along = ray.dir - dot(ray.dir, n) * n;

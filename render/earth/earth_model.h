@@ -129,6 +129,7 @@ class EarthModel {
                           : cloud_maps_->sample(moment.number.clouds, u, v, footprint);
     }
     struct Place;
+    // out.u, out.v: set already.
     void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;
     Atmosphere::Sight air_past(const Ray& ray) const;
     float cloud_of(const EarthSample& sample) const;

@@ -18,8 +18,9 @@ struct AtmosphereConfig {
     double aerosol_asymmetry = 0.70;  // g of Cornette-Shanks' phase function
     double aerosol_single_albedo = 0.92;
     double ozone_du = 300;
-    double ground_albedo = 0.25;  // for the light between ground and sky
-    std::filesystem::path cache;  // folder for the tables; empty: the user's cache folder
+    double ground_albedo = 0.25;     // for the light between ground and sky, where nothing else says it
+    bool has_ground_albedo = false;  // given: it counts, whatever the Earth looks like
+    std::filesystem::path cache;     // folder for the tables; empty: the user's cache folder
     // table
     std::filesystem::path table;  // CSV or MODTRAN tape7.scn, as docs/atmosphere.md describes
 };

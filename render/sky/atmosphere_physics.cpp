@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/sky/standard_air.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 
@@ -20,7 +21,9 @@ constexpr auto kOzone_m2 = std::to_array<double>(
      2.451e-26, 2.801e-26, 2.534e-26, 1.624e-26, 1.465e-26, 2.078e-26, 1.383e-26, 7.105e-27});
 // One Dobson unit: 0.01 mm of gas at 0 deg C and 101325 Pa (Loschmidt's constant, CODATA 2018).
 constexpr double kDobson_m2 = 2.686780111e20;
-constexpr double kOzoneMiddle_m = 25e3, kOzoneHalfWidth_m = 15e3;
+// Steps of the table by height. Linear between them, the density errs by (step / scale height)^2 / 8, 4e-5 at most.
+constexpr double kHeightStep_m = 100;
+constexpr int kHeightSteps = static_cast<int>(AirPhysics::kTop_m / kHeightStep_m);
 
 double ozone_m2(double wavelength_um) {
     const double x = (wavelength_um - 0.36) / 0.01;
@@ -67,8 +70,11 @@ Fields fields(AtmosphereConfig& c) {
         number("aerosol_single_albedo", c.aerosol_single_albedo, 1, {0, 1},
                "precomputed: share of the light meeting aerosol that is scattered"),
         number("ozone_du", c.ozone_du, 1, {0, 1000}, "precomputed: ozone column in Dobson units"),
-        number("ground_albedo", c.ground_albedo, 1, {0, 1},
-               "precomputed: albedo of the ground for light going between ground and sky"),
+        optional(
+            number("ground_albedo", c.ground_albedo, 1, {0, 1},
+                   "precomputed: albedo of all that is below the air, for light going between ground and "
+                   "sky; left out: that of the Earth's ground and clouds, by place"),
+            c.has_ground_albedo),
         path("cache", c.cache, "precomputed: folder for its tables; left out: hilcam's own"),
         path("table", c.table,
              "table: CSV of values or of MODTRAN runs, in a form that docs/atmosphere.md describes"),
@@ -83,30 +89,40 @@ void validate(const AtmosphereConfig& c) {
 
 AirPhysics::AirPhysics(const AtmosphereConfig& c, const SpectralGrid& grid)
     : aerosol_height_m_(c.aerosol_scale_height_m), asymmetry_(static_cast<float>(c.aerosol_asymmetry)) {
-    // Exponential profiles are cut at the top: the column has to come out all the same.
-    const auto column_m = [](double height_m) { return height_m * (1 - std::exp(-kTop_m / height_m)); };
-    rayleigh_ = bin_mean(grid, [&](double um) {
-        return rayleigh_optical_depth(um) * c.pressure_pa / 101325 / column_m(kRayleighHeight_m);
-    });
+    // Columns of what the table says between its steps, so that optical depths come out whatever the steps are.
+    double air_m = 0, ozone_m = 0;
+    for (int i = 0; i <= kHeightSteps; ++i) {
+        const double share_m = i == 0 || i == kHeightSteps ? 0.5 * kHeightStep_m : kHeightStep_m;
+        air_m += share_m * standard_air_density(i * kHeightStep_m);
+        ozone_m += share_m * standard_ozone_m3(i * kHeightStep_m);
+    }
+    shares_.reserve(kHeightSteps + 1);
+    for (int i = 0; i <= kHeightSteps; ++i)
+        shares_.push_back({static_cast<float>(standard_air_density(i * kHeightStep_m) / air_m),
+                           static_cast<float>(standard_ozone_m3(i * kHeightStep_m) / ozone_m)});
+    rayleigh_ =
+        bin_mean(grid, [&](double um) { return rayleigh_optical_depth(um) * c.pressure_pa / 101325; });
+    ozone_ = bin_mean(grid, [&](double um) { return ozone_m2(um) * c.ozone_du * kDobson_m2; });
+    // The exponential is cut at the top: the column has to come out all the same.
+    const double aerosol_m = aerosol_height_m_ * (1 - std::exp(-kTop_m / aerosol_height_m_));
     aerosol_extinction_ = bin_mean(grid, [&](double um) {
-        return c.aerosol_optical_depth * std::pow(um / 0.55, -c.angstrom_exponent) /
-               column_m(aerosol_height_m_);
+        return c.aerosol_optical_depth * std::pow(um / 0.55, -c.angstrom_exponent) / aerosol_m;
     });
     aerosol_scattering_ = static_cast<float>(c.aerosol_single_albedo) * aerosol_extinction_;
-    ozone_ =
-        bin_mean(grid, [&](double um) { return ozone_m2(um) * c.ozone_du * kDobson_m2 / kOzoneHalfWidth_m; });
 }
 
 AirAt AirPhysics::at(double height_m) const {
-    const double h = std::max(0.0, height_m);
+    const double h = std::clamp(height_m, 0.0, kTop_m), step = h / kHeightStep_m;
+    const auto i = std::min(static_cast<std::size_t>(step), shares_.size() - 2);
+    const auto f = static_cast<float>(step - static_cast<double>(i));
+    const Shares &low = shares_[i], &high = shares_[i + 1];
     AirAt out;
-    out.rayleigh = static_cast<float>(std::exp(-h / kRayleighHeight_m)) * rayleigh_;
+    out.rayleigh = (low.air_m + f * (high.air_m - low.air_m)) * rayleigh_;
     const auto haze = static_cast<float>(std::exp(-h / aerosol_height_m_));
     out.aerosol = haze * aerosol_scattering_;
     out.extinction = haze * aerosol_extinction_;
     out.extinction += out.rayleigh;
-    const double ozone = std::max(0.0, 1 - std::abs(h - kOzoneMiddle_m) / kOzoneHalfWidth_m);
-    out.extinction += static_cast<float>(ozone) * ozone_;
+    out.extinction += (low.ozone_m + f * (high.ozone_m - low.ozone_m)) * ozone_;
     return out;
 }
 

@@ -1,15 +1,16 @@
 #pragma once
 // The optical properties of air, per spectral bin, as functions of height.
 //
-//   Rayleigh  optical depth of Bodhaine et al., J. Atmos. Oceanic Technol. 16 (1999), eq. 30 (1013.25 hPa,
-//   360 ppm CO2),
-//             times pressure; exponential, scale height 8.0 km; phase 3/16pi (1 + cos^2)
-//   aerosol   Angstrom's law, exponential; Cornette & Shanks' phase function (Applied Optics 31, 1992)
-//   ozone     absorption only: cross sections of Serdyuchenko et al., Atmos. Meas. Tech. 7 (2014), at 233 K,
-//   0.36 to
-//             0.83 um (held below, none above); a triangle from 10 to 40 km with its top at 25 km
+//   molecules  optical depth of Bodhaine et al., J. Atmos. Oceanic Technol. 16 (1999), eq. 30 (1013.25 hPa, 360 ppm CO2),
+//              times pressure; by height as dense as the U.S. Standard Atmosphere 1976 (standard_air.h); phase
+//              3/16pi (1 + cos^2)
+//   aerosol    Angstrom's law, exponential; Cornette & Shanks' phase function (Applied Optics 31, 1992)
+//   ozone      absorption only: cross sections of Serdyuchenko et al., Atmos. Meas. Tech. 7 (2014), at 233 K, 0.36 to 0.83 um
+//              (held below, none above); by height as in the same standard, scaled to its column
 // Coefficients are means over a bin, so transmittances of wide bins err where they vary much inside one.
-// Not modelled: water vapour and oxygen bands, refraction, polarisation, clouds.
+// Not modelled: water vapour and oxygen bands, refraction, polarisation, clouds, seasons.
+
+#include <vector>
 
 #include "render/sky/atmosphere_config.h"
 #include "render/vocabulary/spectrum.h"
@@ -28,16 +29,22 @@ struct AirAt {
 class AirPhysics {
   public:
     static constexpr double kTop_m = 100e3;
-    static constexpr double kRayleighHeight_m = 8000;
 
     AirPhysics(const AtmosphereConfig& config, const SpectralGrid& grid);
 
+    // Loop, any thread.
     AirAt at(double height_m) const;
     float rayleigh_phase(float cosine) const;
     float aerosol_phase(float cosine) const;
 
   private:
-    Spectrum rayleigh_, aerosol_scattering_, aerosol_extinction_, ozone_;  // ozone: at its top
+    // Shares of the columns of molecules and ozone per metre, at even steps of height.
+    struct Shares {
+        float air_m, ozone_m;
+    };
+    std::vector<Shares> shares_;
+    Spectrum rayleigh_, ozone_;                         // vertical optical depths
+    Spectrum aerosol_scattering_, aerosol_extinction_;  // at the ground [1/m]
     double aerosol_height_m_;
     float asymmetry_;
 };

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
+#include "render/vocabulary/units.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
@@ -49,6 +52,31 @@ TEST_F(SceneLoader, ObjectsOfOneMakeAreLoadedOnce) {
         EXPECT_EQ(object.mesh.triangles.empty(), object.like.has_value()) << object.name;
     }
     EXPECT_EQ(scene.objects[1].mesh.triangles.size(), 2u);  // the wing does not turn
+}
+
+// The air over an Earth of one albedo is lit by that albedo; a key of its own counts more.
+TEST_F(SceneLoader, TheAirIsLitByTheEarthBelow) {
+    const auto limb = [&](const std::string& earth, const std::string& air) {
+        const auto file = write(
+            "air.yaml",
+            "time_utc: 2026-01-01T00:00:00Z\ncamera: {width_px: 8, height_px: 8, pitch_um: 10, "
+            "focal_length_mm: 10, f_number: 8,\n"
+            "  transmission: 1, quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: 0.2, bits: 12,\n"
+            "  exposure_ms: 1}\nspectrum_edges_um: [0.5, 0.7]\nearth: {" +
+                earth + "}\natmosphere: {model: precomputed" + air + "}\n");
+        ScenarioConfig scenario = load_scenario(file, {});
+        scenario.is_used_once = true;
+        const Scene scene = load_scene(scenario, SpectralGrid(scenario.spectrum_edges_um), {});
+        return scene.air
+            ->look({kEarthEquatorialRadius_m + 30e3, -3e6, 0}, {0, 1, 0},
+                   std::numeric_limits<double>::infinity(), {1, 0, 0})
+            .radiance_sr[0];
+    };
+    const float black = limb("albedo: 0", ""), bright = limb("albedo: 0.7", "");
+    // Ground of albedo 1 would add some 1.7 times what black ground has (docs/atmosphere.md).
+    EXPECT_GT(bright, 1.8f * black);
+    EXPECT_LT(bright, 2.8f * black);
+    EXPECT_FLOAT_EQ(limb("albedo: 0.7", ", ground_albedo: 0"), black);
 }
 
 TEST_F(SceneLoader, AFrameLargerThanTheMachineIsRefused) {
