@@ -39,7 +39,7 @@ SNOW_RGB, SNOW, SNOW_NIR = (0.89, 0.92, 0.93), (0.975, 0.98, 0.975), 0.93
 FOREST_NIR = 0.40
 # The cloud picture has no unit: white is taken as a cloud that nothing passes, and grey as this power of it, which is set so that the Earth's
 # Bond albedo from 0.4 to 0.7 um comes out as 0.30 (0.297 by earthshine: Goode et al., Geophys. Res. Lett. 28, 1671, 2001).
-CLOUD_POWER = 1.4
+CLOUD_POWER = 1.33
 # Sea ice. Extents [million km^2] that --help names: August 7.20 and 17.72 (1981 to 2010: 6.01 are 16.53 % less, 18.66 are 5.30 % more; NOAA NCEI, Global
 # Snow and Ice Report for August 2013); February 15.64 and, the least of the year, 2.78 (1979 to 2000: 14.58 are 1.06 less, 2.87 are 0.0885 more; NSIDC's news of March 2010).
 # What is within the extent is ice by a share, assumed. Ice under snow has the spectrum of snow, whose albedo over the whole spectrum it has, too

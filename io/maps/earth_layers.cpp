@@ -14,7 +14,7 @@ namespace {
 using Kind = EarthLayerConfig::Kind;
 
 // The grey of a picture to the clouds' scale, and how high those reach: the figures of tools/make_earth_map.py, which says where they are from.
-constexpr float kCloudPower = 1.4f, kLowestTop_m = 2000, kTopRise_m = 8000;
+constexpr float kCloudPower = 1.33f, kLowestTop_m = 2000, kTopRise_m = 8000;
 constexpr float kSea = 0.999f;  // water from which on a texel has no land
 
 // Values of all layers in a window.

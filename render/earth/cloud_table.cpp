@@ -13,7 +13,7 @@ namespace hilcam {
 namespace {
 
 constexpr float kPiOfClouds = static_cast<float>(kPi);
-constexpr double kRadius_um = 10, kVariance = 0.1;
+constexpr double kRadius_um = 10, kVariance = 0.15;
 constexpr int kStreams = 16;
 constexpr int kThinnest = -7, kThickest = 9;  // powers of two of the scaled thickness
 
@@ -48,7 +48,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
     tbb::parallel_for(0, grid.size(), [&](int b) {
         const double um = grid.center_um(b);
         phases[static_cast<std::size_t>(b)] =
-            PhaseFunction::droplets(um, water_index(um), kRadius_um, kVariance);
+            PhaseFunction::droplets(um, grid.width_um(b), water_index(um), kRadius_um, kVariance);
     });
     phase_.resize(PhaseFunction::kAngles);
     for (int i = 0; i < PhaseFunction::kAngles; ++i)

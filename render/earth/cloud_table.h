@@ -1,7 +1,7 @@
 #pragma once
 // The light that a plane layer of cloud reflects and lets through, from tables made at start-up.
 //
-// Particles are water droplets of 10 um effective radius and variance 0.1 (phase_function.h). Light scattered more than once is
+// Particles are water droplets of 10 um effective radius and variance 0.15 (phase_function.h). Light scattered more than once is
 // the same in all bins, by doubling (adding_doubling.h); once scattered light has each bin's own phase function, exactly
 // (Nakajima & Tanaka, J. Quant. Spectrosc. Radiat. Transfer 40, 51, 1988), so that the bow, the glory and the bright edges towards the
 // Sun are there. Thickness is told by c = b tau / (1 + b tau) with b = (1 - 0.85) / 2, which is about a thick

@@ -16,8 +16,9 @@ class PhaseFunction {
   public:
     // g: asymmetry, in (-1, 1).
     static PhaseFunction henyey_greenstein(double g);
-    // n: real index; droplets do not absorb. Some tens of milliseconds.
-    static PhaseFunction droplets(double wavelength_um, double n, double effective_radius_um,
+    // n: real index; droplets do not absorb. width_um: of the spectral bin about the wavelength, over which the rings of the glory are
+    // the mean. Some tens of milliseconds.
+    static PhaseFunction droplets(double wavelength_um, double width_um, double n, double effective_radius_um,
                                   double effective_variance);
 
     // theta_rad: scattering angle, 0..pi. Linear between angles that crowd at both ends.

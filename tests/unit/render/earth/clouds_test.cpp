@@ -69,7 +69,7 @@ TEST(Clouds, ReflectionIsTheSameBothWays) {
 // 0.25 to 0.69 um, over sizes of measured clouds: coefficients as climate models' sources have them.) The bow of large droplets lies at 138 to 143 degrees, the glory's first ring
 // within 3 degrees of 180.
 TEST(Clouds, DropletsHaveABowAndAGlory) {
-    const PhaseFunction phase = PhaseFunction::droplets(0.55, water_index(0.55), 10, 0.1);
+    const PhaseFunction phase = PhaseFunction::droplets(0.55, 0, water_index(0.55), 10, 0.1);
     const std::vector<double> moments = phase.moments(2);
     EXPECT_NEAR(moments[0], 1, 1e-9);
     EXPECT_NEAR(moments[1], 0.8640, 0.001);
