@@ -89,7 +89,7 @@ PhaseFunction PhaseFunction::droplets(double wavelength_um, double width_um, dou
                                       double effective_radius_um, double effective_variance) {
     std::vector<double> cosines(kAngles), sums(kAngles);
     for (int i = 0; i < kAngles; ++i) cosines[static_cast<std::size_t>(i)] = std::cos(angle_rad(i));
-    // r^((1 - 3b) / b) e^(-r / ab); the ripples of single spheres wash out over this many: straight back they leave 1 %, 4 % with 90.
+    // r^((1 - 3b) / b) e^(-r / ab); the ripples of single spheres wash out over this many; straight back 90 left 4 to 16 %.
     constexpr int kSizes = 150;
     const double a = effective_radius_um, b = effective_variance, most = a * (1 + 5 * std::sqrt(b)),
                  least = 0.12 * a;
