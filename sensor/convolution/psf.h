@@ -6,9 +6,10 @@
 // The PSF is the inverse transform of MTF_sys up to 8 cycles/px, tabulated at 1/16 px over 64 px and
 // interpolated by cubic convolution (Keys, IEEE Trans. ASSP 29(6), 1981), for faint points by lines. Every
 // electron is kept: what falls farther than 32 px from the point (Airy wings, halo: about 1 % at f/4 and 5.5
-// um) is folded into the 64 px, but for the halo of bright points (stray/point_halos.h), and what a smaller square leaves out is given to those inside. With a fill
-// factor of 1 the sum over the pixels is then 1 within 1e-6 wherever the point falls; with gaps between
-// pixels it varies as on a real detector, about the fill factor.
+// um) is folded into the 64 px, but for the halo of bright points (stray/point_halos.h), and what a smaller
+// square leaves out is given to those inside. With a fill factor of 1 the sum over the pixels is then 1 within
+// 1e-6 wherever the point falls; with gaps between pixels it varies as on a real detector, about the fill
+// factor.
 
 #include <array>
 #include <complex>
