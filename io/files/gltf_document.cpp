@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/files/data_uri.h"
 #include "io/files/gltf_meshopt.h"
-#include "io/files/gltf_uri.h"
 #include "io/files/mesh_guard.h"
 #include "io/files/mesh_import.h"
 #include "io/system/confined.h"
@@ -150,19 +150,22 @@ bool GltfDocument::numbers(const Json& object, const char* key, const std::strin
     return true;
 }
 
-std::optional<std::string> GltfDocument::data_of(const std::string& uri, const std::string& where) const {
-    if (!uri.starts_with("data:")) return {};
-    if (auto data = decoded_data_uri(uri)) return data;
-    refuse("does not parse: " + where + ": its data are no base64");
-}
-
-// A name is sought as what its URI stands for, then as the URI itself, which some writers do not encode.
-std::string GltfDocument::file_at(const std::string& uri, const std::string& what) const {
-    const std::string name = without_percents(uri);
-    auto found = files_.find({name, {}}, what);
-    if (!found && name != uri) found = files_.find({uri, {}}, what);
-    if (!found) throw InputError(what + " is missing; expected at " + (file().parent_path() / name).string());
-    std::string bytes = read_input_file(*found, mesh_kind());
+std::string GltfDocument::bytes_at(const std::string& uri, const InputKind& kind,
+                                   const std::string& what) const {
+    if (const auto data = decoded_data_uri(uri)) return *data;
+    if (uri.starts_with("data:")) throw InputError(what + " does not parse: its data are no base64");
+    // What the URI stands for, and the URI itself, as some writers have it.
+    std::optional<std::filesystem::path> found = files_.find({without_percents(uri), {}}, what);
+    if (!found) found = files_.find({uri, {}}, what);
+    if (!found)
+        throw InputError(what + " is missing; expected at " +
+                         (file().parent_path() / without_percents(uri)).string());
+    std::string bytes;
+    try {
+        bytes = read_input_file(*found, kind);
+    } catch (const InputError& fault) {
+        throw InputError(what + ": " + fault.what());
+    }
     allow_more(kMeshMemoryPerByte * bytes.size(), kMeshCpu_s_byte * static_cast<double>(bytes.size()));
     return bytes;
 }
@@ -177,13 +180,12 @@ GltfBytes GltfDocument::buffer(std::uint64_t index) {
     }
     auto found = buffers_.find(index);
     if (found == buffers_.end()) {
-        const std::string where = place("buffers", index);
-        const auto data = data_of(uri, where);
-        found =
-            buffers_
-                .emplace(index,
-                         data ? *data : file_at(uri, file().string() + ": " + where + " " + in_quotes(uri)))
-                .first;
+        const std::string what = place("buffers", index) + " " + in_quotes(uri.substr(0, uri.find(',')));
+        try {
+            found = buffers_.emplace(index, bytes_at(uri, mesh_kind(), what)).first;
+        } catch (const InputError& fault) {
+            refuse(fault.what());
+        }
     }
     return {reinterpret_cast<const std::uint8_t*>(found->second.data()), found->second.size()};
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/files/named_files.h"
+#include "io/system/input_file.h"
 
 namespace hilcam {
 
@@ -45,10 +46,9 @@ class GltfDocument {
 
     // Returns the bytes of a buffer view, decompressed where it is compressed (EXT_meshopt_compression, KHR_meshopt_compression).
     GltfBytes view(std::uint64_t index);
-    // Returns the bytes of a URI that holds them itself, or nothing. InputError where they are no base64.
-    std::optional<std::string> data_of(const std::string& uri, const std::string& where) const;
-    // Returns the bytes of the file that a URI names. `what` begins messages.
-    std::string file_at(const std::string& uri, const std::string& what) const;
+    // Returns the bytes that a URI of this file names: data in it, or a file, which is opened as one of a kind. `what` begins
+    // messages, without the mesh's name. InputError without it, too.
+    std::string bytes_at(const std::string& uri, const InputKind& kind, const std::string& what) const;
 
   private:
     NamedFiles& files_;

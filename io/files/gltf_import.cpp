@@ -295,7 +295,8 @@ MeshContents gltf_contents(NamedFiles& files, const std::string& kind) {
 
 std::vector<Mesh> gltf_parts(NamedFiles& files, const std::string& kind, std::span<const std::string> nodes) {
     GltfImport import(files, kind);
-    require_textures(import.unreadable_textures(), files.mesh());
+    if (!import.unreadable_textures().empty())
+        refuse_textures(import.unreadable_textures(), files.mesh().string());
     std::vector<Mesh> meshes;
     for (int part = -1; part < static_cast<int>(nodes.size()); ++part)
         meshes.push_back(import.mesh_of(nodes, part, nullptr, nullptr));

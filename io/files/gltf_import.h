@@ -3,6 +3,7 @@
 // instances (EXT_mesh_gpu_instancing), morph targets by their default weights, skins by where their joints' nodes are; hidden nodes
 // (KHR_node_visibility) are left out.
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>

@@ -33,7 +33,26 @@ bool is_black(const Json& color) {
                        [](const Json& c) { return c.is_number() && c.get<double>() == 0; });
 }
 
+GltfBytes as_bytes(const std::string& text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
 }  // namespace
+
+// What is wrong with the file itself begins with its name.
+template <class Read>
+bool GltfLooks::is_read(const Read& read) {
+    try {
+        read();
+        return true;
+    } catch (const InputError& fault) {
+        const std::string why = fault.what();
+        if (why.starts_with(document_.file().string())) throw;
+        if (std::find(unreadable.begin(), unreadable.end(), why) == unreadable.end())
+            unreadable.push_back(why);
+        return false;
+    }
+}
 
 // The order is scale, rotation, offset; a positive angle turns places counterclockwise as the picture is seen (v down).
 Vec2f GltfTexturePlace::of(Vec2f uv) const {
@@ -189,15 +208,13 @@ bool GltfLooks::read_alpha(const Material& m, SurfaceCut& cut) {
     // With BLEND the factor is the veil's.
     const float factor = mode == "MASK" ? m.alpha : 1.0f;
     const auto picture = m.colors ? picture_of(m.colors->texture) : std::nullopt;
-    const int number = surfaces[m.surface].base_color_texture;
-    if (picture && number < 0) return false;
-    if (picture) {
-        // It was decoded before, for its colours.
-        const std::string bytes = *bytes_of(picture->image, m);
+    if (const int number = surfaces[m.surface].base_color_texture; picture && number >= 0) {
         const Texture& colors = textures[static_cast<std::size_t>(number)];
-        cut.source.alpha = {colors.width, colors.height,
-                            decode_alpha({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
-                                         what_is(picture->image, m))};
+        is_read([&] {
+            cut.source.alpha = {
+                colors.width, colors.height,
+                decode_alpha(as_bytes(bytes_of(picture->image, m)), what_is(picture->image, m))};
+        });
     }
     const bool textured = !cut.source.alpha.empty();
     if (!textured && (mode == "BLEND" || factor >= cutoff)) return false;
@@ -223,11 +240,15 @@ bool GltfLooks::read_metal_texture(const Material& m, SurfaceCut& cut) {
         return false;
     }
     places[m.surface] = use->place;
-    const auto texture = decoded(picture->image, m);
-    if (!texture) return false;
+    Texture texture;
+    if (!is_read([&] {
+            texture = decode_texture(as_bytes(bytes_of(picture->image, m)), what_is(picture->image, m));
+        }))
+        return false;
+    count_texels(texture);
     // Green is roughness, blue is metal; both are linear (glTF 2.0, section 5.22.5).
-    cut.source.metallic = cut.source.roughness = {texture->width, texture->height, {}};
-    for (const auto& texel : texture->texels) {
+    cut.source.metallic = cut.source.roughness = {texture.width, texture.height, {}};
+    for (const auto& texel : texture.texels) {
         cut.source.roughness.values.push_back(texel[1]);
         cut.source.metallic.values.push_back(texel[2]);
     }
@@ -296,36 +317,12 @@ std::string GltfLooks::what_is(std::uint64_t image, const Material& m) {
     return "texture images[" + std::to_string(image) + "] of material " + in_quotes(m.name);
 }
 
-std::optional<std::string> GltfLooks::bytes_of(std::uint64_t index, const Material& m) {
+std::string GltfLooks::bytes_of(std::uint64_t index, const Material& m) {
     const Json& image = document_.at("images", index);
-    const std::string uri = gltf_text(image, "uri");
-    if (uri.empty()) {
-        const GltfBytes bytes =
-            document_.view(document_.required_whole(image, "bufferView", what_is(index, m)));
-        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    }
-    if (auto data = document_.data_of(uri, what_is(index, m))) return data;
-    try {
-        return document_.file_at(uri, what_is(index, m) + " " + in_quotes(uri));
-    } catch (const InputError& fault) {
-        unreadable.emplace_back(fault.what());
-        return {};
-    }
-}
-
-std::optional<Texture> GltfLooks::decoded(std::uint64_t image, const Material& m) {
-    const auto bytes = bytes_of(image, m);
-    if (!bytes) return {};
-    std::optional<Texture> texture;
-    try {
-        texture = decode_texture({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()},
-                                 what_is(image, m));
-    } catch (const InputError& fault) {
-        unreadable.emplace_back(fault.what());
-        return {};
-    }
-    count_texels(*texture);
-    return texture;
+    if (const std::string uri = gltf_text(image, "uri"); !uri.empty())
+        return document_.bytes_at(uri, picture_kind(), what_is(index, m));
+    const GltfBytes bytes = document_.view(document_.required_whole(image, "bufferView", what_is(index, m)));
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 void GltfLooks::count_texels(const Texture& texture) {
@@ -340,11 +337,15 @@ int GltfLooks::texture_of(const Picture& picture, const Material& m) {
     key.smooth = true;
     const auto known = known_.find(key);
     if (known != known_.end()) return known->second;
-    auto texture = decoded(picture.image, m);
-    if (!texture) return known_[key] = -1;
-    texture->name = "images[" + std::to_string(picture.image) + "]";
-    texture->wrap = picture.wrap;
-    textures.push_back(*std::move(texture));
+    Texture texture;
+    if (!is_read([&] {
+            texture = decode_texture(as_bytes(bytes_of(picture.image, m)), what_is(picture.image, m));
+        }))
+        return known_[key] = -1;
+    count_texels(texture);
+    texture.name = "images[" + std::to_string(picture.image) + "]";
+    texture.wrap = picture.wrap;
+    textures.push_back(std::move(texture));
     return known_[key] = static_cast<int>(textures.size()) - 1;
 }
 

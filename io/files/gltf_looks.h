@@ -46,7 +46,7 @@ class GltfLooks {
     std::vector<std::optional<GltfTexturePlace>> places;  // by surface; none: it has no textures
     std::vector<SurfaceCut> cuts;
     LeftOut left_out;
-    std::vector<std::string> unreadable;  // pictures that are missing or do not decode, a line each
+    std::vector<std::string> unreadable;  // textures that cannot be read, each the rest of a sentence
 
   private:
     using Json = GltfDocument::Json;
@@ -88,11 +88,11 @@ class GltfLooks {
     void name_the_rest(const Material& material);
     std::optional<Use> use_of(const Json* texture, const std::string& where) const;
     std::optional<Picture> picture_of(std::uint64_t texture) const;
-    // Return nothing, and add to `unreadable`, where the picture is missing or does not decode.
-    std::optional<std::string> bytes_of(std::uint64_t image, const Material& material);
-    std::optional<Texture> decoded(std::uint64_t image, const Material& material);
-    // -1: it is unreadable.
+    std::string bytes_of(std::uint64_t image, const Material& material);
     int texture_of(const Picture& picture, const Material& material);
+    // Calls read(); false where it throws InputError of a picture, which is then kept among the unreadable ones.
+    template <class Read>
+    bool is_read(const Read& read);
     void count_texels(const Texture& texture);
     static std::string what_is(std::uint64_t image, const Material& material);
 };

@@ -115,6 +115,16 @@ void ObjMaterials::add(std::string_view text, const std::string& name) {
     }
 }
 
+void refuse_textures(const std::vector<std::string>& unreadable, const std::string& name) {
+    constexpr std::size_t kLongest = 600;
+    if (unreadable.size() == 1) refuse(name, unreadable.front());
+    std::string all;
+    for (const std::string& one : unreadable)
+        if (all.size() < kLongest) all += "; " + one;
+    refuse(name,
+           std::to_string(unreadable.size()) + " textures cannot be read ('hilcam mesh' lists all)" + all);
+}
+
 void refuse_materials(std::size_t found, const std::string& name) {
     refuse(name, "has " + std::to_string(found) + " materials or more; accepted: at most " +
                      std::to_string(kMaxMaterials));

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hilcam {
 
@@ -48,6 +49,8 @@ class ObjMaterials {
     std::set<std::string, std::less<>> names_;
 };
 
+// Says of textures that cannot be read which they are.
+[[noreturn]] void refuse_textures(const std::vector<std::string>& unreadable, const std::string& name);
 [[noreturn]] void refuse_materials(std::size_t found, const std::string& name);
 
 }  // namespace hilcam

@@ -44,7 +44,8 @@ struct Source {
     ObjLibraries libraries = {};  // an OBJ has some
     std::vector<std::string> remarks = {};
     bool is_flat = false;       // the corners' order is the normal
-    bool whole_colors = false;  // colours at corners are those of pictures
+    ObjMaps maps = {};          // an OBJ may have some
+    bool whole_colors = false;  // colours at corners are a picture's, not linear
 };
 
 class Loader {
@@ -54,11 +55,12 @@ class Loader {
            int part)
         : file_(files.mesh()), files_(files), source_(source), scene_(scene), nodes_(nodes), part_(part) {}
 
-    // Throws InputError when textures cannot be read.
+    // Throws InputError when textures cannot be read, all of them in one line.
     Mesh load() {
         MeshContents contents = load_contents();
-        require_textures(contents.unreadable_textures, file_);
-        return std::move(contents.mesh);
+        const std::vector<std::string>& bad = contents.unreadable_textures;
+        if (bad.empty()) return std::move(contents.mesh);
+        refuse_textures(bad, file_.string());
     }
 
     MeshContents load_contents() {
@@ -67,7 +69,6 @@ class Loader {
         if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1, 0);
         if (mesh_.triangles.empty()) refuse_empty();
         read_textures();
-        name_the_rest();
         mesh_.left_out = left_out_.lines();
         out_.mesh = std::move(mesh_);
         return std::move(out_);
@@ -82,7 +83,7 @@ class Loader {
     int part_;
     Mesh mesh_;
     MeshContents out_;
-    std::map<std::pair<FileName, bool>, int> texture_index_;  // by name, and whether its edges go on
+    std::map<std::pair<FileName, bool>, int> texture_index_;  // by name, and whether its edge goes on
     bool any_normals_ = false;
     bool any_uvs_ = false;
     bool any_colors_ = false;
@@ -136,24 +137,12 @@ class Loader {
             surface.roughness = std::clamp(value, 0.0f, 1.0f);
         // The grey that assimp has for what a file says nothing of would dim the colours that it does give.
         if (any_colors_ && surface.name == AI_DEFAULT_MATERIAL_NAME) surface.base_color = {1, 1, 1};
-        read_opacity(material, surface);
+        // `d` and `Tr` of an OBJ. Many writers mean "opaque" by 0.
+        if (material.Get(AI_MATKEY_OPACITY, value) == AI_SUCCESS && value > 0 && value < 1)
+            surface.opacity = value;
         return surface;
     }
 
-    // `d` and `Tr` of an OBJ. Many writers mean "opaque" by 0.
-    void read_opacity(const aiMaterial& material, MeshSurface& surface) {
-        ai_real value = 1;
-        if (material.Get(AI_MATKEY_OPACITY, value) != AI_SUCCESS || !(value < 1)) return;
-        if (value > 0) surface.opacity = value;
-    }
-
-    // Names what is left out of the surfaces that triangles have.
-    void name_the_rest() {
-        std::vector<bool> used(mesh_.surfaces.size());
-        for (const std::uint16_t surface : mesh_.surface_of_triangle) used[surface] = true;
-        for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
-            if (used[i]) name_the_rest(*scene_.mMaterials[i], mesh_.surfaces[i].name);
-    }
     void name_the_rest(const aiMaterial& material, const std::string& name) {
         ai_real opacity = 1;
         if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity <= 0)
@@ -173,15 +162,16 @@ class Loader {
     }
 
     ObjMap map_of(const std::string& material) const {
-        const auto found = source_.libraries.maps.find(material);
-        return found == source_.libraries.maps.end() ? ObjMap{} : found->second;
+        const auto found = source_.maps.find(material);
+        return found == source_.maps.end() ? ObjMap{} : found->second;
     }
 
-    // Reads the textures of the surfaces that triangles have: libraries of materials have others, too.
+    // Reads the textures of the surfaces that triangles have, and names what is left out of them: libraries of materials have others, too.
     void read_textures() {
         std::vector<bool> used(mesh_.surfaces.size());
         for (const std::uint16_t surface : mesh_.surface_of_triangle) used[surface] = true;
         for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
+            if (used[i]) name_the_rest(*scene_.mMaterials[i], mesh_.surfaces[i].name);
             aiString name;
             for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
                 if (used[i] && scene_.mMaterials[i]->GetTexture(type, 0, &name) == AI_SUCCESS) {
@@ -221,7 +211,7 @@ class Loader {
     Texture decode(const FileName& name, const std::string& what) const {
         const aiTexture* const embedded = scene_.GetEmbeddedTexture(name.name.c_str());
         if (!embedded) {
-            const auto found = files_.find(name, what);
+            const std::optional<std::filesystem::path> found = files_.find(name, what);
             if (!found)
                 throw InputError(what + " is missing; expected at " +
                                  (file_.parent_path() / name.name).string());
@@ -319,10 +309,6 @@ class Loader {
         }
     }
 
-    static Vec2f finite_or_zero(Vec2f uv) {
-        return std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : Vec2f{};
-    }
-
     // Counts a facet whose normal in the file is not that of its corners' order; one of 0 says nothing.
     void compare_normals(const aiMesh& part, const aiFace& face) {
         const aiVector3D said = part.mNormals[face.mIndices[0]];
@@ -332,6 +318,10 @@ class Loader {
         if (!(sizes > 0)) return;
         out_.opposed_facets += both < 0;
         out_.leaning_facets += both >= 0 && both < 0.9f * sizes;
+    }
+
+    static Vec2f finite_or_zero(Vec2f uv) {
+        return std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : Vec2f{};
     }
 
     void require_finite(const aiMesh& part) const {
@@ -402,14 +392,13 @@ Source source_of(NamedFiles& files, const std::string& kind) {
     if (kind == ".obj") {
         ObjSource obj = plain_obj(source.bytes, name);
         source.libraries = read_obj_libraries(obj, files);
+        source.libraries.text = take_map_options(source.libraries.text, source.maps);
         source.bytes = std::move(obj.text);
         if (!source.libraries.text.empty())
             source.bytes.insert(0, std::string("mtllib ") + kMaterials + "\n");
     }
-    if (kind == ".ply") {
-        source.bytes = plain_ply(source.bytes, name);
-        source.whole_colors = has_whole_colors(source.bytes);
-    }
+    if (kind == ".ply") source.bytes = plain_ply(source.bytes, name);
+    source.whole_colors = kind == ".ply" && has_whole_colors(source.bytes);
     if (kind == ".stl") source.bytes = plain_stl(source.bytes, name, source.remarks);
     source.is_flat = kind == ".stl";
     return source;
@@ -482,23 +471,18 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, Name
     return *scene;
 }
 
-bool is_gltf(const std::string& kind) { return kind == ".glb" || kind == ".gltf"; }
-
 }  // namespace
-
-void require_textures(const std::vector<std::string>& bad, const std::filesystem::path& file) {
-    if (bad.empty()) return;
-    if (bad.size() == 1) refuse(file, bad.front());
-    std::string all;
-    for (const std::string& one : bad)
-        if (all.size() < 600) all += "; " + one;
-    refuse(file, std::to_string(bad.size()) + " textures cannot be read ('hilcam mesh' lists all)" + all);
-}
 
 const InputKind& mesh_kind() {
     static const InputKind kind{std::uintmax_t{4} << 30, "a mesh file, or what one names beside it"};
     return kind;
 }
+
+namespace {
+
+bool is_gltf(const std::string& kind) { return kind == ".glb" || kind == ".gltf"; }
+
+}  // namespace
 
 MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind) {
     if (is_gltf(kind)) return gltf_contents(files, kind);

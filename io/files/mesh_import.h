@@ -3,7 +3,6 @@
 // reader of its own (gltf_import.h), the others are read through assimp, which no other unit knows.
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,8 +42,6 @@ struct MeshContents {
     // (a cosine of 0.9) from what that order says. The order counts.
     std::uint64_t opposed_facets = 0, leaning_facets = 0;
 };
-// Throws InputError, one line, when there are textures that cannot be read.
-void require_textures(const std::vector<std::string>& unreadable, const std::filesystem::path& file);
 // Does what load_mesh_contents() of mesh_file.h does; `files` are those of the mesh, `kind` as below.
 MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind);
 

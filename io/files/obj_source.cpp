@@ -182,7 +182,6 @@ void add_library(const std::filesystem::path& file, ObjMaterials& materials, Obj
     std::string text(without_mark(bytes, file.string()));
     std::replace(text.begin(), text.end(), '\r', '\n');
     materials.add(text, file.string());
-    text = take_map_options(text, out.maps);
     TextLines lines(text, file.string());
     for (std::string_view line; lines.next(line);) {
         line = trimmed(line);

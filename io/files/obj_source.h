@@ -21,7 +21,6 @@
 #include <vector>
 
 #include "io/files/named_files.h"
-#include "io/files/obj_maps.h"
 
 namespace hilcam {
 
@@ -37,7 +36,6 @@ struct ObjLibraries {
     std::string text;
     std::map<std::string, std::filesystem::path, std::less<>>
         folder_of_material;  // textures lie beside their library
-    ObjMaps maps;            // what they say of how textures lie
     std::vector<std::string> missing;
 };
 // Reads them in a child (confined.h). Where none of those that are named is there, one of the mesh's own name stands for them. Throws InputError for a

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "io/files/gltf_uri.h"
+#include "io/files/data_uri.h"
 #include "io/files/mesh_file.h"
 #include "tests/support/files.h"
 #include "tests/support/gltf_writer.h"

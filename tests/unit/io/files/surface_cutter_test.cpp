@@ -150,7 +150,7 @@ TEST(KindPicture, KindsAreTheLooksThatOccur) {
     source.metallic_factor = 0.8f;
     source.cutoff = 0;
     source.smooth = false;
-    const std::vector<Kind> kinds = kinds_of(source);
+    const std::vector<LookKind> kinds = kinds_of(source);
     ASSERT_EQ(kinds.size(), 2u);
     EXPECT_NEAR(kinds[0].metallic, 0.8f, 1e-6f);
     EXPECT_NEAR(kinds[0].roughness, 50 / 3.0f / 255, 1e-6f);

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-const SpectralGrid kGrid({0.50, 0.57, 0.60, 0.67});
+const SpectralGrid kFourBins({0.50, 0.57, 0.60, 0.67});
 
 // East of Greenwich one texel, west of it another.
 EarthMap two_halves(const EarthSample& west, const EarthSample& east) {
@@ -41,9 +41,9 @@ float east(const AirGround& g, int bin) {
 }
 
 TEST(EarthAlbedo, IsThatOfWhatLiesBelow) {
-    const AirGround clear = earth_albedo({}, two_halves(sea(), land(0.3f, 0)), {}, kGrid);
+    const AirGround clear = earth_albedo({}, two_halves(sea(), land(0.3f, 0)), {}, kFourBins);
     ASSERT_EQ(clear.albedo.size(), static_cast<std::size_t>(clear.width * clear.height));
-    EXPECT_NEAR(west(clear, 0), Sea(EarthConfig{}.wind_m_s, kGrid).albedo()[0], 0.005);
+    EXPECT_NEAR(west(clear, 0), Sea(EarthConfig{}.wind_m_s, kFourBins).albedo()[0], 0.005);
     // Codes have eight bits.
     EXPECT_NEAR(east(clear, 0), 0.3, 0.005);
     EXPECT_NEAR(east(clear, 2), 0.3, 0.005);
@@ -52,13 +52,13 @@ TEST(EarthAlbedo, IsThatOfWhatLiesBelow) {
 // A cloud of c = 0.5 over ground of 0.3: 0.5 + 0.5^2 0.3 / (1 - 0.3 0.5); half as thick: c = 1/3.
 TEST(EarthAlbedo, LightGoesUpAndDownBetweenGroundAndCloud) {
     const EarthMap map = two_halves(land(0.3f, 0), land(0.3f, 0.5f));
-    EXPECT_NEAR(east(earth_albedo({}, map, {}, kGrid), 0), 0.5882, 0.01);
-    EXPECT_NEAR(west(earth_albedo({}, map, {}, kGrid), 0), 0.3, 0.005);
+    EXPECT_NEAR(east(earth_albedo({}, map, {}, kFourBins), 0), 0.5882, 0.01);
+    EXPECT_NEAR(west(earth_albedo({}, map, {}, kFourBins), 0), 0.3, 0.005);
     EarthConfig thin;
     thin.cloud_thickness = 0.5;
-    EXPECT_NEAR(east(earth_albedo(thin, map, {}, kGrid), 0), 0.4815, 0.01);
+    EXPECT_NEAR(east(earth_albedo(thin, map, {}, kFourBins), 0), 0.4815, 0.01);
     // Clouds of another map take the place of these.
-    EXPECT_NEAR(east(earth_albedo({}, map, two_halves(land(0, 0.9f), land(0, 0)), kGrid), 0), 0.3, 0.005);
+    EXPECT_NEAR(east(earth_albedo({}, map, two_halves(land(0, 0.9f), land(0, 0)), kFourBins), 0), 0.3, 0.005);
 }
 
 // Clouds of two instants count alike.
@@ -67,7 +67,7 @@ TEST(EarthAlbedo, MapsByTimeAreTheirMean) {
     hours.push_back({TimeTai{0}, two_halves(land(0, 0.2f), land(0, 0))});
     hours.push_back({TimeTai{3600'000'000'000}, two_halves(land(0, 0.6f), land(0, 0))});
     const AirGround both =
-        earth_albedo({}, two_halves(land(0, 0), land(0, 0)), CloudMaps(std::move(hours)), kGrid);
+        earth_albedo({}, two_halves(land(0, 0), land(0, 0)), CloudMaps(std::move(hours)), kFourBins);
     EXPECT_NEAR(west(both, 0), 0.4, 0.01);
     EXPECT_NEAR(east(both, 0), 0, 0.005);
 }

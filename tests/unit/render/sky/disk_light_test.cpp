@@ -20,9 +20,9 @@ Vec3d direction(double longitude_deg, double latitude_deg) {
 }
 
 // A body of which nothing but this camera and Sun is known: the first along +z at a distance, in its usual look.
-class Planet {
+class TestPlanet {
   public:
-    Planet(BodyId id, double distance_m, double view_px, const BodyConfig& config)
+    TestPlanet(BodyId id, double distance_m, double view_px, const BodyConfig& config)
         : id_(id), distance_m_(distance_m) {
         stage.grid = SpectralGrid({0.545, 0.555, 0.56});  // the first is where V is
         stage.camera(96, 48 / view_px);
@@ -116,7 +116,7 @@ TEST(DiskLight, SaturnHasTheAlmanacsLightAsAPointAndAsADisk) {
         config.rings = rings;
         for (const double size_px : {0.4, 3.0, 7.0, 30.0}) {
             if (!rings && size_px > 1) continue;  // the globe alone, below
-            Planet saturn(
+            TestPlanet saturn(
                 BodyId::kSaturn, kDistance_m,
                 pixels_for(size_px, kFigures[index_of(BodyId::kSaturn)].equatorial_radius_m, kDistance_m),
                 config);
@@ -143,9 +143,9 @@ TEST(DiskLight, PlanetsHaveTheirMagnitudesAsPointsAndAsDisks) {
         for (const double size_px : {0.3, 2.0, 40.0}) {
             if (id == BodyId::kSaturn && size_px < 1) continue;  // a point of Saturn has its rings' light
             constexpr double kDistance_m = 1e11;
-            Planet planet(id, kDistance_m,
-                          pixels_for(size_px, kFigures[index_of(id)].equatorial_radius_m, kDistance_m),
-                          config);
+            TestPlanet planet(id, kDistance_m,
+                              pixels_for(size_px, kFigures[index_of(id)].equatorial_radius_m, kDistance_m),
+                              config);
             for (const double phase_deg : {0.5, 9.0, 60.0}) {
                 const DiskView view{direction(0, 2), direction(phase_deg, 2)};
                 EXPECT_NEAR(planet.magnitude_v_1au(view), magnitude_v_1au(id, view.phase_rad()), 0.01)
@@ -158,9 +158,9 @@ TEST(DiskLight, PlanetsHaveTheirMagnitudesAsPointsAndAsDisks) {
 // Mallama & Hilton 2018, eq. 14: -7.110 - 8.4e-4 times the mean planetographic latitude.
 TEST(DiskLight, UranusIsBrighterFromItsPoles) {
     for (const double size_px : {0.3, 30.0}) {
-        Planet uranus(BodyId::kUranus, 1e11,
-                      pixels_for(size_px, kFigures[index_of(BodyId::kUranus)].equatorial_radius_m, 1e11),
-                      default_body(BodyId::kUranus));
+        TestPlanet uranus(BodyId::kUranus, 1e11,
+                          pixels_for(size_px, kFigures[index_of(BodyId::kUranus)].equatorial_radius_m, 1e11),
+                          default_body(BodyId::kUranus));
         for (const double latitude_deg : {0.0, 50.0, -82.0}) {
             const DiskView view{direction(0, latitude_deg), direction(1, latitude_deg)};
             const double flattened = std::pow(24973.0 / 25559, 2);

@@ -1,5 +1,5 @@
 #pragma once
-// Data that a URI holds itself (RFC 2397), as glTF has them. Names of files are named_files.h's.
+// Data in a URI itself (RFC 2397), as glTF may have its buffers and pictures.
 
 #include <optional>
 #include <string>

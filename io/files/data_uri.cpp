@@ -1,4 +1,4 @@
-#include "io/files/gltf_uri.h"
+#include "io/files/data_uri.h"
 
 #include <array>
 #include <cstdint>
