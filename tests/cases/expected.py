@@ -251,6 +251,13 @@ def hill(file, source="made so", right_m=4100.0, within_m=20.0, body="moon", lon
     return Row(file, "%g m at %g E, %g N" % (right_m, longitude, latitude), source, measure)
 
 
+def refused_map(file, naming, source):
+    def measure(program, path):
+        found = measures.height(program, path, 92.5, 22.5)
+        return isinstance(found, str) and naming in found, found if isinstance(found, str) else "%g m" % found
+    return Row(file, "refused, naming " + naming, source, measure)
+
+
 def step(file, latitude, source):
     """A step of 1000 m: below it 0 m, above it 1000 m, within a post of 0.05 degrees."""
     def measure(program, path):
@@ -261,12 +268,16 @@ def step(file, latitude, source):
 
 CENTRIC = "tan gd = tan gc (3396.19 / 3376.20)^2"
 MAPS = [hill("dem/%s" % name) for name in (
-    "east.lbl", "east_270.lbl", "east_270.cub", "attached.img", "base_multiplier.cub", "bigendian.tif", "float64.tif", "half_offset.lbl", "lon0_360.tif",
+    "east.lbl", "east_270.lbl", "east_270.cub", "attached.img", "base_multiplier.cub", "bigendian.tif", "float64.tif", "lon0_360.tif",
     "lower_case_dir.lbl", "missing.lbl", "missing_hex.lbl", "missing_unsaid.lbl", "moon_1738.tif", "nan.tif", "nodata_flt_min.tif", "flt_min_unsaid.tif", "plain.tif",
-    "point.tif", "prefix.lbl", "radius_metres.lbl", "real_be.lbl", "real_le.lbl", "scale_m_pix.lbl", "scale_metres.lbl", "southup.tif", "tiled.cub",
+    "point.tif", "prefix.lbl", "real_be.lbl", "real_le.lbl", "scale_m_pix.lbl", "scale_metres.lbl", "southup.tif", "tiled.cub",
     "uint16.tif", "unsigned.lbl", "null_pixel.cub", "minus9999_unsaid.tif")]
 MAPS += [hill("dem/west.lbl", "PDS3: samples go right with east"), hill("dem/west_90.cub", "ISIS: the same ground as east_270"), hill("dem/earth_sphere.tif", body="earth"),
-         hill("dem/mola_offset.lbl", "the label's own bounds in degrees"), hill("dem/km_unit.lbl", "UNIT = KILOMETER"), hill("dem/lola_radius.lbl", "LOLA's radii less 1737.4 km"),
+         refused_map("dem/mola_offset.lbl", "bounds_deg: [0, -90, 360, 90]", "the label's own bounds in degrees"),
+         hill("dem/mola_offset.lbl", "the label's own bounds in degrees", keys=", bounds_deg: [0, -90, 360, 90]"),
+         hill("dem/half_offset.lbl", "the label's own bounds in degrees", keys=", bounds_deg: [0, -90, 360, 90]"), hill("dem/km_unit.lbl", "UNIT = KILOMETER"),
+         refused_map("dem/lola_radius.lbl", "offset: -1737400", "LOLA's radii less 1737.4 km"), hill("dem/lola_radius.lbl", "LOLA's radii less 1737.4 km", keys=", offset: -1737400"),
+         refused_map("dem/radius_metres.lbl", "radius", "a radius in m where PDS3 has km"),
          hill("dem/minus9999_unsaid.tif", "-9999 is no height", 100.0, 60.0, "moon", -152.5, 62.5),
          step("dem/mars_sphere.lbl", 42.837, CENTRIC), step("dem/mars_ellipsoid.lbl", 42.837, CENTRIC), step("dem/mars_graphic.lbl", 42.5, "planetographic is geodetic")]
 

@@ -58,7 +58,7 @@ class Program:
         return done.returncode, done.stdout, done.stderr
 
     def refusal(self, messages):
-        return "refused: " + messages.strip().splitlines()[0].replace(str(self.folder), "")[:300]
+        return "refused: " + messages.strip().splitlines()[0].replace(str(self.folder), "")[:500]
 
     def scenario(self, text):
         config = self.folder / "scenario.yaml"
