@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <vector>
 
 #include "render/vocabulary/units.h"
 #include "render/vocabulary/vec.h"
@@ -112,19 +113,18 @@ class ReferenceLight {
     }
     // Of all other light there, by so many paths: each begins where the ray is met, by chance.
     double more_than_once(Vec3d origin, Vec3d dir, Vec3d sun, int paths) {
-        double whole = 0;
+        std::vector<Vec3d> places;
+        std::vector<double> sums{0};
         walk(origin, dir, [&](Vec3d p, double step_m, double passed) {
-            whole += passed * step_m * air_.scattering(height(p));
+            places.push_back(p);
+            sums.push_back(sums.back() + passed * step_m * air_.scattering(height(p)));
         });
         double sum = 0;
         for (int i = 0; i < paths; ++i) {
-            double left = uniform_(engine_) * whole;
-            Vec3d at = origin;
-            walk(origin, dir, [&](Vec3d p, double step_m, double passed) {
-                if (left < 0) return;
-                at = p, left -= passed * step_m * air_.scattering(height(p));
-            });
-            double weight = whole;
+            const auto found =
+                std::upper_bound(sums.begin() + 1, sums.end() - 1, uniform_(engine_) * sums.back());
+            const Vec3d at = places[static_cast<std::size_t>(found - sums.begin()) - 1];
+            double weight = sums.back();
             const Vec3d next = scatter(at, dir, weight);
             sum += path(at, next, sun, weight);
         }
