@@ -45,7 +45,7 @@ struct MeshSurvey {
     double coarse_step_m = 0;
     std::vector<std::string> missing_materials;
     std::vector<std::string> unreadable_textures;
-    std::vector<std::string> remarks;  // each says that something was taken for another thing, or left out
+    std::vector<std::string> remarks;   // each says that something was taken for another thing, or left out
     std::vector<std::string> left_out;  // Mesh::left_out
 };
 

@@ -39,7 +39,7 @@ GltfBytes as_bytes(const std::string& text) {
 
 }  // namespace
 
-// What is wrong with the file itself begins with its name.
+// Notes what is wrong with a picture; a fault of the file itself, whose message begins with the file's name, goes on.
 template <class Read>
 bool GltfLooks::is_read(const Read& read) {
     try {

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kOneSecond_ns = 1'000'000'000;
 const TimeTai kStart = parse_utc("2026-03-20T12:00:00Z");
 
 std::filesystem::path shared_cases() {
@@ -153,7 +153,7 @@ TEST_F(PublicOrbits, AttitudesAreTheirClosedForm) {
 TEST_F(PublicOrbits, ElementSetsOfEveryDialectAreTheSamePlace) {
     const auto place = [&](const std::string& file, const std::string& satellite, TleChecksum checksum) {
         const std::vector<ElementSet> sets = load_element_sets(folder_ / "tle" / file, checksum);
-        const WorldFrame frame(kStart + 3600 * kSecond_ns, {});
+        const WorldFrame frame(kStart + 3600 * kOneSecond_ns, {});
         return make_tle(choose_element_set(sets, satellite, kStart, file), 86400)->at({frame, {}}).position_m;
     };
     const Vec3d right = place("plain.tle", "", TleChecksum::kVerify);

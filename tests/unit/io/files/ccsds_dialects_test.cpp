@@ -47,7 +47,7 @@ class CcsdsDialects : public FilesTest {
 
 // --- orbits ---
 
-const std::string kOem =
+const std::string kCircleOem =
     "CCSDS_OEM_VERS = 2.0\nCREATION_DATE = 2026-03-01T00:00:00\nORIGINATOR = T\nMETA_START\nOBJECT_NAME = "
     "SAT\n"
     "OBJECT_ID = 2020-001A\nCENTER_NAME = EARTH\nREF_FRAME = EME2000\nTIME_SYSTEM = UTC\n"
@@ -57,7 +57,7 @@ const std::string kOem =
     "2026-03-20T12:02:00 7002 900 3 -1 7.3 0\n2026-03-20T12:03:00 7003 1350 4 -1 7.2 0\n";
 
 TEST_F(CcsdsDialects, WordsAreReadInAnyCase) {
-    const std::vector<OemSegment> plain = read_oem(kOem, "t.oem");
+    const std::vector<OemSegment> plain = read_oem(kCircleOem, "t.oem");
     for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
              {"= LAGRANGE", "= Lagrange"},
              {"= LAGRANGE", "= lagrange"},
@@ -72,15 +72,15 @@ TEST_F(CcsdsDialects, WordsAreReadInAnyCase) {
              {"ORIGINATOR = T", "ORIGINATOR = T\nMESSAGE_ID = A 1\nCLASSIFICATION = public"},
              {"META_STOP", "TRACKING_ID = 7\nMESSAGE_ID = 8\nMETA_STOP"},
              {"META_STOP", "REF_FRAME_EPOCH = 2000-01-01T12:00:00\nMETA_STOP"}})
-        expect_same(read_oem(with(kOem, from, to), "t.oem"), plain);
+        expect_same(read_oem(with(kCircleOem, from, to), "t.oem"), plain);
     std::vector<std::string> notes;
-    read_oem(with(kOem, "META_STOP", "TRACKING_ID = 7\nMETA_STOP"), "t.oem", "sat", &notes);
+    read_oem(with(kCircleOem, "META_STOP", "TRACKING_ID = 7\nMETA_STOP"), "t.oem", "sat", &notes);
     EXPECT_THAT(notes, testing::ElementsAre("t.oem:14: the keyword 'TRACKING_ID' is not used"));
 }
 
 // Elements in the standard's order, with and without an <ndm> around, units, comments and a covariance.
 TEST_F(CcsdsDialects, AnOemInXmlIsTheSame) {
-    const std::vector<OemSegment> plain = read_oem(kOem, "t.oem");
+    const std::vector<OemSegment> plain = read_oem(kCircleOem, "t.oem");
     std::string xml =
         "<?xml version=\"1.0\"?>\n<oem id=\"CCSDS_OEM_VERS\" "
         "version=\"2.0\"><header><CREATION_DATE>2026</CREATION_DATE>"
@@ -119,8 +119,8 @@ TEST_F(CcsdsDialects, AnOemInXmlIsTheSame) {
 }
 
 TEST_F(CcsdsDialects, ARepeatedEpochPartsItsSegment) {
-    const std::string burn =
-        with(kOem, "2026-03-20T12:02:00", "2026-03-20T12:01:00 7001 450 2 -1 7.9 0\n2026-03-20T12:02:00");
+    const std::string burn = with(kCircleOem, "2026-03-20T12:02:00",
+                                  "2026-03-20T12:01:00 7001 450 2 -1 7.9 0\n2026-03-20T12:02:00");
     std::vector<std::string> notes;
     const std::vector<OemSegment> sides = read_oem(burn, "t.oem", "", &notes);
     ASSERT_EQ(sides.size(), 2u);
@@ -135,26 +135,27 @@ TEST_F(CcsdsDialects, ARepeatedEpochPartsItsSegment) {
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_THAT(notes[0], HasSubstr("has 2 samples, fewer than INTERPOLATION_DEGREE 3 takes"));
     // At the first and the last epoch, and three times the same one: what has no length is left out.
-    const std::string ends =
-        with(with(kOem, "2026-03-20T12:00:00 ", "2026-03-20T12:00:00 1 2 3 4 5 6\n2026-03-20T12:00:00 "),
-             "2026-03-20T12:03:00 ", "2026-03-20T12:03:00 7003 1350 4 -1 7.2 0\n2026-03-20T12:03:00 ");
+    const std::string ends = with(
+        with(kCircleOem, "2026-03-20T12:00:00 ", "2026-03-20T12:00:00 1 2 3 4 5 6\n2026-03-20T12:00:00 "),
+        "2026-03-20T12:03:00 ", "2026-03-20T12:03:00 7003 1350 4 -1 7.2 0\n2026-03-20T12:03:00 ");
     const std::vector<OemSegment> whole = read_oem(ends, "t.oem");
     ASSERT_EQ(whole.size(), 1u);
     EXPECT_EQ(whole[0].states.size(), 4u);
     EXPECT_EQ(whole[0].states.front().position_m.x, 7000500);
-    std::string nothing = kOem.substr(0, kOem.find("2026-03-20T12:01:00 "));
+    std::string nothing = kCircleOem.substr(0, kCircleOem.find("2026-03-20T12:01:00 "));
     nothing = with(nothing, "DEGREE = 3", "DEGREE = 1") + "2026-03-20T12:00:00 7001 450 2 -1 7.4 0\n";
     EXPECT_THAT(refusal_of_oem(nothing), HasSubstr("has no two epochs that differ"));
 }
 
 TEST_F(CcsdsDialects, WhatLooksLikePlainTextAndIsNotIsNamed) {
-    EXPECT_THAT(refusal_of_oem("\xFF\xFE" + kOem), HasSubstr("t.oem: is UTF-16; accepted: UTF-8 or ASCII"));
-    EXPECT_THAT(refusal_of_oem(with(kOem, "7001 450",
+    EXPECT_THAT(refusal_of_oem("\xFF\xFE" + kCircleOem),
+                HasSubstr("t.oem: is UTF-16; accepted: UTF-8 or ASCII"));
+    EXPECT_THAT(refusal_of_oem(with(kCircleOem, "7001 450",
                                     "7001\xC2\xA0"
                                     "450")),
                 HasSubstr("which has U+00A0, a non-breaking blank; accepted: a number, with plain blanks"));
     // In a name it is a character as any other.
-    EXPECT_EQ(read_oem(with(kOem, "= SAT", "= S\xC2\xA0T"), "t.oem").size(), 1u);
+    EXPECT_EQ(read_oem(with(kCircleOem, "= SAT", "= S\xC2\xA0T"), "t.oem").size(), 1u);
 }
 
 // Short segments have the degree that their states allow, and say so.
@@ -162,9 +163,10 @@ TEST_F(CcsdsDialects, ADegreeOfMoreStatesThanThereAreIsLowered) {
     for (const auto& [method, given, degree] : std::vector<std::tuple<std::string, std::string, int>>{
              {"LAGRANGE", "9", 3}, {"HERMITE", "11", 8}, {"HERMITE", "7", 7}, {"LAGRANGE", "3", 3}}) {
         std::vector<std::string> notes;
-        const OemSegment s = read_oem(with(with(kOem, "LAGRANGE", method), "DEGREE = 3", "DEGREE = " + given),
-                                      "t.oem", "", &notes)
-                                 .at(0);
+        const OemSegment s =
+            read_oem(with(with(kCircleOem, "LAGRANGE", method), "DEGREE = 3", "DEGREE = " + given), "t.oem",
+                     "", &notes)
+                .at(0);
         EXPECT_LE(interpolation_nodes(s.interpolation), 4);
         EXPECT_LE(s.interpolation.degree, degree);
         EXPECT_EQ(notes.size(), given == "9" || given == "11" ? 1u : 0u);
@@ -179,13 +181,15 @@ TEST_F(CcsdsDialects, EvenDegreesOfHermiteTakeTheNextOddOnesStates) {
     for (const auto& [degree, nodes] :
          std::vector<std::pair<int, int>>{{1, 2}, {2, 2}, {3, 2}, {4, 3}, {5, 3}, {8, 5}, {30, 16}, {31, 16}})
         EXPECT_EQ(interpolation_nodes({InterpolationMethod::kHermite, degree}), nodes) << degree;
-    EXPECT_EQ(read_oem(with(with(kOem, "LAGRANGE", "HERMITE"), "DEGREE = 3", "DEGREE = 2"), "t.oem").size(),
-              1u);
+    EXPECT_EQ(
+        read_oem(with(with(kCircleOem, "LAGRANGE", "HERMITE"), "DEGREE = 3", "DEGREE = 2"), "t.oem").size(),
+        1u);
 }
 
 TEST_F(CcsdsDialects, TheFramesEpochIsTakenOrRefused) {
     const auto read = [&](const std::string& frame, const std::string& epoch) {
-        return with(kOem, "= EME2000", "= " + frame + (epoch.empty() ? "" : "\nREF_FRAME_EPOCH = " + epoch));
+        return with(kCircleOem, "= EME2000",
+                    "= " + frame + (epoch.empty() ? "" : "\nREF_FRAME_EPOCH = " + epoch));
     };
     const TimeTai epoch = parse_utc("2001-02-03T04:05:06Z");
     for (const auto& [name, frame] :
