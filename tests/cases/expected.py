@@ -151,7 +151,8 @@ MESSAGES += [read_message("ccsds/itrf97.oem", STANDARD + ", annex B: ITRF-97"), 
 ELEMENTS = [as_plain("tle/%s.tle" % name) for name in (
     "plain", "crlf_trailing", "bom", "name_starts_with_1", "name_starts_with_2", "hash_name", "long_name", "epoch_space_day")]
 ELEMENTS += [as_plain("tle/%s.tle" % name, within_m=300, source="the same but for drag in 5 min") for name in (
-    "ndd_plus_exponent", "bstar_plus_sign", "bstar_positive_exp", "bstar_blank_exp", "bstar_zero_blank")]
+    "ndd_plus_exponent", "bstar_plus_sign", "bstar_positive_exp")]
+ELEMENTS += [refused("tle/%s.tle" % name, "drag (B*)", "columns 54 to 61 hold a number", "tle") for name in ("bstar_blank_exp", "bstar_zero_blank")]
 ELEMENTS += [
     as_plain("tle/alpha5.tle", ', satellite: "100001"', source="Space-Track: A0001 is 100001"), as_plain("tle/spaces_number.tle", ', satellite: "04859"'),
     as_plain("tle/no_checksum.tle", ", checksum: ignore"), read("tle/angles_leading_dot.tle"), read("tle/plus_signs.tle"), read("tle/tabs_lower.tle"),
@@ -208,12 +209,12 @@ DARK, BRIGHT = round(linear(20), 3), round(linear(230), 3)
 GLTF = [
     sized("gltf/quantized.gltf", (2, 2, 0), 2, 4, "glTF 2.0, 3.12; KHR_mesh_quantization"),
     sized("gltf/instancing.gltf", (10, 2, 0), 6, 12, "EXT_mesh_gpu_instancing"),
-    sized("gltf/instances_rotated.gltf", (34, 4, 5), 10, 64, "EXT_mesh_gpu_instancing"),
+    sized("gltf/instances_rotated.gltf", (34, 6, 0), 10, 64, "EXT_mesh_gpu_instancing"),
     sized("gltf/required_unknown.gltf", (2, 2, 0), 2, 4, "glTF 2.0, 3.12: refused by who has no meshopt; no view of it is compressed"), refused_mesh("gltf/basisu.gltf", "basisu", "glTF 2.0, 3.12"),
     looks("gltf/vertex_colours.gltf", (0.1, 0.9)), looks("gltf/alpha_mask.gltf", (round(linear(200), 3), 0.0)),
     looks("gltf/texture_transform.gltf", (BRIGHT, DARK)), looks("gltf/second_uv_set.gltf", (DARK, BRIGHT)),
     looks("gltf/wrap_clamp.gltf", (DARK,) * 3 + (BRIGHT,) * 3, within=0.09), looks("gltf/wrap_mirror.gltf", (BRIGHT, DARK, DARK, BRIGHT, BRIGHT, DARK), within=0.09),
-    looks("gltf/spec_gloss.gltf", (0.2, 0.2)), looks("gltf/metal_rough_texture.gltf", (0.0, 0.8), within=0.15), says("gltf/emissive.gltf", "emi", "KHR_materials_emissive_strength"),
+    looks("gltf/spec_gloss.gltf", (0.2, 0.2)), looks("gltf/metal_rough_texture.gltf", (0.17, 0.8), within=0.06, source="GGX of roughness 0.157, 8.8 degrees off its peak"), says("gltf/emissive.gltf", "emi", "KHR_materials_emissive_strength"),
     sized("gltf/morph_weight_1.gltf", (4, 2, 0), 2, 8), sized("gltf/skin.gltf", (2, 2, 0), 2, 4, saying="x 4 to 6"), sized("gltf/node_invisible.gltf", (2, 2, 0), 2, 4, "KHR_node_visibility"),
     sized("gltf/percent_encoded_uri.gltf", (2, 2, 0), 2, 4, "RFC 3986"), sized("gltf/second_scene.gltf", (10, 10, 0), 2, 100), sized("gltf/sparse_accessor.gltf", (2, 2, 0), 2, 4),
     sized("gltf/strip.gltf", (2, 2, 0), 2, 4), sized("gltf/fan.gltf", (2, 2, 0), 2, 4),
@@ -239,7 +240,7 @@ OBJ += [looks("obj/normals_%s.stl" % name, (1.0, 1.0), source="STL's facets are 
 SHAPES = [
     sized("shape/damit_plain.tab", (4, 2, 2), 8, None, "DAMIT's layout"), sized("shape/damit_three.tab", (4, 2, 2), 8), sized("shape/plates.plt", (4, 2, 2), 8),
     sized("shape/plates_d.plt", (4, 2, 2), 8), sized("shape/vf_commas.tab", (4, 2, 2), 8), sized("shape/vf_trailing.tab", (4, 2, 2), 8),
-    sized("shape/lat_lon_radius.tab", (2, 2, 2), None, None, "radius 1 everywhere"),
+    sized("shape/lat_lon_radius.tab", (4, 2, 2), None, None, "the places of its lines"),
 ]
 
 
@@ -278,7 +279,7 @@ MAPS += [hill("dem/west.lbl", "PDS3: samples go right with east"), hill("dem/wes
          hill("dem/half_offset.lbl", "the label's own bounds in degrees", keys=", bounds_deg: [0, -90, 360, 90]"), hill("dem/km_unit.lbl", "UNIT = KILOMETER"),
          refused_map("dem/lola_radius.lbl", "offset: -1737400", "LOLA's radii less 1737.4 km"), hill("dem/lola_radius.lbl", "LOLA's radii less 1737.4 km", keys=", offset: -1737400"),
          refused_map("dem/radius_metres.lbl", "radius", "a radius in m where PDS3 has km"),
-         hill("dem/minus9999_unsaid.tif", "-9999 is no height", 100.0, 60.0, "moon", -152.5, 62.5),
+         hill("dem/minus9999_unsaid.tif", "-9999 is a hole, which is filled to height 0", 0.0, 1.0, "moon", -152.5, 62.5),
          step("dem/mars_sphere.lbl", 42.837, CENTRIC), step("dem/mars_ellipsoid.lbl", 42.837, CENTRIC), step("dem/mars_graphic.lbl", 42.5, "planetographic is geodetic")]
 
 
