@@ -223,7 +223,7 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
 }
 
 TEST_F(CheckScenario, LooksOfAMeshThatAreNotTakenAreSaidOnce) {
-    write("lamp.mtl", "newmtl lamp\nKd 1 1 1\nKe 9 9 9\n");
+    write("lamp.mtl", "newmtl lamp\nKd 0.1 0.1 0.1\nKe 9 9 9\n");
     const std::string mesh =
         write("lamp.obj",
               "mtllib lamp.mtl\nusemtl lamp\nv -0.05 -0.05 0\nv 0.05 -0.05 0\nv 0.05 0.05 0\nv -0.05 0.05 0\n"
