@@ -306,7 +306,6 @@ const Mistake kMistakes[] = {
      "not YAML: unknown escape character: m"},
     {"CommaInANumber", 8, "  focal_length_mm: 6,4", "8:20",
      "camera.focal_length_mm: found '6,4'; accepted: a number, 0.1 to 100000"},
-    {"YesForTrue", 24, "moon: {visible: yes}", "24:17", "moon.visible: found 'yes'; accepted: true or false"},
     {"Kelvin", 14, "  bits: 12\n  temperature_c: 293", "15:18",
      "camera.temperature_c: found '293'; accepted: a number, -200 to 150"},
     {"ReadNoiseAboveTheWell", 14, "  bits: 12\n  read_noise_e: 9000\n  offset_dn: 500", "",
