@@ -126,7 +126,7 @@ def main():
 
     # Columns that hold much and are linear throughout: chosen by what the disk has, not by what the smear has.
     constants = []
-    for name, picture in (("flight", flight), ("hilcam", rendered)):
+    for name, picture in (("flight", flight), ("hilcam", cloudy)):  # without clouds no column holds much
         above, below, disk = smear(picture)
         columns = numpy.nonzero((disk > 30000) & (picture[DISK].max(axis=0) < LINEAR_DN))[0]
         up, down = line_times_us(picture, columns)
