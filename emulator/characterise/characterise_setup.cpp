@@ -32,16 +32,6 @@ const Curve* filter_curve(const CameraModel& c, char letter) {
     return nullptr;
 }
 
-char most_frequent_filter(const std::string& pattern) {
-    std::map<char, int> count;
-    for (const char letter : pattern)
-        if (letter != ' ') ++count[letter];
-    char most = 0;
-    for (const auto& [letter, n] : count)
-        if (most == 0 || n > count[most]) most = letter;
-    return most;
-}
-
 // Returns the wavelength of the greatest quantum efficiency among those that the lens passes.
 double best_wavelength_um(const CameraModel& c, char letter) {
     const Curve* filter = filter_curve(c, letter);
@@ -83,6 +73,43 @@ void set_window(LabSetup& s) {
     c.window_px =
         lines ? central_window(c, kLineWidth_px, kLines) : central_window(c, kWindow_px, kWindow_px);
     s.remarks.push_back(fmt::format("window {} x {} px about the boresight", c.window_px[2], c.window_px[3]));
+}
+
+std::vector<std::string> pattern_rows(const std::string& pattern) {
+    std::vector<std::string> rows(1);
+    for (const char letter : pattern)
+        if (letter == ' ')
+            rows.emplace_back();
+        else
+            rows.back() += letter;
+    return rows;
+}
+
+char letter_at(const std::vector<std::string>& rows, int x, int y) {
+    const std::string& row = rows[static_cast<std::size_t>(y) % rows.size()];
+    return row[static_cast<std::size_t>(x) % row.size()];
+}
+
+double peak_transmission(const CameraModel& c, char letter) {
+    const Curve* const filter = filter_curve(c, letter);
+    return filter ? *std::max_element(filter->value.begin(), filter->value.end()) : 1;
+}
+
+// Returns the filter that most pixels of the window have, of those that pass half as much light as its clearest: masks between strips
+// of filters pass none. 0: the camera has no filters.
+char most_frequent_filter(const CameraModel& c) {
+    if (c.color_filter.pattern.empty()) return 0;
+    const std::vector<std::string> rows = pattern_rows(c.color_filter.pattern);
+    const PixelRectangle w = window_of(c);
+    std::map<char, int> count;
+    for (int y = w.top; y < w.top + w.height; ++y)
+        for (int x = w.left; x < w.left + w.width; ++x) ++count[letter_at(rows, x, y)];
+    double clearest = 0;
+    for (const auto& [letter, n] : count) clearest = std::max(clearest, peak_transmission(c, letter));
+    char most = 0;
+    for (const auto& [letter, n] : count)
+        if (peak_transmission(c, letter) >= 0.5 * clearest && (most == 0 || n > count[most])) most = letter;
+    return most;
 }
 
 void switch_off(LabSetup& s) {
@@ -175,13 +202,13 @@ void require_lines(CameraModel& c, int lines) {
 LabSetup lab_setup(const CameraModel& camera) {
     LabSetup s;
     s.camera = camera;
-    s.filter = most_frequent_filter(camera.color_filter.pattern);
+    set_window(s);
+    s.filter = most_frequent_filter(s.camera);
     if (s.filter != 0)
         s.remarks.push_back(fmt::format("colour plane {}: the pixels under that filter", s.filter));
     s.wavelength_um = best_wavelength_um(camera, s.filter);
     s.grid = SpectralGrid({s.wavelength_um - 0.5 * kLine_um, s.wavelength_um + 0.5 * kLine_um});
     switch_off(s);
-    set_window(s);
     choose_gains(s);
     set_black_level(s);
     choose_exposures(s);
@@ -201,19 +228,12 @@ PixelSelection lab_selection(const LabSetup& s) {
                        static_cast<int>(c.black_rows) + margin_y, w.width - 2 * margin_x,
                        w.height - 2 * margin_y);
     if (s.filter == 0) return out;
-    std::vector<std::string> rows(1);
-    for (const char letter : c.color_filter.pattern)
-        if (letter == ' ')
-            rows.emplace_back();
-        else
-            rows.back() += letter;
+    const std::vector<std::string> rows = pattern_rows(c.color_filter.pattern);
     for (int y = 0; y < out.height; ++y)
-        for (int x = 0; x < out.width; ++x) {
-            const std::string& row = rows[static_cast<std::size_t>(w.top + margin_y + y) % rows.size()];
-            const char letter = row[static_cast<std::size_t>(w.left + margin_x + x) % row.size()];
+        for (int x = 0; x < out.width; ++x)
             out.use[static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) +
-                    static_cast<std::size_t>(x)] = letter == s.filter ? 1 : 0;
-        }
+                    static_cast<std::size_t>(x)] =
+                letter_at(rows, w.left + margin_x + x, w.top + margin_y + y) == s.filter ? 1 : 0;
     return out;
 }
 

@@ -113,7 +113,11 @@ SpreadFunction spread_function(const Upright& p, const Line& line, double half_w
             out.value[k] += p.value[i], place[k] += distance, ++out.count[k];
         }
     const auto empty = static_cast<std::size_t>(std::count(out.count.begin(), out.count.end(), 0.0));
-    if (empty > out.count.size() / 20) throw InputError("slanted edge: too few pixels for its fine sampling");
+    if (empty > out.count.size() / 20)
+        throw InputError(
+            "slanted edge: too few pixels for its fine sampling, as of filters that are strips; accepted: a "
+            "filter "
+            "that has more of the window");
     std::vector<double> mean(out.value.size());
     for (std::size_t k = 0; k < mean.size(); ++k) {
         if (out.count[k] > 0)
