@@ -2,9 +2,9 @@
 // Attitude Ephemeris Messages (AEM) as KVN or XML: CCSDS 504.0-B-2 section 4 (version 2.0), and version 1.0 of 504.0-B-1.
 //
 // Types: QUATERNION, QUATERNION/DERIVATIVE, QUATERNION/ANGVEL, EULER_ANGLE, EULER_ANGLE/DERIVATIVE,
-// EULER_ANGLE/ANGVEL, SPIN, and version 1's QUATERNION/RATE and EULER_ANGLE/RATE (of which the attitudes themselves say how they are meant). One frame is the body's
-// (SC_BODY...) or a part of it (STARTRACKER_1, INSTRUMENT_A...), whose axes are then the body's; the other is ICRF, GCRF,
-// EME2000, ITRF, TEME, TOD, MOD, GTOD, LVLH or RTN. Quaternions are those of annex F: of the rotation that takes frame A's
+// EULER_ANGLE/ANGVEL, SPIN, and version 1's QUATERNION/RATE and EULER_ANGLE/RATE, whose rates are read in the way that agrees with
+// the attitudes. One frame is the body's (SC_BODY...); a part's frame (STARTRACKER_1, INSTRUMENT_A...) is taken for the body's. The
+// other frame is ICRF, GCRF, EME2000, ITRF, TEME, TOD, MOD, GTOD, LVLH or RTN. Quaternions are those of annex F: of the rotation that takes frame A's
 // axes to frame B's. An epoch that stands twice parts its segment in two (repeated_epochs.h).
 
 #include <filesystem>

@@ -2,9 +2,9 @@
 // The common part of CCSDS messages (OEM, AEM, OMM): lines, words, epochs, frames, time systems. CCSDS 502.0-B-3 (2023)
 // section 7 and 504.0-B-2 (2024) section 6; earlier issues differ in the keywords their readers name.
 //
-// A message comes as KVN (keyword = value notation) or as XML (ndm_xml.h), whose elements become the same lines. Values
-// that are words of the standard are compared without regard to case, and an underscore is a blank (502.0-B-3, 7.5): STK
-// writes "Lagrange" and "Earth". A keyword that the reader does not use is noted and passed over.
+// A message is written as KVN (keyword = value notation) or as XML; ndm_xml.h turns XML into lines of KVN. The reader ignores the case
+// of values that are words of the standard, and takes an underscore for a blank (502.0-B-3, 7.5), as STK writes "Lagrange" and
+// "Earth". It notes and skips keywords that it does not use.
 
 #include <algorithm>
 #include <cstdint>

@@ -28,8 +28,8 @@ struct ElementSet {
     double mean_motion_rad_min = 0;  // Kozai's
     double bstar_per_er = 0;
     std::string where;  // place in the file, for messages: "iss.tle:2"
-    std::string
-        refusal;  // why SGP4 cannot propagate it, of a set whose other figures were then not read; empty: it can
+    // The reason why SGP4 cannot propagate the set; its other figures are then not read. Empty: it can.
+    std::string refusal;
 };
 
 enum class TleChecksum { kVerify, kIgnore };
@@ -42,12 +42,13 @@ std::vector<ElementSet> load_element_sets(const std::filesystem::path& file,
 std::vector<ElementSet> read_element_sets(std::string_view text, const std::string& name,
                                           TleChecksum checksum = TleChecksum::kVerify);
 
-// The catalogue number that is written so: one to nine digits, or Space-Track's Alpha-5, whose first character stands for
-// two digits: A0000 is 100000, Z9999 is 339999, without I and O. Nothing for what is neither.
+// Returns the catalogue number that a text stands for: one to nine digits, or Space-Track's Alpha-5, in which a first letter
+// counts two digits (A0000 is 100000, Z9999 is 339999; there is no I and no O). Returns nothing for any other text.
 std::optional<int> catalogue_number(std::string_view text);
 
-// The set of a satellite (its number in any form, its name or its OBJECT_ID) whose epoch is the newest not after `time`, or
-// the oldest when all are after it; of sets that SGP4 can propagate. An empty `satellite`: of a file with sets of only one.
+// Returns the newest set of a satellite whose epoch is not after `time`, or its oldest set when all are later. `satellite` is the
+// number in any form, the name or the OBJECT_ID; it may be empty where the file has one satellite. Sets that SGP4 cannot propagate
+// do not count.
 // Throws InputError, also when the satellite has no set that SGP4 can propagate.
 const ElementSet& choose_element_set(const std::vector<ElementSet>& sets, const std::string& satellite,
                                      TimeTai time, const std::string& file);

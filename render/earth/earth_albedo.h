@@ -5,7 +5,7 @@
 //   ground   the map's land, and the sea by its albedo
 //   cloud    reflects c = b tau / (1 + b tau) of diffuse light, which is a two-stream layer's albedo (Bohren, Am. J. Phys. 55,
 //            524, 1987), whatever its height, and lets the rest through; between the two light goes up and down
-// Cells are some 5.6 degrees wide, about as far as the air at 30 km sees. Maps by time: their mean.
+// Of maps by time the mean counts.
 
 #include "render/earth/cloud_maps.h"
 #include "render/earth/earth_config.h"

@@ -25,22 +25,15 @@ Spectrum spherical_albedo(const BodyLook& look) {
 AirGround body_albedo(const SceneBody& body, const SpectralGrid& grid) {
     const Spectrum albedo = spherical_albedo(body.look);
     if (body.map.empty()) return {1, 1, {albedo}};
-    constexpr int kWidth = 64, kHeight = kWidth / 2;
     const ColorBands bands(grid);
     const auto factor = static_cast<float>(body.map_reference > 0 ? 1 / body.map_reference : 1);
-    AirGround out{kWidth, kHeight, {}};
-    out.albedo.reserve(static_cast<std::size_t>(kWidth * kHeight));
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-            constexpr float kCell = 1.0f / kWidth;
-            Spectrum here = (factor * albedo) *
-                            bands.spectrum(body.map.sample((static_cast<float>(x) + 0.5f) / kWidth,
-                                                           (static_cast<float>(y) + 0.5f) / kHeight, kCell));
-            // A map may be brighter than its reference; nothing sends up more than it gets.
-            for (int b = 0; b < grid.size(); ++b) here[b] = std::min(here[b], 1.0f);
-            out.albedo.push_back(here);
-        }
-    return out;
+    return ground_by_place([&](float u, float v) {
+        constexpr float kCell = 1.0f / AirGround::kWidth;
+        Spectrum here = (factor * albedo) * bands.spectrum(body.map.sample(u, v, kCell));
+        // A map may be brighter than its reference; nothing sends up more than it gets.
+        for (int b = 0; b < grid.size(); ++b) here[b] = std::min(here[b], 1.0f);
+        return here;
+    });
 }
 
 }  // namespace hilcam

@@ -17,9 +17,24 @@ namespace hilcam {
 // Ground and clouds together as the air above has them: albedos per bin on an equirectangular grid in the body's axes (left edge 180 W,
 // rows from 90 N). One cell: the same everywhere.
 struct AirGround {
+    // By place, cells are some 5.6 degrees wide: about as far as the air at 30 km sees (its horizon is 5.6 degrees away).
+    static constexpr int kWidth = 64, kHeight = kWidth / 2;
+
     int width = 1, height = 1;
     std::vector<Spectrum> albedo{};  // row by row
 };
+
+// Returns the ground whose cells have albedo_at(u, v) in their middles; u from 180 W, v from 90 N, 0..1.
+template <class AlbedoAt>
+AirGround ground_by_place(const AlbedoAt& albedo_at) {
+    AirGround out{AirGround::kWidth, AirGround::kHeight, {}};
+    out.albedo.reserve(static_cast<std::size_t>(out.width * out.height));
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x)
+            out.albedo.push_back(albedo_at((static_cast<float>(x) + 0.5f) / AirGround::kWidth,
+                                           (static_cast<float>(y) + 0.5f) / AirGround::kHeight));
+    return out;
+}
 
 class AirByPlace : public Atmosphere {
   public:

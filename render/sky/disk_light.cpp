@@ -10,6 +10,7 @@
 namespace hilcam {
 namespace {
 
+// The range of the law of Saturn with its rings (Mallama & Hilton 2018, eq. 10); beyond the third nothing of it is left.
 constexpr double kLawPhase_deg = 6.5, kLawTilt_deg = 27, kFadedPhase_deg = 15;
 
 const Figure& saturn() { return kFigures[index_of(BodyId::kSaturn)]; }

@@ -20,6 +20,7 @@ struct LibraryStar {
 
 static_assert(kWavelengths_um.size() == kWavelengths);
 
+// Irradiance at 0.545 um of a star of V = 0 (Bessell, Castelli & Plez, Astron. Astrophys. 333, 231, 1998, table A2).
 constexpr double kZeroMagnitude_w_m2_um = 3.631e-8;
 
 // 0 at V, 1 at B and below. A tilt of a magnitude reddens B-V by kTiltInBv and dims V by kTiltInV: of Bessell's passbands, within
