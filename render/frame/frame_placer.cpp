@@ -107,6 +107,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());
     frame_.is_point.resize(objects_.size());
+    frame_.keeps_light.resize(objects_.size());
     frame_.lit_apart.resize(objects_.size());
     frame_.background = &background_;
     frame_.radiance = radiance_model_.get();
@@ -203,10 +204,16 @@ std::unique_ptr<KeptScene> FramePlacer::make_kept() const {
     return std::make_unique<KeptScene>(objects_, embree_, bands_, kept_settings_);
 }
 
+void FramePlacer::use_kept_light() {
+    frame_.kept = uses_kept_light_ ? kept_.get() : nullptr;
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        frame_.keeps_light[i] = frame_.kept && frame_.kept->keeps(i);
+}
+
 void FramePlacer::set_paths(const PathModel& paths) {
     frame_.paths_sample_lobes = paths.samples_lobes();
     uses_kept_light_ = paths.uses_kept_light();
-    frame_.kept = uses_kept_light_ ? kept_.get() : nullptr;
+    use_kept_light();
     frame_.ground = nullptr;  // whoever tries a path model wants to see it at work
 }
 
@@ -219,7 +226,7 @@ void FramePlacer::give_tables(std::span<const std::shared_ptr<const TransferTabl
 
 bool FramePlacer::take_light() {
     if (!kept_ && any_placed_) kept_ = handover_.take(frame_, world_);
-    if (uses_kept_light_) frame_.kept = kept_.get();
+    use_kept_light();
     return kept_ || !uses_kept_light_;
 }
 

@@ -161,6 +161,7 @@ class FramePlacer {
 
     void take_world(const WorldSnapshot& world);
     std::unique_ptr<KeptScene> make_kept() const;
+    void use_kept_light();
     void choose_levels();
     void place_objects();
     void place_background();

@@ -32,7 +32,8 @@ struct FrameView {
     const EmbreeScene* scene = nullptr;
     const std::vector<const ObjectSurfaces*>* objects = nullptr;  // each at its level of detail
     std::vector<Mat3f> world_from_body;                           // per object
-    std::vector<std::uint8_t> is_point;  // per object: drawn as a point, the camera's rays pass it
+    std::vector<std::uint8_t> is_point;     // per object: drawn as a point, the camera's rays pass it
+    std::vector<std::uint8_t> keeps_light;  // per object: light from other surfaces and bodies is kept on it
     // Per object: where the frame's visibility buffer sees it, it is dark, as its light comes as points (object_picture.h).
     std::vector<std::uint8_t> lit_apart;
     bool has_lit_apart = false;               // any of them

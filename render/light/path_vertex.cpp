@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/light/kept_scene.h"
-
 namespace hilcam {
 
 void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count) {
@@ -109,7 +107,7 @@ void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const
     vertex.offset_m = rounding_m(vertex.point_m, origin_m);
 
     vertex.object = hits.object[k];
-    vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
+    vertex.keeps_light = frame.keeps_light[vertex.object] != 0;
     vertex.mirrors_near = true;
     vertex.has_bodies = vertex.follows_lobe = false;
     vertex.lobe = nullptr;

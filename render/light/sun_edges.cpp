@@ -9,7 +9,7 @@
 #include "render/light/radiance_equation.h"
 #include "render/light/shadow_rays.h"
 #include "render/light/way_to_sample.h"
-#include "render/scene/light_cell_key.h"
+#include "render/vocabulary/mixed_bits.h"
 
 namespace hilcam {
 

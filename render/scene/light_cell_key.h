@@ -73,13 +73,6 @@ inline Cube cube_of(std::uint64_t key) {
     return {part(0), part(14), part(28)};
 }
 
-// Finalizer of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
-inline std::uint64_t mixed(std::uint64_t x) {
-    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
-    x = (x ^ x >> 27) * 0x94D049BB133111EBu;
-    return x ^ x >> 31;
-}
-
 struct CubeGrid {
     Vec3f corner_m;
     float cube_m;

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "render/vocabulary/mixed_bits.h"
+
 namespace hilcam {
 namespace {
 

@@ -11,6 +11,7 @@
 
 #include "render/scene/light_cells.h"
 #include "render/scene/node_maker.h"
+#include "render/vocabulary/mixed_bits.h"
 
 namespace hilcam {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/scene/surface.h"
+#include "render/vocabulary/mixed_bits.h"
 
 namespace hilcam {
 namespace {
