@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "render/levels/joined_sets.h"
+#include "render/lod/joined_sets.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {

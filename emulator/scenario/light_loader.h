@@ -1,13 +1,13 @@
 #pragma once
-// The tables of directions of a scene's objects (render/scene/transfer_table.h): read from the cache folder,
+// The tables of directions of a scene's objects (render/probes/transfer_table.h): read from the cache folder,
 // made and written there, or ordered, for who begins without them.
 
 #include <string>
 #include <vector>
 
 #include "emulator/scenario/app_config.h"
+#include "render/probes/transfer_table.h"
 #include "render/scene/scene.h"
-#include "render/scene/transfer_table.h"
 
 namespace hilcam {
 

@@ -4,7 +4,7 @@
 #include "emulator/scenario/app_config.h"
 #include "emulator/scenario/light_loader.h"
 #include "render/frame/renderer.h"
-#include "render/light/modules.h"
+#include "render/paths/modules.h"
 #include "render/scene/scene.h"
 
 namespace hilcam {

@@ -4,7 +4,7 @@
 //
 // A value is what `--set` takes, so that it is read and checked as a user's would be, and can be handed back
 // to one. Not here: the hemisphere's 60 directions, which the symmetry of the dodecahedron fixes
-// (render/light/path_hemisphere.cpp); single or double precision, which geometry decides (bodies and world in
+// (render/paths/path_hemisphere.cpp); single or double precision, which geometry decides (bodies and world in
 // double, rays in single); `watertight` is the one choice of precision.
 
 #include <filesystem>

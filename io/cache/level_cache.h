@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "io/cache/cache.h"
-#include "render/levels/mesh_lod.h"
+#include "render/lod/mesh_lod.h"
 
 namespace hilcam {
 

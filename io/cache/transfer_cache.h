@@ -5,7 +5,7 @@
 #include <span>
 
 #include "io/cache/cache.h"
-#include "render/scene/transfer_table.h"
+#include "render/probes/transfer_table.h"
 
 namespace hilcam {
 

@@ -26,7 +26,7 @@
 #include <span>
 #include <vector>
 
-#include "render/light/path_model.h"
+#include "render/shading/path_model.h"
 #include "render/vocabulary/pixel_noise.h"
 
 namespace hilcam {

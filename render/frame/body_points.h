@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "render/light/point_field.h"
+#include "render/shading/point_field.h"
 
 namespace hilcam {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "render/light/point_field.h"
-#include "render/light/shadow_rays.h"
+#include "render/shading/point_field.h"
+#include "render/shading/shadow_rays.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {

@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "render/light/frame_view.h"
 #include "render/scene/scene.h"
+#include "render/shading/frame_view.h"
 #include "render/vocabulary/side_light.h"
 
 namespace hilcam {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <map>
 
-#include "render/light/point_field.h"
+#include "render/ground_shading/ground_light.h"
+#include "render/shading/point_field.h"
 #include "render/sky/body_bounds.h"
-#include "render/sunlit_ground/ground_light.h"
 #include "render/visibility/screen_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/frame/finite_light.h"
-#include "render/sunlit_ground/ground_light.h"
+#include "render/ground_shading/ground_light.h"
 
 namespace hilcam {
 namespace {

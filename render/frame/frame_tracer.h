@@ -20,8 +20,8 @@
 #include "render/frame/adaptive_sampler.h"
 #include "render/frame/frame_placer.h"
 #include "render/frame/render_quality.h"
-#include "render/light/sun_edges.h"
-#include "render/sunlit_ground/ground_places.h"
+#include "render/ground_shading/ground_places.h"
+#include "render/sunlight/sun_edges.h"
 #include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/tile_grid.h"
 

@@ -14,8 +14,8 @@
 #include <span>
 
 #include "render/frame/plan.h"
-#include "render/light/frame_view.h"
 #include "render/scene/scene.h"
+#include "render/shading/frame_view.h"
 #include "render/vocabulary/point_source.h"
 
 namespace hilcam {

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <memory>
 
-#include "render/light/kept_scene.h"
+#include "render/indirect/kept_scene.h"
 
 namespace hilcam {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "render/frame/probe_camera.h"
-#include "render/light/path_model.h"
-#include "render/light/sun_edges.h"
+#include "render/shading/path_model.h"
+#include "render/sunlight/sun_edges.h"
 #include "render/visibility/visibility_buffer.h"
 
 namespace hilcam {

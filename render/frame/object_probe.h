@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/frame/probe_camera.h"
-#include "render/light/path_model.h"
+#include "render/shading/path_model.h"
 
 namespace hilcam {
 

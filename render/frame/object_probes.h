@@ -8,7 +8,7 @@
 
 #include "render/frame/object_picture.h"
 #include "render/frame/object_probe.h"
-#include "render/light/point_field.h"
+#include "render/shading/point_field.h"
 #include "render/vocabulary/point_source.h"
 
 namespace hilcam {

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "render/frame/sky_cost.h"
-#include "render/light/kept_scene.h"
-#include "render/light/lamp_light.h"
+#include "render/indirect/kept_scene.h"
+#include "render/shading/lamp_light.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/units.h"
 

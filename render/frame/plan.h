@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "render/frame/render_quality.h"
-#include "render/light/frame_view.h"
 #include "render/scene/scene.h"
+#include "render/shading/frame_view.h"
 
 namespace hilcam {
 

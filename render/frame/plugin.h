@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <span>
 
-#include "render/light/modules.h"
+#include "render/paths/modules.h"
 
 namespace hilcam {
 

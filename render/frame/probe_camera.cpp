@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/light/ray_generators.h"
+#include "render/shading/ray_generators.h"
 
 namespace hilcam {
 namespace {

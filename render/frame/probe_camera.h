@@ -7,7 +7,7 @@
 #include <span>
 
 #include "render/frame/plan.h"
-#include "render/light/frame_view.h"
+#include "render/shading/frame_view.h"
 
 namespace hilcam {
 

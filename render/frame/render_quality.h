@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "render/light/modules.h"
+#include "render/paths/modules.h"
 #include "render/visibility/pixel_samples.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/units.h"

@@ -15,7 +15,7 @@
 #include "render/frame/object_probes.h"
 #include "render/frame/render_bench.h"
 #include "render/frame/truth_probe.h"
-#include "render/light/point_field.h"
+#include "render/shading/point_field.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/stopwatch.h"
 

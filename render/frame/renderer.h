@@ -16,7 +16,7 @@
 #include "render/frame/image_motion.h"
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
-#include "render/light/modules.h"
+#include "render/paths/modules.h"
 #include "render/scene/scene.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_noise.h"

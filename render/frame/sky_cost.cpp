@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "render/earth/earth_model.h"
-#include "render/light/primary_vertices.h"
-#include "render/light/tile.h"
+#include "render/primary/primary_vertices.h"
+#include "render/shading/tile.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/stopwatch.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/light/frame_view.h"
+#include "render/shading/frame_view.h"
 
 namespace hilcam {
 

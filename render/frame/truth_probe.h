@@ -8,7 +8,7 @@
 #include "render/frame/frame_placer.h"
 #include "render/frame/frame_truth.h"
 #include "render/frame/truth_rays.h"
-#include "render/light/point_field.h"
+#include "render/shading/point_field.h"
 
 namespace hilcam {
 

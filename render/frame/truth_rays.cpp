@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/light/path_vertex.h"
+#include "render/shading/path_vertex.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

@@ -8,7 +8,7 @@
 #include <span>
 #include <tuple>
 
-#include "render/mosaic/mosaic_finder.h"
+#include "render/lod/mosaic_finder.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/levels/mesh_lod.h"
+#include "render/lod/mesh_lod.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/lamp.h"
 #include "render/scene/material.h"

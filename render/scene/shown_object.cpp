@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "render/levels/triangle_order.h"
-#include "render/mosaic/mosaic_finder.h"
+#include "render/lod/mosaic_finder.h"
+#include "render/lod/triangle_order.h"
 #include "render/scene/flat_patches.h"
 
 namespace hilcam {

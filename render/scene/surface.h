@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/levels/level_facets.h"
+#include "render/lod/level_facets.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/ground_normals.h"
 #include "render/scene/packed_normal.h"

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "render/levels/triangle_order.h"
+#include "render/lod/triangle_order.h"
 #include "render/scene/ground_sun.h"
 
 namespace hilcam {

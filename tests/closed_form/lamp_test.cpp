@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "render/light/lamp_light.h"
+#include "render/shading/lamp_light.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {

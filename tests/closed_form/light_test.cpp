@@ -6,7 +6,7 @@
 #include <string>
 
 #include "render/earth/earth_model.h"
-#include "render/light/path_models.h"
+#include "render/paths/path_models.h"
 #include "render/sky/sun.h"
 #include "tests/support/furnace.h"
 #include "tests/support/stage.h"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "render/probes/flat_mirrors.h"
 #include "render/scene/brdf.h"
-#include "render/scene/flat_mirrors.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {

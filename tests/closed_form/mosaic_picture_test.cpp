@@ -1,4 +1,4 @@
-// A panel with gaps thinner than a pixel, as the visibility buffer sees it by its mosaic (render/mosaic/mosaic.h), against
+// A panel with gaps thinner than a pixel, as the visibility buffer sees it by its mosaic (render/lod/mosaic.h), against
 // the areas of tiles in each pixel.
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/levels/mesh_lod.h"
+#include "render/lod/mesh_lod.h"
 #include "tests/support/stage.h"
 #include "tests/support/tiled_panel.h"
 

@@ -1,6 +1,6 @@
 // What the places of kept light meet (transfer_table.h): nothing that has no light, and of what has some the share that formulas say.
 
-#include "render/scene/transfer_table.h"
+#include "render/probes/transfer_table.h"
 
 #include <gtest/gtest.h>
 

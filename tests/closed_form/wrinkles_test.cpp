@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "render/levels/mesh_lod.h"
+#include "render/lod/mesh_lod.h"
 #include "tests/support/stage.h"
 #include "tests/support/wavy_plate.h"
 

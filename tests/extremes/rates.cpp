@@ -1,6 +1,6 @@
 // How fast the camera turns: up to 30 degrees a second.
 
-#include "render/light/ray_generators.h"
+#include "render/shading/ray_generators.h"
 #include "render/vocabulary/pose.h"
 #include "tests/extremes/groups.h"
 #include "tests/extremes/light_truth.h"

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "render/light/ray_generators.h"
+#include "render/shading/ray_generators.h"
 #include "tests/flight/published_view.h"
 
 namespace hilcam {

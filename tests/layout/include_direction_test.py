@@ -3,7 +3,8 @@
 by way of others.
 
 Prints how many files, rooms and arrows there are, the biggest room, the median and the longest file; then what is wrong: includes that
-climb or go in circles, third-party headers outside their few units, folders that ROOMS does not know, rooms that have no README.md.
+climb or go in circles, third-party headers outside their few units, folders that ROOMS does not know, rooms that have no README.md,
+tables of rooms in READMEs that are not ROOMS.
 """
 import graphlib
 import pathlib
@@ -22,13 +23,15 @@ ROOMS = (
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/shm", "io/truth", "io/commands",
     "io/spice", "io/maps", "io/files", "io/cache", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
-    "render/frame", "render/sunlit_ground", "render/light", "render/kept", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/mosaic", "render/levels", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
+    "render/frame", "render/paths", "render/indirect", "render/sunlight", "render/ground_shading", "render/primary", "render/shading",
+    "render/radiosity", "render/visibility", "render/planetshine", "render/probes", "render/ground", "render/scene", "render/earth", "render/sky",
+    "render/lod", "render/brdf", "render/vocabulary",
 )
 GDAL_FILES = {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_placement.cpp", "io/maps/gdal_placement.h",
               "io/maps/gdal_raster.cpp"}
 ONLY_IN = {
-    "embree": {"render/levels/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
-    "meshoptimizer": {"io/files/gltf_meshopt.cpp", "render/levels/mesh_lod.cpp", "render/levels/shaped_parts.cpp"},
+    "embree": {"render/lod/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
+    "meshoptimizer": {"io/files/gltf_meshopt.cpp", "render/lod/mesh_lod.cpp", "render/lod/shaped_parts.cpp"},
     "draco": {"io/files/gltf_draco.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
@@ -46,8 +49,8 @@ ONLY_IN = {
     "google": {"io/vizard/vizard_message.cpp"},
     "vizard.pb": {"io/vizard/vizard_message.cpp"},
     "zmq": {"io/vizard/reply_socket.cpp"},
-    "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp", "render/light/facet_packet.cpp",
-            "render/mosaic/mosaic_sums.cpp", "render/sunlit_ground/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
+    "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp", "render/shading/facet_packet.cpp",
+            "render/lod/mosaic_sums.cpp", "render/ground_shading/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
             "render/visibility/lane_vectors-inl.h", "render/visibility/sixteen_lanes-inl.h",
             "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp",
             "sensor/convolution/half_rows.cpp", "sensor/convolution/point_tables.cpp"},
@@ -83,6 +86,13 @@ def fault_of_include(name, room, target):
     return None
 
 
+def faults_of_table(layer):
+    """What is wrong with the table of rooms in a layer's README.md; it lists them in the order of ROOMS, or there is none."""
+    rows = re.findall(r"^\| \[([^\]]+)/\]\(", (TOP / layer / "README.md").read_text(), re.MULTILINE)
+    rooms = [room[len(layer) + 1:] for room in ROOMS if room.startswith(layer + "/")]
+    return [f"{layer}/README.md: its table has the rooms {', '.join(rows)}; ROOMS has {', '.join(rooms)}"] if rows and rows != rooms else []
+
+
 def circle(graph):
     """Files that include each other in a circle, or an empty list."""
     try:
@@ -114,6 +124,8 @@ def main():
             faults.append(f"{room}: nothing in it")
         if not (TOP / room / "README.md").is_file():
             faults.append(f"{room}: no README.md")
+    for layer in LAYERS:
+        faults += faults_of_table(layer)
     around = circle(graph)
     if around:
         faults.append("a circle of includes: " + " -> ".join(around))

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "render/frame/plugin.h"
-#include "render/light/primary_vertices.h"
+#include "render/primary/primary_vertices.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/frame/renderer.h"
-#include "render/scene/transfer_table.h"
+#include "render/probes/transfer_table.h"
 #include "render/sky/body_light.h"
 #include "render/vocabulary/units.h"
 

@@ -6,9 +6,9 @@
 
 #include <limits>
 
-#include "render/light/modules.h"
-#include "render/light/path_models.h"
-#include "render/light/tile.h"
+#include "render/paths/modules.h"
+#include "render/paths/path_models.h"
+#include "render/shading/tile.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "render/light/frame_view.h"
-#include "render/light/path_vertex.h"
+#include "render/shading/frame_view.h"
+#include "render/shading/path_vertex.h"
 
 namespace hilcam {
 namespace {

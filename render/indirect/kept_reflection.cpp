@@ -1,0 +1,351 @@
+// Looks up what vertices reflect of the light that is kept (kept_scene.h), and of the light of bodies that comes without a way.
+
+#include "render/indirect/kept_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/brdf/microfacet.h"
+#include "render/shading/lamp_light.h"
+
+namespace hilcam {
+namespace {
+
+Vec3f to_body(const Mat3f& world_from_body, Vec3f world) { return transposed(world_from_body) * world; }
+
+Spectrum ratio(const Spectrum& here, const Spectrum& own) {
+    Spectrum out;
+    for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : 1.0f;
+    return out;
+}
+// Returns the ratio of the place's spectrum to the material's own there: of its facets, where they have colours of their
+// own, and of all the rest.
+Spectrum facet_tint(const Scatterer& at) { return ratio(at.highlight, at.material->highlight); }
+bool has_own_colors(const Scatterer& at) { return at.material->varies() && at.material->is_bare(); }
+bool is_tinted(const Scatterer& at) { return at.base.bin != at.material->base.bin; }
+Spectrum base_tint(const Scatterer& at) { return ratio(at.base, at.material->base); }
+
+// Numbers the square of four pixels that a vertex is seen in: kept light is too smooth to differ there.
+std::uint32_t quad_of(const Tile& tile, const Vertex& at) {
+    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
+    return at.pixel / width / 2 * width + at.pixel % width / 2;
+}
+// near_m: what lies so close together is lit alike. Mirrors that do not lie in one plane show different things.
+bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
+    constexpr float kPlane = 0.999998f;  // cosine
+    const bool mirror = a.surface.material->has_facets() && a.surface.alpha < kNarrowestLobe;
+    const Vec3f apart_m = a.point_m - b.point_m;
+    return lies_alike(a, b) && dot(apart_m, apart_m) < near_m * near_m &&
+           (!mirror || dot(a.normal, b.normal) > kPlane);
+}
+
+}  // namespace
+
+// Something may stand in the mirror's direction.
+bool KeptScene::is_near(const FrameView& frame, const Place& place) const {
+    if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
+    const Vertex& at = *place.at;
+    return objects_[at.object].light->is_near(
+        place.nearest, to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal)));
+}
+
+// The place whose light a vertex shares; null: it needs its own. What mirrors show may be seen from anywhere.
+KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const Vertex& at,
+                                          std::uint32_t quad) const {
+    const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
+    for (auto place = places.rbegin(); place != places.rend(); ++place) {
+        if (place->quad != quad) return nullptr;
+        if (is_alike(*place->at, at, near_m) && (at.depth == 1 || sends_alike(*place->at, at)))
+            return &*place;
+    }
+    return nullptr;
+}
+
+void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
+    if (vertices.empty()) return;
+    Together block;
+    Lobes lobes;
+    float room = kMostFollowed;
+    while (!vertices.empty()) {
+        vertices = vertices.subspan(gather(tile, vertices, block));
+        const std::span<Place> places(block.places.data(), block.place_count);
+        find(tile.frame, places);
+        for (Place& place : places)
+            if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
+        for (Place& place : places) reflect_facets(tile.frame, lobes, place);
+        for (const Use& use : std::span(block.uses.data(), block.use_count)) add_use(tile, use, room);
+    }
+}
+
+// Takes the first of these vertices, as many as there is room for. Returns how many.
+std::size_t KeptScene::gather(const Tile& tile, std::span<Vertex> vertices, Together& block) const {
+    std::size_t next = 0, &count = block.place_count, &used = block.use_count;
+    count = used = 0;
+    for (; next < vertices.size() && count < block.places.size() && used < block.uses.size(); ++next) {
+        Vertex& at = vertices[next];
+        if (at.surface.is_glass()) continue;
+        const std::uint32_t quad = quad_of(tile, at);
+        Place* place = tile.seen ? shared_place({block.places.data(), count}, at, quad) : nullptr;
+        if (!place) place = &block.places[count++], place->at = &at, place->quad = quad;
+        block.uses[used++] = {&at, place};
+    }
+    return next;
+}
+
+void KeptScene::reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const {
+    Vertex& at = *place.at;
+    place.met = {}, place.bodies = {}, place.directions = 0;
+    place.follower = nullptr;
+    if (!at.surface.material->has_facets()) return;
+    if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(frame, place);
+    if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(frame, lobes, place);
+    if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
+}
+
+// Adds what a vertex has of its place's light to its pixel, or leaves its lobe to rays. room: for so many more samples.
+void KeptScene::add_use(Tile& tile, const Use& use, float& room) const {
+    Vertex& at = *use.at;
+    Place& place = *use.place;
+    at.mirrors_near = place.at->mirrors_near;
+    at.has_bodies = place.at->has_bodies;
+    if (!is_lit(place)) return;
+    const Scatterer& surface = at.surface;
+    Spectrum reflected = place.diffuse;
+    if (is_tinted(surface)) reflected = base_tint(surface) * reflected;
+    if (surface.material->has_facets()) {
+        const Spectrum met = has_own_colors(surface) ? lobe_albedo(at) * place.met : place.met;
+        at.follows_lobe = at.weight_samples <= room && hangs_on_few(tile, at, met, place.directions);
+        if (at.follows_lobe) {
+            room -= at.weight_samples, follow_together(at, place);
+            const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
+            at.kept_lobe = largest(at.weight * plain);
+            at.kept_lobe_directions = place.directions;
+        } else {
+            reflected += met + sum_of_bodies(at, place.bodies);
+        }
+    }
+    tile.add(at, at.weight * reflected);
+}
+
+void KeptScene::follow_together(Vertex& at, Place& place) {
+    if (!place.follower || place.followers == kMostTogether) {
+        place.follower = &at, place.followers = 1, at.follows_too = nullptr;
+        return;
+    }
+    ++place.followers;
+    at.follows_lobe = false;
+    at.follows_too = place.follower->follows_too, place.follower->follows_too = &at;
+}
+
+void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
+    for (Place& place : places) {
+        const Vertex& at = *place.at;
+        const Mat3f& axes = frame.world_from_body[at.object];
+        const Object& object = objects_[at.object];
+        place.search = object.light->table().nodes().begin(
+            to_body(axes, at.point_m - object.origin_m),
+            {to_body(axes, at.geometric_normal), at.surface_number, at.back});
+    }
+    for (Place& place : places) objects_[place.at->object].light->table().nodes().open(place.search);
+    for (Place& place : places) {
+        const Vertex& at = *place.at;
+        const KeptLight& light = *objects_[at.object].light;
+        place.found = light.table().nodes().finish(place.search, place.about);
+        if (place.about.count == 0) continue;
+        place.nearest = place.about.nearest();
+        light.prefetch(place.about);
+        if (at.surface.material->has_facets()) light.prefetch_lobe(place.nearest);
+    }
+}
+
+// The irradiance of all sources but the Sun by way of other surfaces, at a node or about a place.
+template <class Where>
+Spectrum KeptScene::others(const FrameView& frame, const KeptLight& light, const Where& where) const {
+    Spectrum sum;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        sum += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(KeptTerms::kBodies + b, where);
+    if (frame.lamps)
+        for (const PlacedLamp& lamp : frame.lamps->lit())
+            sum += lamp.intensity_w_sr_um * light.irradiance(KeptTerms::kLamps + lamp.number, where);
+    if (terms_.emission) sum += light.irradiance(terms_.glow(), where);
+    return sum;
+}
+
+// This is what a surface of the material's own colour reflects without its facets.
+Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) const {
+    const Vertex& at = *place.at;
+    const Object& object = objects_[at.object];
+    const KeptLight& light = *object.light;
+    const NodesAbout& about = place.about;
+    const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
+    const bool sunlit = largest(sun) > 0;
+    if (at.surface.material->has_facets() && at.surface.alpha >= kNarrowestLobe && place.found)
+        light.prefetch_along(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, place.nearest);
+
+    Spectrum all = others(frame, light, about);
+    // The bodies' light without a way.
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        all +=
+            (place.found ? light.seen(KeptTerms::kBodies + b, about) : 1.0f) * sky_.irradiance(b, at.normal);
+    if (sunlit) all += sun * light.irradiance(KeptTerms::kSun, about);
+
+    const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+    return (1 / kPiF) * (light.albedo(at.surface_number).base(no) * all);
+}
+
+void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
+    const Vertex& at = *place.at;
+    // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
+    // does, it has all of them.
+    const bool narrow = at.surface.alpha < kNarrowestKept, whole = narrow && !at.mirrors_near;
+    const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
+    const std::uint32_t node = place.found ? place.nearest : LightNodes::kClosed;
+    const MetByLobe* met = lobes.met.find(at, node);
+    if (!met || met->whole != whole) met = &lobes.met.keep(at, node, met_by_lobe(frame, place, whole));
+    place.met = met->radiance, place.directions = met->directions;
+    // Two vertices of several parts are not alike: what one sends is not kept for others.
+    SentOfBodies by_parts;
+    const SentOfBodies* sent = &by_parts;
+    if (at.facets)
+        by_parts = sent_of_bodies(at);
+    else if (sent = lobes.bodies.find(at, 0); !sent)
+        sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        place.bodies[b] = {(share * met->free[b]) * (*sent)[b].radiance, (*sent)[b].facet_cosine};
+}
+
+// A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
+void KeptScene::reflect_far_bodies(Place& place) const {
+    Vertex& at = *place.at;
+    const Vec3f mirror = reflect(at.view_dir, at.normal);
+    at.has_bodies = !at.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
+                    sky_.is_clear_of_bodies(mirror);
+    if (at.has_bodies) place.bodies = sent_of_bodies(at);
+}
+
+KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place& place, bool whole) const {
+    const Vertex& at = *place.at;
+    const KeptLight& light = *objects_[at.object].light;
+    const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
+    const bool sunlit = largest(sun) > 0;
+    const std::size_t bodies = sky_.bodies().size();
+    KeptLight::Lobe lobe;
+    if (place.found) {
+        const Mat3f& axes = frame.world_from_body[at.object];
+        std::array<KeptLight::Cone, SkyLight::kMaxBodies> cones;
+        for (std::size_t b = 0; b < bodies; ++b)
+            cones[b] = {to_body(axes, sky_.bodies()[b].light_dir), sky_.bodies()[b].light_cosine};
+        lobe =
+            light.lobe(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, {cones.data(), whole ? 0 : bodies},
+                       place.nearest, to_body(axes, at.normal), to_body(axes, at.view_dir), at.surface.alpha);
+    }
+    Spectrum radiance;
+    if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
+    if (sunlit) radiance += sun * lobe.kept;
+    if (!has_own_colors(at.surface)) radiance = lobe_albedo(at) * radiance;
+    return {radiance, lobe.free, lobe.directions, whole};
+}
+
+Spectrum KeptScene::lobe_albedo(const Vertex& at) const {
+    const Spectrum plain = plain_lobe_albedo(at);
+    return has_own_colors(at.surface) ? facet_tint(at.surface) * plain : plain;
+}
+
+Spectrum KeptScene::plain_lobe_albedo(const Vertex& at) const {
+    const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+    return objects_[at.object].light->albedo(at.surface_number).lobe(no);
+}
+
+Spectrum KeptScene::lobe_tint(const Vertex& at) const {
+    Spectrum none;
+    none.bin.fill(1);
+    return has_own_colors(at.surface) ? facet_tint(at.surface) : none;
+}
+
+KeptScene::LobeRays::LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene) {
+    const SentOfBodies sent = scene.sent_of_bodies(at);
+    Scatterer plain = at.surface;
+    plain.highlight = plain.material->highlight;
+    for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
+}
+
+KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
+    SentOfBodies sent;
+    // Brighter texels may share it.
+    const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        sent[b] = at.facets ? sent_by_parts(b, at, reflectance) : sent_of_body(b, at, at.normal, reflectance);
+    return sent;
+}
+
+// The light that a lobe meets is known by the directions of its node, some tens of them, and by the means of the nodes
+// that those meet. Light that hangs on a few may be the light of what is beside: of a bar that one direction meets, of
+// the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
+// than half the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
+bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions) {
+    constexpr float kFew = 8, kBeside = 2, kOfThreshold = 0.5f;
+    if (at.depth != 1 || at.surface.alpha < kNarrowestKept) return false;
+    if (tile.frame.max_depth < 2 || !(directions > 0 && directions < kFew)) return false;
+    const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
+    const float light = at.weight_samples * largest(met);
+    const float white = largest(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
+    return light > kOfThreshold * samples * tile.frame.contribution_threshold * white &&
+           kBeside * light > largest(tile.pixels[at.pixel]);
+}
+
+// Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
+SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec3f normal,
+                                         float reflectance) const {
+    SkyLight::Glossy sent = sky_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
+    if (!has_own_colors(at.surface))
+        sent.radiance = brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance;
+    return sent;
+}
+
+// The same of a vertex of several parts, each as it leans: of two that lean apart one may show the body, and their mean none of it.
+SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const {
+    const bool own_colors = has_own_colors(at.surface);
+    Spectrum sum;
+    float samples = 0, cosines = 0;
+    std::array<SkyLight::Glossy, SkyLight::Lobes::kMost> sent;
+    for (const Facet* part = at.facets; part;) {
+        SkyLight::Lobes lobes{at.view_dir, at.surface.alpha, reflectance};
+        for (const Facet* next = part; next && lobes.count < sent.size(); next = next->next)
+            lobes.add(next->normal);
+        sky_.glossy(body, lobes, sent);
+        for (std::size_t i = 0; i < lobes.count; ++i, part = part->next) {
+            const Spectrum white = sent[i].radiance;
+            const Spectrum light =
+                part->samples *
+                (own_colors ? white : brdf_mirrored(at.surface, sent[i].facet_cosine) * white);
+            sum += light, samples += part->samples;
+            if (own_colors) cosines += largest(light) * sent[i].facet_cosine;
+        }
+    }
+    const float all = largest(sum);
+    return {(1 / samples) * sum, own_colors && all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
+}
+
+Spectrum KeptScene::colored(const Scatterer& at, const SkyLight::Glossy& sent) {
+    return has_own_colors(at) ? brdf_mirrored(at, sent.facet_cosine) * sent.radiance : sent.radiance;
+}
+
+Spectrum KeptScene::sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const {
+    Spectrum sum;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sum += colored(at.surface, sent[b]);
+    return sum;
+}
+
+void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
+                                   Spectrum& radiance) const {
+    bool meets = false;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
+        meets = meets || sky_.is_met(b, mirror);
+        radiance += at.weight * colored(at.surface, sent_of_body(b, at, at.normal, largest(weight)));
+    }
+    // Small bodies, and air.
+    if (!meets && frame.background->may_meet_body(mirror))
+        frame.background->add_bodies(at.start(), to_double(mirror), weight, radiance);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,183 @@
+#pragma once
+// The kept light of all objects (kept_light.h) as one frame has it: brought up to where the sources are, and
+// looked up where a path meets a surface (kept_reflection.cpp).
+//
+// Kept are the light between the parts of an object and between objects that stand near each other, and what
+// of the bodies' light reaches them past their parts. The Sun and lamps shine on what a path meets by rays as
+// ever, and by way of flat mirrors (mirrored_suns.h). Not kept: light of terrain, between objects far apart.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/indirect/alike_lobes.h"
+#include "render/indirect/mirrored_suns.h"
+#include "render/planetshine/sky_light.h"
+#include "render/radiosity/kept_updates.h"
+#include "render/scene/shown_object.h"
+#include "render/shading/tile.h"
+
+namespace hilcam {
+
+class KeptScene {
+  public:
+    struct Settings {
+        float step_rad = 0;  // step of the grid to which sources are rounded
+        std::size_t lamps = 0;
+        bool emission = false;
+    };
+    // Light is kept on the objects that have a table. They outlive this. Owner thread.
+    KeptScene(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
+              const Settings& settings);
+
+    // Prepares a frame, after everything else is placed; solves for what has moved by a step, where that was
+    // not done ahead. Loop.
+    void place(const FrameView& frame, const WorldSnapshot& world);
+    // Has the light of a frame that is placed solved by the thread that looks ahead, for who can do without
+    // it meanwhile. True: that is done, and place() has no more to solve than what has moved since the first
+    // call. Before the first place(); loop, nothing is allocated and nobody waited for.
+    bool prepare(const FrameView& frame, const WorldSnapshot& world);
+    // From now on nothing is made before a frame asks for it, and no thread is left that would. Owner thread.
+    void stop_looking_ahead() { updates_->stop_looking_ahead(); }
+
+    bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
+    const KeptLight& light(std::size_t object) const { return *objects_[object].light; }
+    // Says in words what is kept on an object.
+    std::string describe(std::size_t object) const;
+
+    // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
+    static constexpr std::size_t kMostFollowed = 4096;
+    // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes which of
+    // those have something near in the mirror's direction, which have the bodies' light already, and which wide lobes
+    // are left to rays. Loop, any thread.
+    void add_reflected(Tile& tile, std::span<Vertex> vertices) const;
+    // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
+    void add_mirrored_suns(Tile& tile, std::span<const Vertex> vertices) const {
+        mirrored_suns_.add_light(tile, vertices);
+    }
+    // The most vertices whose lobes the same rays follow.
+    static constexpr std::size_t kMostTogether = 16;
+    // The bodies' light that a lobe sends, if nothing is in the way, to rays that are drawn as it sends: an equal share
+    // to each that is towards the body, or to all where none is. Loop, any thread.
+    class LobeRays {
+      public:
+        // Their light has the material's own colour: lobe_tint() is not in it.
+        LobeRays(const KeptScene& scene, const Vertex& at);
+        void count(Vec3f dir) {
+            ++all_;
+            for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
+                if (scene_.sky_.is_met(b, dir)) ++rays_[b];
+        }
+        Spectrum share(Vec3f dir) const {
+            Spectrum sum;
+            for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
+                if (rays_[b] == 0 || scene_.sky_.is_met(b, dir))
+                    sum += (1 / static_cast<float>(rays_[b] > 0 ? rays_[b] : all_)) * sent_[b];
+            return sum;
+        }
+
+      private:
+        const KeptScene& scene_;
+        std::array<Spectrum, SkyLight::kMaxBodies> sent_{};
+        std::array<int, SkyLight::kMaxBodies> rays_{};  // towards each
+        int all_ = 0;
+    };
+    // Returns what the facets of a vertex that keeps light reflect of light from everywhere. Loop, any thread.
+    Spectrum lobe_albedo(const Vertex& at) const;
+    // Returns the two parts of it: that of the material, and the ratio of a texture's colour to it.
+    Spectrum plain_lobe_albedo(const Vertex& at) const;
+    Spectrum lobe_tint(const Vertex& at) const;
+    // Adds what a lobe too narrow to be kept reflects of the bodies; mirror: its middle. Loop, any thread.
+    void add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
+                            Spectrum& radiance) const;
+
+  private:
+    struct Object {
+        std::unique_ptr<KeptLight> light;
+        Vec3f origin_m;  // in ray space
+    };
+    KeptTerms terms_;
+    std::vector<Object> objects_;
+    std::vector<const KeptLight*> lights_;  // the light kept on each of them
+    std::unique_ptr<KeptUpdates> updates_;
+    SkyLight sky_;
+    MirroredSuns mirrored_suns_;
+    // The inputs now, some frames ago, and as far ahead, and the targets that they ask for.
+    static constexpr std::uint64_t kStride = 16;  // frames
+    KeptInputs now_, before_, long_before_, ahead_;
+    KeptTarget target_, ahead_target_;
+    std::uint64_t frames_ = 0;
+    bool is_asked_ = false;  // prepare() has been called
+
+    void set_target(const FrameView& frame, const WorldSnapshot& world);
+    void take_inputs(const FrameView& frame, const WorldSnapshot& world);
+    void look_ahead();
+
+    // The radiance that a lobe sends of each body, if nothing is in the way; where a texture colours facets
+    // (has_own_colors()) white, with the cosine that Fresnel's term has.
+    using SentOfBodies = std::array<SkyLight::Glossy, SkyLight::kMaxBodies>;
+    // A vertex on its way through the lookup: many go together, so that none waits for memory.
+    struct Place {
+        Vertex* at;
+        std::uint32_t quad;  // square of four pixels in which it is seen
+        LightNodes::Search search;
+        NodesAbout about;
+        std::uint32_t nearest;  // node, where there is one
+        bool found;
+        // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies. Where a
+        // texture colours facets, theirs is what white ones would reflect.
+        Spectrum diffuse, met;
+        SentOfBodies bodies;
+        float directions;  // that bring what is met (KeptLight::Lobe)
+        Vertex* follower;  // the first whose lobe is left to rays, which are those of all of them; null: none
+        std::size_t followers;
+    };
+    // A vertex, and the place whose light it has.
+    struct Use {
+        Vertex* at;
+        Place* place;
+    };
+    // Vertices that go together, and where they are.
+    struct Together {
+        std::array<Place, 32> places;
+        std::array<Use, 128> uses;
+        std::size_t place_count = 0, use_count = 0;
+    };
+    // A lobe's reflection of other surfaces.
+    struct MetByLobe {
+        Spectrum radiance;                             // white or coloured as that of a place
+        std::array<float, SkyLight::kMaxBodies> free;  // share of each body's light that comes without a way
+        float directions;
+        bool whole;  // the bodies are not looked for, as nothing is in their way
+    };
+    struct Lobes {
+        AlikeLobes<MetByLobe> met;
+        AlikeLobes<SentOfBodies> bodies;
+    };
+    std::size_t gather(const Tile& tile, std::span<Vertex> vertices, Together& block) const;
+    Place* shared_place(std::span<Place> places, const Vertex& at, std::uint32_t quad) const;
+    void find(const FrameView& frame, std::span<Place> places) const;
+    static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
+    bool is_near(const FrameView& frame, const Place& place) const;
+    template <class Where>
+    Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
+    Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
+    void reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const;
+    void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
+    void reflect_far_bodies(Place& place) const;
+    MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
+    SentOfBodies sent_of_bodies(const Vertex& at) const;
+    void add_use(Tile& tile, const Use& use, float& room) const;
+    static void follow_together(Vertex& at, Place& place);
+    static bool hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions);
+    SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, Vec3f normal, float reflectance) const;
+    SkyLight::Glossy sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const;
+    // Returns it in the colours that a vertex has.
+    static Spectrum colored(const Scatterer& at, const SkyLight::Glossy& sent);
+    Spectrum sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,76 @@
+#pragma once
+// Makes the texels of a mosaic (mosaic.h) of triangles, bands of rows on all threads; what they are does not hang on how many these are.
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "render/lod/mosaic.h"
+
+namespace hilcam {
+
+// Owner thread. One painter may make many mosaics after each other.
+class MosaicPainter {
+  public:
+    // Begins a mosaic: its rectangle, texel_m and layers are known; its corner is the ground's.
+    void begin(Mosaic& mosaic);
+    // Adds a triangle of a layer.
+    void add(std::size_t layer, const std::array<Vec3d, 3>& corners_m);
+    // Fills each texel by the areas of all triangles in it, and takes from each layer what those above it cover. Returns the share of the
+    // ground that is left.
+    double fill();
+    // Makes the mosaic's levels of that.
+    void finish();
+
+  private:
+    static constexpr int kLinesEach = 2;  // lines through each row of texels, along which gaps are measured
+    static constexpr int kRowsTogether = 32;
+
+    // A triangle, where it is [texels], and how it leans along both sides.
+    struct Piece {
+        std::size_t layer;
+        std::array<Vec2d, 3> corners;
+        int first_row, last_row;
+        Vec2f lean;
+    };
+    struct Texel {
+        std::array<float, Mosaic::kMaxLayers> share{};  // that each layer fills
+        // The lean of what lies on the ground, along both sides, times its share.
+        std::array<float, 2> lean{};
+        // The share of the ground that is in gaps which run down; and how narrow these are, and those that run across, times their
+        // shares.
+        float down = 0;
+        std::array<float, 2> gap{};
+
+        void add(const Texel& other, float weight);
+    };
+    // Areas of the ground [texels]: all of it, and what is seen.
+    struct Ground {
+        double all = 0, seen = 0;
+    };
+    Mosaic* mosaic_ = nullptr;
+    int columns_ = 0, rows_ = 0;
+    std::vector<Piece> pieces_;
+    std::vector<Texel> texels_, halved_;
+
+    using Parts = std::vector<std::pair<double, double>>;  // parts of a line, begin and end [texels]
+    std::size_t at(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column);
+    }
+    template <class Row>
+    static void for_each_row(int rows, const Row& row);
+    void fill_row(const Piece& piece, int y, std::span<Texel> texels) const;
+    Ground hide_lower(std::span<Texel> texels) const;
+    void find_gaps();
+    std::vector<float> narrowness(std::size_t axis) const;
+    float narrow_beside(const std::vector<float>& of, const std::vector<float>& against, int column, int row,
+                        bool along_rows) const;
+    std::vector<Parts> covered_parts(std::size_t axis, int lines) const;
+    void pack();
+    MosaicTexels packed(int first, int row) const;
+    void halve();
+};
+
+}  // namespace hilcam

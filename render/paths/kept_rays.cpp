@@ -1,0 +1,137 @@
+#include "render/paths/kept_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "render/brdf/microfacet.h"
+#include "render/visibility/place_sequence.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first surface
+// A mirror of this reflectance is looked into in any case: a glint in it is as bright as paint.
+constexpr float kBright = 0.1f;
+
+void add(const Tile& tile, const NextRay& ray, NextRays& rays) {
+    if (!(ray.from->importance(ray.weight) >= tile.frame.contribution_threshold)) return;
+    const bool leaves = dot(ray.from->geometric_normal, ray.dir) > 0;
+    const bool through = ray.from->surface.is_glass();
+    if (leaves || through) rays.add(ray);
+}
+
+void add_through_glass(const Tile& tile, const Vertex& at, NextRays& rays) {
+    for (const int part : {0, 1}) {
+        const BrdfSample exact = brdf_exact(at.surface, at.normal, at.view_dir, part);
+        if (exact.valid)
+            add(tile, {&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight}, rays);
+    }
+}
+
+// Adds the rays of a lobe that is too narrow to be kept, and none's tails; mirror: its middle.
+void add_in_narrow_lobe(const Tile& tile, const Vertex& at, Vec3f mirror, const Spectrum& weight,
+                        NextRays& rays) {
+    const float alpha = at.surface.alpha;
+    const float core = 1 - tail_share(alpha);
+    // Behind the first surface the lobe's middle stands for all of it: rays do not multiply.
+    const int count = at.depth == 1 ? kLobeRays : 1;
+    const Frame local(at.normal);
+    for (int i = 0; i < count; ++i) {
+        NextRay ray{&at, at.start(), mirror, 0, alpha, false, (core / static_cast<float>(count)) * weight};
+        if (count > 1) {
+            const float u1 = core * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+            const float u2 = std::fmod(0.25f * static_cast<float>(i) + 0.125f, 1.0f);
+            ray.dir = normalized(reflect(at.view_dir, local.to_world(sample_visible_normal(
+                                                          alpha, local.to_local(at.view_dir), u1, u2))));
+        }
+        add(tile, ray, rays);
+    }
+}
+
+// One for two of a pixel's samples, and for four of those beyond: of a square of four pixels, 20 rays instead of 32.
+float rays_for(float samples) {
+    constexpr float kOfPixel = 0.5f, kBeyond = 0.25f, kPixel = kVisibilitySamples;
+    return std::max(1.0f, kOfPixel * std::min(samples, kPixel) + kBeyond * std::max(samples - kPixel, 0.0f));
+}
+
+}  // namespace
+
+void KeptRays::add_of(Tile& tile, Vertex& at, NextRays& rays) {
+    const Scatterer& surface = at.surface;
+    if (surface.is_glass()) return add_through_glass(tile, at, rays);
+    if (at.follows_lobe) follow_lobe(tile, at, rays);
+    if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
+    const Spectrum weight = at.weight * tile.frame.kept->lobe_albedo(at);
+    // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
+    const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
+    if (at.has_bodies && surface.alpha > 0 && !is_bright) return;
+    const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
+    if (surface.alpha < kNarrowestLobe) {
+        const bool meets_sun = surface.alpha == 0;
+        NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !at.has_bodies};
+        ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.facets;
+        // What bad mirrors show is not looked for where nothing stands near.
+        if (at.mirrors_near || is_bright)
+            add(tile, ray, rays);
+        else if (dot(at.geometric_normal, mirror) > 0)
+            add_background(tile, ray);
+        return;
+    }
+    // Where nothing stands near, the bodies in a lobe are all there is, and kept_scene.h has them.
+    if (at.mirrors_near) add_in_narrow_lobe(tile, at, mirror, weight, rays);
+}
+
+// Has the vertices, from the first on, have their pixels' shares of what the same rays find.
+KeptRays::Followers KeptRays::share_rays(const Tile& tile, Vertex& first) {
+    Followers out;
+    const std::size_t begin = share_count_;
+    for (const Vertex* at = &first; at; at = at->follows_too) {
+        out.vertex[out.count++] = at;
+        out.samples += at->weight_samples;
+        const float samples = at->weight_samples / first.weight_samples;
+        shares_[share_count_++] = {at->pixel, at->halves, samples * tile.frame.kept->lobe_tint(*at)};
+    }
+    first.lobe = &lobes_[lobe_count_++];
+    *first.lobe = {
+        {shares_.data() + begin, out.count}, first.kept_lobe, first.kept_lobe_directions, {}, {}, {}};
+    return out;
+}
+
+// Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all.
+void KeptRays::follow_lobe(Tile& tile, Vertex& at, NextRays& rays) {
+    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
+    const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
+    const Followers followers = share_rays(tile, at);
+    const std::size_t count =
+        std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))), FollowedLobe::kMostRays);
+    const Frame local(at.normal);
+    const std::size_t first = rays.count;
+    for (std::size_t i = 0; i < count && !rays.full(); ++i) {
+        const Vertex& from = *followers.vertex[i % followers.count];
+        const auto number = static_cast<float>(at.sample + i);
+        const Vec3f facet = local.to_world(sample_visible_normal(
+            at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kPlasticAlong * number, 1.0f),
+            std::fmod(0.25f * quarter + kPlasticAbout * number, 1.0f)));
+        const Vec3f dir = normalized(reflect(at.view_dir, facet));
+        if (dot(from.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
+            rays.add({&at, from.start(), dir, 0, at.surface.alpha, false, {}, false, false});
+    }
+    const std::span<NextRay> own = rays.room.subspan(first, rays.count - first);
+    const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(own.size(), 1))) *
+                            (at.weight * tile.frame.kept->plain_lobe_albedo(at));
+    KeptScene::LobeRays bodies(*tile.frame.kept, at);
+    for (const NextRay& ray : own) bodies.count(ray.dir);
+    std::uint8_t number = 0;
+    for (NextRay& ray : own)
+        ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir), ray.lobe_ray = number++;
+}
+
+void KeptRays::add_found(Tile& tile) const {
+    const std::span<const FollowedLobe> lobes = std::span(lobes_).first(lobe_count_);
+    const float share = found_over_believed(lobes);
+    for (const FollowedLobe& lobe : lobes) tile.add(lobe, share * lobe.believed());
+}
+
+}  // namespace hilcam

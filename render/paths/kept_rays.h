@@ -1,0 +1,41 @@
+#pragma once
+// Rays by which paths go on from vertices that keep light (kept_scene.h). Nothing is drawn: they go into fixed directions, by
+// mirrors, lobes too narrow to be kept, lobes whose kept light hangs on few directions, and glass. What can add less than
+// contribution_threshold is left out.
+
+#include <array>
+#include <cstddef>
+
+#include "render/indirect/kept_scene.h"
+#include "render/paths/next_ray.h"
+#include "render/shading/path_model.h"
+
+namespace hilcam {
+
+// Scratch memory for one thread.
+class KeptRays {
+  public:
+    // Begins with other vertices: no lobe is followed.
+    void clear() { share_count_ = lobe_count_ = 0; }
+    // Adds a vertex's rays: a mirror's one direction, which may be many, four of a narrow lobe, both of a sheet of glass. Loop.
+    void add_of(Tile& tile, Vertex& at, NextRays& rays);
+    // Adds what the rays of lobes have found, once all have come back, to the pixels that have it. Loop.
+    void add_found(Tile& tile) const;
+
+  private:
+    static constexpr auto kMost = static_cast<std::size_t>(PathModel::kMostVertices);
+    std::array<PixelShare, kMost> shares_;
+    std::array<FollowedLobe, kMost> lobes_;
+    std::size_t share_count_ = 0, lobe_count_ = 0;
+
+    // The vertices whose lobes the same rays follow.
+    struct Followers {
+        std::array<const Vertex*, KeptScene::kMostTogether> vertex;
+        std::size_t count = 0;
+        float samples = 0;  // that see them
+    };
+    Followers share_rays(const Tile& tile, Vertex& first);
+    void follow_lobe(Tile& tile, Vertex& at, NextRays& rays);
+};
+
+}  // namespace hilcam

@@ -1,0 +1,121 @@
+#include "render/paths/mirror_rays.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "render/brdf/microfacet.h"
+#include "render/shading/lamp_light.h"
+#include "render/shading/way_to_sample.h"
+#include "render/visibility/place_sequence.h"
+#include "render/vocabulary/clones.h"
+
+namespace hilcam {
+namespace {
+
+// Where in the disk of visible facets the rays of a pixel lie, by their number.
+struct Places {
+    alignas(64) std::array<float, kMostSamples> radius, cosine, sine;
+};
+const Places kPlaces = [] {
+    Places out;
+    for (std::size_t i = 0; i < kMostSamples; ++i) {
+        const float number = static_cast<float>(i) + 0.5f;
+        const DiskPlace at =
+            DiskPlace::of(std::fmod(kPlasticAlong * number, 1.0f), std::fmod(kPlasticAbout * number, 1.0f));
+        out.radius[i] = at.radius, out.cosine[i] = at.cosine, out.sine[i] = at.sine;
+    }
+    return out;
+}();
+
+// Three coordinates of each lane.
+struct Lanes {
+    using Floats = std::array<float, kPacketSize>;
+    alignas(64) Floats x{}, y{}, z{};
+    Vec3f at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+    void set(std::size_t k, Vec3f v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
+};
+
+// Reflects the views of a lobe's points by a facet each, from place `first` on. to_viewer_m: from the vertex; ways_m: from it to
+// the points.
+HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer_m, const Lanes& ways_m,
+                                 std::size_t first, Lanes& dirs) {
+    const Frame local = lobe;
+    const float *radius = kPlaces.radius.data() + first, *cosine = kPlaces.cosine.data() + first,
+                *sine = kPlaces.sine.data() + first;
+    for (std::size_t k = 0; k < kPacketSize; ++k)
+        dirs.set(k, sample_facets(alpha, local, normalized(to_viewer_m - ways_m.at(k)),
+                                  {radius[k], cosine[k], sine[k]}));
+}
+
+// Sends some of the rays, each from another of the samples that are left and by a facet of its own. first: how many there were
+// before, a multiple of kPacketSize.
+void send(Tile& tile, const Vertex& at, SampleMask& left, std::size_t first, std::size_t count,
+          MirrorRays::Packet& out) {
+    const FrameView& frame = tile.frame;
+    const float distance_m = at.footprint_m * static_cast<float>(frame.geometry.focal_length_px);
+    const WayToSample way(tile, at);
+    Lanes ways_m, dirs;
+    for (std::size_t k = 0; k < count; ++k)
+        ways_m.set(k, way.to(next_sample(frame.samples, left, at.samples)));
+    reflect_views(at.surface.alpha, Frame(at.normal), distance_m * at.view_dir, ways_m, first, dirs);
+    out.rays.count = 0;
+    for (std::size_t k = 0; k < count; ++k)
+        if (dot(at.geometric_normal, dirs.at(k)) > 0)
+            out.rays.set(out.rays.count++, at.start() + ways_m.at(k), dirs.at(k), 0,
+                         std::numeric_limits<float>::infinity());
+    frame.scene->intersect(out.rays, Coherence::kCoherent, out.hits);
+    prefetch_vertices(frame, out.hits, out.rays.count);
+    tile.stats.secondary_rays += static_cast<std::uint64_t>(out.rays.count);
+    out.met = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(out.rays.count); ++k)
+        if (meets_object(frame, out.hits, k, out.rays.origin(k), out.rays.dir(k))) out.met |= 1u << k;
+}
+
+// True when all that these meet is dark and faces away from the Sun: against the sensor's noise it matters little how much of a
+// pixel shows it. What a mirror throws of the Sun on such a thing is not asked for.
+bool meet_the_dark(const FrameView& frame, const MirrorRays::Packet& packet) {
+    // Reflectance. An edge that sixteen rays see is off by a thirtieth of a pixel; of what has a tenth of the light of white paint
+    // for its own, and reflects a tenth of it, that is a third of a thousandth of the paint's light.
+    constexpr float kDark = 0.1f;
+    if (packet.met != 0 && frame.lamps && !frame.lamps->lit().empty()) return false;
+    const Vec3f sun = to_float(frame.background->sun_world_dir());
+    const HitPacket& hits = packet.hits;
+    for (std::uint32_t rest = packet.met; rest != 0; rest &= rest - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+        const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+        const Material& material = object.materials[object.triangles[hits.triangle[k]].surface];
+        const Vec3f normal = frame.world_from_body[hits.object[k]] *
+                             Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+        const bool sunlit = dot(normal, sun) * dot(normal, packet.rays.dir(k)) < 0;
+        if (sunlit || largest(material.base) + largest(material.highlight) > kDark ||
+            largest(material.emission) > 0)
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+bool meets_object(const FrameView& frame, const HitPacket& hits, std::size_t lane, Vec3f origin_m,
+                  Vec3f dir) {
+    return hits.object[lane] != HitPacket::kMiss &&
+           !(frame.bodies_may_hide &&
+             frame.background->hides(origin_m, to_double(dir), static_cast<double>(hits.distance[lane])));
+}
+
+std::size_t MirrorRays::trace(Tile& tile, const Vertex& at, std::size_t most) {
+    SampleMask left = at.samples;
+    const std::size_t all = std::min(static_cast<std::size_t>(std::popcount(left)), most);
+    std::size_t sent = 0;
+    for (count_ = 0; sent < all && !(count_ == 1 && meet_the_dark(tile.frame, packets_[0])); ++count_) {
+        const std::size_t count = std::min<std::size_t>(kPacketSize, all - sent);
+        send(tile, at, left, sent, count, packets_[count_]);
+        sent += count;
+    }
+    return sent;
+}
+
+}  // namespace hilcam

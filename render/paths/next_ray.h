@@ -1,0 +1,53 @@
+#pragma once
+// Rays that continue paths, and the background that they see where they meet nothing.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "render/shading/tile.h"
+
+namespace hilcam {
+
+// A ray that continues a path.
+struct NextRay {
+    const Vertex* from;
+    Vec3f origin_m;
+    Vec3f dir;
+    float density;      // density of the direction [sr^-1]; 0: exact
+    float alpha_least;  // least alpha of the next vertex's facet lobe
+    bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
+    Spectrum weight;
+    bool whole_lobe = false;    // it stands for all of a narrow facet lobe about it
+    bool sees_bodies = true;    // false: their light in its lobe has been counted
+    Spectrum if_free{};         // light that it adds where it meets nothing
+    std::uint8_t lobe_ray = 0;  // number among those of a lobe (FollowedLobe)
+    // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
+    bool may_be_many = false;
+
+    // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
+    RayWidth width() const {
+        const float spread = density > 0 ? std::min(0.5f, 0.25f / std::sqrt(density)) : 0.0f;
+        return {from->footprint_m, spread};
+    }
+};
+
+// Rays that are chosen, as many as there is room for.
+struct NextRays {
+    std::span<NextRay> room;
+    std::size_t count = 0;
+
+    bool full() const { return count == room.size(); }
+    void add(const NextRay& ray) {
+        if (!full()) room[count++] = ray;
+    }
+};
+
+// Adds the background that a ray sees to what its vertex sends. Loop, any thread.
+void add_background(Tile& tile, const NextRay& ray);
+// Adds the share of that light which next-event estimation has not counted. Loop, any thread.
+void add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light);
+
+}  // namespace hilcam

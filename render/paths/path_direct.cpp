@@ -1,0 +1,26 @@
+#include <array>
+
+#include "render/paths/path_models.h"
+#include "render/primary/primary_vertices.h"
+#include "render/shading/radiance_model.h"
+
+namespace hilcam {
+namespace {
+
+class DirectPaths final : public PathModel {
+  public:
+    void trace(Tile& tile) override {
+        PrimaryVertices seen(tile);
+        while (const std::size_t count = seen.next(vertices_))
+            tile.frame.radiance->add_light(tile, {vertices_.data(), count}, BodySampling::kNone);
+    }
+
+  private:
+    std::array<Vertex, kMostVertices> vertices_;
+};
+
+}  // namespace
+
+std::unique_ptr<PathModel> make_direct_paths() { return std::make_unique<DirectPaths>(); }
+
+}  // namespace hilcam

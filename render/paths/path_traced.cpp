@@ -1,0 +1,280 @@
+// One random path per sample, in waves of packets: at every vertex the lamps by next-event estimation and one
+// direction drawn from the surface's own reflection. Where both can find the same light they are weighed by
+// the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
+// lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
+//
+// Where light is kept (kept_scene.h) nothing is drawn: a path ends there, but for what fixed directions follow
+// (kept_rays.h).
+
+#include "render/paths/path_models.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "render/indirect/kept_scene.h"
+#include "render/paths/kept_rays.h"
+#include "render/paths/mirror_rays.h"
+#include "render/paths/next_ray.h"
+#include "render/primary/primary_vertices.h"
+#include "render/shading/radiance_model.h"
+
+namespace hilcam {
+namespace {
+
+class TracedPaths final : public PathModel {
+  public:
+    explicit TracedPaths(bool kept) : kept_(kept) {}
+
+    void trace(Tile& tile) override {
+        PrimaryVertices seen(tile);
+        while (const std::size_t count = seen.next({current_, kMax})) trace_on(tile, count);
+    }
+
+    bool samples_lobes() const override { return true; }
+    bool uses_kept_light() const override { return kept_; }
+
+  private:
+    bool kept_;
+    static constexpr auto kMax = static_cast<std::size_t>(kMostVertices);
+    // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
+    // where others need fewer.
+    static constexpr std::size_t kLeastOfMirror = 8;
+    static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
+    std::array<Vertex, kMostRays> a_, b_;
+    std::array<NextRay, kMostRays> next_;
+    Vertex* current_ = a_.data();
+    Vertex* following_ = b_.data();
+    KeptRays kept_rays_;
+    // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
+    std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
+    std::array<bool, kMaxSamples> near_part_;
+    MirrorRays many_;
+
+    void trace_on(Tile& tile, std::size_t count) {
+        const FrameView& frame = tile.frame;
+        kept_rays_.clear();
+        for (int depth = 1; count > 0; ++depth) {
+            std::size_t keep = 0;
+            if (frame.kept) {
+                Vertex* const others =
+                    std::partition(current_, current_ + count, [](const Vertex& v) { return v.keeps_light; });
+                keep = static_cast<std::size_t>(others - current_);
+                frame.radiance->add_light(tile, {current_, keep}, BodySampling::kNone);
+                frame.kept->add_reflected(tile, {current_, keep});
+                frame.kept->add_mirrored_suns(tile, {current_, keep});
+            }
+            frame.radiance->add_light(tile, {current_ + keep, count - keep}, BodySampling::kSampled);
+            const bool last = depth == frame.max_depth;
+            NextRays rays{next_};
+            for (std::size_t i = 0; i < keep; ++i) kept_rays_.add_of(tile, current_[i], rays);
+            choose(tile, {current_ + keep, count - keep}, last, rays);
+            count = follow(tile, rays.count, last);
+        }
+        kept_rays_.add_found(tile);
+    }
+
+    // Draws a direction at each vertex. At the last surface only exact ones go on: no lamp has been counted in them.
+    static void choose(const Tile& tile, std::span<const Vertex> vertices, bool last, NextRays& rays) {
+        const FrameView& frame = tile.frame;
+        const float least = frame.contribution_threshold;
+        for (const Vertex& at : vertices) {
+            if (rays.full()) return;
+            if (last && !at.surface.has_exact()) continue;
+            const auto random = tile.random_of(at, 0);
+            const BrdfSample sample =
+                brdf_sample(at.surface, at.normal, at.view_dir,
+                            {uniform01(random[0]), uniform01(random[1]), uniform01(random[2])});
+            if (!sample.valid || (last && !sample.exact) ||
+                (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0))
+                continue;
+            Spectrum weight = at.weight * sample.weight;
+            const float most = at.importance(weight);
+            if (!(most > 0)) continue;
+            if (most < least) {
+                const float chance = most / least;
+                if (uniform01(random[3]) >= chance) continue;
+                weight = (1 / chance) * weight;
+            }
+            // A facet lobe met through another is at least as wide as that one; behind a diffuse bounce, as
+            // wide as the quality says, so that the mean stays and the sparkle goes (Kaplanyan & Dachsbacher,
+            // CGF 32(2), 2013).
+            const float alpha_least = frame.alpha_behind_diffuse > 0
+                                          ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
+                                          : 0.0f;
+            rays.add(
+                {&at, at.start(!sample.transmits), sample.dir, sample.density, alpha_least, true, weight});
+        }
+    }
+
+    // True when a mirror's ray has met but a part of what the mirror shows about it: the triangle is small beside the ray's width,
+    // so that others, or none, lie within it, or within a pixel or two. What one of them sends may be a glint, or nothing.
+    static bool has_met_a_part(const HitPacket& hits, std::size_t k, const NextRay& ray) {
+        constexpr float kSmall = 4;
+        const float size_m = std::sqrt(length(Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]}));
+        const float width_m = ray.from->footprint_m + 2 * ray.from->surface.alpha * hits.distance[k];
+        return size_m < kSmall * width_m;
+    }
+
+    // Follows many rays of a mirror's pixel, `most` at most, in the place of the one from its middle. Returns how many.
+    std::size_t follow_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& found) {
+        const std::size_t sent = many_.trace(tile, *middle.from, most);
+        NextRay ray = middle;
+        const float share = 1 / static_cast<float>(sent);
+        ray.weight = share * middle.weight;
+        Spectrum free;
+        add_background_seen(tile.frame, middle, free);
+        const std::size_t begin = found;
+        for (const MirrorRays::Packet& packet : many_.packets()) {
+            const int met_nothing = packet.rays.count - std::popcount(packet.met);
+            if (met_nothing > 0) tile.add(*middle.from, (share * static_cast<float>(met_nothing)) * free);
+            for (std::uint32_t rest = packet.met; rest != 0; rest &= rest - 1) {
+                const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+                ray.origin_m = packet.rays.origin(k), ray.dir = packet.rays.dir(k);
+                if (add_met(tile.frame, packet.hits, k, ray, found) && !join(ray, following_, begin, found))
+                    ++found;
+            }
+        }
+        return sent;
+    }
+
+    // Traces some of the chosen rays.
+    const HitPacket& trace_packet(Tile& tile, std::size_t first, std::size_t count, Coherence coherence,
+                                  HitPacket& hits) const {
+        RayPacket rays;
+        rays.count = static_cast<int>(count);
+        for (int i = 0; i < rays.count; ++i) {
+            const NextRay& ray = next_[first + static_cast<std::size_t>(i)];
+            rays.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
+        }
+        tile.frame.scene->intersect(rays, coherence, hits);
+        prefetch_vertices(tile.frame, hits, rays.count);
+        tile.stats.secondary_rays += count;
+        return hits;
+    }
+
+    // Makes what a ray has met the vertex after those that are found. False where there is nothing to see.
+    bool add_met(const FrameView& frame, const HitPacket& hits, std::size_t k, const NextRay& ray,
+                 std::size_t found) {
+        Vertex& vertex = following_[found];
+        if (!make_vertex(frame, hits, static_cast<int>(k), ray.origin_m, ray.dir, ray.alpha_least,
+                         ray.width(), vertex))
+            return false;
+        vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
+        vertex.halves = ray.from->halves, vertex.lobe = ray.from->lobe;
+        vertex.lobe_ray = vertex.lobe && ray.from->depth > 1 ? ray.from->lobe_ray : ray.lobe_ray;
+        vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
+        vertex.weight = ray.weight;
+        vertex.weight_samples = ray.from->weight_samples;
+        return true;
+    }
+
+    // Puts the rays that may be many first and traces them. Where one meets a part of what its mirror shows, those of the pixels
+    // about it, whose lobes have some of it, may have passed it by. Returns how many they are.
+    std::size_t trace_mirrors(Tile& tile, std::size_t ray_count) {
+        const auto begin = next_.begin();
+        const auto mirrors =
+            static_cast<std::size_t>(std::partition(begin, begin + static_cast<std::ptrdiff_t>(ray_count),
+                                                    [](const NextRay& ray) { return ray.may_be_many; }) -
+                                     begin);
+        if (mirrors > 0) near_part_.fill(false);
+        for (std::size_t first = 0; first < mirrors; first += kPacketSize) {
+            const std::size_t count = std::min<std::size_t>(kPacketSize, mirrors - first);
+            const HitPacket& hits =
+                trace_packet(tile, first, count, Coherence::kCoherent, mirror_hits_[first / kPacketSize]);
+            for (std::size_t k = 0; k < count; ++k) {
+                const NextRay& ray = next_[first + k];
+                if (meets_object(tile.frame, hits, k, ray.origin_m, ray.dir) && has_met_a_part(hits, k, ray))
+                    mark_about(tile, *ray.from, hits.distance[k]);
+            }
+        }
+        return mirrors;
+    }
+
+    // Marks the pixels in whose lobes something is that a mirror shows at this distance.
+    void mark_about(const Tile& tile, const Vertex& mirror, float distance_m) {
+        // Four fifths of a lobe are within twice alpha of its facets' middle, which turns rays by twice that (Walter et al. 2007,
+        // eq. 35).
+        constexpr float kLobe = 4;
+        constexpr float kMost_px = 4;  // further off a pixel has little of it, and rays cost time
+        const auto focal_px = static_cast<float>(tile.frame.geometry.focal_length_px);
+        const float in_all_m = mirror.footprint_m * focal_px + distance_m;
+        const float blur_px = kLobe * mirror.surface.alpha * distance_m / in_all_m * focal_px;
+        const int reach = static_cast<int>(std::min(1 + blur_px, kMost_px));
+        const int width = tile.box.x1 - tile.box.x0, height = tile.box.y1 - tile.box.y0;
+        const int x = static_cast<int>(mirror.pixel) % width, y = static_cast<int>(mirror.pixel) / width;
+        for (int row = std::max(0, y - reach); row <= std::min(height - 1, y + reach); ++row)
+            for (int column = std::max(0, x - reach); column <= std::min(width - 1, x + reach); ++column)
+                near_part_[static_cast<std::size_t>(row * width + column)] = true;
+    }
+
+    // Makes what one of many rays has met, the last of these vertices, a part of what others of the same pixel have, where that is
+    // alike: it is shaded once. Few, as a shadow's edge may pass between them. False: nothing is.
+    static bool join(const NextRay& ray, Vertex* found, std::size_t first, std::size_t last) {
+        constexpr float kMost = 8;
+        const Vertex& at = found[last];
+        // A facet lobe turns by twice as much: half of alpha, as far as 10 degrees.
+        constexpr float kLeansAlike = 0.985f, kOfAlpha = 0.5f;
+        const float alpha = kOfAlpha * at.surface.alpha;
+        const float least =
+            at.surface.material->has_facets() ? std::max(kLeansAlike, 1 - 0.5f * alpha * alpha) : kLeansAlike;
+        for (std::size_t i = last; i-- > first;) {
+            Vertex& other = found[i];
+            if (other.object != at.object || other.surface_number != at.surface_number ||
+                largest(other.weight) > (kMost - 0.5f) * largest(ray.weight) || other.back != at.back ||
+                other.known_sun != at.known_sun || other.surface.base.bin != at.surface.base.bin ||
+                dot(other.normal, at.normal) < least)
+                continue;
+            other.weight += ray.weight;
+            return true;
+        }
+        return false;
+    }
+
+    // Follows the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
+    // sees the background.
+    std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
+        const FrameView& frame = tile.frame;
+        HitPacket own_hits;
+        std::size_t found = 0, count = 0;
+        const std::size_t mirrors = last ? 0 : trace_mirrors(tile, ray_count);
+        auto marked = static_cast<std::size_t>(
+            std::count_if(next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(mirrors),
+                          [&](const NextRay& ray) { return near_part_[ray.from->pixel]; }));
+        std::size_t room = kMostRays - ray_count;
+        for (std::size_t first = 0; first < ray_count; first += count) {
+            count = std::min<std::size_t>(kPacketSize, (first < mirrors ? mirrors : ray_count) - first);
+            const HitPacket& hits = first < mirrors
+                                        ? mirror_hits_[first / kPacketSize]
+                                        : trace_packet(tile, first, count, Coherence::kIncoherent, own_hits);
+            for (std::size_t k = 0; k < count; ++k) {
+                const NextRay& ray = next_[first + k];
+                if (first < mirrors && near_part_[ray.from->pixel]) {
+                    // All have the same room.
+                    room -= follow_many(tile, ray, room / marked--, found);
+                    continue;
+                }
+                if (!meets_object(frame, hits, k, ray.origin_m, ray.dir)) {
+                    if (ray.sees_bodies)
+                        add_background(tile, ray);
+                    else if (ray.from->lobe)
+                        ray.from->lobe->sky += ray.if_free;
+                    continue;
+                }
+                if (!last && add_met(frame, hits, k, ray, found)) ++found;
+            }
+        }
+        std::swap(current_, following_);
+        return found;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<PathModel> make_traced_paths() { return std::make_unique<TracedPaths>(false); }
+std::unique_ptr<PathModel> make_kept_paths() { return std::make_unique<TracedPaths>(true); }
+
+}  // namespace hilcam

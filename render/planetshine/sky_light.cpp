@@ -1,0 +1,390 @@
+#include "render/planetshine/sky_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "render/brdf/microfacet.h"
+#include "render/scene/material.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/lane_sum.h"
+
+namespace hilcam {
+namespace {
+
+constexpr float kGolden = 0.61803399f;
+constexpr std::size_t kLanes = 16;
+
+// Sums over what a lobe sees of a body, by its brightest bin: of the light, and of it times Schlick's Fresnel term.
+struct SchlickSums {
+    float light = 0, term = 0;
+
+    // The cosine at which the term is its mean.
+    float facet_cosine() const { return light > 0 ? 1 - std::pow(std::max(term / light, 0.0f), 0.2f) : 1.0f; }
+};
+// Vectors are written out, as GCC 12 takes a plain loop over sixteen lanes apart. count: a multiple of kLanes.
+[[gnu::always_inline]] inline SchlickSums schlick_sums(const float* weight, const float* brightest,
+                                                       const float* schlick, std::size_t count) {
+    using Eight [[gnu::vector_size(32)]] = float;
+    constexpr std::size_t kEach = 8;
+    std::array<Eight, kLanes / kEach> lights = {}, terms = {};
+    for (std::size_t first = 0; first < count; first += kLanes)
+        for (std::size_t k = 0; k < lights.size(); ++k) {
+            const std::size_t i = first + kEach * k;
+            Eight weights, values, schlicks;
+            std::memcpy(&weights, weight + i, sizeof weights);
+            std::memcpy(&values, brightest + i, sizeof values);
+            std::memcpy(&schlicks, schlick + i, sizeof schlicks);
+            const Eight light = weights * values;
+            lights[k] += light, terms[k] += light * schlicks;
+        }
+    std::array<float, kLanes> light, term;
+    std::memcpy(light.data(), lights.data(), sizeof light);
+    std::memcpy(term.data(), terms.data(), sizeof term);
+    return {lane_sum(light), lane_sum(term)};
+}
+
+// Sum of weight times value: a vector holds the bins of one, and four sums side by side do not wait for each other.
+// count: a multiple of four.
+[[gnu::always_inline]] inline void weighted_sum(const float* weights, const Spectrum* values,
+                                                std::size_t count, Spectrum& sum) {
+    using Bins [[gnu::vector_size(sizeof(Spectrum))]] = float;
+    constexpr std::size_t kSums = 4;
+    std::array<Bins, kSums> sums = {};
+    for (std::size_t i = 0; i < count; i += kSums)
+        for (std::size_t k = 0; k < kSums; ++k) {
+            Bins value;
+            std::memcpy(&value, values[i + k].bin.data(), sizeof value);
+            sums[k] += weights[i + k] * value;
+        }
+    const Bins all = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    std::memcpy(sum.bin.data(), &all, sizeof all);
+}
+
+// Direction i of count, evenly on a cone.
+Vec3f spiral(Vec3f axis, float one_minus_cosine, std::size_t i, std::size_t count) {
+    const float below =
+        (static_cast<float>(i) + 0.5f) / static_cast<float>(count) * one_minus_cosine;  // 1 - cos
+    const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+    return Frame(axis).to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
+}
+
+// Returns the share of an even sky that a lobe without Fresnel's term reflects: facets that are wide shadow
+// each other, and what they then reflect again is not the lobe's. Between 17 widths, linear.
+float whole_lobe(float alpha, float no) {
+    constexpr int kSteps = 16;
+    static const std::array<LobeAlbedo, kSteps + 1> by_alpha = [] {
+        std::array<LobeAlbedo, kSteps + 1> out;
+        for (int i = 0; i <= kSteps; ++i)
+            out[static_cast<std::size_t>(i)] = ggx_albedo(static_cast<float>(i) / kSteps, 0);
+        return out;
+    }();
+    const float x = std::min(alpha, 1.0f) * kSteps;
+    const int i = std::min(static_cast<int>(x), kSteps - 1);
+    const LobeAlbedo* const at = by_alpha.data() + i;
+    const float below = at[0](no);
+    return below + (x - static_cast<float>(i)) * (at[1](no) - below);
+}
+
+// Half the angle of a body's cone.
+float half_angle_rad(const BodyLight& lamp) { return 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine)); }
+
+float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
+
+// Bilinear in a square of steps + 1 values a side; x and y below steps.
+Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, float y) {
+    const int ix = static_cast<int>(x), iy = static_cast<int>(y);
+    const float tx = x - static_cast<float>(ix), ty = y - static_cast<float>(iy);
+    const Spectrum* corner = value.data() + iy * (steps + 1) + ix;
+    return (1 - ty) * ((1 - tx) * corner[0] + tx * corner[1]) +
+           ty * ((1 - tx) * corner[steps + 1] + tx * corner[steps + 2]);
+}
+
+}  // namespace
+
+SkyLight::SkyLight(float narrowest_alpha) : narrowest_alpha_(narrowest_alpha) {
+    whole_lobe(0, 1);  // the table is made here, so that no frame makes it
+}
+
+bool SkyLight::is_clear_of_bodies(Vec3f dir) const {
+    return std::none_of(cones_.begin(), cones_.begin() + static_cast<std::ptrdiff_t>(cone_count_),
+                        [&](const Cone& cone) { return dot(cone.axis, dir) >= cone.cosine; });
+}
+
+Vec3f SkyLight::DirectionMap::direction(int index) {
+    const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
+    const float y = 2 * static_cast<float>(index / (kSteps + 1)) / kSteps - 1;
+    const float z = 1 - std::abs(x) - std::abs(y);
+    return normalized(z >= 0 ? Vec3f{x, y, z}
+                             : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
+}
+
+Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
+    const float sum = std::abs(dir.x) + std::abs(dir.y) + std::abs(dir.z);
+    float x = dir.x / sum, y = dir.y / sum;
+    if (dir.z < 0) {
+        const float folded = (1 - std::abs(y)) * sign(x);
+        y = (1 - std::abs(x)) * sign(y);
+        x = folded;
+    }
+    const auto place = [](float v) { return std::clamp((0.5f * v + 0.5f) * kSteps, 0.0f, kSteps - 1e-3f); };
+    const float px = place(x), py = place(y);
+    return interpolated(value, kSteps, px, py);
+}
+
+void SkyLight::place(const Background& background, float margin_rad) {
+    background_ = &background;
+    cone_count_ = 0;
+    for (const BodyLight& lamp : background.body_lights()) {
+        const float half_rad = std::min(half_angle_rad(lamp) + margin_rad, kPiF);
+        cones_[cone_count_++] = {to_float(lamp.world_dir), std::cos(half_rad)};
+    }
+    count_ = 0;
+    for (std::size_t number = 0; number < background.body_lights().size(); ++number) {
+        const BodyLight& lamp = background.body_lights()[number];
+        const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
+        if (count_ == kMaxBodies || largest(lamp.max_over_sun) * solid_angle < kMinOverSun) continue;
+        place_disks(background, number, disks_[count_]);
+        const Disk& disk = disks_[count_].of.back();
+        Body& body = bodies_[count_];
+        body = {to_float(lamp.world_dir), {}, 1, {}};
+        const auto add_to = [&disk](Vec3f normal, Spectrum& sum) {
+            for (std::size_t i = 0; i < kPatches; ++i)
+                sum += std::max(0.0f, disk.x[i] * normal.x + disk.y[i] * normal.y + disk.z[i] * normal.z) *
+                       disk.irradiance[i];
+        };
+        add_to(body.world_dir, body.irradiance_w_m2_um);
+        if (!(largest(body.irradiance_w_m2_um) > 0)) continue;
+        place_light(disk, body);
+        DirectionMap& irradiance = irradiance_[count_];
+        for (std::size_t i = 0; i < irradiance.value.size(); ++i) {
+            irradiance.value[i] = {};
+            add_to(DirectionMap::direction(static_cast<int>(i)), irradiance.value[i]);
+        }
+        ++count_;
+    }
+}
+
+// Equal areas on the cone by a golden-angle spiral (Vogel 1979), four for each patch.
+void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) const {
+    const BodyLight& lamp = background.body_lights()[number];
+    const float half_angle = half_angle_rad(lamp);
+    disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
+    disks.half_angle_rad = half_angle;
+    const Vec3f axis = to_float(lamp.world_dir);
+    Spectrum each_sr;
+    each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kLooks);
+    const auto look_rad = static_cast<double>(std::sqrt(each_sr[0]));
+    std::array<Look, kLooks> looks;
+    for (std::size_t i = 0; i < kLooks; ++i) {
+        looks[i] = {spiral(axis, lamp.one_minus_cosine, i, kLooks), {}};
+        Spectrum weight = each_sr;
+        background.add_bodies({}, to_double(looks[i].dir), weight, looks[i].irradiance, look_rad);
+    }
+    for (std::size_t k = 0; k < kParts.size(); ++k) {
+        // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half
+        // of that.
+        disks.of[k].min_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
+        place_parts(looks, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
+    }
+    if (narrowest_alpha_ < disks.of.back().min_alpha)
+        disks.map.place(background, axis, lamp.one_minus_cosine, narrowest_alpha_);
+}
+
+// Each look's light goes to the nearest of fewer parts, which stand in the middle of what they have of it.
+void SkyLight::place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine, std::size_t count,
+                           Disk& out) {
+    std::array<Vec3f, kPatches> seed, middle{};
+    for (std::size_t k = 0; k < count; ++k)
+        seed[k] = spiral(axis, one_minus_cosine, k, count), out.irradiance[k] = {};
+    for (const Look& look : looks) {
+        std::size_t best = 0;
+        float nearest = -2;
+        for (std::size_t k = 0; k < count; ++k)
+            if (const float cosine = dot(seed[k], look.dir); cosine > nearest) nearest = cosine, best = k;
+        out.irradiance[best] += look.irradiance;
+        middle[best] = middle[best] + largest(look.irradiance) * look.dir;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        out.brightest[k] = largest(out.irradiance[k]);
+        const Vec3f dir = dot(middle[k], middle[k]) > 0 ? normalized(middle[k]) : seed[k];
+        out.x[k] = dir.x, out.y[k] = dir.y, out.z[k] = dir.z;
+    }
+}
+
+namespace {
+
+// Slopes of facets that share the GGX distribution evenly between them: a share u of it leans by no more than
+// alpha sqrt(u / (1 - u)) (Walter et al., EGSR 2007, eq. 35).
+struct FacetSlopes {
+    static constexpr std::size_t kMost = 64;
+    std::size_t count;
+    std::array<float, kMost> x{}, y{}, squared{};  // in units of alpha
+
+    explicit FacetSlopes(std::size_t n) : count(n) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
+            const float phi = 2 * kPiF * kGolden * static_cast<float>(i);
+            squared[i] = u / (1 - u);
+            x[i] = std::sqrt(squared[i]) * std::cos(phi), y[i] = std::sqrt(squared[i]) * std::sin(phi);
+        }
+    }
+};
+// The limb is an edge, for which sixteen are too few: 0.04 of the disk's light.
+const FacetSlopes kSlopes(16), kSlopesAtLimb(64);
+
+}  // namespace
+
+// Facets of the lobe, each with what it sees of the map over its share of the directions (Krivanek & Colbert, GPU
+// Gems 3, 2007, ch. 20). Those that the map is too coarse for see it together along the mirror's direction, and each
+// by itself where the disk's limb is near.
+SkyLight::Glossy SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
+    const Disks& disks = disks_[body];
+    const Frame local(normal);
+    const float no = std::max(dot(normal, view_dir), 1e-2f);
+    const auto look_at = [&](Vec3f dir, float spread_sr) {
+        Spectrum weight, out;
+        weight.bin.fill(1);
+        background_->add_bodies({}, to_double(dir), weight, out, std::sqrt(static_cast<double>(spread_sr)));
+        return out;
+    };
+    constexpr float kLimb = 4;  // reach of four fifths of the facets [alpha]
+    const Vec3f mirror = normalized(reflect(view_dir, normal));
+    const float off = std::acos(std::clamp(dot(mirror, bodies_[body].world_dir), -1.0f, 1.0f));
+    const bool at_limb = std::abs(off - disks.half_angle_rad) < kLimb * alpha;
+    const FacetSlopes& slopes = at_limb ? kSlopesAtLimb : kSlopes;
+    Spectrum sum;
+    float all = 0, together = 0, density = 0;
+    SchlickSums sums;
+    const auto add = [&](const Spectrum& light, float weight, float vh) {
+        const float bright = weight * largest(light);
+        sum += weight * light;
+        sums.light += bright, sums.term += bright * schlick_weight(vh);
+    };
+    for (std::size_t i = 0; i < slopes.count; ++i) {
+        const float steep = 1 + alpha * alpha * slopes.squared[i], nh = 1 / std::sqrt(steep);
+        const Vec3f facet = nh * local.to_world({alpha * slopes.x[i], alpha * slopes.y[i], 1});
+        const Vec3f dir = reflect(view_dir, facet);
+        const float vh = dot(view_dir, facet), ni = dot(normal, dir);
+        if (!(vh > 0 && ni > 0)) continue;
+        // The density of the facet's mirrored direction is D nh / (4 vh) (Walter et al., eq. 38): what the lobe sends over
+        // that, and the share of the directions that it stands for.
+        const float weight = 4 * vh / nh * ni * ggx_visibility(alpha, no, ni);
+        const float spread_sr =
+            4 * vh / (nh * ggx_distribution(alpha, nh) * static_cast<float>(slopes.count));
+        all += weight;
+        if (spread_sr >= disks.map.texel_sr())
+            add(disks.map.about(dir, spread_sr), weight, vh);
+        else if (at_limb)
+            add(look_at(dir, spread_sr), weight, vh);
+        else
+            together += weight, density += weight / spread_sr;
+    }
+    // They look about as far as an even disk would of the same mean density.
+    if (together > 0) add(look_at(mirror, together * together / density), together, no);
+    if (!(all > 0)) return {};
+    return {(whole_lobe(alpha, no) / all) * sum, sums.facet_cosine()};
+}
+
+// Middle and size of the even disk whose light has the same mean direction and spread: half angle is the root
+// of twice the mean square.
+void SkyLight::place_light(const Disk& disk, Body& body) {
+    Vec3f mean{};
+    float sum = 0, square = 0;
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        const float light = largest(disk.irradiance[i]);
+        mean = mean + light * Vec3f{disk.x[i], disk.y[i], disk.z[i]};
+        sum += light;
+    }
+    body.light_dir = normalized(mean);
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        const Vec3f off = Vec3f{disk.x[i], disk.y[i], disk.z[i]} - body.light_dir;
+        square += largest(disk.irradiance[i]) * dot(off, off);
+    }
+    body.light_cosine = std::max(-1.0f, 1 - square / sum);  // |off|^2 is 2 - 2 cos
+}
+
+// The part of a disk that lobes see.
+struct SkyLight::Seen {
+    static constexpr float kNextToNothing = 1e-3f;
+    std::array<float, Lobes::kMost> off;   // cosine between the mirror's direction and the disk's
+    std::array<float, Lobes::kMost> most;  // radiance as a share of the irradiance, at most
+    // Where that is not next to nothing.
+    std::array<SchlickSums, Lobes::kMost> sums;
+    std::array<Spectrum, Lobes::kMost> radiance;
+};
+
+// One kernel for all of it, as calls through clones cost as much as sixteen directions.
+HILCAM_CLONES
+void SkyLight::look(const Disks& disks, const Disk& disk, std::size_t count, Vec3f body_dir,
+                    const Lobes& lobes, Seen& seen) {
+    const Vec3f view = lobes.view_dir;
+    const float alpha = lobes.alpha;
+    // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
+    // the disk has.
+    constexpr std::size_t kEach = 8;
+    const std::size_t filled = (lobes.count + kEach - 1) / kEach * kEach;
+    for (std::size_t k = 0; k < filled; ++k) {
+        const Vec3f normal{lobes.x[k], lobes.y[k], lobes.z[k]};
+        const float off = std::clamp(dot(reflect(view, normal), body_dir), -1.0f, 1.0f);
+        const float beside = off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;
+        const float limb = off >= disks.cosine ? 1.0f : beside;
+        const float no = std::max(dot(normal, view), 1e-2f);
+        seen.off[k] = off;
+        seen.most[k] = lobes.reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) * 0.5f /
+                       (no * std::max(alpha, 1e-4f));
+    }
+    // What Schlick's Fresnel term has of full reflection hangs on the viewer alone.
+    alignas(64) std::array<float, kPatches> to_view, schlick, weight;
+    for (std::size_t i = 0; i < count; ++i) {
+        to_view[i] = disk.x[i] * view.x + disk.y[i] * view.y + disk.z[i] * view.z;
+        const float left = 1 - std::sqrt(std::max(0.5f + 0.5f * to_view[i], 0.0f)), squared = left * left;
+        schlick[i] = squared * squared * left;
+    }
+    for (std::size_t k = 0; k < lobes.count; ++k) {
+        if (seen.most[k] < Seen::kNextToNothing) continue;
+        const Vec3f normal{lobes.x[k], lobes.y[k], lobes.z[k]};
+        const GgxLobe law(alpha, std::max(dot(normal, view), 1e-2f));
+        for (std::size_t i = 0; i < count; ++i) {
+            const float ni =
+                std::max(disk.x[i] * normal.x + disk.y[i] * normal.y + disk.z[i] * normal.z, 0.0f);
+            // The patches' irradiance is across the way: their cosine belongs to the weight.
+            weight[i] = ni * law.at(std::max(ni, 1e-3f), to_view[i]);
+        }
+        weighted_sum(weight.data(), disk.irradiance.data(), count, seen.radiance[k]);
+        seen.sums[k] = schlick_sums(weight.data(), disk.brightest.data(), schlick.data(), count);
+    }
+}
+
+SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
+                                  float reflectance) const {
+    Lobes lobes{view_dir, alpha, reflectance};
+    lobes.add(normal);
+    Glossy out;
+    glossy(body, lobes, {&out, 1});
+    return out;
+}
+
+void SkyLight::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const {
+    const Disks& disks = disks_[body];
+    const float alpha = lobes.alpha;
+    // The fewer parts where facets turn by half of alpha, at most, from one to the next.
+    const std::size_t parts = alpha < 2 * disks.of.front().min_alpha ? 1 : 0;
+    const Disk& disk = disks.of[parts];
+    Seen seen;
+    look(disks, disk, kParts[parts], bodies_[body].world_dir, lobes, seen);
+    // Two parts' distance past the limb a narrow lobe's tail is even over a part, and the disk is no half of
+    // the sky.
+    const bool narrow = alpha < disk.min_alpha;
+    const float close = narrow ? std::cos(disks.half_angle_rad + 4 * disk.min_alpha) : 1.0f;
+    for (std::size_t k = 0; k < lobes.count; ++k) {
+        if (narrow && seen.off[k] > close)
+            out[k] = narrow_lobe(body, lobes.normal(k), lobes.view_dir, alpha);
+        else if (!(seen.most[k] < Seen::kNextToNothing) && seen.sums[k].light > 0)
+            out[k] = {seen.radiance[k], seen.sums[k].facet_cosine()};
+        else
+            out[k] = {};
+    }
+}
+
+}  // namespace hilcam

@@ -1,0 +1,120 @@
+#pragma once
+// The light of the bodies (Earth, Moon, planets) on a surface without anything between: what a place with a
+// free sky has of it. Made once a frame from a quadrature over each body's disk, so nothing of it is left to
+// chance.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "render/planetshine/body_map.h"
+#include "render/scene/background.h"
+
+namespace hilcam {
+
+class SkyLight {
+  public:
+    static constexpr std::size_t kMaxBodies = 2;
+    // Bodies that cannot give this share of what white paint sends in the Sun are left out.
+    static constexpr float kMinOverSun = 1e-5f;
+
+    // narrowest_alpha: of the facets of all that it lights (GGX); 1: there are none.
+    explicit SkyLight(float narrowest_alpha);
+
+    // Prepares a frame; the background is placed. margin_rad: how far from bodies is_clear_of_bodies() keeps. Loop.
+    void place(const Background& background, float margin_rad);
+
+    struct Body {
+        Vec3f world_dir;
+        // The cone that its light comes from, about: half a lit disk shines from its lit half.
+        Vec3f light_dir;
+        float light_cosine = 1;
+        Spectrum irradiance_w_m2_um;  // on a surface that faces it
+    };
+    std::span<const Body> bodies() const { return {bodies_.data(), count_}; }
+
+    // Its disk lies in this direction.
+    bool is_met(std::size_t body, Vec3f world_dir) const {
+        return dot(bodies_[body].world_dir, world_dir) >= disks_[body].cosine;
+    }
+    // No body of the background, be it in bodies() or not, lies in this direction or beside it. Unit, world.
+    bool is_clear_of_bodies(Vec3f dir) const;
+    // Irradiance [W m^-2 um^-1] on a surface with this normal. Loop, any thread.
+    Spectrum irradiance(std::size_t body, Vec3f world_normal) const {
+        return irradiance_[body].at(world_normal);
+    }
+    // The body's light in a facet lobe: facets that lean towards it are met at other angles than the lobe's mean.
+    struct Glossy {
+        Spectrum radiance;       // that facets which reflect everything would send to the viewer
+        float facet_cosine = 1;  // cosine at which these facets are met, for Fresnel's term
+    };
+    // alpha: of GGX; 0: a mirror. Unit vectors, world. reflectance: what is not worth it with that is zero.
+    Glossy glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
+    // Lobes that differ in their normals alone.
+    struct Lobes {
+        static constexpr std::size_t kMost = 8;
+        Vec3f view_dir;
+        float alpha, reflectance;
+        std::size_t count = 0;
+        alignas(32) std::array<float, kMost> x{}, y{}, z{};  // normals
+
+        Vec3f normal(std::size_t i) const { return {x[i], y[i], z[i]}; }
+        void add(Vec3f n) { x[count] = n.x, y[count] = n.y, z[count] = n.z, ++count; }
+    };
+    // The same of each of several; out: one for each, at least.
+    void glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const;
+
+  private:
+    // A function of the direction, on an octahedron's faces (Cigolle et al., JCGT 3(2), 2014); bilinear.
+    struct DirectionMap {
+        static constexpr int kSteps = 16;
+        std::vector<Spectrum> value = std::vector<Spectrum>((kSteps + 1) * (kSteps + 1));
+        static Vec3f direction(int index);
+        Spectrum at(Vec3f dir) const;
+    };
+    // A body's disk in parts of equal solid angle; and in fewer, for lobes that are wide against them. Fewer than these would
+    // save nothing, as loops take sixteen at once.
+    static constexpr std::size_t kPatches = 64;
+    static constexpr std::array<std::size_t, 2> kParts = {16, kPatches};
+    static constexpr std::size_t kLooks = 4 * kPatches;
+    struct Look {
+        Vec3f dir;
+        Spectrum irradiance;  // on a surface across the way
+    };
+    struct Disk {
+        alignas(64) std::array<float, kPatches> x{}, y{}, z{};
+        std::array<float, kPatches> brightest{};      // greatest bin of the next
+        std::array<Spectrum, kPatches> irradiance{};  // irradiance by each, on a surface that faces it
+        float min_alpha = 0;
+    };
+    struct Disks {
+        std::array<Disk, kParts.size()> of;              // by kParts
+        float cosine = 1, sine = 0, half_angle_rad = 0;  // a cone that holds it
+        BodyMap map;  // for lobes too narrow for the parts, where there are any
+    };
+
+    float narrowest_alpha_;
+    const Background* background_ = nullptr;
+    std::size_t count_ = 0;
+    std::array<Body, kMaxBodies> bodies_;
+    std::array<DirectionMap, kMaxBodies> irradiance_;
+    std::array<Disks, kMaxBodies> disks_;
+    // Cones that hold the bodies of the background, with a margin.
+    struct Cone {
+        Vec3f axis;
+        float cosine;
+    };
+    std::array<Cone, hilcam::kMaxBodies> cones_;
+    std::size_t cone_count_ = 0;
+
+    struct Seen;
+    static void look(const Disks& disks, const Disk& disk, std::size_t count, Vec3f body_dir,
+                     const Lobes& lobes, Seen& seen);
+    Glossy narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
+    static void place_light(const Disk& disk, Body& body);
+    void place_disks(const Background& background, std::size_t number, Disks& disks) const;
+    static void place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine,
+                            std::size_t count, Disk& out);
+};
+
+}  // namespace hilcam

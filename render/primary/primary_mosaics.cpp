@@ -1,0 +1,126 @@
+// Makes vertices of what a pixel sees of a mosaic (lod/mosaic.h): one for each surface in it.
+
+#include <algorithm>
+
+#include "render/primary/primary_vertices.h"
+#include "render/shading/way_to_sample.h"
+
+namespace hilcam {
+namespace {
+
+// A surface in a mosaic is seen where it fills as much of a pixel: of sunlit paint a quarter of the noise of a full well of 15,000
+// electrons.
+constexpr float kLeastShare = 0.002f;
+
+// The halves of light whose middle is `off_px` from that of light with these halves.
+HalfShares moved(const HalfShares& from, Vec2f off_px) {
+    // An even pixel's half has its middle a quarter of a pixel away.
+    return {std::clamp(from.across + 4 * off_px.x, -1.0f, 1.0f),
+            std::clamp(from.down + 4 * off_px.y, -1.0f, 1.0f), from.crossed};
+}
+
+}  // namespace
+
+// Returns how far rays go along the sides while they rise by one.
+Vec2f PrimaryVertices::ShownMosaic::slopes(Vec3f dir) const {
+    const float per_rise = 1 / std::max(dot(dir, normal), 1e-3f);
+    return {per_rise * dot(dir, across), per_rise * dot(dir, down)};
+}
+
+// Returns a mosaic of the packet's object as the frame shows it.
+const PrimaryVertices::ShownMosaic& PrimaryVertices::shown(const Mosaic& mosaic) {
+    const std::uint32_t object = hits_.object[0];
+    if (mosaic_.is == &mosaic && mosaic_.object == object) return mosaic_;
+    const Mat3f& axes = tile_.frame.world_from_body[object];
+    mosaic_ = {&mosaic,
+               object,
+               axes * mosaic.normal,
+               axes * mosaic.across,
+               axes * mosaic.down,
+               to_double(axes * mosaic.corner_m),
+               {}};
+    mosaic_.to_sun = mosaic_.slopes(to_float(tile_.frame.background->sun_world_dir()));
+    return mosaic_;
+}
+
+// Returns what is seen of the mosaic through the pixel of fragment k.
+PrimaryVertices::MosaicPixel PrimaryVertices::look_at_mosaic(std::size_t k, Vec3f view_dir) const {
+    const PixelRays pixel = rays_of(fragments_[k]);
+    const Vec3d up = to_double(mosaic_.normal);
+    const Vec3d corner_m =
+        mosaic_.corner_m - to_double(packet_.origin.at(k)) + to_double(origins_[k]) - tile_.frame.camera_m;
+    const double facing = dot(pixel.middle, up), way = dot(corner_m, up) / facing;
+    const auto on_plane = [&](Vec3d step) { return way * (step - (dot(step, up) / facing) * pixel.middle); };
+    const double per_m = 1 / static_cast<double>(mosaic_.is->texel_m);
+    const auto texels = [&](Vec3d at_m) {
+        return Vec2d{per_m * dot(at_m, to_double(mosaic_.across)),
+                     per_m * dot(at_m, to_double(mosaic_.down))};
+    };
+    const auto single = [](Vec2d v) { return Vec2f{static_cast<float>(v.x), static_cast<float>(v.y)}; };
+    MosaicPixel out{way * pixel.middle, on_plane(pixel.right), on_plane(pixel.down), {}};
+    const Vec2f to_viewer = mosaic_.slopes(view_dir);
+    out.look = mosaic_.is->look(
+        {texels(out.middle_m - corner_m), single(texels(out.per_x_m)), single(texels(out.per_y_m))},
+        {mosaic_.to_sun.x - to_viewer.x, mosaic_.to_sun.y - to_viewer.y});
+    return out;
+}
+
+// One vertex for each surface of the mosaic that is in a pixel, with its part of what the samples see. Returns how
+// many vertices there are then.
+std::size_t PrimaryVertices::make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices,
+                                         std::size_t count) {
+    const FrameView& frame = tile_.frame;
+    const Mosaic& mosaic = *mosaic_.is;
+    const MosaicPixel pixel = look_at_mosaic(k, lie.view_dir);
+    const Mosaic::Look& look = pixel.look;
+    float shown = 0;
+    Vec2f middle_px{};
+    for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
+        if (look.share[layer] >= kLeastShare) shown += look.share[layer];
+        middle_px.x += look.share[layer] * look.place[layer].x;
+        middle_px.y += look.share[layer] * look.place[layer].y;
+    }
+    const SampleMask seen_by = fragments_[k].samples;
+    const float samples = frame.samples.weight(seen_by);
+    const HalfShares halves = frame.samples.halves(seen_by);
+    const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
+    const RayWidth width{pixel_rad * static_cast<float>(frame.way_to_start_m()), pixel_rad};
+    const auto lane = static_cast<int>(k);
+    for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
+        if (look.share[layer] < kLeastShare) continue;
+        Vertex& vertex = vertices[count++];
+        // The ground is what the fragment has met.
+        if (layer == 0) {
+            make_vertex(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), 0, width, vertex);
+            vertex.sunlit = look.lit;
+        } else {
+            place_vertex(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), width, vertex);
+            set_surface(frame, mosaic.surface[layer], vertex);
+            vertex.normal =
+                normalized(lie.geometric_normal + look.lean.x * mosaic_.across + look.lean.y * mosaic_.down);
+        }
+        // Parts of the mosaic may stand out of its plane by as much as it takes for rounding.
+        vertex.offset_m += Mosaic::kLoose * mosaic.texel_m;
+        const Vec2f place = look.place[layer];
+        const Vec2f off{place.x - 0.5f, place.y - 0.5f};
+        vertex.point_m =
+            to_float(frame.camera_m + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
+                     static_cast<double>(off.y) * pixel.per_y_m);
+        finish(k, look.share[layer] / shown * samples,
+               moved(halves, {place.x - middle_px.x, place.y - middle_px.y}), place, vertex);
+    }
+    return count;
+}
+
+// The directions through a fragment's pixel: its middle, and a step to the right and down.
+PrimaryVertices::PixelRays PrimaryVertices::rays_of(const Fragment& fragment) const {
+    const FrameView& frame = tile_.frame;
+    const int x = tile_.box.x0 + fragment.x, y = tile_.box.y0 + fragment.y;
+    if (const LinearRays* rays = frame.rays->linear())
+        return {rays->corner + (x + 0.5) * rays->right + (y + 0.5) * rays->down, rays->right, rays->down};
+    const auto at = [&](float px, float py) { return direction_seen(frame, x, y, {px, py}); };
+    return {at(0.5f, 0.5f), 2.0 * (at(0.75f, 0.5f) - at(0.25f, 0.5f)),
+            2.0 * (at(0.5f, 0.75f) - at(0.5f, 0.25f))};
+}
+
+}  // namespace hilcam

@@ -1,0 +1,403 @@
+#include "render/primary/primary_vertices.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "render/radiosity/kept_light.h"
+#include "render/shading/way_to_sample.h"
+#include "render/visibility/visibility_buffer.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+// The greatest lean of two facets against each other that make one vertex: its kept light and its mirrored
+// rays are those of one of them.
+constexpr float kLeansAlike = 0.94f;          // cosine
+constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
+constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that are taken for one
+// Normals that turn by this much of a lobe's alpha within a triangle are several: at the lobe's middle one of them is off by
+// 4 % (GGX's density, 1 / (1 + t^2)^2 with t = angle over alpha, over a quarter of alpha to both sides). Paint is a lobe of 1.
+constexpr float kLeastTurn = 0.5f;
+// So many alphas beside all of them, what the lobe reflects of the Sun is a twenty-fifth, and hardly differs among them.
+constexpr float kFarFromLobe = 2;
+// A look at a texture is so much narrower than what it stands for, as what lies between two texels blurs it again.
+constexpr float kTextureWidth = 0.5f;
+constexpr float kLeastFacing = 1e-4f;  // a vertex's normal against the viewer [cosine], as find_lie() has it
+constexpr float kFlattest = 1e-4f;     // a mosaic is seen as one from higher than this [sine]
+
+bool has_narrow_lobe(const Scatterer& surface) {
+    return surface.material->has_facets() && surface.alpha < kNarrowestKept;
+}
+
+}  // namespace
+
+std::size_t PrimaryVertices::next(std::span<Vertex> vertices) {
+    if (tile_.seen) return next_fragments(vertices);
+    if (std::exchange(begun_, true)) return 0;
+    return trace_primary_rays(tile_, vertices);
+}
+
+std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
+    const PixelBox& box = tile_.box;
+    if (!std::exchange(begun_, true)) {
+        HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMaxSamples &&
+                     tile_.samples_per_axis == kVisibilitySamplesAcross);
+        uncovered_.fill(tile_.frame.samples.all());
+        part_px_ = kVisibilityTile_px / tile_.frame.samples.buffer_px();
+        part_ = {box.x0 - part_px_, box.y0, box.x0, box.y0};
+    }
+    std::size_t count = 0;
+    tile_.facets.clear();
+    // Rooms for a vertex of each surface of mosaics: kMostVertices leave those of kMaxSamples together.
+    static_assert(Mosaic::kMaxLayers * kPacketSize <=
+                  PathModel::kMostVertices - PathModel::kMaxSamples + kPacketSize);
+    while (count + Mosaic::kMaxLayers * kPacketSize <= vertices.size() &&
+           tile_.facets.room() >= 2 * kPacketSize) {
+        while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))
+            take_next_pixel();
+        if (fragment_count_ == 0) {
+            // Whatever comes last, the background comes once.
+            if (!std::exchange(ended_, true)) add_backdrop(tile_, uncovered_.data());
+            break;
+        }
+        count = make_vertices(vertices, count);
+    }
+    return count;
+}
+
+// The next part of the tile in which anything is seen.
+bool PrimaryVertices::open_next_part() {
+    const PixelBox& box = tile_.box;
+    const int buffer_px = tile_.frame.samples.buffer_px();
+    int x = part_.x0 + part_px_, y = part_.y0;
+    for (;; x += part_px_) {
+        if (x >= box.x1) x = box.x0, y += part_px_;
+        part_ = {x, y, std::min(x + part_px_, box.x1), std::min(y + part_px_, box.y1)};
+        if (y >= box.y1) return false;
+        if (!tile_.frame.visibility->fill(buffer_px * x, buffer_px * y, *tile_.seen)) continue;
+        next_pixel_ = 0, pixels_ = part_px_ * part_px_;
+        return true;
+    }
+}
+
+// Four neighbours after each other: they may share what changes slowly (KeptScene::add_reflected()).
+void PrimaryVertices::take_next_pixel() {
+    // 16 or 8 pixels: a power of two, as divisions would take a third of the time.
+    const auto pairs = static_cast<unsigned>(part_px_ / 2), i = static_cast<unsigned>(next_pixel_++),
+               pair = i / 4;
+    const int x = part_.x0 + static_cast<int>(2 * (pair & (pairs - 1)) + i % 2);
+    const int y = part_.y0 + static_cast<int>(2 * (pair >> std::countr_zero(pairs)) + i / 2 % 2);
+    if (x < part_.x1 && y < part_.y1) take_pixel(x, y);
+}
+
+void PrimaryVertices::take_pixel(int x, int y) {
+    const PixelSamples& grid = tile_.frame.samples;
+    const auto left = static_cast<std::uint8_t>(x - tile_.box.x0),
+               top = static_cast<std::uint8_t>(y - tile_.box.y0);
+    const int pixel = top * (tile_.box.x1 - tile_.box.x0) + left;
+    const int across = grid.buffer_px();
+    PixelFragments seen;
+    list_fragments(tile_.seen->ids(across * (x - part_.x0), across * (y - part_.y0)), across, seen);
+    uncovered_[static_cast<std::size_t>(pixel)] = seen.nothing;
+    if (seen.count == 0) return;
+    for (const PixelFragments::Fragment& found : std::span(seen.fragments).first(seen.count)) {
+        if (tile_.frame.has_lit_apart && is_lit_apart(found.id)) continue;
+        fragments_[fragment_count_++] = {found.id, static_cast<std::uint16_t>(pixel), left, top,
+                                         found.samples};
+    }
+    tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
+    tile_.stats.covered_px +=
+        static_cast<double>(grid.weight(grid.all() & ~seen.nothing)) * (1.0 / kVisibilitySamples);
+}
+
+bool PrimaryVertices::is_lit_apart(std::uint32_t id) const {
+    const FrameView& frame = tile_.frame;
+    return frame.lit_apart[frame.visibility->seen(id).shown->object] != 0;
+}
+
+// True when a body stands before what the samples see: they see the body then.
+bool PrimaryVertices::leave_to_body(std::size_t k) {
+    const FrameView& frame = tile_.frame;
+    const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];
+    if (!frame.background->hides_seen(normalized(dirs_[k]), length(point - frame.camera_m))) return false;
+    uncovered_[fragments_[k].pixel] |= fragments_[k].samples;
+    return true;
+}
+
+// The vertex among those of the same pixel that a fragment is part of; null: none.
+Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
+                              std::uint16_t surface, const Lie& lie) {
+    for (auto vertex = so_far.rbegin(); vertex != so_far.rend() && vertex->pixel == pixel; ++vertex) {
+        if (vertex->object != object || vertex->surface_number != surface || vertex->back != lie.back)
+            continue;
+        const float alike = has_narrow_lobe(vertex->surface) ? kLeansAlikeNarrow : kLeansAlike;
+        if (dot(vertex->normal, lie.normal) > alike) return &*vertex;
+    }
+    return nullptr;
+}
+
+// The ray through a place in a fragment's pixel.
+PrimaryVertices::Aim PrimaryVertices::aim_at(const Fragment& fragment, Vec2f place_px) const {
+    const FrameView& frame = tile_.frame;
+    const Vec3d dir =
+        direction_through(frame, tile_.box.x0 + fragment.x, tile_.box.y0 + fragment.y, place_px);
+    return {dir, frame.start_before_m > 0 ? frame.start_of(normalized(dir)) : to_float(frame.camera_m)};
+}
+
+// The first fragments, as many as are of one object.
+std::size_t PrimaryVertices::look_at_fragments() {
+    const FrameView& frame = tile_.frame;
+    const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
+    const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
+    body_m_ = to_float(shown.pose.position_world_m - frame.rays_world_m);
+    mesh_ = {shown.mesh.vertices_m.data(), shown.mesh.triangles.data(), surfaces.triangles.data(),
+             frame.world_from_body[shown.object]};
+    std::size_t n = 0;
+    for (; n < std::min<std::size_t>(kPacketSize, fragment_count_); ++n) {
+        const Fragment& fragment = fragments_[n];
+        const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
+        if (seen.shown != &shown) break;
+        places_px_[n] = frame.samples.middle(fragment.samples);
+        const Aim aim = aim_at(fragment, places_px_[n]);
+        dirs_[n] = aim.dir, origins_[n] = aim.origin_m;
+        packet_.triangle[n] = seen.triangle;
+        __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
+        __builtin_prefetch(&surfaces.triangles[seen.triangle]);
+        if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets[seen.triangle]);
+        if (!surfaces.corner_uvs.empty()) {
+            __builtin_prefetch(&surfaces.corner_uvs[seen.triangle]);
+            __builtin_prefetch(&surfaces.uv_per_m[seen.triangle]);
+        }
+        packet_.dir.set(n, to_float(aim.dir));
+        packet_.origin.set(n, aim.origin_m - body_m_);
+    }
+    for (std::size_t k = n; k < kPacketSize; ++k) packet_.triangle[k] = packet_.triangle[0];
+    packet_.count = n;
+    find_lies(mesh_, packet_);
+    hits_.object.fill(shown.object);
+    hits_.triangle = packet_.triangle;
+    hits_.distance = packet_.distance, hits_.u = packet_.u, hits_.v = packet_.v;
+    hits_.normal_x = packet_.body_normal.x, hits_.normal_y = packet_.body_normal.y;
+    hits_.normal_z = packet_.body_normal.z;
+    look_at_samples();
+    return n;
+}
+
+// True where normals turn so far within a fragment that one of them does not tell what its lobe reflects of the Sun.
+bool PrimaryVertices::turns_much(std::size_t k) const {
+    const float turn = packet_.turn[k];  // within the triangle, squared
+    if (turn == 0) return false;
+    const FrameView& frame = tile_.frame;
+    const ObjectSurfaces& object = *(*frame.objects)[hits_.object[k]];
+    const Material& material = object.materials[object.triangles[hits_.triangle[k]].surface];
+    const float own = object.unflattened(object.triangles[hits_.triangle[k]].surface, material.ggx_alpha);
+    const float alpha = material.has_facets() && own > 0 ? own : 1, least = kLeastTurn * alpha;
+    if (turn <= least * least) return false;
+    const Vec3f view_dir = packet_.view_dir.at(k);
+    const Vec3f between = normalized(view_dir + to_float(frame.background->sun_world_dir()));
+    if (length(between - packet_.normal.at(k)) > std::sqrt(turn) + kFarFromLobe * alpha) return false;
+    // A pixel has a part of it, where the triangle is wider.
+    const float wide_m =
+        pixel_m(k) / std::max(std::abs(dot(packet_.geometric.at(k), view_dir)), kLeastFacing);
+    return turn * wide_m * wide_m > least * least * packet_.height[k];
+}
+
+// The width of fragment k's pixel there, across its ray.
+float PrimaryVertices::pixel_m(std::size_t k) const {
+    const auto from_m = static_cast<float>(tile_.frame.way_to_start_m());
+    return (from_m + packet_.distance[k] * length(packet_.dir.at(k))) /
+           static_cast<float>(tile_.frame.geometry.focal_length_px);
+}
+
+bool PrimaryVertices::is_textured(std::size_t k) const {
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
+    return object.materials[object.triangles[hits_.triangle[k]].surface].texture >= 0;
+}
+
+// Returns how many looks the colours of fragment k want.
+std::size_t PrimaryVertices::looks_at_texture(std::size_t k, float samples) const {
+    constexpr float kPerLook = kVisibilitySamples / 4;  // samples for which a look stands
+    if (samples <= kPerLook || !is_textured(k)) return 1;
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
+    const std::uint32_t triangle = hits_.triangle[k];
+    const int texture = object.materials[object.triangles[triangle].surface].texture;
+    const float texels = pixel_m(k) * object.uv_per_m[triangle] *
+                         static_cast<float>((*object.textures)[static_cast<std::size_t>(texture)].width());
+    // Within a texel colours are linear.
+    return texels <= 1 ? 1 : static_cast<std::size_t>(std::ceil(samples / kPerLook));
+}
+
+// Puts a fragment among those that are looked at from several of their samples, as far from each other as may be. Returns how many;
+// none where one look is enough.
+std::size_t PrimaryVertices::add_looks(std::size_t k) {
+    const Fragment& fragment = fragments_[k];
+    const PixelSamples& grid = tile_.frame.samples;
+    const float samples = grid.weight(fragment.samples);
+    const auto seen_by = static_cast<std::size_t>(std::popcount(fragment.samples));
+    turns_[k] = seen_by > 1 && turns_much(k);
+    const std::size_t wanted = turns_[k] ? kLooks : looks_at_texture(k, samples);
+    const std::size_t count = std::min({kLooks, seen_by, wanted});
+    if (count < 2) return 0;
+    if (looked_at_.count + count > kPacketSize) find_looks(first_look_[k] - looked_at_.count);
+    SampleMask left = fragment.samples, apart = left;
+    for (std::size_t i = looked_at_.count; i < looked_at_.count + count; ++i) {
+        const int sample = next_sample_across(grid, apart, left);
+        left &= ~(SampleMask{1} << sample);
+        const Aim aim = aim_at(fragment, grid.place(sample));
+        looked_at_.triangle[i] = packet_.triangle[k];
+        looked_at_.dir.set(i, to_float(aim.dir));
+        looked_at_.origin.set(i, aim.origin_m - body_m_);
+    }
+    looked_at_.count += count;
+    return count;
+}
+
+// Finds what the looks that were asked for meet; the first of them has this place among all.
+void PrimaryVertices::find_looks(std::size_t first) {
+    if (looked_at_.count == 0) return;
+    for (std::size_t i = looked_at_.count; i < kPacketSize; ++i)
+        looked_at_.triangle[i] = looked_at_.triangle[0];
+    find_lies(mesh_, looked_at_);
+    for (std::size_t i = 0; i < looked_at_.count; ++i) {
+        look_normals_[first + i] = looked_at_.normal.at(i);
+        look_places_[first + i] = {looked_at_.u[i], looked_at_.v[i]};
+    }
+    looked_at_.count = 0;
+}
+
+// Looks at the packet's fragments that need it, many at a time: each by itself would fill a quarter of the vectors.
+void PrimaryVertices::look_at_samples() {
+    first_look_[0] = 0;
+    for (std::size_t k = 0; k < packet_.count; ++k) first_look_[k + 1] = first_look_[k] + add_looks(k);
+    find_looks(first_look_[packet_.count] - looked_at_.count);
+}
+
+// Returns the colours of a texture in fragment k. One look as wide as the pixel would blur it: of the contrast at Nyquist's frequency
+// a pixel leaves sinc(1/2) = 0.64, and texels of its width, linear between two, sinc(1/2)^3 = 0.26 (sinc x = sin(pi x) / (pi x)).
+Spectrum PrimaryVertices::texture_of(std::size_t k, const Vertex& vertex) const {
+    const auto looks = looks_of(k, look_places_);
+    const std::uint32_t triangle = hits_.triangle[k];
+    const float of_pixel = tile_.frame.samples.weight(fragments_[k].samples) / kVisibilitySamples;
+    const float per_look = 1 / static_cast<float>(std::max<std::size_t>(looks.size(), 1));
+    const float share = kTextureWidth * std::sqrt(per_look * of_pixel);
+    if (looks.empty()) return texture_at(tile_.frame, vertex, triangle, {hits_.u[k], hits_.v[k]}, share);
+    Spectrum sum;
+    for (const Vec2f place : looks) sum += per_look * texture_at(tile_.frame, vertex, triangle, place, share);
+    return sum;
+}
+
+// Gives a vertex a share of the colours of fragment k, which it has taken in.
+void PrimaryVertices::mix_colors(std::size_t k, float share, Vertex& vertex) const {
+    const bool textured = is_textured(k);
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
+    if (!textured && object.corner_colors.empty()) return;
+    Scatterer& surface = vertex.surface;
+    const Spectrum base = surface.base, highlight = surface.highlight;
+    surface.base = surface.material->base, surface.highlight = surface.material->highlight;
+    if (!object.corner_colors.empty())
+        paint(tile_.frame.bands->spectrum(object.color_at(hits_.triangle[k], hits_.u[k], hits_.v[k])),
+              vertex);
+    if (textured) paint(texture_of(k, vertex), vertex);
+    surface.base = (1 - share) * base + share * surface.base;
+    surface.highlight = (1 - share) * highlight + share * surface.highlight;
+}
+
+std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {
+    const FrameView& frame = tile_.frame;
+    const std::size_t n = look_at_fragments();
+    const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
+    const auto from_m = static_cast<float>(frame.way_to_start_m());
+    const std::vector<PackedTriangle>& triangles = (*frame.objects)[hits_.object[0]]->triangles;
+    for (std::size_t k = 0; k < n; ++k) {
+        if (frame.bodies_may_hide && leave_to_body(k)) continue;
+        const Fragment& fragment = fragments_[k];
+        const float samples = frame.samples.weight(fragment.samples);
+        const Vec3f dir = packet_.dir.at(k);
+        Lie lie{packet_.geometric.at(k), packet_.normal.at(k), packet_.view_dir.at(k), packet_.back[k] != 0};
+        // Too small for its square: by itself.
+        if (lie.geometric_normal == Vec3f{} && !find_lie(frame, hits_, static_cast<int>(k), dir, lie))
+            continue;
+        const ObjectSurfaces& surfaces = *(*frame.objects)[hits_.object[k]];
+        const std::uint8_t patch = surfaces.triangles[hits_.triangle[k]].patch;
+        const Mosaic* mosaic = patch > 1 ? &(*surfaces.mosaics)[patch - 2u] : nullptr;
+        const float facing = mosaic ? dot(shown(*mosaic).normal, lie.view_dir) : 0.0f;
+        if (facing > kFlattest) {
+            const std::size_t before = count;
+            count = make_mosaic(k, lie, vertices, count);
+            if (count > before) continue;
+        }
+        Vertex* const joined = mosaic ? nullptr
+                                      : join(vertices.first(count), fragment.pixel, hits_.object[k],
+                                             triangles[hits_.triangle[k]].surface, lie);
+        if (joined) {
+            take_in(k, lie, *joined);
+            continue;
+        }
+        Vertex& vertex = vertices[count++];
+        make_vertex(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
+                    {pixel_rad * from_m, pixel_rad}, vertex);
+        // Seen from its edge, what lies on the ground hides it.
+        if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
+        if (is_textured(k)) paint(texture_of(k, vertex), vertex);
+        finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], vertex);
+        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples, fragment.samples},
+                         hits_.triangle[k], true, turns_of(k), vertex);
+    }
+    std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
+              fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
+    fragment_count_ -= n;
+    return count;
+}
+
+// Makes fragment k, which is alike, a part of a vertex.
+void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
+    const FrameView& frame = tile_.frame;
+    const SampleMask seen_by = fragments_[k].samples;
+    const float samples = frame.samples.weight(seen_by);
+    const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);
+    tile_.facets.add(frame,
+                     {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal,
+                      samples, seen_by},
+                     hits_.triangle[k], false, turns_of(k), vertex);
+    // Rays begin at its samples, too, where it lies in the vertex' plane but for a little: at those twice as much above it.
+    // All others begin where they did, as what is higher misses the shadow of what is near.
+    const Vec3f way_m = point_m - vertex.point_m;
+    const float above_m = std::abs(dot(way_m, vertex.geometric_normal));
+    if (above_m < kFlatTogether * length(way_m)) {
+        vertex.samples |= seen_by;
+        vertex.lift_m = std::max(vertex.lift_m, 2 * above_m);
+    }
+    // Kept light and what lobes show is asked for once, as the parts lean in the mean; facets and mirrors lean by themselves.
+    const Vec3f mean = normalized(vertex.weight_samples * vertex.normal + samples * lie.normal);
+    if (!has_narrow_lobe(vertex.surface) && dot(mean, vertex.view_dir) > kLeastFacing) vertex.normal = mean;
+    // Alike in all bins, but for the air before it.
+    const float all = vertex.weight_samples + samples;
+    mix_colors(k, samples / all, vertex);
+    vertex.weight = (all / vertex.weight_samples) * vertex.weight;
+    vertex.halves = (vertex.weight_samples / all) * vertex.halves;
+    vertex.halves += (samples / all) * frame.samples.halves(seen_by);
+    vertex.weight_samples = all;
+}
+
+// The pixel of fragment k, for a vertex that is part of what is seen in it.
+void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px,
+                             Vertex& vertex) {
+    const Fragment& fragment = fragments_[k];
+    vertex.pixel = fragment.pixel;
+    vertex.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));
+    vertex.depth = 1;
+    vertex.samples = fragment.samples;
+    vertex.place_px = place_px;
+    vertex.lift_m = 0;
+    vertex.weight = {};
+    std::fill_n(vertex.weight.bin.begin(), tile_.frame.bins, samples);
+    vertex.weight_samples = samples;
+    vertex.halves = halves;
+    add_air_before(tile_, dirs_[k], vertex);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,124 @@
+#pragma once
+// Finds what the camera sees of a tile, as vertices: by rays (primary_rays.cpp), or out of the frame's
+// visibility buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the
+// weight of so many samples.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "render/lod/mosaic.h"
+#include "render/shading/path_model.h"
+#include "render/visibility/fragment_packet.h"
+
+namespace hilcam {
+
+class PrimaryVertices {
+  public:
+    explicit PrimaryVertices(Tile& tile) : tile_(tile) {}
+
+    // Writes the next vertices, PathModel::kMostVertices at a time at most, and adds the background to the
+    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMostVertices. Loop, any thread.
+    std::size_t next(std::span<Vertex> vertices);
+
+  private:
+    // A triangle in a pixel.
+    struct Fragment {
+        std::uint32_t id;
+        std::uint16_t pixel;  // in the tile
+        std::uint8_t x, y;    // where it is there [px]
+        SampleMask samples;
+    };
+    Tile& tile_;
+    bool begun_ = false, ended_ = false;
+    PixelBox part_{};                                           // the part of the tile that the buffer has
+    int part_px_ = 0;                                           // its edge
+    int next_pixel_ = 0, pixels_ = 0;                           // there
+    std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
+    std::array<Fragment, kPacketSize + kMostSamples> fragments_;
+    std::size_t fragment_count_ = 0;
+    // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.
+    FragmentPacket packet_;
+    HitPacket hits_;
+    FragmentMesh mesh_{};  // the packet's object, and its place [ray space]
+    Vec3f body_m_;
+    std::array<Vec2f, kPacketSize> places_px_;  // in their pixels
+    std::array<Vec3d, kPacketSize> dirs_;
+    std::array<Vec3f, kPacketSize> origins_;
+    // Those of them that one look does not tell, as they turn much or a texture paints them, from several of their samples:
+    // fragment k has the looks from first_look_[k] to first_look_[k + 1].
+    static constexpr std::size_t kLooks = FacetList::kTurns;
+    FragmentPacket looked_at_;
+    std::array<Vec3f, kPacketSize * kLooks> look_normals_;
+    std::array<Vec2f, kPacketSize * kLooks> look_places_;  // in the triangle: u and v
+    std::array<std::size_t, kPacketSize + 1> first_look_;
+    std::array<bool, kPacketSize> turns_;
+    // The mosaic that was met last, as the frame shows it.
+    struct ShownMosaic {
+        const Mosaic* is = nullptr;
+        std::uint32_t object = 0;
+        Vec3f normal, across, down;  // world axes
+        Vec3d corner_m;              // world axes, from the body's origin
+        Vec2f to_sun{};              // way of a ray to the Sun along the sides while it rises by one
+
+        Vec2f slopes(Vec3f dir) const;
+    };
+    ShownMosaic mosaic_;
+
+    std::size_t next_fragments(std::span<Vertex> vertices);
+    bool open_next_part();
+    void take_next_pixel();
+    void take_pixel(int x, int y);
+    bool is_lit_apart(std::uint32_t id) const;
+    bool leave_to_body(std::size_t k);
+    struct Aim {
+        Vec3d dir;
+        Vec3f origin_m;
+    };
+    Aim aim_at(const Fragment& fragment, Vec2f place_px) const;
+    std::size_t look_at_fragments();
+    bool turns_much(std::size_t k) const;
+    float pixel_m(std::size_t k) const;
+    bool is_textured(std::size_t k) const;
+    std::size_t looks_at_texture(std::size_t k, float samples) const;
+    std::size_t add_looks(std::size_t k);
+    void find_looks(std::size_t first);
+    void look_at_samples();
+    template <class T>
+    std::span<const T> looks_of(std::size_t k, const std::array<T, kPacketSize * kLooks>& looks) const {
+        return std::span(looks).subspan(first_look_[k], first_look_[k + 1] - first_look_[k]);
+    }
+    std::span<const Vec3f> turns_of(std::size_t k) const {
+        return turns_[k] ? looks_of(k, look_normals_) : std::span<const Vec3f>{};
+    }
+    Spectrum texture_of(std::size_t k, const Vertex& vertex) const;
+    void mix_colors(std::size_t k, float share, Vertex& vertex) const;
+    std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
+    struct PixelRays {
+        Vec3d middle, right, down;
+    };
+    PixelRays rays_of(const Fragment& fragment) const;
+    const ShownMosaic& shown(const Mosaic& mosaic);
+    struct MosaicPixel {
+        // Where its middle is from the camera, and how far a step of a pixel goes.
+        Vec3d middle_m, per_x_m, per_y_m;
+        Mosaic::Look look;
+    };
+    MosaicPixel look_at_mosaic(std::size_t k, Vec3f view_dir) const;
+    std::size_t make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices, std::size_t count);
+    void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, Vertex& vertex);
+    void take_in(std::size_t k, const Lie& lie, Vertex& vertex);
+    static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
+                        std::uint16_t surface, const Lie& lie);
+};
+
+// The camera's rays through a tile, in packets of 4 x 4 pixels. Writes at most vertices.size() vertices
+// (PathModel::kMaxSamples are enough) and adds the background to the tile's pixels. Returns how many. Loop, any
+// thread.
+std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices);
+// Adds the background alone. uncovered: the samples that see no object, by pixel, row by row. Loop, any thread.
+void add_backdrop(Tile& tile, const SampleMask* uncovered);
+// Adds the air between the camera and a vertex that it sees along dir, and dims the vertex by it.
+void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex);
+
+}  // namespace hilcam

@@ -1,0 +1,230 @@
+#pragma once
+// The light between the parts of an object, kept from frame to frame at its nodes (probes/light_nodes.h).
+//
+// For each source there is a term: the irradiance that reaches every node by way of other surfaces, all
+// bounces, for one unit of the source (kept_solver.h finds it). A term depends on nothing but the tables, the
+// place of its source in the object's own axes, rounded to a step, and how near objects stand to each other,
+// rounded as well: so frames stay functions of their commands. The light itself (eclipses, the Sun's
+// distance, a lamp's level) is a factor at the pixel.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/brdf/microfacet.h"
+#include "render/planetshine/sky_light.h"
+#include "render/probes/flat_mirrors.h"
+#include "render/probes/transfer_table.h"
+#include "render/radiosity/kept_source.h"
+#include "render/scene/color_bands.h"
+#include "render/scene/embree_scene.h"
+#include "render/scene/material_albedo.h"
+#include "render/scene/shown_object.h"
+#include "render/vocabulary/packed_spectrum.h"
+
+namespace hilcam {
+
+class KeptLinks;
+
+// Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them, for all of the
+// lobe but its tails.
+inline constexpr float kNarrowestKept = 0.12f;
+// A lobe narrower than this is followed as a mirror, by one ray; a wider one by four.
+inline constexpr float kNarrowestLobe = 0.03f;
+// Lists of directions are filled up to a multiple of this.
+inline constexpr std::size_t kDirectionLanes = 16;
+// The share of a narrow lobe that its ray does not stand for: facets turned by more than 11 degrees from the
+// normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
+inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
+
+// The albedos of an object's materials, its mirrors, and which of its nodes lie side by side. Objects of one make share it.
+struct KeptAlbedos {
+    // mesh: with the object's triangles. min_alpha: of facets as other surfaces see them.
+    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
+                float min_alpha);
+
+    std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
+    std::vector<FlatMirror> mirrors;  // flat mirrors of the object; whoever looks them up has their sunlight
+    NodeNeighbours neighbours;
+};
+
+// A term that is solved: what one source gives to every node, per unit of it.
+struct KeptSolution {
+    // By way of other surfaces; where few directions bring it, the mean with the nodes beside (KeptSolver::smooth).
+    std::vector<PackedSpectrum> irradiance;
+    // Radiance along each entry of nodes with facets, and along each link; of the Sun only.
+    std::vector<PackedSpectrum> along, along_links;
+    std::vector<std::uint8_t> seen;  // share of a cone that is free, of 255
+
+    std::size_t bytes() const {
+        return (irradiance.size() + along.size() + along_links.size()) * sizeof(PackedSpectrum) + seen.size();
+    }
+};
+
+class KeptLight {
+  public:
+    // A sphere that holds all nodes; body axes.
+    struct Bounds {
+        Vec3f middle_m;
+        float radius_m = 0;
+        bool is_met(Vec3f origin_m, Vec3f unit_dir) const {
+            const Vec3f way = middle_m - origin_m;
+            const float along = dot(way, unit_dir), outside = dot(way, way) - radius_m * radius_m;
+            return outside <= 0 || (along > 0 && along * along >= outside);
+        }
+    };
+
+    // Facets that another surface sees are at least so wide (GGX alpha), for its directions to find them.
+    static float min_alpha(const TransferTable& table);
+    // The object has a table and outlives this. step_rad: of the grid that sources are rounded to.
+    KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedos> albedos, const ColorBands& bands,
+              float step_rad);
+
+    const TransferTable& table() const { return *table_; }
+    const Bounds& bounds() const { return bounds_; }
+    float step_rad() const { return step_rad_; }
+    std::uint16_t surface_of(std::uint32_t triangle) const {
+        return shown_->levels.front()->triangles[triangle].surface;
+    }
+    bool is_glass(std::uint16_t surface) const { return materials_[surface]->transmits(); }
+    // True when a node mirrors sunlight, which is not kept: mirrored_suns.h has it.
+    bool throws_sun(std::size_t node) const { return !throws_sun_.empty() && throws_sun_[node] != 0; }
+    bool throws_sun() const { return !throws_sun_.empty(); }
+    // All that it reflects, it reflects in a narrow lobe.
+    bool is_mirror(std::uint16_t surface) const {
+        const Material& m = *materials_[surface];
+        return m.ggx_alpha < kNarrowestKept && m.is_bare();
+    }
+    // A node's direction, body axes.
+    Vec3f direction(std::size_t node, std::size_t d) const {
+        return local(lobes_[node]).body({local_x_[d], local_y_[d], local_z_[d]});
+    }
+
+    // Makes room for what a source of this kind gives; its number. Owner thread.
+    std::size_t add_term(KeptSource::Kind kind);
+    KeptSolution make_solution(KeptSource::Kind kind) const;
+    // Takes a term's solution and gives back the one before. Loop, one thread.
+    void adopt(std::size_t term, KeptSolution& solution);
+    // Takes over what the nodes meet of other objects, from now on; `links` outlives this. Loop, one thread.
+    void adopt(const KeptLinks& links);
+
+    // --- lookup. Loop, any thread.
+
+    const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_->own[surface]; }
+    std::span<const MaterialAlbedo> albedos() const { return albedos_->own; }
+    std::span<const FlatMirror> mirrors() const { return albedos_->mirrors; }
+    std::span<const std::uint32_t> neighbours(std::size_t node) const {
+        return albedos_->neighbours.of(node);
+    }
+    // Returns the irradiance by way of other surfaces, per unit of the source.
+    Spectrum irradiance(std::size_t term, const NodesAbout& about) const {
+        return PackedSpectrum::weighted_sum(irradiance_.data() + term, terms_.size(), about.node.data(),
+                                            about.weight.data(), about.count);
+    }
+    // The same, at one node.
+    Spectrum irradiance(std::size_t term, std::uint32_t node) const {
+        return irradiance_[node * terms_.size() + term].unpacked();
+    }
+    // Share of a cone's light that comes without a way.
+    float seen(std::size_t term, const NodesAbout& about) const {
+        float sum = 0;
+        for (std::size_t i = 0; i < about.count; ++i)
+            sum += about.weight[i] * static_cast<float>(terms_[term].seen[about.node[i]]);
+        return sum * (1 / 255.0f);
+    }
+    // Asks for the memory of what irradiance() and lobe() read.
+    void prefetch(const NodesAbout& about) const {
+        for (std::size_t i = 0; i < about.count; ++i)
+            __builtin_prefetch(&irradiance_[about.node[i] * terms_.size()]);
+    }
+    void prefetch_lobe(std::uint32_t node) const { __builtin_prefetch(&lobes_[node]); }
+    void prefetch_along(std::size_t term, std::uint32_t node) const;
+    // A facet lobe about a node's directions, or the tails of one that is narrow: what it finds of the kept
+    // light along them. Shares are of what an even sky would give, Fresnel's term left out. normal, view_dir:
+    // body axes, unit.
+    struct Lobe {
+        Spectrum kept;  // mean radiance of the term, times the share that meets it
+        // Share of what each cone gives to the whole lobe that comes without a way.
+        std::array<float, SkyLight::kMaxBodies> free{1, 1};
+        float of_irradiance = 0;  // radiance of what it meets, times the share, over the node's irradiance
+        // Number of directions of equal light whose sum would vary as much as that of what `kept` is made of: the
+        // square of the sum over the sum of squares (Kish, Survey Sampling, 1965, section 8.2). 0: nothing is kept.
+        float directions = 0;
+    };
+    struct Cone {
+        Vec3f dir;  // body axes
+        float cosine;
+    };
+    static constexpr std::size_t kNoTerm = ~std::size_t{0};
+    Lobe lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t node, Vec3f normal, Vec3f view_dir,
+              float alpha) const;
+    // True when anything stands near a direction from a node, within about 20 degrees.
+    bool is_near(std::uint32_t node, Vec3f dir) const;
+    std::size_t bytes() const;
+
+  private:
+    friend class KeptSolver;
+    static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
+    // The same of a solution, and of links, that need not be those that are shown; null: there are none.
+    Lobe lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
+              std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
+    // The values of a node that lookups of lobes read, side by side.
+    struct alignas(32) LobeNode {
+        std::uint32_t normal;              // packed
+        std::array<std::int16_t, 2> turn;  // the turn in units of 1 / 32767
+        std::uint32_t first_entry;
+        // Number of its first entry in KeptSolution::along, or kNoLobe: it has no facets.
+        std::uint32_t first_along;
+        std::uint64_t free;  // the first 64 directions
+        std::uint16_t entries, counted;
+        std::uint8_t live;  // bits by point
+        bool all_free;
+    };
+    static_assert(sizeof(LobeNode) == 32);
+
+    // Returns a spectrum of a node's facets in its texture's colour, which those have that no body lies below.
+    Spectrum facet_color(std::size_t n, const Spectrum& of) const {
+        const bool colored = !colors_.empty() && materials_[table_->nodes().nodes()[n].surface]->is_bare();
+        return colored ? colors_[n] * of : of;
+    }
+
+    const ShownObject* shown_;
+    std::shared_ptr<const TransferTable> table_;
+    const KeptLinks* links_ = nullptr;
+    std::shared_ptr<const KeptAlbedos> albedos_;
+    std::vector<const Material*> materials_;
+    Bounds bounds_;
+    float step_rad_;
+    // Local directions, component by component, and after them some that never count, to full vectors.
+    static constexpr std::size_t kMaxDirections = 256;
+    std::vector<float> local_x_, local_y_, local_z_;
+    std::vector<float> per_cosine_;         // one over local_z_, or 0
+    std::vector<Spectrum> colors_;          // by node where there are textures; else empty
+    std::vector<PackedSpectrum> white_;     // by node: albedo over pi
+    std::vector<LobeNode> lobes_;           // by node
+    std::vector<std::uint8_t> throws_sun_;  // by node; empty: none does
+    std::size_t along_ = 0;
+    std::vector<KeptSolution> terms_;         // their irradiance is in the next
+    std::vector<PackedSpectrum> irradiance_;  // by node and term
+
+    // Node axes.
+    struct Local {
+        Frame frame;
+        Vec2f turn;
+        Vec3f dir(Vec3f body) const {
+            const Vec3f l = frame.to_local(body);
+            return {turn.x * l.x + turn.y * l.y, turn.x * l.y - turn.y * l.x, l.z};
+        }
+        Vec3f body(Vec3f l) const {
+            return frame.to_world({turn.x * l.x - turn.y * l.y, turn.y * l.x + turn.x * l.y, l.z});
+        }
+    };
+    static Local local(const LobeNode& node);
+    void describe_lobe(std::size_t node);
+    void find_what_throws();
+    template <class Visit>
+    void for_each_met(std::size_t node, const Visit& visit) const;
+};
+
+}  // namespace hilcam

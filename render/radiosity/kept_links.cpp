@@ -1,0 +1,175 @@
+#include "render/radiosity/kept_links.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hilcam {
+namespace {
+
+constexpr float kFarthest = std::numeric_limits<float>::infinity();
+constexpr std::size_t kNodesAtOnce = 256;  // nodes
+
+struct Probe {
+    std::size_t node;  // number of the node in the block
+    std::uint16_t direction;
+    Vec3f origin_m, dir;
+    float distance_m = kFarthest;
+    KeptLinks::Link link{};
+};
+
+// Traces the free directions of a block of nodes against their neighbours.
+class Prober {
+  public:
+    Prober(std::span<const KeptNeighbour> near, const KeptLight& self,
+           std::span<const KeptLight* const> lights, const EmbreeScene& scene)
+        : near_(near), self_(self), lights_(lights), scene_(scene) {}
+
+    // Those that meet a place that keeps light, or one that does not: node kDark.
+    static constexpr std::uint32_t kDark = ~std::uint32_t{0};
+    std::vector<Probe> probe(std::size_t first, std::size_t last) const {
+        std::vector<Probe> probes;
+        for (std::size_t n = first; n < last; ++n) aim(n, n - first, probes);
+        for (const KeptNeighbour& other : near_) ask(other, probes);
+        std::erase_if(probes, [](const Probe& p) { return p.distance_m == kFarthest; });
+        return probes;
+    }
+
+  private:
+    std::span<const KeptNeighbour> near_;
+    const KeptLight& self_;
+    std::span<const KeptLight* const> lights_;
+    const EmbreeScene& scene_;
+
+    bool may_meet(const KeptNeighbour& other, Vec3f origin_m, Vec3f dir) const {
+        return lights_[other.object]->bounds().is_met(other.place(origin_m), other.dir(dir));
+    }
+
+    void aim(std::size_t n, std::size_t in_block, std::vector<Probe>& probes) const {
+        const TransferTable& table = self_.table();
+        for (std::size_t d = 0; d < static_cast<std::size_t>(table.directions()); ++d) {
+            if (!table.is_free(n, d)) continue;
+            const Vec3f origin = table.nodes().nodes()[n].point_m[table.point_of(d)];
+            const Vec3f dir = self_.direction(n, d);
+            if (std::any_of(near_.begin(), near_.end(),
+                            [&](const KeptNeighbour& other) { return may_meet(other, origin, dir); }))
+                probes.push_back({in_block, static_cast<std::uint16_t>(d), origin, dir});
+        }
+    }
+
+    void ask(const KeptNeighbour& other, std::vector<Probe>& probes) const {
+        std::vector<Probe*> asked;
+        for (Probe& probe : probes)
+            if (may_meet(other, probe.origin_m, probe.dir)) asked.push_back(&probe);
+        RayPacket rays;
+        HitPacket hits;
+        std::array<float, kPacketSize> from;
+        for (std::size_t first = 0; first < asked.size(); first += kPacketSize) {
+            const std::span<Probe*> packet(asked.data() + first,
+                                           std::min<std::size_t>(kPacketSize, asked.size() - first));
+            rays.count = static_cast<int>(packet.size());
+            from.fill(0);
+            constexpr int kMaxSheets = 16;
+            for (int sheet = 0; sheet < kMaxSheets; ++sheet) {
+                for (std::size_t i = 0; i < packet.size(); ++i)
+                    rays.set(static_cast<int>(i), other.place(packet[i]->origin_m), other.dir(packet[i]->dir),
+                             from[i], packet[i]->distance_m);
+                scene_.intersect_with(other.object, rays, hits);
+                bool again = false;
+                for (std::size_t i = 0; i < packet.size(); ++i) {
+                    if (hits.object[i] == HitPacket::kMiss) continue;
+                    if (!note(other, hits, i, *packet[i])) {
+                        // A sheet of glass: on behind it.
+                        from[i] = hits.distance[i] * (1 + 1e-5f) + 1e-5f;
+                        again = true;
+                    }
+                }
+                if (!again) break;
+            }
+        }
+    }
+
+    bool note(const KeptNeighbour& other, const HitPacket& hits, std::size_t k, Probe& probe) const {
+        const KeptLight& light = *lights_[other.object];
+        const std::uint16_t surface = light.surface_of(hits.triangle[k]);
+        if (light.is_glass(surface)) return false;
+        const Vec3f dir = other.dir(probe.dir);
+        const Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+        const bool back = dot(normal, dir) > 0;
+        NodesAbout about;
+        probe.distance_m = hits.distance[k];
+        const bool found = light.table().nodes().find(other.place(probe.origin_m) + hits.distance[k] * dir,
+                                                      {back ? -normal : normal, surface, back}, about);
+        // Light that mirrors send is too sharp to be kept from object to object.
+        const bool keeps = found && about.count > 0 && !light.is_mirror(surface);
+        probe.link = {keeps ? about.nearest() : kDark, static_cast<std::uint16_t>(other.object),
+                      probe.direction};
+        return true;
+    }
+};
+
+}  // namespace
+
+KeptNeighbour KeptNeighbour::rounded(const Pose& self, const Pose& other, std::size_t object, float step_rad,
+                                     float least_m) {
+    const Quat turn = conjugate(other.world_from_body) * self.world_from_body;
+    // Half a turn's sine a component.
+    const double step = 0.5 * static_cast<double>(step_rad);
+    const auto part = [step](double x) { return step * std::round(x / step); };
+    const Mat3d axes = to_matrix(normalized(Quat{part(turn.w), part(turn.x), part(turn.y), part(turn.z)}));
+    const Vec3d shift =
+        to_matrix(conjugate(other.world_from_body)) * (self.position_world_m - other.position_world_m);
+    const double grid =
+        std::max(static_cast<double>(least_m), std::exp2(std::floor(std::log2(length(shift) + 1e-9)) - 6));
+    const auto place = [grid](double x) { return static_cast<float>(grid * std::round(x / grid)); };
+    return {object,
+            {to_float(axes.x), to_float(axes.y), to_float(axes.z)},
+            {place(shift.x), place(shift.y), place(shift.z)}};
+}
+
+const KeptNeighbour& KeptLinks::neighbour(std::size_t object) const {
+    return *std::find_if(near_.begin(), near_.end(),
+                         [object](const KeptNeighbour& n) { return n.object == object; });
+}
+
+void KeptLinks::make(std::span<const KeptNeighbour> near, std::size_t self,
+                     std::span<const KeptLight* const> lights, const EmbreeScene& scene) {
+    near_.assign(near.begin(), near.end());
+    links_.clear(), first_.clear(), free_.clear();
+    const KeptLight& light = *lights[self];
+    const TransferTable& table = light.table();
+    if (near.empty() || table.size() == 0) return;
+    const Prober prober(near_, light, lights, scene);
+    std::vector<std::vector<Probe>> blocks((table.size() + kNodesAtOnce - 1) / kNodesAtOnce);
+    const auto ask = [&](std::size_t b) {
+        blocks[b] = prober.probe(b * kNodesAtOnce, std::min(table.size(), (b + 1) * kNodesAtOnce));
+        std::stable_sort(blocks[b].begin(), blocks[b].end(),
+                         [](const Probe& x, const Probe& y) { return x.node < y.node; });
+    };
+    // One at a time, so that one who waits for a block does not wait long.
+    tbb::parallel_for(std::size_t{0}, blocks.size(), ask, tbb::simple_partitioner{});
+    const std::size_t words = table.free(0).size();
+    for (std::size_t n = 0; n < table.size(); ++n)
+        free_.insert(free_.end(), table.free(n).begin(), table.free(n).end());
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        std::size_t next = 0;
+        for (std::size_t n = b * kNodesAtOnce; n < std::min(table.size(), (b + 1) * kNodesAtOnce); ++n) {
+            first_.push_back(static_cast<std::uint32_t>(links_.size()));
+            for (; next < blocks[b].size() && blocks[b][next].node == n - b * kNodesAtOnce; ++next) {
+                const Probe& probe = blocks[b][next];
+                free_[n * words + probe.direction / 64] &= ~(std::uint64_t{1} << (probe.direction % 64));
+                if (probe.link.node != Prober::kDark) links_.push_back(probe.link);
+            }
+        }
+    }
+    first_.push_back(static_cast<std::uint32_t>(links_.size()));
+}
+
+std::size_t KeptLinks::bytes() const {
+    return first_.size() * sizeof(std::uint32_t) + links_.size() * sizeof(Link) +
+           free_.size() * sizeof(std::uint64_t);
+}
+
+}  // namespace hilcam

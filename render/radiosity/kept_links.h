@@ -1,0 +1,69 @@
+#pragma once
+// The links of an object's nodes to other objects that stand near it: the part of the table of directions
+// (probes/transfer_table.h) that depends on where objects stand to each other, traced anew when that has
+// changed by a step. Turning parts are objects here. Glass of another object is passed.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/radiosity/kept_light.h"
+#include "render/vocabulary/pose.h"
+
+namespace hilcam {
+
+// Another object, where it stands to this one: rounded, so that what is kept is a function of that alone.
+struct KeptNeighbour {
+    std::size_t object = 0;
+    Mat3f axes;     // turns this object's axes into the other's
+    Vec3f shift_m;  // shift of this one's origin, in the other's axes
+
+    Vec3f place(Vec3f point_m) const { return axes * point_m + shift_m; }
+    Vec3f dir(Vec3f d) const { return axes * d; }
+    bool operator==(const KeptNeighbour& o) const {
+        return object == o.object && axes.x == o.axes.x && axes.y == o.axes.y && axes.z == o.axes.z &&
+               shift_m == o.shift_m;
+    }
+    // step_rad: of the turn; least_m: of the shift, which otherwise is rounded to about a hundredth.
+    static KeptNeighbour rounded(const Pose& self, const Pose& other, std::size_t object, float step_rad,
+                                 float least_m);
+};
+
+class KeptLinks {
+  public:
+    struct Link {
+        std::uint32_t node;  // a node of the other object
+        std::uint16_t object;
+        std::uint16_t direction;
+    };
+
+    const std::vector<KeptNeighbour>& near() const { return near_; }
+    const KeptNeighbour& neighbour(std::size_t object) const;
+    bool empty() const { return links_.empty(); }
+    std::size_t size() const { return links_.size(); }
+    std::size_t first(std::size_t node) const { return first_[node]; }
+    std::span<const Link> of(std::size_t node) const {
+        if (links_.empty()) return {};
+        return {links_.data() + first_[node], first_[node + 1] - first_[node]};
+    }
+    // Bits by direction, as the table's, without those that meet another object.
+    std::span<const std::uint64_t> free(const TransferTable& table, std::size_t node) const {
+        if (free_.empty()) return table.free(node);
+        const std::size_t words = table.free(node).size();
+        return {free_.data() + node * words, words};
+    }
+    std::size_t bytes() const;
+
+    // Traces them. lights: of all objects, by number; null where none is kept. On oneTBB; the same on any
+    // number of threads.
+    void make(std::span<const KeptNeighbour> near, std::size_t self, std::span<const KeptLight* const> lights,
+              const EmbreeScene& scene);
+
+  private:
+    std::vector<KeptNeighbour> near_;
+    std::vector<std::uint32_t> first_;  // by node, and one more
+    std::vector<Link> links_;
+    std::vector<std::uint64_t> free_;
+};
+
+}  // namespace hilcam

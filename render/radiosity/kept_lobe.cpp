@@ -1,0 +1,196 @@
+// KeptLight's lookup by a facet lobe.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "render/radiosity/kept_light.h"
+#include "render/radiosity/kept_links.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/lane_sum.h"
+
+namespace hilcam {
+namespace {
+
+// A lobe in a node's axes, and the sums of its weights.
+struct LobeQuery {
+    GgxLobe law;
+    Vec3f normal, view, mirror;
+    bool narrow;
+    float whole = 0, kept = 0;
+};
+
+// The sum of every sixteenth value. Vectors are written out, as GCC 12 keeps sums in memory, where each waits for the one
+// before. n is a multiple of kDirectionLanes.
+[[gnu::always_inline]] inline std::array<float, kDirectionLanes> sums_by_lane(const float* value,
+                                                                              std::size_t n) {
+    using Eight [[gnu::vector_size(32)]] = float;
+    std::array<Eight, kDirectionLanes / 8> sums = {};
+    for (std::size_t d = 0; d < n; d += kDirectionLanes)
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            Eight values;
+            std::memcpy(&values, value + d + 8 * k, sizeof values);
+            sums[k] += values;
+        }
+    std::array<float, kDirectionLanes> out;
+    std::memcpy(out.data(), sums.data(), sizeof out);
+    return out;
+}
+
+// The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a narrow one. Directions
+// lie as the cosine to the node's normal, so that of a surface which leans against it each counts by the ratio of both cosines
+// (importance sampling: Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the node's; 0 for
+// directions that only fill up. n is a multiple of kDirectionLanes.
+HILCAM_CLONES
+void lobe_weights(const float* x, const float* y, const float* z, const float* per_cosine, std::size_t n,
+                  LobeQuery& query, float* whole, float* kept) {
+    // A narrow lobe's tails begin 15 degrees from the mirror's direction and are whole at 30.
+    constexpr float kNone = 0.966f, kWhole = 0.866f;
+    const Vec3f m = query.normal, v = query.view, r = query.mirror;
+    const GgxLobe law = query.law;
+    for (std::size_t d = 0; d < n; ++d) {
+        const float ni = x[d] * m.x + y[d] * m.y + z[d] * m.z;
+        const float io = x[d] * v.x + y[d] * v.y + z[d] * v.z;
+        whole[d] = (ni > 0 ? ni * per_cosine[d] : 0.0f) * law.at(std::max(ni, 1e-3f), io);
+    }
+    if (query.narrow)
+        for (std::size_t d = 0; d < n; ++d) {
+            const float off = x[d] * r.x + y[d] * r.y + z[d] * r.z;
+            kept[d] = whole[d] * std::min(std::max((kNone - off) * (1 / (kNone - kWhole)), 0.0f), 1.0f);
+        }
+    else
+        std::copy_n(whole, n, kept);
+    const auto wholes = sums_by_lane(whole, n), kepts = sums_by_lane(kept, n);
+    for (std::size_t i = 0; i < kDirectionLanes; ++i) query.whole += wholes[i], query.kept += kepts[i];
+}
+
+// The weights of the directions in a cone, by direction, and their sum. n is a multiple of kDirectionLanes.
+HILCAM_CLONES
+float cone_weights(const float* x, const float* y, const float* z, const float* weight, std::size_t n,
+                   const ConeShare& share, float* in_cone) {
+    const ConeShare cone = share;
+    for (std::size_t d = 0; d < n; ++d) in_cone[d] = weight[d] * cone.of(x[d], y[d], z[d]);
+    return lane_sum(sums_by_lane(in_cone, n));
+}
+
+// The light that directions bring, summed for Lobe::directions.
+struct Brought {
+    float sum = 0, squares = 0;
+    void add(float light) { sum += light, squares += light * light; }
+    float directions() const { return squares > 0 ? sum * sum / squares : 0.0f; }
+};
+
+}  // namespace
+
+void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
+    const LobeNode& node = lobes_[n];
+    if (node.entries == 0) return;
+    const auto ask_for = [&](const auto* first) {
+        constexpr std::size_t kLine = 64 / sizeof(*first);
+        for (std::size_t i = 0; i < node.entries; i += kLine) __builtin_prefetch(first + i);
+    };
+    ask_for(table_->entry(node.first_entry));
+    if (t != kNoTerm && node.first_along != kNoLobe) ask_for(terms_[t].along.data() + node.first_along);
+}
+
+KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t n, Vec3f normal,
+                                Vec3f view_dir, float alpha) const {
+    if (lobes_[n].all_free) return {};
+    return lobe(sun == kNoTerm ? nullptr : &terms_[sun], links_, cones, n, normal, view_dir, alpha);
+}
+
+KeptLight::Lobe KeptLight::lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
+                                std::uint32_t n, Vec3f normal, Vec3f view_dir, float alpha) const {
+    const LobeNode& node = lobes_[n];
+    const Local axes = local(node);
+    LobeQuery query{.law = {alpha, std::max(dot(normal, view_dir), 1e-2f)},
+                    .normal = axes.dir(normal),
+                    .view = axes.dir(view_dir),
+                    .mirror = axes.dir(reflect(view_dir, normal)),
+                    .narrow = alpha < kNarrowestKept};
+    alignas(64) std::array<float, kMaxDirections> whole, kept;  // weights, by direction
+    lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), per_cosine_.data(), per_cosine_.size(),
+                 query, whole.data(), kept.data());
+    // Points that are buried do not count.
+    const std::size_t of_point = table_->directions_of_point();
+    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
+        for (std::size_t d = p * of_point; !(node.live >> p & 1u) && d < (p + 1) * of_point; ++d) {
+            query.whole -= whole[d], query.kept -= kept[d];
+            whole[d] = kept[d] = 0;
+        }
+    Lobe out;
+    if (!(query.whole > 0)) return out;
+    // Sixty directions are too few for a sum over a lobe; for its tails they are enough.
+    const float all = query.narrow ? static_cast<float>(node.counted) / kPiF : std::max(query.kept, 1e-20f);
+    for (std::size_t c = 0; c < cones.size(); ++c) {
+        const ConeShare cone(axes.dir(cones[c].dir), cones[c].cosine, table_->directions());
+        alignas(64) std::array<float, kMaxDirections> in_cone;
+        const float of_cone = cone_weights(local_x_.data(), local_y_.data(), local_z_.data(), whole.data(),
+                                           per_cosine_.size(), cone, in_cone.data());
+        float met = 0;
+        for_each_met(n, [&](std::size_t d) { met += in_cone[d]; });
+        out.free[c] = of_cone > 0 ? std::clamp(1 - met / of_cone, 0.0f, 1.0f) : 0.0f;
+    }
+    const bool facets = sun && node.first_along != kNoLobe;
+    const PackedSpectrum* along = facets ? sun->along.data() + node.first_along : nullptr;
+    float occupied = 0;
+    std::size_t met_nodes = node.entries;
+    const TransferTable::Entry* const entries = table_->entry(node.first_entry);
+    std::array<float, kMaxDirections> of_entry;  // a direction meets one thing at most
+    Brought brought;
+    // One loop for all sums, each of which waits for itself.
+    for (std::size_t i = 0; i < node.entries; ++i) {
+        occupied += of_entry[i] = kept[entries[i].direction];
+        if (along) brought.add(of_entry[i] * along[i].greatest());
+    }
+    if (along) out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
+    if (links && !links->empty()) {
+        const PackedSpectrum* there = sun ? sun->along_links.data() + links->first(n) : nullptr;
+        for (const KeptLinks::Link& link : links->of(n)) {
+            ++met_nodes;
+            occupied += kept[link.direction];
+            if (!there) continue;
+            brought.add(kept[link.direction] * there->greatest());
+            out.kept += kept[link.direction] * (there++)->unpacked();
+        }
+    }
+    out.kept = (1 / all) * out.kept;
+    out.directions = brought.directions();
+    // Light that comes along the directions that meet something makes the node's irradiance: pi / counted of
+    // each one's radiance.
+    if (met_nodes > 0)
+        out.of_irradiance =
+            occupied / all * static_cast<float>(node.counted) / (kPiF * static_cast<float>(met_nodes));
+    return out;
+}
+
+// visit(direction) where a node's direction meets something, be it dark.
+template <class Visit>
+void KeptLight::for_each_met(std::size_t n, const Visit& visit) const {
+    const auto directions = static_cast<std::size_t>(table_->directions());
+    const auto word = [&](std::size_t w) {
+        return links_ ? links_->free(*table_, n)[w] : table_->free(n)[w];
+    };
+    for (std::size_t first = 0; first < directions; first += 64) {
+        const std::uint64_t free = first == 0 ? lobes_[n].free : word(first / 64);
+        const std::size_t bits = std::min<std::size_t>(64, directions - first);
+        std::uint64_t met = ~free & (bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1);
+        for (; met != 0; met &= met - 1) visit(first + static_cast<std::size_t>(std::countr_zero(met)));
+    }
+}
+
+bool KeptLight::is_near(std::uint32_t n, Vec3f dir) const {
+    const LobeNode& node = lobes_[n];
+    if (node.all_free) return false;
+    constexpr float kNear = 0.88f;  // 28 degrees: further than the next direction
+    const Vec3f l = local(node).dir(dir);
+    bool near = false;
+    for_each_met(n, [&](std::size_t d) {
+        near = near || (local_x_[d] * l.x + local_y_[d] * l.y + local_z_[d] * l.z > kNear &&
+                        (node.live >> table_->point_of(d) & 1u) != 0);
+    });
+    return near;
+}
+
+}  // namespace hilcam

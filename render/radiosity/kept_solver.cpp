@@ -1,0 +1,292 @@
+#include "render/radiosity/kept_solver.h"
+
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "render/brdf/microfacet.h"
+#include "render/scene/surface.h"
+
+namespace hilcam {
+namespace {
+
+// The lobe of a sender's facets towards one that gathers: of its points, as each leans and as much as it is seen.
+template <class Sender>
+void add_lobe(const Sender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
+    const float io = -dot(dir, source_dir);
+    const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f)), ih = 0.5f / inverse;
+    float sum = 0, seen = 0;
+    for (std::size_t p = 0; p < from.lit.count; ++p) {
+        const float facing = -dot(unpack_normal(from.lit.normal[p]), dir);
+        if (facing <= 0) continue;
+        const float no = std::max(facing, 1e-2f), ni = std::max(from.lit.cosine[p], 1e-3f);
+        seen += no;
+        if (!(from.lit.received[p] > 0)) continue;
+        const float nh = std::min((no + ni) * inverse, 1.0f);
+        sum +=
+            no * from.lit.received[p] * ggx_distribution(from.alpha, nh) * ggx_visibility(from.alpha, no, ni);
+    }
+    if (!(sum > 0)) return;
+    const float law = sum / seen;
+    // Schlick's term: F0 + (1 - F0) w.
+    const float grazing = schlick_weight(ih);
+    radiance += (law * (1 - grazing)) * from.lobe.unpacked();
+    for (float& bin : radiance.bin) bin += law * grazing * from.gain;
+}
+
+Spectrum at_least_zero(Spectrum s) {
+    for (float& bin : s.bin) bin = std::max(bin, 0.0f);
+    return s;
+}
+
+// Returns the direction in which a source is seen from an object. A lamp is taken as seen from its middle: it
+// differs by node, but little.
+Vec3f direction_to(const KeptSource& source) {
+    const bool lamp = source.kind == KeptSource::Kind::kLamp && length(source.position_m) > 0;
+    return lamp ? normalized(source.position_m) : source.dir;
+}
+
+}  // namespace
+
+KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeScene& scene)
+    : lights_(lights.begin(), lights.end()), scene_(scene) {
+    std::size_t nodes = 0;
+    for (const KeptLight* light : lights_) {
+        base_.push_back(nodes);
+        if (light) nodes += light->table().size();
+    }
+    senders_.resize(nodes), shines_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes),
+        first_.resize(nodes), sends_on_.resize(nodes), by_lobes_.resize(nodes), second_.resize(nodes),
+        first_second_.resize(nodes), now_.resize(nodes), before_.resize(nodes);
+    // Addresses for the most there can be; pages are taken as they are needed.
+    second_along_.resize(lights_.size());
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        if (lights_[i]) second_along_[i].reserve(lights_[i]->along_);
+    if (std::any_of(lights_.begin(), lights_.end(),
+                    [](const KeptLight* light) { return light && light->throws_sun(); }))
+        mirrored_.resize(nodes);
+}
+
+Spectrum KeptSolver::unmirrored(const std::vector<Spectrum>& irradiance, std::size_t n) const {
+    return at_least_zero(irradiance[n] + -1.0f * mirrored_[n]);
+}
+
+void KeptSolver::solve(std::span<const Member> group) {
+    for (const Member& member : group) light_nodes(member);
+    for (const Member& member : group) gather_first(member, group);
+    for (const Member& member : group) gather_second(member);
+    bounce(group);
+    for (const Member& member : group) smooth(member), store(member);
+}
+
+void KeptSolver::gather_first(const Member& member, std::span<const Member> group) {
+    const KeptLight& light = *lights_[member.object];
+    const TransferTable& table = light.table();
+    const std::size_t base = base_[member.object];
+    const Vec3f source_dir = direction_to(member.source);
+    KeptSolution& out = *member.out;
+    const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
+    if (keeps_along) out.along_links.resize(member.links->size());
+    // By object: where its links' senders have the source.
+    const auto source_of = [&](std::size_t object) {
+        for (const Member& other : group)
+            if (other.object == object) return direction_to(other.source);
+        return Vec3f{};
+    };
+    const auto is_narrow = [&](const KeptLinks::Link& link) {
+        const KeptLight& other = *lights_[link.object];
+        return other.materials_[other.table().nodes().nodes()[link.node].surface]->ggx_alpha < kNarrowestKept;
+    };
+    for_nodes(table.size(), [&](const Nodes& r) {
+        for (std::size_t n = r.begin(); n < r.end(); ++n) {
+            const KeptLight::LobeNode& node = light.lobes_[n];
+            PackedSpectrum* along = keeps_along && node.first_along != KeptLight::kNoLobe
+                                        ? out.along.data() + node.first_along
+                                        : nullptr;
+            const KeptLight::Local axes = KeptLight::local(node);
+            const auto direction = [&](std::size_t d) {
+                return axes.body({light.local_x_[d], light.local_y_[d], light.local_z_[d]});
+            };
+            Spectrum sum, mirrored;
+            Brought brought;
+            const auto add = [&](const Spectrum& radiance) {
+                const float bright = largest(radiance);
+                sum += radiance;
+                brought += {bright, bright * bright};
+            };
+            for (const TransferTable::Entry e : table.entries(n)) {
+                if (!shines_[base + e.node]) {
+                    if (along) *along++ = {};
+                    continue;
+                }
+                const Sender& from = senders_[base + e.node];
+                Spectrum radiance = from.diffuse.unpacked();
+                if (from.alpha > 0)
+                    add_lobe(from, direction(e.direction), source_dir,
+                             keeps_along && light.throws_sun(e.node) ? mirrored : radiance);
+                if (along) *along++ = PackedSpectrum(radiance);
+                add(radiance);
+            }
+            const std::span<const KeptLinks::Link> links = member.links->of(n);
+            for (std::size_t i = 0; i < links.size(); ++i) {
+                const KeptLinks::Link& link = links[i];
+                const Sender& from = senders_[base_[link.object] + link.node];
+                Spectrum radiance = from.diffuse.unpacked();
+                // A mirror's light is too sharp for directions to find it far away, and blurred it falls
+                // where none is.
+                if (from.alpha > 0 && !is_narrow(link))
+                    add_lobe(from, member.links->neighbour(link.object).dir(direction(link.direction)),
+                             source_of(link.object), radiance);
+                if (keeps_along) out.along_links[member.links->first(n) + i] = PackedSpectrum(radiance);
+                add(radiance);
+            }
+            if (light.throws_sun()) {
+                mirrored_[base + n] = (kPiF / static_cast<float>(table.counted(n))) * mirrored;
+                sum += mirrored;
+            }
+            brought_[base + n] = brought;
+            first_[base + n] = now_[base + n] = (kPiF / static_cast<float>(table.counted(n))) * sum;
+        }
+    });
+}
+
+// Bounces until what is left is little, and that by its geometric series: white paint in a hollow keeps light
+// for long.
+void KeptSolver::bounce(std::span<const Member> group) {
+    constexpr int kMaxBounces = 64;
+    constexpr double kLeft = 0.03, kMaxRatio = 0.95;
+    double before = 0;
+    for (int i = 0; i < kMaxBounces; ++i) {
+        for (const Member& member : group) {
+            const KeptLight& light = *lights_[member.object];
+            const std::size_t base = base_[member.object];
+            tbb::parallel_for(Nodes(0, light.table().size(), 4096), [&](const Nodes& r) {
+                for (std::size_t n = r.begin(); n < r.end(); ++n)
+                    radiosity_[base + n] = at_least_zero(light.white_[n].unpacked() * now_[base + n] +
+                                                         -1.0f * by_lobes_[base + n]);
+            });
+        }
+        Progress step;
+        for (const Member& member : group) {
+            const Progress one = gather_again(member);
+            step.change += one.change, step.light += one.light;
+        }
+        const double ratio = before > 0 ? std::min(step.change / before, kMaxRatio) : kMaxRatio;
+        const double left = ratio / (1 - ratio);
+        before = step.change;
+        if (left * step.change > kLeft * step.light) continue;
+        for (const Member& member : group) {
+            const std::size_t base = base_[member.object];
+            tbb::parallel_for(
+                Nodes(base, base + lights_[member.object]->table().size(), 4096), [&](const Nodes& r) {
+                    for (std::size_t n = r.begin(); n < r.end(); ++n)
+                        for (int b = 0; b < kMaxBins; ++b)
+                            now_[n][b] +=
+                                static_cast<float>(left) * std::max(0.0f, now_[n][b] - before_[n][b]);
+                });
+        }
+        break;
+    }
+}
+
+// One more bounce.
+KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
+    const KeptLight& light = *lights_[member.object];
+    const TransferTable& table = light.table();
+    const std::size_t base = base_[member.object];
+    // Sums that do not depend on how the work was shared out.
+    return tbb::parallel_deterministic_reduce(
+        Nodes(0, table.size(), kBlock), Progress{},
+        [&](const Nodes& r, Progress sum) {
+            for (std::size_t n = r.begin(); n < r.end(); ++n) {
+                Spectrum met;
+                for (const TransferTable::Entry e : table.entries(n)) met += radiosity_[base + e.node];
+                for (const KeptLinks::Link& link : member.links->of(n)) met += radiosity_to(link);
+                const Spectrum next = first_[base + n] + second_[base + n] +
+                                      (kPiF / static_cast<float>(table.counted(n))) * met;
+                // By how much of it can be seen from outside; a little, so that closed rooms have an end too.
+                const double weight = 0.01 + static_cast<double>(std::popcount(table.free(n)[0]));
+                for (int b = 0; b < kMaxBins; ++b)
+                    sum.change += weight * static_cast<double>(std::abs(next[b] - now_[base + n][b])),
+                        sum.light += weight * static_cast<double>(next[b]);
+                before_[base + n] = now_[base + n];
+                now_[base + n] = next;
+            }
+            return sum;
+        },
+        [](const Progress& a, const Progress& b) {
+            return Progress{a.change + b.change, a.light + b.light};
+        });
+}
+
+// Leaves what the nodes keep in before_. A node's directions are too few to tell how much of a small bright part it
+// sees: one of sixty meets a lit rim, and the next node's none. Where that is so, a node and those beside it have
+// their mean, the more so the fewer directions of equal light their sum hangs on (Kish's effective size of a weighted
+// sample, Survey Sampling, 1965, section 8.2). What many directions see is left as sharp as it is, and so is what has
+// come by further bounces alone.
+void KeptSolver::smooth(const Member& member) {
+    constexpr float kFew = 4, kMany = 1e9f;
+    const KeptLight& light = *lights_[member.object];
+    const std::size_t base = base_[member.object];
+    const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
+    const auto kept = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
+    for_nodes(light.table().size(), [&](const Nodes& r) {
+        for (std::size_t n = r.begin(); n < r.end(); ++n) {
+            const std::span<const std::uint32_t> beside = light.neighbours(n);
+            const auto count = static_cast<float>(beside.size() + 1);
+            Brought brought = brought_[base + n];
+            Spectrum sum = kept(n);
+            for (const std::uint32_t other : beside) brought += brought_[base + other], sum += kept(other);
+            // They are counted over all of these nodes, of which each has its part.
+            const float directions =
+                brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kMany;
+            const float share = kFew / (kFew + directions);
+            before_[base + n] = (1 - share) * kept(n) + (share / count) * sum;
+        }
+    });
+}
+
+void KeptSolver::store(const Member& member) {
+    const KeptLight& light = *lights_[member.object];
+    const std::size_t base = base_[member.object];
+    KeptSolution& out = *member.out;
+    const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
+    const auto add_to = [](PackedSpectrum& sum, const Spectrum& more) {
+        sum = PackedSpectrum(sum.unpacked() + more);
+    };
+    for_nodes(light.table().size(), [&](const Nodes& r) {
+        for (std::size_t n = r.begin(); n < r.end(); ++n) {
+            out.irradiance[n] = PackedSpectrum(before_[base + n]);
+            if (!keeps_along) continue;
+            std::size_t to = light.lobes_[n].first_along, second = first_second_[base + n];
+            if (to != KeptLight::kNoLobe)
+                for (const TransferTable::Entry e : light.table().entries(n)) {
+                    Spectrum more = radiosity_[base + e.node];
+                    if (sends_on_[base + e.node]) more += second_along_[member.object][second++].unpacked();
+                    add_to(out.along[to++], more);
+                }
+            std::size_t link_to = member.links->empty() ? 0 : member.links->first(n);
+            for (const KeptLinks::Link& link : member.links->of(n))
+                add_to(out.along_links[link_to++], radiosity_to(link));
+        }
+    });
+}
+
+float KeptSolver::seen_of_cone(const Member& member, const KeptLight& light, std::size_t n) {
+    const TransferTable& table = light.table();
+    const std::span<const std::uint64_t> is_free = member.links->free(table, n);
+    const ConeShare cone(KeptLight::local(light.lobes_[n]).dir(member.source.dir), member.source.cone_cosine,
+                         table.directions());
+    float all = 0, free = 0;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(table.directions()); ++d) {
+        if (!table.is_live(n, table.point_of(d))) continue;
+        const float in = cone.of(light.local_x_[d], light.local_y_[d], light.local_z_[d]);
+        all += in;
+        if (is_free[d / 64] >> (d % 64) & 1u) free += in;
+    }
+    return all > 0 ? free / all : 0;
+}
+
+}  // namespace hilcam

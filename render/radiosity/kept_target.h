@@ -1,0 +1,64 @@
+#pragma once
+// The target that light is kept for (kept_light.h): where the sources are and how the objects stand to each
+// other, all of it rounded.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "render/planetshine/sky_light.h"
+#include "render/radiosity/kept_links.h"
+#include "render/scene/lamp.h"
+
+namespace hilcam {
+
+// The terms of an object, by number.
+struct KeptTerms {
+    static constexpr std::size_t kSun = 0, kBodies = 1, kLamps = 1 + SkyLight::kMaxBodies;
+    std::size_t lamps = 0;
+    bool emission = false;
+
+    std::size_t glow() const { return kLamps + lamps; }
+    std::size_t count() const { return kLamps + lamps + (emission ? 1 : 0); }
+    KeptSource::Kind kind(std::size_t term) const;
+};
+
+// The places of all that matters in a frame, as they are; world axes.
+struct KeptInputs {
+    struct Lamp {
+        std::size_t number;
+        Vec3d position_world_m;
+        Vec3f axis;
+        const LampBeam* beam;
+    };
+    struct Body {
+        Vec3f dir;
+        float cosine;
+    };
+    std::vector<Pose> objects;
+    bool sun = false;
+    Vec3f sun_dir;
+    std::size_t body_count = 0;
+    std::array<Body, SkyLight::kMaxBodies> bodies;
+    std::vector<Lamp> lamps;
+
+    // Finds what comes after `now`, as far from it as `by` times what lies between it and `then`, everything
+    // moving on as it did. False where they have not the same things in them. No allocation but at the first
+    // calls.
+    static bool extrapolate(const KeptInputs& then, const KeptInputs& now, double by, KeptInputs& out);
+};
+
+struct KeptTarget {
+    std::vector<std::vector<KeptNeighbour>> near;  // by object
+    std::vector<std::vector<KeptSource>> sources;  // by object and term; kNone: it does not shine
+    std::vector<std::uint32_t> group;              // by object: those of one number stand near each other
+
+    // Makes all the room that set() can need. Owner thread.
+    void reserve(std::size_t objects, const KeptTerms& terms);
+    // lights: by object, null where none is kept. No allocation after reserve(); without it at the first call
+    // and for neighbours that are more than ever before. Loop.
+    void set(const KeptInputs& inputs, std::span<const KeptLight* const> lights, const KeptTerms& terms);
+    bool operator==(const KeptTarget& o) const { return near == o.near && sources == o.sources; }
+};
+
+}  // namespace hilcam

@@ -1,0 +1,133 @@
+#include "render/radiosity/kept_updates.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hilcam {
+
+KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& scene, const KeptTerms& terms)
+    : lights_(lights.begin(), lights.end()),
+      terms_(terms),
+      solver_(std::vector<const KeptLight*>(lights.begin(), lights.end()), scene),
+      links_(lights.size()) {
+    const std::size_t count = lights.size();
+    stage_.links.resize(count), stage_.has_links.resize(count);
+    stage_.solutions.resize(count);
+    stage_.has_solution.assign(count, std::vector<std::uint8_t>(terms_.count()));
+    for (KeptTarget* target : {&shown_, &stage_.target, &wanted_}) target->reserve(count, terms_);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!lights_[i]) continue;
+        order_.push_back(i);
+        lights_[i]->adopt(links_[i]);
+        for (std::size_t t = 0; t < terms_.count(); ++t)
+            stage_.solutions[i].push_back(lights_[i]->make_solution(terms_.kind(t)));
+    }
+    members_.reserve(count);
+    if (!order_.empty()) ahead_.start([this] { prepare(wanted_); });
+}
+
+void KeptUpdates::bring_to(const KeptTarget& target) {
+    if (target == shown_) return;
+    ahead_.give_up();
+    ahead_.wait();
+    prepare(target);
+    adopt();
+}
+
+void KeptUpdates::look_ahead(const KeptTarget& target) {
+    if (is_busy() || target == shown_ || target == stage_.target) return;
+    wanted_ = target;
+    ahead_.ask();
+}
+
+// Fills the stage with what the target has and the lights have not; what it holds already and is asked for
+// stays. Given up, it holds less.
+void KeptUpdates::prepare(const KeptTarget& target) {
+    prepare_links(target);
+    if (AheadThread::was_given_up()) return;
+    std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(target.group[a], a) < std::pair(target.group[b], b);
+    });
+    for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
+        while (last < order_.size() && target.group[order_[last]] == target.group[order_[first]]) ++last;
+        const bool regrouped = is_regrouped(target, order_[first]);
+        for (std::size_t t = 0; t < terms_.count(); ++t) {
+            prepare_group(target, t, {order_.data() + first, last - first}, regrouped);
+            if (AheadThread::was_given_up()) return;
+        }
+    }
+    stage_.target = target;
+}
+
+void KeptUpdates::prepare_links(const KeptTarget& target) {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (!lights_[i]) continue;
+        const bool wanted = target.near[i] != shown_.near[i];
+        if (wanted == (stage_.has_links[i] != 0) && (!wanted || stage_.target.near[i] == target.near[i]))
+            continue;
+        if (wanted) {
+            stage_.links[i].make(target.near[i], i, solver_.lights(), solver_.scene());
+            stage_.target.near[i] = target.near[i];
+        }
+        const bool given_up = AheadThread::was_given_up();
+        stage_.has_links[i] = wanted && !given_up;
+        // Solutions by way of other links are worth nothing.
+        for (std::vector<std::uint8_t>& has : stage_.has_solution) std::fill(has.begin(), has.end(), 0);
+        if (given_up) return;
+    }
+}
+
+// True when the group of an object has other members than it is shown with. A group is solved until all of it has enough, so what one
+// of them has depends on the others, also on those that it does not see itself.
+bool KeptUpdates::is_regrouped(const KeptTarget& target, std::size_t member) const {
+    if (target.group == shown_.group) return false;
+    return std::any_of(order_.begin(), order_.end(), [&](std::size_t i) {
+        return (target.group[i] == target.group[member]) != (shown_.group[i] == shown_.group[member]);
+    });
+}
+
+void KeptUpdates::prepare_group(const KeptTarget& target, std::size_t term,
+                                std::span<const std::size_t> group, bool regrouped) {
+    members_.clear();
+    bool differs = regrouped, staged = true, shines = false;
+    for (const std::size_t i : group) {
+        const KeptSource& source = target.sources[i][term];
+        members_.push_back(
+            {i, stage_.has_links[i] ? &stage_.links[i] : &links_[i], source, &stage_.solutions[i][term]});
+        differs = differs || stage_.has_links[i] || source != shown_.sources[i][term];
+        staged = staged && stage_.has_solution[i][term] && source == stage_.target.sources[i][term];
+        shines = shines || source.kind != KeptSource::Kind::kNone;
+    }
+    if (staged && differs) return;
+    // A source that does not shine stays as it was: its level is zero.
+    if (differs && shines) solver_.solve(members_);
+    for (const KeptSolver::Member& member : members_) {
+        stage_.has_solution[member.object][term] = differs && shines && !AheadThread::was_given_up();
+        stage_.target.sources[member.object][term] = member.source;
+    }
+}
+
+std::size_t KeptUpdates::bytes(std::size_t i) const {
+    std::size_t bytes = solver_.bytes(i) + stage_.links[i].bytes();
+    for (const KeptSolution& solution : stage_.solutions[i]) bytes += solution.bytes();
+    return bytes;
+}
+
+void KeptUpdates::adopt() {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (!lights_[i]) continue;
+        if (stage_.has_links[i]) {
+            std::swap(links_[i], stage_.links[i]);
+            lights_[i]->adopt(links_[i]);
+            stage_.has_links[i] = false;
+        }
+        for (std::size_t t = 0; t < terms_.count(); ++t)
+            if (stage_.has_solution[i][t]) {
+                lights_[i]->adopt(t, stage_.solutions[i][t]);
+                stage_.has_solution[i][t] = false;
+            }
+    }
+    shown_ = stage_.target;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,182 @@
+#include "render/shading/facet_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "render/shading/facet_packet.h"
+#include "render/vocabulary/lane_sum.h"
+
+namespace hilcam {
+namespace {
+
+constexpr float kSame = 0.999998f;  // cosine
+// The only part of a facet that stands for none.
+const LevelFacets kItself = LevelFacets::flat();
+
+// Facets of vertices on their way through packets, those of one material of an object at a time.
+class Reflection {
+  public:
+    Reflection(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out)
+        : frame_(frame), vertices_(vertices), out_(out) {}
+
+    void of_all() {
+        std::array<std::uint16_t, SunnyVertex::kMost> order;
+        const std::span<std::uint16_t> in_order = std::span(order).first(vertices_.size());
+        std::iota(in_order.begin(), in_order.end(), std::uint16_t{0});
+        const auto key = [&](std::uint16_t v) {
+            const Vertex& at = *vertices_[v].at;
+            return std::uint64_t{at.object} << 32 | std::uint64_t{at.surface_number} << 16 | v;
+        };
+        std::sort(in_order.begin(), in_order.end(),
+                  [&](std::uint16_t a, std::uint16_t b) { return key(a) < key(b); });
+        for (const std::uint16_t v : in_order) put(v);
+        reflect();
+        for (const std::uint16_t v : in_order) finish(v);
+    }
+
+  private:
+    const FrameView& frame_;
+    std::span<const SunnyVertex> vertices_;
+    std::span<FacetLight> out_;
+    FacetPacket packet_;
+    std::array<const Facet*, FacetPacket::kSize> facets_;
+    std::array<std::uint16_t, FacetPacket::kSize> owners_;  // vertices
+    const Vertex* kind_ = nullptr;                          // one of those in the packet
+    struct Sum {
+        float samples;
+        // By a facet's lobe alone: depends on the angle between viewer and light, and on nothing else.
+        Spectrum mirrored;
+        float light;        // over all bins together
+        float going_on;     // light of the facets so far that one triangle's normals make
+        HalfShares halves;  // times the light
+    };
+    std::array<Sum, SunnyVertex::kMost> sums_;
+
+    void put(std::uint16_t v) {
+        const auto& [at, dir, alpha] = vertices_[v];
+        if (kind_ && (kind_->object != at->object || kind_->surface.material != at->surface.material))
+            reflect();
+        kind_ = at;
+        sums_[v] = {};
+        const float io = dot(at->view_dir, dir), over_half = 1 / std::sqrt(std::max(2 + 2 * io, 1e-8f));
+        if (alpha > 0) sums_[v].mirrored = brdf_mirrored(at->surface, half_vector({1, 1, io}).ih);
+        const float side = at->back ? -1.0f : 1.0f;
+        for (const Facet* facet = at->facets; facet; facet = facet->next) {
+            sums_[v].samples += facet->samples;
+            const float flat = dot(facet->geometric_normal, dir);
+            if (!facet->flattened && flat <= 0) continue;
+            if (packet_.count == FacetPacket::kSize) reflect();
+            const std::size_t i = packet_.count++;
+            facets_[i] = facet, owners_[i] = v;
+            packet_.normal.set(i, facet->normal);
+            packet_.view.set(i, at->view_dir), packet_.light.set(i, dir);
+            packet_.samples[i] = facet->samples;
+            packet_.flat[i] = facet->flattened ? flat : 0.0f;
+            packet_.side[i] = side;
+            packet_.over_half[i] = over_half, packet_.alpha_squared[i] = alpha * alpha;
+            packet_.parts[i] = facet->flattened ? *facet->flattened : kItself;
+        }
+    }
+
+    void reflect() {
+        if (packet_.count == 0) return;
+        const Scatterer& surface = kind_->surface;
+        const LobeAlbedo* const facets = facets_of(*surface.material);
+        reflect_facets(frame_.world_from_body[kind_->object], facets, packet_);
+        const bool diffuse = std::holds_alternative<brdf::Lambert>(surface.material->brdf);
+        for (std::size_t i = 0; i < packet_.count; ++i) {
+            const std::uint16_t v = owners_[i];
+            const Spectrum& base = vertices_[v].at->surface.base;
+            const float lobe = vertices_[v].alpha > 0 ? packet_.lobe[i] : 0.0f;
+            if (facets)
+                take(v, *facets_[i], packet_.below[i] * base + lobe * sums_[v].mirrored);
+            else
+                take(v, *facets_[i], diffuse ? packet_.lit[i] / kPiF * base : part_by_part(i));
+        }
+        packet_.count = 0;
+    }
+
+    void take(std::uint16_t v, const Facet& facet, const Spectrum& reflected) {
+        const float light = lane_sum(reflected.bin);
+        const HalfShares halves =
+            facet.seen_by != 0 ? frame_.samples.halves(facet.seen_by) : vertices_[v].at->halves;
+        out_[v].reflected += reflected;
+        Sum& sum = sums_[v];
+        sum.light += light, sum.going_on += light;
+        sum.halves += light * halves;
+        // For shadows these are one.
+        if (!facet.goes_on) out_[v].add(facet, std::exchange(sum.going_on, 0.0f));
+    }
+
+    Spectrum part_by_part(std::size_t i) const {
+        const SunnyVertex& from = vertices_[owners_[i]];
+        const float io = dot(from.at->view_dir, from.dir);
+        Spectrum sum;
+        for (std::size_t j = 0; j < FacetPacket::kParts; ++j)
+            if (const float weight = packet_.weight[j][i]; weight > 0)
+                sum += weight * brdf_value(from.at->surface, {packet_.no[j][i], packet_.ni[j][i], io});
+        return sum;
+    }
+
+    void finish(std::uint16_t v) {
+        const Vertex& at = *vertices_[v].at;
+        const Sum& sum = sums_[v];
+        out_[v].reflected = (1 / sum.samples) * (at.weight * out_[v].reflected);
+        out_[v].halves = sum.light > 0 ? (1 / sum.light) * sum.halves : at.halves;
+    }
+};
+
+}  // namespace
+
+void FacetLight::add(const Facet& facet, float light) {
+    if (!(light > share.back())) return;
+    std::size_t place = share.size() - 1;
+    for (; place > 0 && light > share[place - 1]; --place)
+        share[place] = share[place - 1], brightest[place] = brightest[place - 1];
+    share[place] = light, brightest[place] = &facet;
+}
+
+// Member by member: a Facet that is copied whole waits for its own stores.
+void FacetList::push(const Facet& part, Vertex& vertex) {
+    Facet& added = facets_[count_++];
+    added.geometric_normal = part.geometric_normal;
+    added.normal = part.normal;
+    added.start_m = part.start_m;
+    added.samples = part.samples;
+    added.seen_by = part.seen_by;
+    added.flattened = part.flattened;
+    added.goes_on = part.goes_on;
+    added.next = vertex.facets;
+    vertex.facets = &added;
+}
+
+void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first,
+                    std::span<const Vec3f> turns, Vertex& vertex) {
+    const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
+    bool has_flattened = false;
+    if (!object.facets.empty()) {
+        has_flattened = object.flattened_alpha[vertex.surface_number] > 0;
+        if (!object.facets[triangle].is_flat()) part.flattened = &object.facets[triangle];
+        if (first) vertex.facet_alpha = object.unflattened(vertex.surface_number, vertex.surface.alpha);
+    }
+    const bool alike = turns.empty() && (first || dot(vertex.normal, part.normal) > kSame);
+    if (alike && !part.flattened && !has_flattened && !vertex.facets) return;
+    if (!first && !vertex.facets)
+        push({vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, vertex.samples},
+             vertex);
+    if (turns.empty()) return push(part, vertex);
+    part.samples /= static_cast<float>(turns.size());
+    for (const Vec3f normal : turns) {
+        part.normal = normal;
+        push(part, vertex);
+        part.goes_on = true;
+    }
+}
+
+void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out) {
+    if (!vertices.empty()) Reflection(frame, vertices, out).of_all();
+}
+
+}  // namespace hilcam

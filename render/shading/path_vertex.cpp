@@ -1,0 +1,157 @@
+#include "render/shading/path_vertex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hilcam {
+
+void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+        if (hits.object[k] == HitPacket::kMiss) continue;
+        const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+        __builtin_prefetch(&object.triangles[hits.triangle[k]]);
+        if (object.corner_uvs.empty()) continue;
+        __builtin_prefetch(&object.corner_uvs[hits.triangle[k]]);
+        __builtin_prefetch(&object.uv_per_m[hits.triangle[k]]);
+    }
+}
+
+namespace {
+
+// Member by member: a Scatterer that is made first and copied then waits for its own stores.
+void set_material(const Material& material, float alpha_least, Vertex& vertex) {
+    const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
+    vertex.surface.material = &material;
+    vertex.surface.alpha = alpha;
+    vertex.surface.base = material.base;
+    vertex.surface.highlight = material.highlight;
+    vertex.surface.hapke.reset();
+    vertex.facet_alpha = alpha;
+}
+
+}  // namespace
+
+void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex) {
+    vertex.surface_number = surface_number;
+    set_material((*frame.objects)[vertex.object]->materials[surface_number], 0, vertex);
+}
+
+bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie) {
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+    const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
+    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+
+    Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+    float squared = dot(geometric_raw, geometric_raw);
+    // Twice the area, squared: of edges below 1e-8 m or above 1e7 m it leaves single precision's range.
+    if (!(squared > 1e-30f && squared < 1e30f)) {
+        const float greatest =
+            std::max({std::abs(geometric_raw.x), std::abs(geometric_raw.y), std::abs(geometric_raw.z)});
+        if (!(greatest > 0 && std::isfinite(greatest))) return false;  // without an area: nothing to see
+        geometric_raw = geometric_raw / greatest;
+        squared = dot(geometric_raw, geometric_raw);
+    }
+    const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
+
+    lie.view_dir = -normalized(dir);
+    Vec3f geometric = world_from_body * geometric_body;
+    Vec3f normal_body;
+    if (!object.ground_normals ||
+        !object.ground_normals->find(hits.triangle[k], hits.u[k], hits.v[k], normal_body))
+        normal_body = ObjectSurfaces::normal_at(triangle, hits.u[k], hits.v[k], geometric_body);
+    Vec3f normal = world_from_body * normal_body;
+    lie.back = dot(geometric, lie.view_dir) < 0;
+    if (lie.back) geometric = -geometric;
+    if (dot(normal, geometric) < 0) normal = -normal;
+    // A smoothed normal that leans away from the viewer would make the surface vanish.
+    if (dot(normal, lie.view_dir) <= 1e-4f) normal = geometric;
+    lie.geometric_normal = geometric;
+    lie.normal = normal;
+    return true;
+}
+
+float rounding_m(Vec3f p, Vec3f o) {
+    const float greatest =
+        std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(o.x), std::abs(o.y), std::abs(o.z)});
+    return 16 * std::numeric_limits<float>::epsilon() * greatest;
+}
+
+bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                 float alpha_least, RayWidth width, Vertex& vertex) {
+    Lie lie;
+    if (!find_lie(frame, hits, lane, dir, lie)) return false;
+    make_vertex(frame, hits, lane, lie, origin_m, dir, alpha_least, width, vertex);
+    const auto k = static_cast<std::size_t>(lane);
+    if (is_textured(vertex))
+        paint(texture_at(frame, vertex, hits.triangle[k], {hits.u[k], hits.v[k]}, 1), vertex);
+    return true;
+}
+
+void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                  Vec3f dir, RayWidth width, Vertex& vertex) {
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+    vertex.view_dir = lie.view_dir;
+    vertex.geometric_normal = lie.geometric_normal;
+    vertex.normal = lie.normal;
+    vertex.back = lie.back;
+    vertex.sunlit = 1;
+    vertex.weight_samples = 1;
+    vertex.samples = 0;
+    vertex.facets = nullptr;
+
+    vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
+    vertex.point_m = origin_m + hits.distance[k] * dir;
+    vertex.offset_m = rounding_m(vertex.point_m, origin_m);
+
+    vertex.object = hits.object[k];
+    vertex.keeps_light = frame.keeps_light[vertex.object] != 0;
+    vertex.mirrors_near = true;
+    vertex.has_bodies = vertex.follows_lobe = false;
+    vertex.lobe = nullptr;
+    vertex.known_sun = object.known_sun.empty() || frame.objects->size() > 1
+                           ? KnownSun::kAsk
+                           : object.known_sun[hits.triangle[k]];
+}
+
+void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex) {
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+    const Material& material = object.materials[triangle.surface];
+    const float u = hits.u[k];
+    const float v = hits.v[k];
+    place_vertex(frame, hits, lane, lie, origin_m, dir, width, vertex);
+    vertex.surface_number = triangle.surface;
+    set_material(material, alpha_least, vertex);
+    if (!object.corner_colors.empty())
+        paint(frame.bands->spectrum(object.color_at(hits.triangle[k], u, v)), vertex);
+    if (!object.corner_hapke.empty()) vertex.surface.hapke = object.hapke_at(hits.triangle[k], u, v);
+}
+
+Spectrum texture_at(const FrameView& frame, const Vertex& vertex, std::uint32_t triangle, Vec2f at,
+                    float share) {
+    const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
+    const auto& corner = object.corner_uvs[triangle];
+    const MipTexture& texture =
+        (*object.textures)[static_cast<std::size_t>(vertex.surface.material->texture)];
+    // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
+    // of four.
+    const float slant = 1 / std::max(0.25f, dot(vertex.geometric_normal, vertex.view_dir));
+    const float footprint = share * vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[triangle];
+    const float first = 1 - at.x - at.y;
+    return frame.bands->spectrum(texture.sample(first * corner[0].x + at.x * corner[1].x + at.y * corner[2].x,
+                                                first * corner[0].y + at.x * corner[1].y + at.y * corner[2].y,
+                                                footprint));
+}
+
+// The one colour of a file scales what the material mostly is.
+void paint(const Spectrum& colors, Vertex& vertex) {
+    vertex.surface.base = vertex.surface.base * colors;
+    if (vertex.surface.material->is_bare()) vertex.surface.highlight = vertex.surface.highlight * colors;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,111 @@
+#pragma once
+// A path at one of its vertices: where a ray has met an object, and how light scatters there.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "render/scene/brdf.h"
+#include "render/scene/embree_scene.h"
+#include "render/shading/followed_lobe.h"
+#include "render/shading/frame_view.h"
+#include "render/vocabulary/half_light.h"
+#include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+// A vertex that many samples of a pixel see may be a crumpled thing: a part of it, which leans otherwise.
+struct Facet {
+    Vec3f geometric_normal, normal;          // the two normals of a vertex
+    Vec3f start_m;                           // where rays that leave it begin, ray space
+    float samples = 0;                       // samples of sixteen a pixel that see it
+    SampleMask seen_by = 0;                  // those of the visibility buffer; 0: it is not of that
+    const LevelFacets* flattened = nullptr;  // the facets of the mesh for which it stands; null: itself
+    bool goes_on = false;  // the next one is the same triangle there, and leans otherwise as its normals turn
+    const Facet* next = nullptr;
+};
+
+struct Vertex {
+    std::uint32_t pixel;     // in the tile
+    std::uint16_t sample;    // in the pixel
+    std::uint16_t depth;     // 1: seen by the camera
+    SampleMask samples;      // those of the pixel that see its plane; 0: one of a ray
+    Vec2f place_px;          // where in the pixel it is seen, where samples see it
+    float lift_m;            // where samples see it, rays start further above: planes differ
+    Vec3f point_m;           // ray space
+    float offset_m;          // distance above the surface at which a ray must start
+    Vec3f geometric_normal;  // towards the viewer's side, unit
+    Vec3f normal;            // shading, same side
+    Vec3f view_dir;          // back along the path, unit
+    float footprint_m;       // width of the ray when it came
+    std::uint32_t object;
+    std::uint16_t surface_number;  // surface of the object's mesh
+    bool back;                     // the side that its triangle's own normal points away from
+    bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
+    KnownSun known_sun;  // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
+    bool mirrors_near;   // where that, something may stand in the mirror's direction
+    bool has_bodies;     // the light of bodies in its lobe has been added
+    bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
+    const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
+    float kept_lobe;            // where that, what kept light has in it, greatest bin; of so many directions
+    float kept_lobe_directions;
+    FollowedLobe* lobe;     // the lobe whose rays have met it, or are its own; null: its light is its pixel's
+    std::uint8_t lobe_ray;  // which of them
+    float sunlit;           // share of it that what lies on it leaves in the Sun (lod/mosaic.h)
+    float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
+    HalfShares halves;      // where in the pixel they are
+    float facet_alpha;      // alpha of the lobes of its facets
+    const Facet* facets;    // the vertex's own among them; null: it is one
+    Spectrum weight;
+    Scatterer surface;
+
+    // Returns the figure that thresholds are held against: the largest weight of one of the samples for which
+    // a ray stands.
+    float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
+    // Returns where a ray begins that leaves to this side: above the surface, or below it through glass.
+    Vec3f start(bool above = true) const {
+        return point_m + (above ? offset_m : -offset_m) * geometric_normal;
+    }
+};
+
+// The orientation of the surface where a ray meets it.
+struct Lie {
+    Vec3f geometric_normal, normal, view_dir;  // those of a vertex
+    bool back;
+};
+// Finds it for a lane that met an object. False where there is nothing to see: a triangle without an area.
+// Loop, any thread.
+bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie);
+
+// Returns how far above a surface a ray must start that was met at a point by a ray from another. The point's rounding grows with
+// the coordinates it was made of: 16 half-ulps of the greatest (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
+float rounding_m(Vec3f point_m, Vec3f origin_m);
+
+// Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's.
+// The facet lobe is at least `alpha_least` wide. False where there is nothing to see. Loop, any thread.
+// footprint_m: width of the ray where it began, spread_rad: by how much it widens.
+struct RayWidth {
+    float footprint_m = 0;
+    float spread_rad = 0;
+};
+bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                 float alpha_least, RayWidth width, Vertex& vertex);
+// The same where it is known how the surface lies, but for textures (texture_at()).
+void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex);
+// The same but for the surface, for set_surface().
+void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                  Vec3f dir, RayWidth width, Vertex& vertex);
+// Gives a vertex one of its object's surfaces, without colours or textures of its own.
+void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex);
+// Returns the colours that a texture has about a place of a vertex' triangle, as a factor on those of its material. Loop, any
+// thread. share: how much of the vertex' width is looked at, 0..1.
+Spectrum texture_at(const FrameView& frame, const Vertex& vertex, std::uint32_t triangle, Vec2f uv,
+                    float share);
+inline bool is_textured(const Vertex& vertex) { return vertex.surface.material->texture >= 0; }
+// Gives a vertex such colours.
+void paint(const Spectrum& colors, Vertex& vertex);
+// Asks for the memory that make_vertex() reads, of all lanes that met an object.
+void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count);
+
+}  // namespace hilcam

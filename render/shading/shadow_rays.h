@@ -1,0 +1,83 @@
+#pragma once
+// Rays that ask whether what shines is seen, sixteen at a time; through glass if there is any.
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "render/shading/tile.h"
+
+namespace hilcam {
+
+// Returns the share that sheets of glass within `until_m` let pass; zero where something else is met. dir:
+// unit. Loop, any thread.
+inline Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir,
+                                     float until_m = std::numeric_limits<float>::infinity()) {
+    constexpr int kMaxSheets = 64;
+    Spectrum passed;
+    passed.bin.fill(1);
+    RayPacket ray;
+    HitPacket hit;
+    ray.count = 1;
+    for (int sheet = 0; sheet < kMaxSheets; ++sheet) {
+        ray.set(0, origin_m, dir, 0, until_m);
+        frame.scene->intersect(ray, Coherence::kIncoherent, hit);
+        if (hit.object[0] == HitPacket::kMiss) return passed;
+        Vertex vertex;
+        if (!make_vertex(frame, hit, 0, origin_m, dir, 0, {}, vertex)) return {};
+        if (!vertex.surface.is_glass()) return {};
+        passed = passed * sheet_transmittance(vertex.surface, dot(vertex.normal, vertex.view_dir));
+        origin_m = vertex.start(false);
+        until_m = std::max(0.0f, until_m - hit.distance[0]);
+    }
+    return {};
+}
+
+// Payload: what the caller needs to know of a ray again. Lit is called as lit(payload, transmittance) for
+// every ray that gets through, in order; transmittance is null where nothing is in the way.
+template <class Payload, class Lit>
+class ShadowRays {
+  public:
+    ShadowRays(const FrameView& frame, std::uint64_t& counter, Lit lit)
+        : frame_(frame), counter_(counter), lit_(std::move(lit)) {
+        rays_.count = 0;
+    }
+    ~ShadowRays() { flush(); }
+    ShadowRays(const ShadowRays&) = delete;
+    ShadowRays& operator=(const ShadowRays&) = delete;
+
+    // until_m: how far away that is; dir: unit.
+    void add(Vec3f origin_m, Vec3f dir, const Payload& payload,
+             float until_m = std::numeric_limits<float>::infinity()) {
+        payloads_[static_cast<std::size_t>(rays_.count)] = payload;
+        rays_.set(rays_.count, origin_m, dir, 0, until_m);
+        if (++rays_.count == kPacketSize) flush();
+    }
+
+  private:
+    const FrameView& frame_;
+    std::uint64_t& counter_;
+    Lit lit_;
+    RayPacket rays_;
+    std::array<Payload, kPacketSize> payloads_;
+
+    void flush() {
+        if (rays_.count == 0) return;
+        const std::uint32_t blocked = frame_.scene->occluded(rays_);
+        counter_ += static_cast<std::uint64_t>(rays_.count);
+        for (int i = 0; i < rays_.count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (!(blocked >> i & 1u)) {
+                lit_(payloads_[k], nullptr);
+            } else if (frame_.has_glass) {
+                const Spectrum passed =
+                    passed_through_glass(frame_, {rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]},
+                                         {rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]}, rays_.farthest[k]);
+                if (largest(passed) > 0) lit_(payloads_[k], &passed);
+            }
+        }
+        rays_.count = 0;
+    }
+};
+
+}  // namespace hilcam

@@ -1,0 +1,104 @@
+#pragma once
+// Everything that the models share which trace a tile: the frame, the tile's pixels, counters, random
+// numbers.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "render/shading/facet_list.h"
+#include "render/shading/frame_view.h"
+#include "render/shading/path_vertex.h"
+#include "render/visibility/visibility_tile.h"
+#include "render/vocabulary/half_light.h"
+#include "render/vocabulary/pixel_box.h"
+#include "render/vocabulary/ray_counts.h"
+
+namespace hilcam {
+
+class SunEdges;
+
+struct TileStats : RayCounts {
+    double covered_px = 0;  // by objects
+    // Counts with a noise budget: pixels with light, and those of them whose error is within it.
+    std::uint64_t lit_px = 0, within_budget_px = 0;
+    std::uint64_t not_finite = 0;  // pixels and points whose light was no number, and was left out
+
+    TileStats& operator+=(const TileStats& other) {
+        RayCounts::operator+=(other);
+        covered_px += other.covered_px;
+        lit_px += other.lit_px, within_budget_px += other.within_budget_px;
+        not_finite += other.not_finite;
+        return *this;
+    }
+};
+
+struct Tile {
+    const FrameView& frame;
+    PixelBox box;
+    int samples_per_axis;        // n: an n x n grid of rays in each pixel
+    std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
+    TileStats& stats;
+    FacetList& facets;  // facets of what is seen
+    // The fields below are those of a pass over pixels that are sampled more than once (adaptive_sampler.h).
+    bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
+    std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
+    const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
+    VisibilityTile* seen = nullptr;        // for what the visibility buffer finds; null: rays do
+    const VisibilityTile* ground =
+        nullptr;                // for what the frame's buffer of the ground finds; null: likewise
+    SunEdges* edges = nullptr;  // where that is so, to find shadows' edges; null: they are hard
+
+    // Charge rates by channel, difference and pixel (half_light.h), and what makes them of radiance; empty: nobody
+    // asks where in its pixel light falls.
+    std::span<float> halves{};
+    std::span<const Spectrum> half_responses{};
+    std::span<HalfKind> kinds{};  // by pixel; likewise
+
+    // Adds light that a vertex sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for which it
+    // stands.
+    void add(const Vertex& at, const Spectrum& light) {
+        if (at.lobe) return at.lobe->add(at.lobe_ray, light);
+        add(at.pixel, at.halves, light);
+    }
+    // Adds what all rays of a lobe have found to the pixels that have it, as far as it is believed.
+    void add(const FollowedLobe& lobe, float light_believed) {
+        const Spectrum light = lobe.sum(light_believed);
+        for (const PixelShare& part : lobe.pixels) add(part.pixel, part.halves, part.share * light);
+    }
+    void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
+        pixels[pixel] += light;
+        if (!halves.empty()) add_halves(pixel, shares, light);
+    }
+    void set_kind(std::uint32_t pixel, HalfKind kind) {
+        if (!kinds.empty() && kinds[pixel] != HalfKind::kObject) kinds[pixel] = kind;
+    }
+    bool wants(int x, int y) const {
+        return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];
+    }
+    std::uint32_t frame_pixel(int x, int y) const {
+        return static_cast<std::uint32_t>(y * frame.geometry.padded_width() + x);
+    }
+    // Random words of a path's vertex; `use` (below 16) tells apart what they are for.
+    std::array<std::uint32_t, 4> random_of(const Vertex& at, std::uint32_t use) const {
+        const int width = box.x1 - box.x0;
+        const int px = box.x0 + static_cast<int>(at.pixel) % width;
+        const int py = box.y0 + static_cast<int>(at.pixel) / width;
+        return random_words(frame.key, RandomPurpose::kPathSample, frame_pixel(px, py),
+                            (std::uint32_t{at.sample} * 64 + at.depth) * 16 + use);
+    }
+
+  private:
+    void add_halves(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
+        float* at = halves.data() + pixel;
+        for (const Spectrum& response : half_responses) {
+            const float rate_e_s = sum_of_products(response, light);
+            for (const float share : {shares.across, shares.down, shares.crossed}) {
+                *at += share * rate_e_s;
+                at += pixels.size();
+            }
+        }
+    }
+};
+
+}  // namespace hilcam

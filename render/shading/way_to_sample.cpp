@@ -1,0 +1,58 @@
+#include "render/shading/way_to_sample.h"
+
+#include <cmath>
+
+#include "render/visibility/visibility_buffer.h"
+
+namespace hilcam {
+
+Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px) {
+    const int n = frame.samples.buffer_px();
+    const auto scale = static_cast<float>(n);
+    const Vec2f at{scale * within_px.x, scale * within_px.y};
+    const int right = at.x >= 1 ? 1 : 0, down = at.y >= 1 ? 1 : 0;
+    if (n == 1) return frame.visibility->direction(x_px, y_px, at);
+    return frame.visibility->direction(n * x_px + right, n * y_px + down,
+                                       {at.x - static_cast<float>(right), at.y - static_cast<float>(down)});
+}
+
+Vec3d direction_through(const FrameView& frame, int x_px, int y_px, Vec2f within_px) {
+    const LinearRays* const rays = frame.rays->linear();
+    return rays ? rays->corner + (x_px + static_cast<double>(within_px.x)) * rays->right +
+                      (y_px + static_cast<double>(within_px.y)) * rays->down
+                : direction_seen(frame, x_px, y_px, within_px);
+}
+
+namespace {
+
+// The least cosine to the viewer of a plane that is seen, not its edge.
+constexpr float kLeastFacingOfWay = 0.02f;
+
+}  // namespace
+
+WayToSample::WayToSample(const Tile& tile, const Vertex& at)
+    : frame_(tile.frame), at_(at), facing_(dot(at.geometric_normal, at.view_dir)) {
+    const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
+    x_px_ = tile.box.x0 + pixel % width, y_px_ = tile.box.y0 + pixel / width;
+    dir_ = direction_through(frame_, x_px_, y_px_, at.place_px);
+    per_dir_m_ = static_cast<double>(at.footprint_m) * frame_.geometry.focal_length_px / length(dir_);
+}
+
+Vec3f WayToSample::on(const Facet& facet, int sample) const {
+    const Vec3d dir = direction_through(frame_, x_px_, y_px_, frame_.samples.place(sample)),
+                normal = to_double(facet.geometric_normal);
+    const double along = dot(dir, normal);
+    if (std::abs(along) < static_cast<double>(kLeastFacingOfWay) * length(dir)) return facet.start_m;
+    const double way = dot(to_double(facet.start_m) - frame_.camera_m, normal) / along;
+    return to_float(frame_.camera_m + way * dir);
+}
+
+Vec3f WayToSample::to(int sample) const {
+    if (facing_ < kLeastFacingOfWay) return {};
+    const Vec3f across =
+        to_float(per_dir_m_ * (direction_through(frame_, x_px_, y_px_, frame_.samples.place(sample)) - dir_));
+    return across - (dot(across, at_.geometric_normal) / facing_) * at_.view_dir +
+           at_.lift_m * at_.geometric_normal;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,223 @@
+#include "render/sunlight/radiance_equation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/brdf/microfacet.h"
+#include "render/shading/facet_list.h"
+#include "render/shading/lamp_light.h"
+#include "render/shading/shadow_rays.h"
+#include "render/sunlight/sun_edges.h"
+
+namespace hilcam {
+namespace {
+
+// The Sun's disk widens a highlight: its angular radius of 4.65 mrad turns facets by half of that, and slopes
+// of independent causes add by their squares.
+float sun_widened(float alpha) { return std::min(1.0f, std::sqrt(alpha * alpha + 0.00233f * 0.00233f)); }
+
+bool in_cone(const BodyLight& lamp, Vec3f dir) {
+    const Vec3f axis = to_float(lamp.world_dir);
+    const Vec3f across = cross(axis, dir);
+    return dot(axis, dir) > 0 && dot(across, across) <= lamp.cone_sine_squared;
+}
+float cone_density(const BodyLight& lamp) { return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine)); }
+
+// The path's own next direction may meet the lamp as well.
+bool is_weighed(const FrameView& frame, const Vertex& at) {
+    return frame.paths_sample_lobes && !at.keeps_light && at.depth < frame.max_depth;
+}
+
+// True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
+// stands over the surface's horizon.
+bool body_light_counts(const FrameView& frame, const Vertex& at, const BodyLight& lamp) {
+    const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
+    if (at.importance(at.weight) * largest(lamp.max_over_sun) * solid_angle < frame.contribution_threshold)
+        return false;
+    return dot(at.geometric_normal, to_float(lamp.world_dir)) >= -std::sqrt(lamp.cone_sine_squared);
+}
+
+Vec3f in_cone_at(const Frame& axis, float one_minus_cosine, float u1, float u2) {
+    const float below = u1 * one_minus_cosine;  // 1 - z
+    const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * u2;
+    return axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
+}
+
+// Density of the directions that are drawn to all bodies but one [sr^-1].
+float density_of_others(const FrameView& frame, const Vertex& at, Vec3f dir, const BodyLight* one) {
+    float density = 0;
+    for (const BodyLight& lamp : frame.background->body_lights())
+        if (&lamp != one && in_cone(lamp, dir) && body_light_counts(frame, at, lamp))
+            density += cone_density(lamp);
+    return density;
+}
+
+struct SunlitBy {
+    const Vertex* at;
+    Spectrum weight;  // on the light that comes along dir
+    Vec3f dir;
+};
+
+// The light of vertices with facets among some, in their order.
+class FacetLights {
+  public:
+    static constexpr std::size_t kMost = SunnyVertex::kMost;
+
+    // vertices: kMost at most.
+    void find(const FrameView& frame, const SunSampler& sun, std::span<const Vertex> vertices) {
+        std::size_t count = 0;
+        for (const Vertex& at : vertices) {
+            if (!at.facets || !at.surface.has_lobes()) continue;
+            const bool widened = !frame.sun_is_disk && at.facet_alpha > 0;
+            lights_[count] = {};
+            sunny_[count++] = {&at, sun.of(at).dir, widened ? sun_widened(at.facet_alpha) : at.facet_alpha};
+        }
+        lit_facets(frame, std::span(sunny_).first(count), lights_);
+        next_ = lights_.data();
+    }
+    const FacetLight& next() { return *next_++; }
+
+  private:
+    std::array<SunnyVertex, kMost> sunny_;
+    std::array<FacetLight, kMost> lights_;
+    const FacetLight* next_ = nullptr;
+};
+
+void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
+    const FrameView& frame = tile.frame;
+    const Background& background = *frame.background;
+    if (largest(background.sun_irradiance_w_m2_um()) <= 0 || vertices.empty()) return;
+    const SunSampler sun(tile);
+    const bool primary = vertices.front().depth == 1;
+    const bool finds_edges = primary && tile.edges && !frame.sun_is_disk && !frame.has_glass;
+
+    const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
+        tile.add(*by.at, glass ? by.weight * *glass : by.weight);
+    };
+    TileStats& stats = tile.stats;
+    std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
+    ShadowRays<SunlitBy, decltype(lit)> shadow(frame, counter, lit);
+    FacetLights of_facets;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (i % FacetLights::kMost == 0)
+            of_facets.find(frame, sun,
+                           vertices.subspan(i, std::min(FacetLights::kMost, vertices.size() - i)));
+        const Vertex& at = vertices[i];
+        if (!at.surface.has_lobes()) continue;
+        const auto [dir, light] = sun.of(at);
+        float share = at.sunlit;
+        const float ni = dot(at.normal, dir);
+        const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
+        // Narrow lobes are better found by their own samples (Veach & Guibas, SIGGRAPH 95, balance
+        // heuristic).
+        if (frame.sun_is_disk && is_weighed(frame, at))
+            share *= sun.disk_density() / (sun.disk_density() + brdf_density(at.surface, c));
+        if (at.facets) {
+            const FacetLight& sum = of_facets.next();
+            if (sum.none()) continue;
+            const Spectrum weight = share * (light * sum.reflected);
+            if (finds_edges)
+                tile.edges->add(at, weight, sum);
+            else
+                shadow.add(sum.brightest[0]->start_m, dir, {&at, weight, dir});
+            continue;
+        }
+        if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
+        Scatterer surface = at.surface;
+        if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
+        const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));
+        if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;
+        if (!frame.sun_is_disk && at.known_sun == KnownSun::kLit)
+            tile.add(at, weight);
+        else if (finds_edges)
+            tile.edges->add(at, weight);
+        else
+            shadow.add(at.start(), dir, {&at, weight, dir});
+    }
+    if (finds_edges) tile.edges->add_light(tile, sun);
+}
+
+// Directions to the bodies, over each one's cone.
+void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling how) {
+    const FrameView& frame = tile.frame;
+    const Background& background = *frame.background;
+    const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
+        Spectrum weight = glass ? by.weight * *glass : by.weight;
+        Spectrum light;
+        background.add_bodies(by.at->start(), to_double(by.dir), weight, light);
+        tile.add(*by.at, light);
+    };
+    ShadowRays<SunlitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
+    // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
+    constexpr int kQuadrature = 64;
+    constexpr float kGolden = 0.61803399f;
+    const int count = how == BodySampling::kSampled ? 1 : kQuadrature;
+    std::uint32_t use = 2;
+    for (const BodyLight& lamp : background.body_lights()) {
+        const Frame axis(to_float(lamp.world_dir));
+        ++use;
+        for (const Vertex& at : vertices) {
+            if (!at.surface.has_lobes() || !body_light_counts(frame, at, lamp)) continue;
+            for (int i = 0; i < count; ++i) {
+                float u1 = (static_cast<float>(i) + 0.5f) / kQuadrature, u2 = static_cast<float>(i) * kGolden;
+                if (how == BodySampling::kSampled) {
+                    const auto random = tile.random_of(at, use);
+                    u1 = uniform01(random[0]), u2 = uniform01(random[1]);
+                }
+                const Vec3f dir = in_cone_at(axis, lamp.one_minus_cosine, u1, u2);
+                const float ni = dot(at.normal, dir);
+                if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
+                const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
+                Scatterer surface = at.surface;
+                if (how == BodySampling::kQuadrature && surface.alpha < kNarrowAlpha) surface.alpha = 0;
+                float density = cone_density(lamp) * kQuadrature;
+                // Rounding may put what is drawn at a cone's edge outside of it.
+                if (how == BodySampling::kSampled)
+                    density = cone_density(lamp) + density_of_others(frame, at, dir, &lamp) +
+                              (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
+                const Spectrum weight = (ni / density) * (at.weight * brdf_value(surface, c));
+                if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
+            }
+        }
+    }
+}
+
+class RadianceEquation final : public RadianceModel {
+  public:
+    explicit RadianceEquation(bool emission) : emission_(emission) {}
+
+    void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const override {
+        if (tile.frame.has_emission)
+            for (const Vertex& at : vertices) tile.add(at, at.weight * at.surface.material->emission);
+        add_sunlight(tile, vertices);
+        add_lamps_reflected(tile, vertices);
+        if (lamps != BodySampling::kNone) add_body_light(tile, vertices, lamps);
+    }
+    bool emits() const override { return emission_; }
+    bool reflects_plainly() const override { return true; }
+
+  private:
+    bool emission_;
+};
+
+}  // namespace
+
+std::unique_ptr<RadianceModel> make_radiance_equation(bool emission) {
+    return std::make_unique<RadianceEquation>(emission);
+}
+
+float body_light_density(const FrameView& frame, const Vertex& at, Vec3f dir) {
+    return density_of_others(frame, at, dir, nullptr);
+}
+
+float sun_density(const FrameView& frame, Vec3f dir) {
+    if (!frame.sun_is_disk) return 0;
+    const Vec3f across = cross(dir, to_float(frame.background->sun_world_dir()));
+    const double cosine = frame.background->sun_disk_cosine();
+    const auto sine_squared = static_cast<float>(1 - cosine * cosine);
+    const bool inside =
+        dot(across, across) <= sine_squared && dot(dir, to_float(frame.background->sun_world_dir())) > 0;
+    return inside ? 1 / (kPiF * sine_squared) : 0.0f;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,146 @@
+#include "render/sunlight/sun_edges.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "render/shading/shadow_rays.h"
+#include "render/shading/way_to_sample.h"
+#include "render/sunlight/radiance_equation.h"
+#include "render/vocabulary/mixed_bits.h"
+
+namespace hilcam {
+
+void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
+    ask_once(tile, sun.middle());
+    ask_again(tile, sun);
+    for (const Asked& a : std::span(asked_).first(count_))
+        if (a.lit > 0)
+            tile.add(a.at->pixel, a.lit < a.of ? (1 / a.lit) * a.halves : a.halves_of_all,
+                     (a.lit / a.of) * a.light);
+    count_ = 0;
+}
+
+void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
+    const auto lit = [](Asked* const& a, const Spectrum*) { a->lit = 1; };
+    {
+        ShadowRays<Asked*, decltype(lit)> shadow(tile.frame, tile.stats.shadow_rays, lit);
+        for (Asked& a : std::span(asked_).first(count_))
+            if (!a.like) shadow.add(a.first_m, sun_dir, &a);
+    }
+    for (Asked& a : std::span(asked_).first(count_))
+        if (a.like) a.lit = a.like->lit;
+}
+
+// The vertex before one whose first ray is this one's as well: that of a mosaic's layer in the same pixel, which the same samples
+// see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which Vertex::sunlit has.
+const SunEdges::Asked* SunEdges::layer_below(const Asked& a) const {
+    if (count_ < 2) return nullptr;
+    const Asked& before = asked_[count_ - 2];
+    const Vertex &here = *a.at, &there = *before.at;
+    const bool layers = here.pixel == there.pixel && here.samples == there.samples && here.samples != 0 &&
+                        here.object == there.object && here.geometric_normal == there.geometric_normal;
+    if (!layers) return nullptr;
+    return before.like ? before.like : &before;
+}
+
+void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
+    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
+    const Answers near = within_reach(width);
+    const auto at_edge = [&](const Asked& a) {
+        const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
+        return ((a.lit > 0 ? near.dark : near.lit)[a.kind][y] >> x & 1u) != 0;
+    };
+    const auto gets_through = [](const Use& use, const Spectrum*) {
+        use.asked->lit += 1;
+        use.asked->halves += use.halves;
+    };
+    using Rays = ShadowRays<Use, decltype(gets_through)>;
+    {
+        Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
+        for (Asked& a : std::span(asked_).first(count_))
+            if (a.at->weight_samples > kLeastAgain && at_edge(a)) ask(kAgain, tile, sun, a, rays);
+    }
+    Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
+    for (Asked& a : std::span(asked_).first(count_))
+        if (a.of > 1 && a.lit > 0 && a.lit < a.of && a.at->weight_samples > kLeastMost)
+            ask(kMost, tile, sun, a, rays);
+}
+
+// Sends so many rays for a vertex, each for as much of its light, from places that its samples see (of facets by systematic
+// sampling: the ray's place in the sum of their light).
+template <class Rays>
+void SunEdges::ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays) {
+    const Vertex& at = *a.at;
+    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
+    // The four pixels of a square ask for other places of the disk.
+    const std::uint32_t in_square = at.pixel % width % 2 + 2 * (at.pixel / width % 2);
+    const WayToSample way(tile, at);
+    std::array<SampleMask, FacetLight::kStarts> left{};  // samples that no ray has begun from
+    const float light = std::accumulate(a.shares.begin(), a.shares.end(), 0.0f);
+    std::size_t k = 0;
+    float until = a.shares[0];  // sum of shares with the facet's
+    a.lit = 0, a.of = count, a.halves = {};
+    for (std::uint32_t i = 0; static_cast<float>(i) < count; ++i) {
+        while ((static_cast<float>(i) + 0.5f) * light > until * count && k + 1 < a.shares.size())
+            until += a.shares[++k];
+        const Facet* const facet = a.facets[k];
+        Vec3f start_m = a.first_m;
+        HalfShares halves = at.halves;
+        if (const SampleMask seen_by = facet ? facet->seen_by : at.samples; seen_by != 0) {
+            const int sample = next_sample_across(tile.frame.samples, left[k], seen_by);
+            const Vec2f at_px = tile.frame.samples.place(sample);
+            halves = half_shares_at(at_px.x, at_px.y);
+            start_m = facet ? way.on(*facet, sample) : start_m + way.to(sample);
+        }
+        rays.add(start_m, sun.on_disk(4 * i + in_square, 4 * static_cast<std::uint32_t>(count)),
+                 {&a, halves});
+    }
+}
+
+// An object's surface on one of its six sides, as one of kKinds.
+std::uint8_t SunEdges::kind_of(const Vertex& at) {
+    const Vec3f size{std::abs(at.normal.x), std::abs(at.normal.y), std::abs(at.normal.z)};
+    std::uint32_t side = at.normal.z > 0 ? 0 : 1;
+    if (size.x > size.y && size.x > size.z)
+        side = at.normal.x > 0 ? 2 : 3;
+    else if (size.y > size.z)
+        side = at.normal.y > 0 ? 4 : 5;
+    return static_cast<std::uint8_t>(
+        mixed(std::uint64_t{at.object} << 32 | std::uint64_t{at.surface_number} << 3 | side) % kKinds);
+}
+
+// The answers that lie within reach of each pixel.
+SunEdges::Answers SunEdges::within_reach(std::uint32_t width) {
+    Answers near;
+    std::uint32_t lit = 0, dark = 0;  // kinds that are somewhere, a bit each
+    for (Asked& a : std::span(asked_).first(count_)) {
+        a.kind = kind_of(*a.at);
+        (a.lit > 0 ? near.lit : near.dark)[a.kind][a.at->pixel / width] |= 1u << (a.at->pixel % width);
+        (a.lit > 0 ? lit : dark) |= 1u << a.kind;
+    }
+    // The others differ nowhere.
+    for (std::uint32_t rest = lit & dark; rest != 0; rest &= rest - 1) {
+        const auto kind = static_cast<std::size_t>(std::countr_zero(rest));
+        near.lit[kind] = widened(near.lit[kind]), near.dark[kind] = widened(near.dark[kind]);
+    }
+    return near;
+}
+
+// Pixels that have one of these within reach.
+SunEdges::Rows SunEdges::widened(const Rows& rows) {
+    Rows out{};
+    for (int y = 0; y < kMaxRows; ++y) {
+        const std::uint32_t row = rows[static_cast<std::size_t>(y)];
+        std::uint32_t across = row;
+        for (int i = 1; i <= kReach_px; ++i) across |= row << i | row >> i;
+        const int last = std::min(kMaxRows - 1, y + kReach_px);
+        for (int near = std::max(0, y - kReach_px); near <= last; ++near)
+            out[static_cast<std::size_t>(near)] |= across;
+    }
+    return out;
+}
+
+}  // namespace hilcam
