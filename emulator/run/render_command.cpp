@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 
 #include "emulator/progress/progress.h"
@@ -90,6 +91,9 @@ void check_names(PictureStage stage, const RenderFiles& files) {
                       : stage == PictureStage::kElectrons
                           ? is_one_of({".exr", ".fits", ".fit"})
                           : is_one_of({".png", ".tiff", ".tif", ".fits", ".fit", ".raw"});
+    if (files.parts && stage != PictureStage::kRadiance)
+        throw InputError("--parts: they are parts of the light at the lens; accepted with --stage radiance");
+    if (files.out.empty() && files.pixel) return;
     if (!fits)
         throw InputError(files.out.string() +
                          ": accepted: .exr for radiance, .exr or .fits for electrons, .png, .tiff, .fits or "
@@ -102,6 +106,32 @@ void check_names(PictureStage stage, const RenderFiles& files) {
     if (files.view.lexically_normal() == files.out.lexically_normal())
         throw InputError("--view " + files.view.string() + ": is the file of --out; accepted: another one");
 }
+
+// Parts are those of one rendering in which each pixel is sampled as often as every other.
+void require_parts(const ScenarioConfig& s) {
+    if (s.quality.motion == MotionQuality::kExact)
+        throw InputError(
+            "--parts and --pixel: take one instant apart; found quality.motion: exact; accepted: "
+            "--set quality.motion=off");
+    if (s.quality.render.noise_budget > 0)
+        throw InputError(
+            "--parts and --pixel: found quality.noise_budget above 0; accepted: --set "
+            "quality.noise_budget=0");
+}
+
+// What is asked about the light of a picture, beside the picture.
+struct AskedLight {
+    std::optional<LightParts> parts;
+    std::optional<PixelRecord> record;
+
+    AskedLight(const RenderFiles& files, StillCamera& camera) {
+        if (!files.parts && !files.pixel) return;
+        require_parts(camera.scenario());
+        parts.emplace(camera.radiance());
+        if (files.pixel) record.emplace().box = radiance_pixels(camera, *files.pixel);
+        camera.renderer().keep_parts(&*parts, record ? &*record : nullptr);
+    }
+};
 
 }  // namespace
 
@@ -123,6 +153,7 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
     const Renderer& renderer = camera.renderer();
     std::optional<Progress> progress(std::in_place, "rendering", 1.0,
                                      [&] { return renderer.share_traced(); });
+    const AskedLight asked(files, camera);
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
     progress.emplace("sensor and files");
     if (const std::string fault = picture_fault(renderer); !fault.empty()) spdlog::error("{}", fault);
@@ -131,12 +162,14 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
     if (truth)
         write_truth(picture_truth_files(files.truth, files.out),
                     truth_source(scenario, camera.grid(), number, drawn_run_id()), *truth, record);
+    if (asked.record) std::fputs(pixel_report(camera, *files.pixel, *asked.record).c_str(), stdout);
+    if (files.out.empty()) return;
     const auto oversampling = static_cast<int>(scenario.quality.oversampling);
     if (stage == PictureStage::kRadiance)
         return writer.write_radiance(
             files.out, radiance,
             frame_in_radiance(scenario.camera, camera.renderer().geometry(), oversampling), oversampling,
-            record);
+            record, files.parts ? &*asked.parts : nullptr);
     const ElectronImage& electrons = camera.expose();
     if (stage == PictureStage::kElectrons) return writer.write_electrons(files.out, electrons, record);
     const DnImage& frame = camera.digitise(key);

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
+#include "emulator/run/pixel_report.h"
 #include "emulator/scenario/app_config.h"
 
 namespace hilcam {
@@ -19,6 +21,9 @@ struct RenderFiles {
     // A folder for what the picture shows, in files that are named after it, with all layers unless
     // outputs.truth says which; empty: none.
     std::filesystem::path truth{};
+    bool parts = false;  // with the parts of the light as layers; radiance alone
+    std::optional<FramePixel>
+        pixel{};             // say on the standard output what it is made of; `out` may then be empty
     bool overwrite = false;  // a run's frame, or the truth of another picture
 };
 

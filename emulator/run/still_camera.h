@@ -44,6 +44,8 @@ class StillCamera {
     // Returns the part that no light makes: dark current [e-].
     ElectronImage dark();
 
+    // The picture that render() fills, before it is first called: its size and planes.
+    const RadianceImage& radiance() const { return radiance_; }
     const ScenarioConfig& scenario() const { return scenario_; }
     const SpectralGrid& grid() const { return grid_; }
     const Exposure& exposure() const { return exposure_; }

@@ -44,10 +44,12 @@ int carry_out(const RenderArguments& o) {
     if (o.camera == 0 && !scenario.more_cameras.empty())
         spdlog::info("camera 1 of {}; --camera N for another", 1 + scenario.more_cameras.size());
     const Progress progress("render " + scenario.name);
+    if (o.files.out.empty() && !o.files.pixel)
+        throw InputError("render: --out is missing; accepted: --out FILE, --pixel X Y, or both");
     return in_memory(scenario, [&] {
         const std::size_t camera = std::max<std::size_t>(1, o.camera);
         render_to_files(scenario, o.stage, o.time_offset_s, o.files, camera, log_picture_verdict);
-        if (o.stage == PictureStage::kFrame && o.files.view.empty())
+        if (o.stage == PictureStage::kFrame && o.files.view.empty() && !o.files.out.empty())
             log_warning(dark_picture_warning(o.files.out,
                                              scenario_of_camera(scenario, camera - 1).camera.frame_bits(),
                                              "--view FILE.png writes one to look at"));
@@ -66,11 +68,22 @@ void add_render_command(CLI::App& app, Action& action) {
                               {"electrons", PictureStage::kElectrons},
                               {"frame", PictureStage::kFrame}},
                              "how far light goes: to the lens, into the pixels, out of the converter");
+    render->add_option(
+        "--out", o->files.out,
+        "FILE.exr for radiance and electrons (.fits, too), FILE.png, .tiff, .fits or .raw for a "
+        "frame");
+    render->add_flag(
+        "--parts", o->files.parts,
+        "with --stage radiance: the parts of the light as layers of the file (docs/rendering.md)");
     render
-        ->add_option("--out", o->files.out,
-                     "FILE.exr for radiance and electrons (.fits, too), FILE.png, .tiff, .fits or .raw for a "
-                     "frame")
-        ->required();
+        ->add_option_function<std::vector<int>>(
+            "--pixel",
+            [o](const std::vector<int>& at) {
+                o->files.pixel = {at[0], at[1]};
+            },
+            "X Y: say what this pixel of the frame is made of: parts of the light, surfaces, electrons")
+        ->expected(2)
+        ->type_name("X Y");
     render->add_option("--view", o->files.view,
                        "also write the frame as an 8-bit PNG to look at (docs/pictures.md)");
     render->add_option("--time-offset-s", o->time_offset_s, "seconds after the scenario's start");
@@ -81,7 +94,9 @@ void add_render_command(CLI::App& app, Action& action) {
                      "replace a run's frame, or a truth that is there already");
     set_examples(render, {"hilcam render small --out small.png --view small_view.png",
                           "hilcam render moon_flyby --time-offset-s 600 --out moon.png",
-                          "hilcam render small --set quality=still --stage radiance --out small.exr"});
+                          "hilcam render small --set quality=still --stage radiance --out small.exr",
+                          "hilcam render small --stage radiance --parts --out small_parts.exr",
+                          "hilcam render small --pixel 320 240"});
     when_named(render, action, o, carry_out);
 }
 

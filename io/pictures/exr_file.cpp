@@ -9,7 +9,9 @@
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,32 +81,54 @@ std::vector<float> mean_of_bins(const RadianceImage& radiance, const SpectralGri
     return out;
 }
 
-// Returns the planes that viewers show of several bins.
-std::vector<std::pair<std::string, std::vector<float>>> shown_planes(const RadianceImage& radiance,
-                                                                     const SpectralGrid& grid) {
+std::string picture_bin_name(const SpectralGrid& grid, int bin) {
+    char name[64];
+    std::snprintf(name, sizeof name, "L_%.3f_%.3fum", grid.from_um(bin), grid.to_um(bin));
+    return name;
+}
+
+// Has no dot, which would end the name of a layer.
+std::string layer_bin_name(const SpectralGrid& grid, int bin) {
+    char name[64];
+    std::snprintf(name, sizeof name, "L_%.6g_%.6gnm", 1e3 * grid.from_um(bin), 1e3 * grid.to_um(bin));
+    std::replace(name, name + std::strlen(name), '.', 'p');
+    return name;
+}
+
+constexpr std::size_t kMaxMade = 3 * (1 + kLightParts);
+
+// Adds a picture's channels: its bins, and what viewers show of several. made: room for three planes more.
+void add_picture(const RadianceImage& radiance, const SpectralGrid& grid, const std::string& layer,
+                 std::string (*bin_name)(const SpectralGrid&, int), std::vector<std::vector<float>>& made,
+                 std::vector<Channel>& channels) {
+    if (radiance.planes() == 1) return channels.push_back({layer + "Y", radiance.plane(0)});
+    for (int b = 0; b < radiance.planes(); ++b)
+        channels.push_back({layer + bin_name(grid, b), radiance.plane(b)});
     const ColorBands bands(grid);
-    std::vector<std::pair<std::string, std::vector<float>>> out = {
-        {"R", mean_of_bins(radiance, grid, bands.spectrum({1, 0, 0}))},
-        {"G", mean_of_bins(radiance, grid, bands.spectrum({0, 1, 0}))},
-        {"B", mean_of_bins(radiance, grid, bands.spectrum({0, 0, 1}))}};
-    const auto is_empty = [](const auto& plane) { return plane.second.empty(); };
-    if (std::none_of(out.begin(), out.end(), is_empty)) return out;
-    return {{"Y", mean_of_bins(radiance, grid, bands.spectrum({1, 1, 1}))}};
+    std::array<std::vector<float>, 3> planes = {mean_of_bins(radiance, grid, bands.spectrum({1, 0, 0})),
+                                                mean_of_bins(radiance, grid, bands.spectrum({0, 1, 0})),
+                                                mean_of_bins(radiance, grid, bands.spectrum({0, 0, 1}))};
+    const auto add = [&](const char* name, std::vector<float>&& plane) {
+        made.push_back(std::move(plane));
+        channels.push_back({layer + name, made.back()});
+    };
+    if (std::any_of(planes.begin(), planes.end(), [](const auto& plane) { return plane.empty(); }))
+        return add("Y", mean_of_bins(radiance, grid, bands.spectrum({1, 1, 1})));
+    add("R", std::move(planes[0])), add("G", std::move(planes[1])), add("B", std::move(planes[2]));
 }
 
 }  // namespace
 
 void write_radiance_exr(const std::filesystem::path& file, const RadianceImage& radiance,
-                        const SpectralGrid& grid, const PixelRectangle& frame, const PictureNotes& notes) {
-    if (radiance.planes() == 1) return write_exr(file, radiance, frame, {{"Y", radiance.plane(0)}}, notes);
+                        const SpectralGrid& grid, const PixelRectangle& frame, const PictureNotes& notes,
+                        const LightParts* parts) {
+    std::vector<std::vector<float>> made;  // planes that channels show
+    made.reserve(kMaxMade);
     std::vector<Channel> channels;
-    for (int b = 0; b < radiance.planes(); ++b) {
-        char name[64];
-        std::snprintf(name, sizeof name, "L_%.3f_%.3fum", grid.from_um(b), grid.to_um(b));
-        channels.push_back({name, radiance.plane(b)});
-    }
-    const auto shown = shown_planes(radiance, grid);
-    for (const auto& [name, values] : shown) channels.push_back({name, values});
+    add_picture(radiance, grid, "", picture_bin_name, made, channels);
+    for (std::size_t i = 0; parts && i < kLightParts; ++i)
+        add_picture(parts->of(static_cast<LightPart>(i)), grid, std::string(kLightPartNames[i]) + '.',
+                    layer_bin_name, made, channels);
     write_exr(file, radiance, frame, channels, notes);
 }
 

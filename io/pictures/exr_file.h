@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "io/pictures/picture_notes.h"
+#include "render/vocabulary/light_parts.h"
 #include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/spectrum.h"
 
@@ -18,8 +19,11 @@ namespace hilcam {
 // frame: where the camera's frame lies in the radiance image [px of that], guard band and black columns apart
 // (it may begin before the image and end after it). [W m^-2 sr^-1 um^-1]. DeviceError when the file cannot be
 // written: then there is none.
+// parts: layers of the file beside the picture, named as the parts are: `direct.sun.Y`, or `direct.sun.R` and so on and a channel for
+// each bin, `direct.sun.L_450_550nm` (a dot ends a layer's name). Null: none.
 void write_radiance_exr(const std::filesystem::path& file, const RadianceImage& radiance,
-                        const SpectralGrid& grid, const PixelRectangle& frame, const PictureNotes& notes);
+                        const SpectralGrid& grid, const PixelRectangle& frame, const PictureNotes& notes,
+                        const LightParts* parts = nullptr);
 // [e-]
 void write_electrons_exr(const std::filesystem::path& file, const ElectronImage& electrons,
                          const PictureNotes& notes);

@@ -143,14 +143,14 @@ void PictureWriter::write_electrons(const std::filesystem::path& file, const Ele
 }
 
 void PictureWriter::write_radiance(const std::filesystem::path& file, const RadianceImage& radiance,
-                                   const PixelRectangle& frame, int oversampling,
-                                   const FrameRecord& record) const {
+                                   const PixelRectangle& frame, int oversampling, const FrameRecord& record,
+                                   const LightParts* parts) const {
     if (file.extension() != ".exr") refuse_ending(file, "for radiance: .exr");
     PictureNotes notes = notes_of(run_, record, {{}, oversampling}, "W m^-2 sr^-1 um^-1");
     std::vector<double> edges_um = {run_.grid.from_um(0)};
     for (int b = 0; b < run_.grid.size(); ++b) edges_um.push_back(run_.grid.to_um(b));
     notes.push_back({"spectrum_edges_um", "", edges_um, "um, edges of the spectral bins"});
-    write_radiance_exr(file, radiance, run_.grid, frame, notes);
+    write_radiance_exr(file, radiance, run_.grid, frame, notes, parts);
 }
 
 std::string dark_picture_warning(const std::filesystem::path& file, int bits, const std::string& remedy) {

@@ -15,6 +15,7 @@
 
 #include "io/pictures/picture_notes.h"
 #include "io/pictures/view_picture.h"
+#include "render/vocabulary/light_parts.h"
 #include "render/vocabulary/radiance_image.h"
 
 namespace hilcam {
@@ -37,7 +38,8 @@ class PictureWriter {
                          const FrameRecord& record) const;
     // .exr; frame and oversampling as in exr_file.h, not binned.
     void write_radiance(const std::filesystem::path& file, const RadianceImage& radiance,
-                        const PixelRectangle& frame, int oversampling, const FrameRecord& record) const;
+                        const PixelRectangle& frame, int oversampling, const FrameRecord& record,
+                        const LightParts* parts = nullptr) const;
 
   private:
     PictureRun run_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/earth/earth_figure.h"
 #include "render/earth/map_looks.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/units.h"
@@ -10,12 +11,8 @@
 namespace hilcam {
 namespace {
 
-constexpr Figure kEarth = kFigures[index_of(BodyId::kEarth)];
-constexpr double kRadius_m = kEarth.equatorial_radius_m;
+constexpr double kRadius_m = kEarthFigure.equatorial_radius_m;
 constexpr double kCloudLevel_m = 4000;  // that of EarthModel
-
-// Stretches z so that the Earth is a sphere.
-Vec3d stretched(Vec3d v) { return {v.x, v.y, v.z * kEarth.equatorial_radius_m / kEarth.polar_radius_m}; }
 
 double angle_rad(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
 
@@ -34,8 +31,8 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     const double across = (kTile + 1) * per_column, down = (kTile + 1) * per_row;
     const double latitude = north - down / 2, longitude = west + across / 2;
     // Geodetic latitudes onto the sphere.
-    const double reduced = std::atan2(kEarth.polar_radius_m * std::sin(latitude),
-                                      kEarth.equatorial_radius_m * std::cos(latitude));
+    const double reduced = std::atan2(kEarthFigure.polar_radius_m * std::sin(latitude),
+                                      kEarthFigure.equatorial_radius_m * std::cos(latitude));
     // Looks of a long footprint lie up to four of their widths beside the place that it is of, and a level is looked at by those
     // that are looked up in up to two of its texels.
     constexpr double kBeside = 4 * 2 / static_cast<double>(kTexelOfLook);
@@ -56,10 +53,10 @@ struct DetailNeed::Sight {
     double distance_m, half_field_rad, pixel_rad, horizon_rad, coarser_by;
 
     explicit Sight(const DetailView& view)
-        : camera_m(stretched(view.camera_m)),
+        : camera_m(stretched(kEarthFigure, view.camera_m)),
           up(normalized(camera_m)),
-          boresight(normalized(stretched(view.boresight))),
-          sun_dir(normalized(stretched(view.sun_dir))),
+          boresight(normalized(stretched(kEarthFigure, view.boresight))),
+          sun_dir(normalized(stretched(kEarthFigure, view.sun_dir))),
           distance_m(std::max(length(camera_m), 1.0001 * kRadius_m)),
           // Stretching turns directions by a sixth of a degree at most; a pixel more on each side.
           half_field_rad(view.half_field_rad + 0.003 + view.pixel_rad),

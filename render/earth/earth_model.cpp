@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/earth/earth_figure.h"
 #include "render/earth/map_looks.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/check.h"
@@ -13,14 +14,11 @@
 namespace hilcam {
 namespace {
 
-constexpr Figure kEarth = kFigures[index_of(BodyId::kEarth)];
-constexpr double kRadius_m = 6371008.8;  // mean (Moritz, J. Geodesy 74, 128, 2000)
+constexpr double kMeanRadius_m = 6371008.8;  // mean (Moritz, J. Geodesy 74, 128, 2000)
 constexpr float kPerPi = static_cast<float>(1 / kPi);
 // A ray looks for clouds here first, then at their own height.
 constexpr auto kUsualTop_m = static_cast<float>(EarthModel::kCloudLevel_m);
 constexpr float kMinCloud = 2e-3f;
-
-Vec3d stretched(Vec3d v) { return {v.x, v.y, v.z * kEarth.equatorial_radius_m / kEarth.polar_radius_m}; }
 
 struct MapPlace {
     float u, v;
@@ -80,7 +78,7 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
 
 // The ellipsoid at a height.
 Figure raised(double height_m) {
-    return {kEarth.equatorial_radius_m + height_m, kEarth.polar_radius_m + height_m};
+    return {kEarthFigure.equatorial_radius_m + height_m, kEarthFigure.polar_radius_m + height_m};
 }
 
 }  // namespace
@@ -140,7 +138,8 @@ void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place
         }
         return;
     }
-    const Vec3d low = stretched(place.point_m), sun = normalized(stretched(ray.sun_dir));
+    const Vec3d low = stretched(kEarthFigure, place.point_m),
+                sun = normalized(stretched(kEarthFigure, ray.sun_dir));
     const Vec3d high = low * (1 + static_cast<double>(EarthAspect::kHigh_m) / length(low));
     out.sun_low = mu0 * air_->sun_transmittance(low, sun);
     out.sun_high = high_mu0 * air_->sun_transmittance(high, sun);
@@ -151,13 +150,13 @@ void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place
         return sky.over_black + lift * sky.per_lift;
     };
     out.sky_low = sky_at(low), out.sky_high = sky_at(high);
-    const Vec3d origin = stretched(ray.origin_m);
-    const double top_m = kEarth.equatorial_radius_m + air_->top_m();
+    const Vec3d origin = stretched(kEarthFigure, ray.origin_m);
+    const double top_m = kEarthFigure.equatorial_radius_m + air_->top_m();
     AirColumns::Looks looks;
     if (dot(origin, origin) >= top_m * top_m) {
         looks = columns_->look(place.mu, place.mu0, place.cos_phase, lift);
     } else {
-        const Vec3d dir = stretched(ray.dir);
+        const Vec3d dir = stretched(kEarthFigure, ray.dir);
         const double per_length = length(dir);
         const auto look = [&](double to_m) {
             return air_->look(origin, dir / per_length, to_m * per_length, sun);
@@ -189,7 +188,8 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     const double polar = std::sqrt(n.x * n.x + n.y * n.y);
     const Vec3d east = polar > 0 ? Vec3d{-n.y / polar, n.x / polar, 0} : Vec3d{0, 1, 0},
                 north = cross(n, east);
-    const double per_u = 1 / (2 * kPi * kRadius_m * std::max(1e-3, polar)), per_v = -1 / (kPi * kRadius_m);
+    const double per_u = 1 / (2 * kPi * kMeanRadius_m * std::max(1e-3, polar)),
+                 per_v = -1 / (kPi * kMeanRadius_m);
     const auto step = [&](Vec3d level_m, float& u, float& v) {
         u = static_cast<float>(dot(level_m, east) * per_u),
         v = static_cast<float>(dot(level_m, north) * per_v);
@@ -206,8 +206,8 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     step(on_level(north), out.footprint.u2, out.footprint.v2);
     // The ray passes the usual height of clouds so much before its end; on a sphere, per metre of height.
     constexpr double kTop_m = static_cast<double>(kUsualTop_m);
-    const double rmu = kRadius_m * static_cast<double>(place.mu);
-    const double back_m = std::sqrt(rmu * rmu + 2 * kRadius_m * kTop_m) - rmu;
+    const double rmu = kMeanRadius_m * static_cast<double>(place.mu);
+    const double back_m = std::sqrt(rmu * rmu + 2 * kMeanRadius_m * kTop_m) - rmu;
     if (!(height_m > 0)) step(-back_m * level / kTop_m * away, out.cloud_u, out.cloud_v);
     const Vec3d sun_level = ray.sun_dir - static_cast<double>(place.mu0) * n;
     step(1 / std::max(0.05, static_cast<double>(place.mu0)) * sun_level, out.shade_u, out.shade_v);
@@ -215,7 +215,7 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
 }
 
 bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
-    const double distance_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
+    const double distance_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
     // Sine of 4.6 degrees: down to there pixels that share an aspect differ by 0.31 % of the mean
     // (ShippedEarth.PixelsThatShareAnAspectLookLikeThoseOfTheirOwn).
@@ -233,7 +233,7 @@ EarthModel::Sides EarthModel::texels_across(const MapFootprint& f, const EarthMo
 }
 
 bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
-    const double distance_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
+    const double distance_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
     const MapPlace at = hilcam::map_place(earth_normal(ray.origin_m + distance_m * ray.dir));
     u = at.u, v = at.v;
@@ -266,7 +266,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
                 : cloud_of(cloud_sample(moment, a.u + kUsualTop_m * a.shade_u, a.v + kUsualTop_m * a.shade_v,
                                         a.footprint));
         constexpr float kSpread =
-            static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kRadius_m));
+            static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kMeanRadius_m));
         const bool wide = f.v1 * f.v1 + f.v2 * f.v2 > kSpread * kSpread;
         const float mean = wide && together
                                ? cloud_of(ground)
@@ -322,15 +322,16 @@ EarthModel::Shade EarthModel::shade_by_parts(const EarthAspect& aspect, const Ea
 
 // Along a ray that misses the ground.
 Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
-    const Vec3d origin = stretched(ray.origin_m), dir = normalized(stretched(ray.dir)),
-                sun = normalized(stretched(ray.sun_dir));
+    const Vec3d origin = stretched(kEarthFigure, ray.origin_m),
+                dir = normalized(stretched(kEarthFigure, ray.dir)),
+                sun = normalized(stretched(kEarthFigure, ray.sun_dir));
     constexpr double kEndless_m = std::numeric_limits<double>::infinity();
     const std::optional<Atmosphere::Sight> seen = columns_->from_space(origin, dir, kEndless_m, sun);
     return seen ? *seen : air_->look(origin, dir, kEndless_m, sun);
 }
 
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
-    const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
+    const double to_ground_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
         const Shade seen = shade_by_parts(aspect_at(ray, to_ground_m, 0), ray.moment, ray.looks_across);
         radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
@@ -363,7 +364,7 @@ Spectrum EarthModel::disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) con
     const Vec3d side = normalized(std::abs(camera_dir.z) < 0.9 ? cross(camera_dir, Vec3d{0, 0, 1})
                                                                : cross(camera_dir, Vec3d{1, 0, 0}));
     const Vec3d up = cross(side, camera_dir);
-    const double radius_m = kEarth.equatorial_radius_m + (air_ ? 60e3 : 0);
+    const double radius_m = kEarthFigure.equatorial_radius_m + (air_ ? 60e3 : 0);
     constexpr double kAway_m = 1e9, kGolden = 0.6180339887498949;
     Spectrum sum;
     for (int i = 0; i < looks; ++i) {
@@ -379,8 +380,8 @@ Spectrum EarthModel::disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) con
         weight.bin.fill(1);
         add(ray, weight, sum);
     }
-    const double area =
-        kPi * radius_m * radius_m / (looks * kEarth.equatorial_radius_m * kEarth.equatorial_radius_m);
+    const double area = kPi * radius_m * radius_m /
+                        (looks * kEarthFigure.equatorial_radius_m * kEarthFigure.equatorial_radius_m);
     return static_cast<float>(area) * sum;
 }
 

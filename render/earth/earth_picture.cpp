@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "render/earth/earth_figure.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
@@ -14,7 +15,6 @@
 namespace hilcam {
 namespace {
 
-constexpr Figure kEarthFigure = kFigures[index_of(BodyId::kEarth)];
 constexpr double kEarthRadius_m = kEarthFigure.equatorial_radius_m;
 // From ring to ring and from column to column, the width for which a ray of them stands: with what is linear between them these
 // come near to a pixel's mean (ShippedEarth.IsKeptAsAPictureThatIsBetterThanARayAPixel).

@@ -84,6 +84,7 @@ class FramePlacer {
     // Returns what pictures of single objects need (object_picture.h); empty: there are none.
     const std::optional<VisibilityBuffer::Room>& picture_room() const { return picture_room_; }
     double radius_m(std::size_t object) const { return radii_m_[object]; }
+    const ShownObject& object(std::size_t object) const { return objects_[object]; }
     // The last of the objects is the ground.
     bool has_terrain() const { return terrain_ != nullptr; }
     // Returns the camera's height over the terrain; none without terrain, and beside its map.

@@ -42,6 +42,13 @@ void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, R
         });
 }
 
+void copy(const RadianceImage& from, const PixelBox& box, RadianceImage& to) {
+    for (int p = 0; p < from.planes(); ++p)
+        for (int y = box.y0; y < box.y1; ++y)
+            std::copy(from.row(y, p).begin() + box.x0, from.row(y, p).begin() + box.x1,
+                      to.row(y, p).begin() + box.x0);
+}
+
 // Writes a part of a block. False: nothing, as no pixel's differences are known, and it may be left.
 bool write(const Tile& tile, float share, bool may_leave, HalfLight& halves) {
     if (may_leave && std::all_of(tile.kinds.begin(), tile.kinds.end(),
@@ -114,6 +121,12 @@ void FrameTracer::use_level(std::size_t level) {
     level_ = level;
 }
 
+void FrameTracer::keep_parts(LightParts* parts, PixelRecord* record) {
+    parts_ = parts, record_ = record;
+    tile_parts_.resize(parts ? slots() : 0);
+    for (std::vector<Spectrum>& of_tile : tile_parts_) of_tile.resize(PathModel::kMaxSamples * kImageParts);
+}
+
 double FrameTracer::share_done() const {
     const int all = tiles_all_.load(std::memory_order_relaxed);
     return all > 0 ? 1.0 * tiles_done_.load(std::memory_order_relaxed) / all : 0;
@@ -125,6 +138,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
     if (!marks) radiance.clear_marks();
     find_halves(placer, marks, radiance);
     for (GroundSeen& seen : ground_seen_) seen.x_px = seen.y_px = -1;
+    if (parts_) parts_->clear();
     TileStats sum = trace_places(placer.frame(), radiance);
     const int all = levels_[level_].tiles.size();
     tiles_done_.store(0, std::memory_order_relaxed);
@@ -142,6 +156,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
             fill_zero(radiance, tile);
         tiles_done_.fetch_add(1, std::memory_order_relaxed);
     });
+    if (parts_) parts_->sum_into(radiance);
     sum += sum_of_stats(all);
     return sum;
 }
@@ -167,6 +182,7 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
                              TileStats& stats, RadianceImage& radiance) {
     if (placer.frame().ground && placer.frame().ground_step_px > 1 && places_->give(box, radiance)) {
         stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
+        if (parts_) copy(radiance, box, parts_->of(LightPart::kSun));
         return;
     }
     int n = placer.samples_in(box);
@@ -240,8 +256,15 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
         tile.kinds = std::span(tile_kinds_[slot]).first(count);
         std::fill(tile.kinds.begin(), tile.kinds.end(), HalfKind::kSmooth);
     }
-    if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
     const float share = 1 / static_cast<float>(n * n);
+    TileParts parts{box, {}, record_, share};
+    if (parts_) {
+        parts.sums = std::span(tile_parts_[slot]).first(count * kImageParts);
+        std::fill(parts.sums.begin(), parts.sums.end(), Spectrum{});
+        tile.parts = &parts;
+    }
+    if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
+    if (parts_) write_parts(parts, share);
     if (const std::uint64_t left_out = leave_out_not_finite(pixels); left_out > 0) {
         stats.not_finite += left_out;
         std::replace_if(
@@ -251,6 +274,14 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     // A block of several tiles has one mark.
     const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;
     if (halves_ && write(tile, share, alone, *halves_)) halves_->mark_unknown(box.x0, box.y0, false);
+}
+
+void FrameTracer::write_parts(const TileParts& tile, float share) const {
+    for (std::size_t i = 0; i < kImageParts; ++i) {
+        const auto part = static_cast<LightPart>(i);
+        leave_out_not_finite(tile.of(part));
+        write(tile.of(part), share, tile.box, parts_->of(part));
+    }
 }
 
 void FrameTracer::trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,

@@ -22,6 +22,7 @@
 #include "render/frame/render_quality.h"
 #include "render/ground_shading/ground_places.h"
 #include "render/sunlight/sun_edges.h"
+#include "render/vocabulary/light_parts.h"
 #include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/tile_grid.h"
 
@@ -41,6 +42,9 @@ class FrameTracer {
     const RenderQuality& quality() const { return levels_[level_].quality; }
     // Sets the sensor's noise, against which the noise budget is weighed from the next frame on. Loop.
     void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
+    // From the next frame on takes pictures apart, too, and notes what recorded pixels are made of; null: no more. A picture is then
+    // the sum of its parts. Not with a noise budget. Between two frames.
+    void keep_parts(LightParts* parts, PixelRecord* record);
     // slot: of the thread pool.
     PathModel& paths(std::size_t slot) const { return *paths()[slot]; }
     static Paths make_paths(const Modules& modules, const std::string& name);
@@ -79,6 +83,10 @@ class FrameTracer {
     std::vector<std::vector<Spectrum>> tile_pixels_;
     std::vector<std::vector<HalfKind>> tile_kinds_;  // likewise
     std::vector<std::vector<float>> tile_halves_;    // likewise; none where rays see
+    LightParts* parts_ = nullptr;                    // null: nobody asks for them
+    PixelRecord* record_ = nullptr;                  // likewise
+    std::vector<std::vector<Spectrum>>
+        tile_parts_;  // sums of the tile in work, one list per slot, where somebody asks
     std::vector<FacetList> facets_;
     // A tile of the frame's buffer of the ground, of which several of the picture's are parts.
     struct GroundSeen {
@@ -114,6 +122,7 @@ class FrameTracer {
     void trace_places_of(const FrameView& frame, const PixelBox& box, std::size_t slot, TileStats& stats);
     void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
                     VisibilityTile* seen, TileStats& stats, RadianceImage& radiance);
+    void write_parts(const TileParts& tile, float share) const;
     void trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
                          TileStats& stats, RadianceImage& radiance);
 };

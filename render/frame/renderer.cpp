@@ -13,6 +13,7 @@
 #include "render/frame/frame_placer.h"
 #include "render/frame/frame_tracer.h"
 #include "render/frame/object_probes.h"
+#include "render/frame/points_part.h"
 #include "render/frame/render_bench.h"
 #include "render/frame/truth_probe.h"
 #include "render/shading/point_field.h"
@@ -33,6 +34,8 @@ std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<co
 struct Renderer::Implementation {
     FramePlacer placer;
     FrameTracer tracer;
+    LightParts* parts = nullptr;               // for the parts of the light; null: nobody asks
+    PixelRecord* record = nullptr;             // likewise
     ObjectProbes probes;                       // for objects of a few pixels
     std::atomic<std::uint64_t> not_finite{0};  // pixels and points of all frames whose light was no number
     std::atomic<std::uint64_t> left_out{0};    // places and attitudes that could not be
@@ -90,6 +93,14 @@ Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& g
                                                        all_levels(quality, lower), models, modules)) {}
 Renderer::~Renderer() = default;
 
+void Renderer::keep_parts(LightParts* parts, PixelRecord* record) {
+    implementation_->parts = parts, implementation_->record = record;
+    implementation_->tracer.keep_parts(parts, record);
+}
+RecordedSurface Renderer::surface_of(const PixelRecord::Entry& entry) const {
+    return recorded_surface(implementation_->placer, entry);
+}
+
 void Renderer::use_level(std::size_t level) { implementation_->use_level(level); }
 void Renderer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
     implementation_->placer.give_tables(tables);
@@ -129,6 +140,7 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     const Stopwatch adding;
     points.clear();
     sum += my.add_points(points);
+    if (my.parts) add_points_part(g, points, *my.parts, my.record);
     stats.points_ms = adding.ms();
 
     static_cast<RayCounts&>(stats) = sum;

@@ -15,10 +15,13 @@
 #include "render/frame/frame_truth.h"
 #include "render/frame/image_motion.h"
 #include "render/frame/plan.h"
+#include "render/frame/recorded_surface.h"
 #include "render/frame/render_quality.h"
 #include "render/paths/modules.h"
 #include "render/scene/scene.h"
+#include "render/shading/pixel_record.h"
 #include "render/vocabulary/image_geometry.h"
+#include "render/vocabulary/light_parts.h"
 #include "render/vocabulary/pixel_noise.h"
 #include "render/vocabulary/point_source.h"
 #include "render/vocabulary/radiance_image.h"
@@ -67,6 +70,14 @@ class Renderer {
     // Sets the sensor's noise, against which the noise budget is weighed in the next frames; until then,
     // pixels are sampled once. Loop.
     void set_pixel_noise(const PixelNoise& noise);
+
+    // From the next frame on also takes pictures apart: parts gets what each part of the light has in them, and record what lies in
+    // its pixels; null: no more. A picture is then the sum of its parts in their order, which differs from the picture without by
+    // single precision's rounding. parts: like the images that render() fills. Not with a noise budget. Owner thread, between frames.
+    void keep_parts(LightParts* parts, PixelRecord* record = nullptr);
+    // Says what surface sends the light of a record's entry, one with a surface, in the frame that was rendered last. Not for the
+    // loop.
+    RecordedSurface surface_of(const PixelRecord::Entry& entry) const;
 
     // Fills `radiance` (padded size, a plane per bin) and `points` (cleared first; capacity reserved by
     // reserve_points). Loop: after the first call with this thread pool nothing is allocated. Runs on oneTBB;

@@ -130,15 +130,19 @@ class GroundTileLight {
             if (packet_.sun[i] == KnownSun::kAsk)
                 ask(i, pixel);
             else
-                for (int b = 0; b < view_.bins; ++b)
-                    tile_.pixels[pixel][b] += light_[static_cast<std::size_t>(b)][i];
+                tile_.add(pixel, LightPart::kSun, {}, light_of(i));
         }
+    }
+
+    Spectrum light_of(std::size_t i) const {
+        Spectrum light;
+        for (int b = 0; b < view_.bins; ++b) light[b] = light_[static_cast<std::size_t>(b)][i];
+        return light;
     }
 
     // From where a ray begins that leaves the ground, as Vertex::start() has it.
     void ask(std::size_t i, std::uint32_t pixel) {
-        AskedPoint asked{pixel, {}};
-        for (int b = 0; b < view_.bins; ++b) asked.light[b] = light_[static_cast<std::size_t>(b)][i];
+        const AskedPoint asked{pixel, light_of(i)};
         const auto& corners = frame_.mesh.triangles[packet_.triangle[i]];
         const auto corner = [&](std::size_t c) { return frame_.mesh.vertices_m[corners[c]]; };
         const float u = packet_.u[i], v = packet_.v[i];
@@ -197,7 +201,7 @@ bool add_ground_light(Tile& tile) {
     tile.stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
     if (largest(frame.background->sun_irradiance_w_m2_um()) <= 0) return true;
     const auto lit = [&](const AskedPoint& asked, const Spectrum*) {
-        tile.pixels[asked.pixel] += asked.light;
+        tile.add(asked.pixel, LightPart::kSun, {}, asked.light);
     };
     ShadowRays<AskedPoint, decltype(lit)> shadow(frame, tile.stats.shadow_rays, lit);
     GroundTileLight light(tile, shadow);

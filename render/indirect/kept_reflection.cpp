@@ -112,19 +112,27 @@ void KeptScene::add_use(Tile& tile, const Use& use, float& room) const {
     const Scatterer& surface = at.surface;
     Spectrum reflected = place.diffuse;
     if (is_tinted(surface)) reflected = base_tint(surface) * reflected;
+    Spectrum met, bodies;  // light of other surfaces and of bodies in the lobe
     if (surface.material->has_facets()) {
-        const Spectrum met = has_own_colors(surface) ? lobe_albedo(at) * place.met : place.met;
+        met = has_own_colors(surface) ? lobe_albedo(at) * place.met : place.met;
         at.follows_lobe = at.weight_samples <= room && hangs_on_few(tile, at, met, place.directions);
         if (at.follows_lobe) {
             room -= at.weight_samples, follow_together(at, place);
             const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
             at.kept_lobe = largest(at.weight * plain);
             at.kept_lobe_directions = place.directions;
+            met = {};
         } else {
-            reflected += met + sum_of_bodies(at, place.bodies);
+            bodies = sum_of_bodies(at, place.bodies);
+            reflected += met + bodies;
         }
     }
-    tile.add(at, at.weight * reflected);
+    tile.add(at, LightPart::kDiffuse, at.weight * reflected);
+    if (!tile.parts) return;
+    Spectrum planetshine = reflect_bodies(place);
+    if (is_tinted(surface)) planetshine = base_tint(surface) * planetshine;
+    tile.move(at, LightPart::kDiffuse, LightPart::kPlanetshine, at.weight * (planetshine + bodies));
+    tile.move(at, LightPart::kDiffuse, LightPart::kGlossy, at.weight * met);
 }
 
 void KeptScene::follow_together(Vertex& at, Place& place) {
@@ -183,14 +191,30 @@ Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) 
         light.prefetch_along(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, place.nearest);
 
     Spectrum all = others(frame, light, about);
-    // The bodies' light without a way.
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-        all +=
-            (place.found ? light.seen(KeptTerms::kBodies + b, about) : 1.0f) * sky_.irradiance(b, at.normal);
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) all += direct_irradiance(b, place);
     if (sunlit) all += sun * light.irradiance(KeptTerms::kSun, about);
+    return radiance_of(place, all);
+}
 
+// The light of a body without a way, at a place.
+Spectrum KeptScene::direct_irradiance(std::size_t body, const Place& place) const {
+    const KeptLight& light = *objects_[place.at->object].light;
+    return (place.found ? light.seen(KeptTerms::kBodies + body, place.about) : 1.0f) *
+           sky_.irradiance(body, place.at->normal);
+}
+
+// The part of reflect_diffuse() that is the bodies' light without a way.
+Spectrum KeptScene::reflect_bodies(const Place& place) const {
+    Spectrum all;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) all += direct_irradiance(b, place);
+    return radiance_of(place, all);
+}
+
+// What a surface of the material's own colour reflects of an irradiance without its facets.
+Spectrum KeptScene::radiance_of(const Place& place, const Spectrum& irradiance) const {
+    const Vertex& at = *place.at;
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-    return (1 / kPiF) * (light.albedo(at.surface_number).base(no) * all);
+    return (1 / kPiF) * (objects_[at.object].light->albedo(at.surface_number).base(no) * irradiance);
 }
 
 void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
@@ -221,6 +245,19 @@ void KeptScene::reflect_far_bodies(Place& place) const {
     at.has_bodies = !at.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
                     sky_.is_clear_of_bodies(mirror);
     if (at.has_bodies) place.bodies = sent_of_bodies(at);
+}
+
+std::optional<std::uint32_t> KeptScene::nearest_node(const FrameView& frame, std::size_t object,
+                                                     Vec3f point_m, const SurfaceSide& side) const {
+    const Mat3f& axes = frame.world_from_body[object];
+    SurfaceSide in_body = side;
+    in_body.geometric_normal = to_body(axes, side.geometric_normal);
+    NodesAbout about;
+    const Object& kept = objects_[object];
+    const bool found =
+        kept.light->table().nodes().find(to_body(axes, point_m - kept.origin_m), in_body, about);
+    if (!found || about.count == 0) return std::nullopt;
+    return about.nearest();
 }
 
 KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place& place, bool whole) const {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,6 +46,10 @@ class KeptScene {
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
     const KeptLight& light(std::size_t object) const { return *objects_[object].light; }
+    // Returns the node whose light is looked up at a point of an object, the nearest of those about it; none: there are none. side: its
+    // normal by world axes. Any thread.
+    std::optional<std::uint32_t> nearest_node(const FrameView& frame, std::size_t object, Vec3f point_m,
+                                              const SurfaceSide& side) const;
     // Says in words what is kept on an object.
     std::string describe(std::size_t object) const;
 
@@ -165,6 +170,9 @@ class KeptScene {
     template <class Where>
     Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
+    Spectrum direct_irradiance(std::size_t body, const Place& place) const;
+    Spectrum reflect_bodies(const Place& place) const;
+    Spectrum radiance_of(const Place& place, const Spectrum& irradiance) const;
     void reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const;
     void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
     void reflect_far_bodies(Place& place) const;

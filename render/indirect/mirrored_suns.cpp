@@ -331,7 +331,7 @@ void MirroredSuns::add_light_of(const Shown& shown, Tile& tile, std::span<const 
     const auto* seen = std::find(all, end, 1);
     if (seen == end) return;
     const auto lit = [&](const Reflected& by, const Spectrum* glass) {
-        tile.add(*by.at, glass ? by.light * *glass : by.light);
+        tile.add(*by.at, LightPart::kMirroredSun, glass ? by.light * *glass : by.light);
     };
     Asker<decltype(lit)> asker(tile, shown, lit);
     for (; seen != end; seen = std::find(seen + 1, end, 1))

@@ -25,8 +25,10 @@ void add(const Tile& tile, const NextRay& ray, NextRays& rays) {
 void add_through_glass(const Tile& tile, const Vertex& at, NextRays& rays) {
     for (const int part : {0, 1}) {
         const BrdfSample exact = brdf_exact(at.surface, at.normal, at.view_dir, part);
-        if (exact.valid)
-            add(tile, {&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight}, rays);
+        if (!exact.valid) continue;
+        NextRay ray{&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight};
+        ray.part = part == 0 ? LightPart::kMirrorRays : LightPart::kTransmission;
+        add(tile, ray, rays);
     }
 }
 
@@ -40,6 +42,7 @@ void add_in_narrow_lobe(const Tile& tile, const Vertex& at, Vec3f mirror, const 
     const Frame local(at.normal);
     for (int i = 0; i < count; ++i) {
         NextRay ray{&at, at.start(), mirror, 0, alpha, false, (core / static_cast<float>(count)) * weight};
+        ray.part = LightPart::kGlossyRays;
         if (count > 1) {
             const float u1 = core * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
             const float u2 = std::fmod(0.25f * static_cast<float>(i) + 0.125f, 1.0f);
@@ -71,6 +74,7 @@ void KeptRays::add_of(Tile& tile, Vertex& at, NextRays& rays) {
     if (surface.alpha < kNarrowestLobe) {
         const bool meets_sun = surface.alpha == 0;
         NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !at.has_bodies};
+        ray.part = LightPart::kMirrorRays;
         ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.facets;
         // What bad mirrors show is not looked for where nothing stands near.
         if (at.mirrors_near || is_bright)
@@ -116,7 +120,17 @@ void KeptRays::follow_lobe(Tile& tile, Vertex& at, NextRays& rays) {
             std::fmod(0.25f * quarter + kPlasticAbout * number, 1.0f)));
         const Vec3f dir = normalized(reflect(at.view_dir, facet));
         if (dot(from.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
-            rays.add({&at, from.start(), dir, 0, at.surface.alpha, false, {}, false, false});
+            rays.add({&at,
+                      from.start(),
+                      dir,
+                      0,
+                      at.surface.alpha,
+                      false,
+                      {},
+                      false,
+                      false,
+                      {},
+                      LightPart::kGlossyRays});
     }
     const std::span<NextRay> own = rays.room.subspan(first, rays.count - first);
     const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(own.size(), 1))) *

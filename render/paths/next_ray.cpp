@@ -8,7 +8,10 @@ namespace hilcam {
 void add_background(Tile& tile, const NextRay& ray) {
     Spectrum light;
     add_background_seen(tile.frame, ray, light);
-    tile.add(*ray.from, light);
+    if (ray.from->depth == 1)
+        tile.add(*ray.from, ray.part, light);
+    else
+        tile.add(*ray.from, ray.from->ray_part, light);
 }
 
 void add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light) {

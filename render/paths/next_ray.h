@@ -20,10 +20,11 @@ struct NextRay {
     float alpha_least;  // least alpha of the next vertex's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum weight;
-    bool whole_lobe = false;    // it stands for all of a narrow facet lobe about it
-    bool sees_bodies = true;    // false: their light in its lobe has been counted
-    Spectrum if_free{};         // light that it adds where it meets nothing
-    std::uint8_t lobe_ray = 0;  // number among those of a lobe (FollowedLobe)
+    bool whole_lobe = false;            // it stands for all of a narrow facet lobe about it
+    bool sees_bodies = true;            // false: their light in its lobe has been counted
+    Spectrum if_free{};                 // light that it adds where it meets nothing
+    LightPart part = LightPart::kPath;  // the part of what it meets
+    std::uint8_t lobe_ray = 0;          // number among those of a lobe (FollowedLobe)
     // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
     bool may_be_many = false;
 

@@ -174,6 +174,7 @@ class HemispherePaths final : public PathModel {
                 vertex.pixel = at.pixel, vertex.sample = at.sample, vertex.halves = at.halves;
                 vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
                 vertex.weight = ray.weight;
+                vertex.ray_part = at.depth > 1 ? at.ray_part : LightPart::kPath;
                 vertex.weight_samples = at.weight_samples;
                 ++found;
             }
@@ -190,7 +191,7 @@ class HemispherePaths final : public PathModel {
         Spectrum light;
         if (!background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light) && ray.sees_sun)
             background.add_sun_disk(to_double(ray.dir), weight, light);
-        tile.add(at, light);
+        tile.add(at, LightPart::kPath, light);
     }
 };
 

@@ -105,8 +105,10 @@ class TracedPaths final : public PathModel {
             const float alpha_least = frame.alpha_behind_diffuse > 0
                                           ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
                                           : 0.0f;
-            rays.add(
-                {&at, at.start(!sample.transmits), sample.dir, sample.density, alpha_least, true, weight});
+            NextRay ray{&at,   at.start(!sample.transmits), sample.dir, sample.density, alpha_least, true,
+                        weight};
+            if (sample.exact) ray.part = sample.transmits ? LightPart::kTransmission : LightPart::kMirrorRays;
+            rays.add(ray);
         }
     }
 
@@ -130,7 +132,9 @@ class TracedPaths final : public PathModel {
         const std::size_t begin = found;
         for (const MirrorRays::Packet& packet : many_.packets()) {
             const int met_nothing = packet.rays.count - std::popcount(packet.met);
-            if (met_nothing > 0) tile.add(*middle.from, (share * static_cast<float>(met_nothing)) * free);
+            if (met_nothing > 0)
+                tile.add(*middle.from, LightPart::kMirrorRays,
+                         (share * static_cast<float>(met_nothing)) * free);
             for (std::uint32_t rest = packet.met; rest != 0; rest &= rest - 1) {
                 const auto k = static_cast<std::size_t>(std::countr_zero(rest));
                 ray.origin_m = packet.rays.origin(k), ray.dir = packet.rays.dir(k);
@@ -168,6 +172,7 @@ class TracedPaths final : public PathModel {
         vertex.lobe_ray = vertex.lobe && ray.from->depth > 1 ? ray.from->lobe_ray : ray.lobe_ray;
         vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
         vertex.weight = ray.weight;
+        vertex.ray_part = ray.from->depth > 1 ? ray.from->ray_part : ray.part;
         vertex.weight_samples = ray.from->weight_samples;
         return true;
     }

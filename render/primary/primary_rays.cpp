@@ -55,7 +55,7 @@ class PrimaryRays {
                 if (!objects && !bodies_ && !sun_) continue;
                 if (pictured_) earth_.expect(bx, by);
                 if (pictured_ && sees_nothing_else(bx, by)) {
-                    earth_.add_block(bx, by, picture_weight_, tile_.pixels);
+                    add_picture_block(bx, by);
                     continue;
                 }
                 if (!gather(bx, by, kAllPixels)) continue;
@@ -181,6 +181,11 @@ class PrimaryRays {
             for (int x = bx - box.x0; x < bx - box.x0 + 4; ++x)
                 whole &= uncovered_[y * (box.x1 - box.x0) + x] == all;
         return whole;
+    }
+
+    void add_picture_block(int x, int y) {
+        earth_.add_block(x, y, picture_weight_, tile_.pixels);
+        if (tile_.parts) earth_.add_block(x, y, picture_weight_, tile_.parts->of(LightPart::kBackground));
     }
 
     // The packet's samples, each of which stands for a part of its pixel's width.
@@ -346,7 +351,7 @@ class PrimaryRays {
     // A ray tells for itself; the one ray of an even pixel for all samples that see no object.
     void add_backdrop_to(std::uint32_t pixel, std::size_t k, std::uint16_t sample, float sun_cosine) {
         const PixelSamples& grid = frame_.samples;
-        if (even_ && uncovered_[pixel] == grid.all())
+        if (even_ && uncovered_[pixel] == grid.all() && !tile_.parts)
             return add_backdrop(k, sun_cosine, grid.weight(grid.all()) * weight_, tile_.pixels[pixel]);
         if (!even_) tile_.set_kind(pixel, HalfKind::kBackground);
         float samples = 1;
@@ -359,7 +364,7 @@ class PrimaryRays {
         }
         Spectrum light;
         add_backdrop(k, sun_cosine, samples * weight_, light);
-        tile_.add(pixel, halves, light);
+        tile_.add(pixel, LightPart::kBackground, halves, light);
     }
 
     void add_vertex(int lane, std::uint32_t pixel, std::uint16_t sample) {
@@ -388,7 +393,7 @@ void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex) {
     if (!frame.background->camera_in_air()) return;
     const double distance_m = length(to_double(vertex.point_m) - frame.camera_m);
     const Atmosphere::Sight sight = frame.background->air_before(dir, distance_m);
-    tile.add(vertex, vertex.weight * sight.radiance_sr);
+    tile.add(vertex, LightPart::kAir, vertex.weight * sight.radiance_sr);
     vertex.weight = vertex.weight * sight.transmittance;
 }
 

@@ -69,7 +69,7 @@ void add_lamps_reflected(Tile& tile, std::span<const Vertex> vertices) {
     const FrameView& frame = tile.frame;
     if (!frame.lamps || frame.lamps->lit().empty()) return;
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
-        tile.add(*by.at, glass ? by.weight * *glass : by.weight);
+        tile.add(*by.at, LightPart::kLamps, glass ? by.weight * *glass : by.weight);
     };
     ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     for (const PlacedLamp& lamp : frame.lamps->lit())

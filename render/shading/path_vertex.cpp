@@ -106,7 +106,7 @@ void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const
     vertex.point_m = origin_m + hits.distance[k] * dir;
     vertex.offset_m = rounding_m(vertex.point_m, origin_m);
 
-    vertex.object = hits.object[k];
+    vertex.object = hits.object[k], vertex.triangle = hits.triangle[k];
     vertex.keeps_light = frame.keeps_light[vertex.object] != 0;
     vertex.mirrors_near = true;
     vertex.has_bodies = vertex.follows_lobe = false;

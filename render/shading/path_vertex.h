@@ -9,6 +9,7 @@
 #include "render/shading/followed_lobe.h"
 #include "render/shading/frame_view.h"
 #include "render/vocabulary/half_light.h"
+#include "render/vocabulary/light_part.h"
 #include "render/vocabulary/spectrum.h"
 #include "render/vocabulary/vec.h"
 
@@ -38,7 +39,7 @@ struct Vertex {
     Vec3f normal;            // shading, same side
     Vec3f view_dir;          // back along the path, unit
     float footprint_m;       // width of the ray when it came
-    std::uint32_t object;
+    std::uint32_t object, triangle;
     std::uint16_t surface_number;  // surface of the object's mesh
     bool back;                     // the side that its triangle's own normal points away from
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
@@ -49,6 +50,7 @@ struct Vertex {
     const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
     float kept_lobe;            // where that, what kept light has in it, greatest bin; of so many directions
     float kept_lobe_directions;
+    LightPart ray_part;     // where a ray has met it: the part of its light
     FollowedLobe* lobe;     // the lobe whose rays have met it, or are its own; null: its light is its pixel's
     std::uint8_t lobe_ray;  // which of them
     float sunlit;           // share of it that what lies on it leaves in the Sun (lod/mosaic.h)

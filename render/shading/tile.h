@@ -9,6 +9,7 @@
 #include "render/shading/facet_list.h"
 #include "render/shading/frame_view.h"
 #include "render/shading/path_vertex.h"
+#include "render/shading/tile_parts.h"
 #include "render/visibility/visibility_tile.h"
 #include "render/vocabulary/half_light.h"
 #include "render/vocabulary/pixel_box.h"
@@ -55,20 +56,30 @@ struct Tile {
     std::span<const Spectrum> half_responses{};
     std::span<HalfKind> kinds{};  // by pixel; likewise
 
+    const TileParts* parts = nullptr;  // for the parts of the light; null: nobody asks
+
     // Adds light that a vertex sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for which it
-    // stands.
-    void add(const Vertex& at, const Spectrum& light) {
+    // stands. part: of light that the camera sees there; what a ray has met is of the ray's part.
+    void add(const Vertex& at, LightPart part, const Spectrum& light) { add(at, part, at.halves, light); }
+    void add(const Vertex& at, LightPart part, const HalfShares& shares, const Spectrum& light) {
+        if (parts) note(at, part, light);
         if (at.lobe) return at.lobe->add(at.lobe_ray, light);
-        add(at.pixel, at.halves, light);
+        add(at.pixel, shares, light);
+    }
+    // Counts light that was added as one part as another.
+    void move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const {
+        if (parts) note_move(at, from, to, light);
     }
     // Adds what all rays of a lobe have found to the pixels that have it, as far as it is believed.
     void add(const FollowedLobe& lobe, float light_believed) {
         const Spectrum light = lobe.sum(light_believed);
-        for (const PixelShare& part : lobe.pixels) add(part.pixel, part.halves, part.share * light);
+        for (const PixelShare& share : lobe.pixels)
+            add(share.pixel, LightPart::kGlossyRays, share.halves, share.share * light);
     }
-    void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
-        pixels[pixel] += light;
-        if (!halves.empty()) add_halves(pixel, shares, light);
+    // Adds light that no vertex sends.
+    void add(std::uint32_t pixel, LightPart part, const HalfShares& shares, const Spectrum& light) {
+        if (parts) note(pixel, part, light);
+        add(pixel, shares, light);
     }
     void set_kind(std::uint32_t pixel, HalfKind kind) {
         if (!kinds.empty() && kinds[pixel] != HalfKind::kObject) kinds[pixel] = kind;
@@ -89,6 +100,13 @@ struct Tile {
     }
 
   private:
+    void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
+        pixels[pixel] += light;
+        if (!halves.empty()) add_halves(pixel, shares, light);
+    }
+    void note(const Vertex& at, LightPart part, const Spectrum& light) const;
+    void note(std::uint32_t pixel, LightPart part, const Spectrum& light) const;
+    void note_move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const;
     void add_halves(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
         float* at = halves.data() + pixel;
         for (const Spectrum& response : half_responses) {

@@ -92,7 +92,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const bool finds_edges = primary && tile.edges && !frame.sun_is_disk && !frame.has_glass;
 
     const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
-        tile.add(*by.at, glass ? by.weight * *glass : by.weight);
+        tile.add(*by.at, LightPart::kSun, glass ? by.weight * *glass : by.weight);
     };
     TileStats& stats = tile.stats;
     std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
@@ -128,7 +128,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
         const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));
         if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;
         if (!frame.sun_is_disk && at.known_sun == KnownSun::kLit)
-            tile.add(at, weight);
+            tile.add(at, LightPart::kSun, weight);
         else if (finds_edges)
             tile.edges->add(at, weight);
         else
@@ -145,7 +145,7 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling h
         Spectrum weight = glass ? by.weight * *glass : by.weight;
         Spectrum light;
         background.add_bodies(by.at->start(), to_double(by.dir), weight, light);
-        tile.add(*by.at, light);
+        tile.add(*by.at, LightPart::kPlanetshine, light);
     };
     ShadowRays<SunlitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
@@ -188,7 +188,8 @@ class RadianceEquation final : public RadianceModel {
 
     void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const override {
         if (tile.frame.has_emission)
-            for (const Vertex& at : vertices) tile.add(at, at.weight * at.surface.material->emission);
+            for (const Vertex& at : vertices)
+                tile.add(at, LightPart::kEmission, at.weight * at.surface.material->emission);
         add_sunlight(tile, vertices);
         add_lamps_reflected(tile, vertices);
         if (lamps != BodySampling::kNone) add_body_light(tile, vertices, lamps);

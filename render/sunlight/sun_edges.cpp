@@ -18,7 +18,7 @@ void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
     ask_again(tile, sun);
     for (const Asked& a : std::span(asked_).first(count_))
         if (a.lit > 0)
-            tile.add(a.at->pixel, a.lit < a.of ? (1 / a.lit) * a.halves : a.halves_of_all,
+            tile.add(*a.at, LightPart::kSun, a.lit < a.of ? (1 / a.lit) * a.halves : a.halves_of_all,
                      (a.lit / a.of) * a.light);
     count_ = 0;
 }

@@ -29,11 +29,11 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     Vertex at{};
     at.pixel = 3;
     at.halves = {1, 1, 1};
-    tile.add(at, of(2));
+    tile.add(at, LightPart::kSun, of(2));
     FollowedLobe lobe;
     lobe.pixels = parts;
     at.lobe = &lobe;
-    tile.add(at, of(4));
+    tile.add(at, LightPart::kSun, of(4));
     EXPECT_EQ(pixels[1][0], 0) << "until all rays have come back";
     tile.add(lobe, lobe.believed());
     EXPECT_EQ(pixels[0][0], 0);

@@ -1,0 +1,23 @@
+#include "render/frame/recorded_surface.h"
+
+#include "render/frame/frame_placer.h"
+
+namespace hilcam {
+
+RecordedSurface recorded_surface(const FramePlacer& placer, const PixelRecord::Entry& entry) {
+    const FrameView& frame = placer.frame();
+    const ShownObject& object = placer.object(entry.object);
+    RecordedSurface out;
+    out.level = placer.plan(entry.object).level;
+    out.level_error_m = out.level < object.error_m.size() ? object.error_m[out.level] : 0.0;
+    out.triangles = (*frame.objects)[entry.object]->triangles.size();
+    out.distance_m = length(to_double(entry.point_m) - frame.camera_m);
+    if (frame.kept && frame.keeps_light[entry.object]) {
+        out.node = frame.kept->nearest_node(frame, entry.object, entry.point_m,
+                                            {entry.geometric_normal, entry.surface, entry.back});
+        out.nodes_apart_m = static_cast<double>(frame.kept->light(entry.object).table().nodes().cube_m());
+    }
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,51 @@
+#include "render/shading/tile.h"
+
+namespace hilcam {
+namespace {
+
+PixelRecord::Entry entry_of(const Vertex& at, LightPart part, const Spectrum& light) {
+    PixelRecord::Entry entry;
+    entry.part = part, entry.depth = at.depth, entry.light = light;
+    entry.object = at.object, entry.triangle = at.triangle, entry.surface = at.surface_number;
+    entry.back = at.back, entry.point_m = at.point_m, entry.geometric_normal = at.geometric_normal;
+    entry.alpha = at.surface.alpha, entry.samples = at.weight_samples;
+    return entry;
+}
+
+LightPart part_of(const Vertex& at, LightPart part) { return at.depth > 1 ? at.ray_part : part; }
+
+}  // namespace
+
+void Tile::note(const Vertex& at, LightPart of_source, const Spectrum& light) const {
+    const LightPart part = part_of(at, of_source);
+    if (!at.lobe) {
+        parts->add(at.pixel, part, light);
+        if (parts->is_recorded(at.pixel)) parts->record->add(entry_of(at, part, parts->share * light));
+        return;
+    }
+    // How much of it each pixel gets is known when all rays have come back.
+    for (const PixelShare& share : at.lobe->pixels) {
+        if (!parts->is_recorded(share.pixel)) continue;
+        PixelRecord::Entry entry = entry_of(at, part, parts->share * (share.share * light));
+        entry.is_shared = true;
+        parts->record->add(entry);
+    }
+}
+
+void Tile::note(std::uint32_t pixel, LightPart part, const Spectrum& light) const {
+    parts->add(pixel, part, light);
+    if (!parts->is_recorded(pixel)) return;
+    PixelRecord::Entry entry;
+    entry.part = part, entry.light = parts->share * light;
+    parts->record->add(entry);
+}
+
+void Tile::note_move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const {
+    if (at.lobe || at.depth > 1) return;  // of the ray's part as a whole
+    parts->move(at.pixel, from, to, light);
+    if (!parts->is_recorded(at.pixel)) return;
+    parts->record->add(entry_of(at, from, -parts->share * light));
+    parts->record->add(entry_of(at, to, parts->share * light));
+}
+
+}  // namespace hilcam
