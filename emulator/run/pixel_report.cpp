@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "emulator/run/still_camera.h"
+#include "render/visibility/pixel_samples.h"
 #include "sensor/mosaic.h"
 #include "sensor/optics.h"
 #include "sensor/published_frame.h"
@@ -48,37 +49,62 @@ std::string number(double value, const char* format = "%.4g") {
     return text;
 }
 
+// What one surface adds to the pixel, part by part.
+struct Group {
+    PixelRecord::Entry surface;  // the first of its entries
+    struct Share {
+        LightPart part;
+        double electrons;
+    };
+    std::vector<Share> shares;
+    double electrons = 0;
+
+    bool is_of(const PixelRecord::Entry& entry) const {
+        return surface.depth == entry.depth && surface.object == entry.object &&
+               surface.triangle == entry.triangle && surface.is_shared == entry.is_shared;
+    }
+};
+
 class Report {
   public:
-    Report(const StillCamera& camera, FramePixel pixel, const PixelRecord& record)
-        : camera_(camera), response_(electrons_per_radiance(camera, pixel)), entries_(record.entries) {
-        std::stable_sort(entries_.begin(), entries_.end(), [&](const auto& a, const auto& b) {
-            return a.part != b.part ? a.part < b.part : electrons(a) > electrons(b);
+    Report(const StillCamera& camera, FramePixel pixel, const PixelRecord& record) : camera_(camera) {
+        const Spectrum response = electrons_per_radiance(camera, pixel);
+        for (const PixelRecord::Entry& entry : record.entries)
+            take(entry, static_cast<double>(sum_of_products(response, entry.light)));
+        std::stable_sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) {
+            return rank(a) != rank(b) ? rank(a) < rank(b) : a.electrons > b.electrons;
         });
-        for (const PixelRecord::Entry& entry : entries_) {
-            if (entry.is_shared) continue;
-            of_part_[static_cast<std::size_t>(entry.part)] += electrons(entry);
-            all_ += electrons(entry);
-        }
     }
 
     std::string text() {
         add_sums();
-        out_ << "\n";
-        for (std::size_t i = 0; i < kLightParts; ++i) add_entries(static_cast<LightPart>(i));
+        add_groups(0, "Without a surface of the scene:");
+        add_groups(1, "Sent by what the camera sees:");
+        add_groups(2, "Found by rays from there:");
+        add_groups(3,
+                   "Met by glossy rays that pixels share, as found; rays.glossy above is what this pixel "
+                   "gets of it:");
         return out_.str();
     }
 
   private:
     const StillCamera& camera_;
-    Spectrum response_;
-    std::vector<PixelRecord::Entry> entries_;
+    std::vector<Group> groups_;
     std::array<double, kLightParts> of_part_{};
     double all_ = 0;
     std::ostringstream out_;
 
-    double electrons(const PixelRecord::Entry& entry) const {
-        return static_cast<double>(sum_of_products(response_, entry.light));
+    static int rank(const Group& group) {
+        return group.surface.is_shared ? 3 : std::min(group.surface.depth, 2);
+    }
+
+    void take(const PixelRecord::Entry& entry, double electrons) {
+        if (!entry.is_shared) of_part_[static_cast<std::size_t>(entry.part)] += electrons, all_ += electrons;
+        auto group =
+            std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.is_of(entry); });
+        if (group == groups_.end()) group = groups_.insert(groups_.end(), Group{entry, {}, 0});
+        group->shares.push_back({entry.part, electrons});
+        group->electrons += electrons;
     }
 
     void add_sums() {
@@ -93,63 +119,58 @@ class Report {
         out_ << line;
     }
 
-    void add_entries(LightPart part) {
+    void add_groups(int of_rank, const char* title) {
         // What is less than a thousandth of the pixel is counted alone.
         constexpr double kLeast = 1e-3;
-        std::size_t left_out = 0;
+        std::size_t count = 0, left_out = 0;
         double left_out_e = 0;
-        for (const PixelRecord::Entry& entry : entries_) {
-            if (entry.part != part) continue;
-            if (std::abs(electrons(entry)) < kLeast * std::abs(all_)) {
-                ++left_out, left_out_e += entry.is_shared ? 0 : electrons(entry);
-                continue;
-            }
-            add_entry(entry);
+        for (const Group& group : groups_) {
+            if (rank(group) != of_rank) continue;
+            if (count++ == 0) out_ << title << '\n';
+            if (std::abs(group.electrons) < kLeast * std::abs(all_))
+                ++left_out, left_out_e += group.electrons;
+            else
+                add_group(group);
         }
         if (left_out > 0)
-            out_ << name_of(part) << ": " << left_out << (left_out == 1 ? " entry" : " entries")
-                 << " below a thousandth of the pixel, " << number(left_out_e, "%.1f") << " e- in all\n";
+            out_ << "  " << left_out
+                 << " more below a thousandth of the pixel each: " << number(left_out_e, "%.1f") << " e-\n";
     }
 
-    void add_entry(const PixelRecord::Entry& entry) {
-        out_ << name_of(entry.part) << "  " << number(electrons(entry), "%.1f") << " e-";
-        if (entry.count > 1) out_ << " (" << entry.count << " times)";
-        if (entry.is_shared)
-            out_ << ", found by rays that pixels share; what this pixel gets of it is in rays.glossy";
-        if (entry.depth > 1) out_ << ", met by a ray from surface " << entry.depth - 1;
-        if (entry.object == PixelRecord::kNoObject) {
-            out_ << "\n";
-            return;
-        }
-        add_surface(entry);
+    void add_group(const Group& group) {
+        out_ << "  ";
+        for (std::size_t i = 0; i < group.shares.size(); ++i)
+            out_ << (i > 0 ? ", " : "") << name_of(group.shares[i].part) << ' '
+                 << number(group.shares[i].electrons, "%.1f") << " e-";
+        if (group.surface.object != PixelRecord::kNoObject) out_ << "\n      " << surface_text(group.surface);
+        out_ << '\n';
     }
 
-    void add_surface(const PixelRecord::Entry& entry) {
+    std::string surface_text(const PixelRecord::Entry& entry) const {
         const std::vector<LoadedObject>& objects = camera_.objects();
         const bool is_loaded = entry.object < objects.size();
-        out_ << "\n    "
-             << (is_loaded ? "object '" + objects[entry.object].name + "'" : std::string("the ground"));
-        if (entry.depth == 0) {
-            out_ << ", drawn as points\n";
-            return;
-        }
+        std::ostringstream text;
+        text << (is_loaded ? "object '" + objects[entry.object].name + "'" : std::string("the ground"));
+        if (entry.depth == 0) return text.str() + ", drawn as points";
         if (is_loaded && entry.surface < objects[entry.object].surfaces.size())
-            out_ << ", surface '" << objects[entry.object].surfaces[entry.surface].name << "'"
+            text << ", surface '" << objects[entry.object].surfaces[entry.surface].name << "'"
                  << (entry.back ? " (back)" : "");
         const RecordedSurface surface = camera_.renderer().surface_of(entry);
-        out_ << ", triangle " << entry.triangle << " of " << surface.triangles << " at level of detail "
+        text << ", triangle " << entry.triangle << " of " << surface.triangles << " at level of detail "
              << surface.level;
         if (surface.level_error_m > 0)
-            out_ << " (off by up to " << number(1e3 * surface.level_error_m) << " mm)";
-        out_ << ", " << number(surface.distance_m, "%.6g") << " m away";
+            text << " (off by up to " << number(1e3 * surface.level_error_m) << " mm)";
+        text << ", " << number(surface.distance_m, "%.6g") << " m from the camera";
         if (entry.depth == 1)
-            out_ << ", seen by " << number(100.0 * static_cast<double>(entry.samples) / 16, "%.0f")
-                 << " % of a pixel";
-        if (entry.alpha > 0) out_ << ", facets of alpha " << number(static_cast<double>(entry.alpha));
+            text << ", fills "
+                 << number(100.0 * static_cast<double>(entry.samples) / kVisibilitySamples, "%.0f")
+                 << " % of the pixel";
+        if (entry.depth > 2) text << ", met by the ray of depth " << entry.depth - 1;
+        if (entry.alpha > 0) text << ", facets of alpha " << number(static_cast<double>(entry.alpha));
         if (surface.node)
-            out_ << ", light looked up at place " << *surface.node << " (places "
+            text << ", light looked up at place " << *surface.node << " (places "
                  << number(1e3 * surface.nodes_apart_m) << " mm apart)";
-        out_ << "\n";
+        return text.str();
     }
 };
 

@@ -165,11 +165,13 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
     if (asked.record) std::fputs(pixel_report(camera, *files.pixel, *asked.record).c_str(), stdout);
     if (files.out.empty()) return;
     const auto oversampling = static_cast<int>(scenario.quality.oversampling);
-    if (stage == PictureStage::kRadiance)
-        return writer.write_radiance(
-            files.out, radiance,
-            frame_in_radiance(scenario.camera, camera.renderer().geometry(), oversampling), oversampling,
-            record, files.parts ? &*asked.parts : nullptr);
+    if (stage == PictureStage::kRadiance) {
+        const PixelRectangle frame = frame_in_radiance(scenario.camera, renderer.geometry(), oversampling);
+        if (files.parts)
+            return writer.write_radiance(files.out, asked.parts->sum(), frame, oversampling, record,
+                                         &*asked.parts);
+        return writer.write_radiance(files.out, radiance, frame, oversampling, record);
+    }
     const ElectronImage& electrons = camera.expose();
     if (stage == PictureStage::kElectrons) return writer.write_electrons(files.out, electrons, record);
     const DnImage& frame = camera.digitise(key);

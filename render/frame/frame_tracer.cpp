@@ -156,7 +156,6 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
             fill_zero(radiance, tile);
         tiles_done_.fetch_add(1, std::memory_order_relaxed);
     });
-    if (parts_) parts_->sum_into(radiance);
     sum += sum_of_stats(all);
     return sum;
 }

@@ -42,8 +42,8 @@ class FrameTracer {
     const RenderQuality& quality() const { return levels_[level_].quality; }
     // Sets the sensor's noise, against which the noise budget is weighed from the next frame on. Loop.
     void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
-    // From the next frame on takes pictures apart, too, and notes what recorded pixels are made of; null: no more. A picture is then
-    // the sum of its parts. Not with a noise budget. Between two frames.
+    // From the next frame on takes pictures apart, too, and notes what recorded pixels are made of; null: no more. Not with a noise
+    // budget. Between two frames.
     void keep_parts(LightParts* parts, PixelRecord* record);
     // slot: of the thread pool.
     PathModel& paths(std::size_t slot) const { return *paths()[slot]; }

@@ -72,8 +72,8 @@ class Renderer {
     void set_pixel_noise(const PixelNoise& noise);
 
     // From the next frame on also takes pictures apart: parts gets what each part of the light has in them, and record what lies in
-    // its pixels; null: no more. A picture is then the sum of its parts in their order, which differs from the picture without by
-    // single precision's rounding. parts: like the images that render() fills. Not with a noise budget. Owner thread, between frames.
+    // its pixels; null: no more. Pictures are the same to the last bit. parts: like the images that render() fills. Not with a noise
+    // budget. Owner thread, between frames.
     void keep_parts(LightParts* parts, PixelRecord* record = nullptr);
     // Says what surface sends the light of a record's entry, one with a surface, in the frame that was rendered last. Not for the
     // loop.

@@ -351,8 +351,15 @@ class PrimaryRays {
     // A ray tells for itself; the one ray of an even pixel for all samples that see no object.
     void add_backdrop_to(std::uint32_t pixel, std::size_t k, std::uint16_t sample, float sun_cosine) {
         const PixelSamples& grid = frame_.samples;
-        if (even_ && uncovered_[pixel] == grid.all() && !tile_.parts)
-            return add_backdrop(k, sun_cosine, grid.weight(grid.all()) * weight_, tile_.pixels[pixel]);
+        if (even_ && uncovered_[pixel] == grid.all()) {
+            const Spectrum weight = grid.weight(grid.all()) * weight_;
+            if (tile_.parts) {
+                Spectrum light;
+                add_backdrop(k, sun_cosine, weight, light);
+                tile_.note(pixel, LightPart::kBackground, light);
+            }
+            return add_backdrop(k, sun_cosine, weight, tile_.pixels[pixel]);
+        }
         if (!even_) tile_.set_kind(pixel, HalfKind::kBackground);
         float samples = 1;
         HalfShares halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);

@@ -76,6 +76,8 @@ struct Tile {
         for (const PixelShare& share : lobe.pixels)
             add(share.pixel, LightPart::kGlossyRays, share.halves, share.share * light);
     }
+    // Notes light that somebody adds to a pixel by himself, where parts are asked for.
+    void note(std::uint32_t pixel, LightPart part, const Spectrum& light) const;
     // Adds light that no vertex sends.
     void add(std::uint32_t pixel, LightPart part, const HalfShares& shares, const Spectrum& light) {
         if (parts) note(pixel, part, light);
@@ -105,7 +107,6 @@ struct Tile {
         if (!halves.empty()) add_halves(pixel, shares, light);
     }
     void note(const Vertex& at, LightPart part, const Spectrum& light) const;
-    void note(std::uint32_t pixel, LightPart part, const Spectrum& light) const;
     void note_move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const;
     void add_halves(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
         float* at = halves.data() + pixel;

@@ -17,8 +17,9 @@ class LightParts {
     const RadianceImage& of(LightPart part) const { return images_[static_cast<std::size_t>(part)]; }
 
     void clear();
-    // Makes a picture the sum of its parts, one by one in their order, points apart: they are none of a radiance image's.
-    void sum_into(RadianceImage& picture) const;
+    // Returns the picture as the sum of its parts, one by one in their order, points apart, which are none of a radiance image's. It is
+    // the picture that was rendered but for single precision's rounding, as that adds light in another order.
+    RadianceImage sum() const;
 
   private:
     std::vector<RadianceImage> images_;
