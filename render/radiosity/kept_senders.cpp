@@ -121,7 +121,7 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
         Sender& sender = senders[n];
         send(light, n, points, sender);
         if (source.kind == KeptSource::Kind::kGlow)
-            sender.diffuse = PackedSpectrum(light.materials_[table.nodes().nodes()[n].surface]->emission);
+            sender.diffuse = PackedSpectrum(light.material(table.nodes().nodes()[n].surface).emission);
         if (cone && sender.alpha > 0) widen(light, n, source, sender);
         shines_[base_[member.object] + n] = sender.alpha > 0 || sender.diffuse.greatest() > 0;
     }
@@ -150,16 +150,14 @@ void KeptSolver::send(const KeptLight& light, std::size_t n, const LitPoints& li
     if (!(received > 0)) return;
     const float cosine = lit.mean_cosine();
     const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
-    const Material& material = *light.materials_[surface];
+    const Material& material = light.material(surface);
     const MaterialAlbedo& albedo = light.albedo(surface);
-    Spectrum diffuse = (received / kPiF) * albedo.base(cosine);
-    if (!light.colors_.empty()) diffuse = diffuse * light.colors_[n];
-    sender.diffuse = PackedSpectrum(diffuse);
+    sender.diffuse = PackedSpectrum(light.colored(n, (received / kPiF) * albedo.base(cosine)));
     if (!material.has_facets()) return;
     sender.lit = lit;
     sender.alpha = std::max(material.ggx_alpha, KeptLight::min_alpha(light.table()));
     // However wide the facets are taken, they send as much in all as they reflect.
-    const float whole = largest(light.albedos_->wide[surface].lobe(cosine));
+    const float whole = largest(light.wide_albedo(surface).lobe(cosine));
     sender.gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;
     sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));
 }
@@ -176,7 +174,7 @@ void KeptSolver::part_lobes(const Member& member) {
     for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             sends_on_[base + n] = 0, by_lobes_[base + n] = {};
-            if (!keeps_along || light.lobes_[n].first_along == KeptLight::kNoLobe) continue;
+            if (!keeps_along || light.first_along(n) == KeptLight::kNoLobe) continue;
             const Spectrum came = light.throws_sun() ? unmirrored(first_, base + n) : first_[base + n];
             const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
             const Spectrum sent =
@@ -195,7 +193,7 @@ std::size_t KeptSolver::number_second(const Member& member) {
     for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             first[n] = 0;
-            if (light.lobes_[n].first_along != KeptLight::kNoLobe)
+            if (light.first_along(n) != KeptLight::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n)) first[n] += sends[e.node];
         }
     });
@@ -221,7 +219,7 @@ void KeptSolver::gather_second(const Member& member) {
     constexpr std::uint32_t kGolden = 0x9E3779B9;
     for_nodes(table.size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            const bool has_facets = light.lobes_[n].first_along != KeptLight::kNoLobe;
+            const bool has_facets = light.first_along(n) != KeptLight::kNoLobe;
             std::size_t to = first_second_[base + n];
             Spectrum sum;
             for (const TransferTable::Entry e : table.entries(n)) {
@@ -252,8 +250,7 @@ Spectrum KeptSolver::sent_on(const Member& member, std::size_t n, float choice, 
     float rest = choice * all;
     for (std::size_t i = 0; i < LightNode::kPoints && rest >= 0; rest -= facing[i++])
         if (facing[i] > 0) p = i;
-    const float alpha =
-        std::max(light.materials_[node.surface]->ggx_alpha, KeptLight::min_alpha(light.table()));
+    const float alpha = std::max(light.material(node.surface).ggx_alpha, KeptLight::min_alpha(light.table()));
     const KeptLight::Lobe lobe = light.lobe(member.out, member.links, {}, static_cast<std::uint32_t>(n),
                                             unpack_normal(node.normal[p]), to, alpha);
     return light.facet_color(n, light.albedo(node.surface).lobe(facing[p])) * lobe.kept;

@@ -63,7 +63,7 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
     // Addresses for the most there can be; pages are taken as they are needed.
     second_along_.resize(lights_.size());
     for (std::size_t i = 0; i < lights_.size(); ++i)
-        if (lights_[i]) second_along_[i].reserve(lights_[i]->along_);
+        if (lights_[i]) second_along_[i].reserve(lights_[i]->entries_along());
     if (std::any_of(lights_.begin(), lights_.end(),
                     [](const KeptLight* light) { return light && light->throws_sun(); }))
         mirrored_.resize(nodes);
@@ -97,18 +97,15 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
     };
     const auto is_narrow = [&](const KeptLinks::Link& link) {
         const KeptLight& other = *lights_[link.object];
-        return other.materials_[other.table().nodes().nodes()[link.node].surface]->ggx_alpha < kNarrowestKept;
+        return other.material(other.table().nodes().nodes()[link.node].surface).ggx_alpha < kNarrowestKept;
     };
     for_nodes(table.size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            const KeptLight::LobeNode& node = light.lobes_[n];
-            PackedSpectrum* along = keeps_along && node.first_along != KeptLight::kNoLobe
-                                        ? out.along.data() + node.first_along
-                                        : nullptr;
-            const KeptLight::Local axes = KeptLight::local(node);
-            const auto direction = [&](std::size_t d) {
-                return axes.body({light.local_x_[d], light.local_y_[d], light.local_z_[d]});
-            };
+            const std::uint32_t first_along = light.first_along(n);
+            PackedSpectrum* along =
+                keeps_along && first_along != KeptLight::kNoLobe ? out.along.data() + first_along : nullptr;
+            const KeptLight::Local axes = light.axes(n);
+            const auto direction = [&](std::size_t d) { return axes.body(light.local_direction(d)); };
             Spectrum sum, mirrored;
             Brought brought;
             const auto add = [&](const Spectrum& radiance) {
@@ -164,8 +161,8 @@ void KeptSolver::bounce(std::span<const Member> group) {
             const std::size_t base = base_[member.object];
             tbb::parallel_for(Nodes(0, light.table().size(), 4096), [&](const Nodes& r) {
                 for (std::size_t n = r.begin(); n < r.end(); ++n)
-                    radiosity_[base + n] = at_least_zero(light.white_[n].unpacked() * now_[base + n] +
-                                                         -1.0f * by_lobes_[base + n]);
+                    radiosity_[base + n] =
+                        at_least_zero(light.white(n) * now_[base + n] + -1.0f * by_lobes_[base + n]);
             });
         }
         Progress step;
@@ -260,7 +257,7 @@ void KeptSolver::store(const Member& member) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             out.irradiance[n] = PackedSpectrum(before_[base + n]);
             if (!keeps_along) continue;
-            std::size_t to = light.lobes_[n].first_along, second = first_second_[base + n];
+            std::size_t to = light.first_along(n), second = first_second_[base + n];
             if (to != KeptLight::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n)) {
                     Spectrum more = radiosity_[base + e.node];
@@ -277,12 +274,12 @@ void KeptSolver::store(const Member& member) {
 float KeptSolver::seen_of_cone(const Member& member, const KeptLight& light, std::size_t n) {
     const TransferTable& table = light.table();
     const std::span<const std::uint64_t> is_free = member.links->free(table, n);
-    const ConeShare cone(KeptLight::local(light.lobes_[n]).dir(member.source.dir), member.source.cone_cosine,
-                         table.directions());
+    const ConeShare cone(light.axes(n).dir(member.source.dir), member.source.cone_cosine, table.directions());
     float all = 0, free = 0;
     for (std::size_t d = 0; d < static_cast<std::size_t>(table.directions()); ++d) {
         if (!table.is_live(n, table.point_of(d))) continue;
-        const float in = cone.of(light.local_x_[d], light.local_y_[d], light.local_z_[d]);
+        const Vec3f dir = light.local_direction(d);
+        const float in = cone.of(dir.x, dir.y, dir.z);
         all += in;
         if (is_free[d / 64] >> (d % 64) & 1u) free += in;
     }
