@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kWindow_px = 512;
+constexpr int kFlatWindow_px = 512;
 // A line camera's fixed pattern is one row of pixels: few columns would know it badly, and lines are cheap.
 constexpr int kLineWidth_px = 8192, kLines = 64;
 // Neighbours that a filter along the row or imperfect charge transfer needs before it has settled.
@@ -71,7 +71,7 @@ void set_window(LabSetup& s) {
     const bool lines = line_scan(c);
     require_lines(c, kLines);
     c.window_px =
-        lines ? central_window(c, kLineWidth_px, kLines) : central_window(c, kWindow_px, kWindow_px);
+        lines ? central_window(c, kLineWidth_px, kLines) : central_window(c, kFlatWindow_px, kFlatWindow_px);
     s.remarks.push_back(fmt::format("window {} x {} px about the boresight", c.window_px[2], c.window_px[3]));
 }
 

@@ -24,7 +24,7 @@ constexpr std::size_t kHeaderBytes = 12, kLengthAt = 8;  // magic, version, leng
 // A chunk's length, its type "HCRC", and the checksum.
 using Seal = std::array<std::uint8_t, 12>;
 constexpr Seal kEmptySeal = {4, 0, 0, 0, 'H', 'C', 'R', 'C'};
-constexpr std::size_t kChecksumAt = 8;
+constexpr std::size_t kSealChecksumAt = 8;
 
 void put_little(std::uint64_t value, std::uint8_t* to) {
     for (std::size_t i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
@@ -73,8 +73,8 @@ std::optional<Seal> seal_of(int fd, std::uint64_t bytes) {
     Seal seal = kEmptySeal;
     std::optional<std::uint32_t> crc = checksum(fd, bytes);
     if (!crc) return std::nullopt;
-    crc = crc32_of(std::span(seal).first(kChecksumAt), *crc);
-    put_little(*crc, seal.data() + kChecksumAt);
+    crc = crc32_of(std::span(seal).first(kSealChecksumAt), *crc);
+    put_little(*crc, seal.data() + kSealChecksumAt);
     return seal;
 }
 

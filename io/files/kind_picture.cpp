@@ -31,9 +31,10 @@ BytePlane halved(const BytePlane& p) {
 }
 
 // A channel as it is looked up at the places of another size.
-class Channel {
+class PictureChannel {
   public:
-    Channel(const BytePlane& plane, std::array<TextureWrap, 2> wrap, bool smooth, int width, int height)
+    PictureChannel(const BytePlane& plane, std::array<TextureWrap, 2> wrap, bool smooth, int width,
+                   int height)
         : plane_(plane), wrap_(wrap), smooth_(smooth) {
         while (plane_.width > width || plane_.height > height) {
             if (plane_.width == 1 && plane_.height == 1) break;
@@ -108,7 +109,7 @@ class KindTable {
 };
 
 // A channel that is not there is 255 everywhere.
-float at(const Channel& channel, int x, int y) { return channel.empty() ? 255.0f : channel.at(x, y); }
+float at(const PictureChannel& channel, int x, int y) { return channel.empty() ? 255.0f : channel.at(x, y); }
 
 }  // namespace
 
@@ -170,7 +171,7 @@ KindPicture kind_picture(const KindSource& s, const std::vector<LookKind>& kinds
     for (int k = 0; k < halvings; ++k) halve();
     // = std::max(1, out.width / 2), out.height = std::max(1, out.height / 2);
     out.wrap = s.wrap;
-    const Channel alpha(s.alpha, s.wrap, s.smooth, out.width, out.height),
+    const PictureChannel alpha(s.alpha, s.wrap, s.smooth, out.width, out.height),
         metallic(s.metallic, s.wrap, s.smooth, out.width, out.height),
         roughness(s.roughness, s.wrap, s.smooth, out.width, out.height);
     const KindTable table(s, kinds);

@@ -34,12 +34,12 @@
 namespace hilcam {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+[[noreturn]] void refuse_mesh(const std::filesystem::path& file, const std::string& what) {
     throw InputError(file.string() + ": " + what);
 }
 
 // A file as assimp is to read it: at a path whose ending says what it is.
-struct Source {
+struct MeshSource {
     std::string path, bytes;
     ObjLibraries libraries = {};  // an OBJ has some
     std::vector<std::string> remarks = {};
@@ -51,8 +51,8 @@ struct Source {
 class Loader {
   public:
     // part: which of `nodes` to take, or -1 for what none of them takes.
-    Loader(NamedFiles& files, const Source& source, const aiScene& scene, std::span<const std::string> nodes,
-           int part)
+    Loader(NamedFiles& files, const MeshSource& source, const aiScene& scene,
+           std::span<const std::string> nodes, int part)
         : file_(files.mesh()), files_(files), source_(source), scene_(scene), nodes_(nodes), part_(part) {}
 
     // Throws InputError when textures cannot be read, all of them in one line.
@@ -77,7 +77,7 @@ class Loader {
   private:
     const std::filesystem::path& file_;
     NamedFiles& files_;
-    const Source& source_;
+    const MeshSource& source_;
     const aiScene& scene_;
     std::span<const std::string> nodes_;
     int part_;
@@ -203,7 +203,8 @@ class Loader {
             out_.unreadable_textures.emplace_back(fault.what());
         }
         if (texels_ > kMaxTexels)
-            refuse(file_, "its textures have more than " + std::to_string(kMaxTexels) + " pixels together");
+            refuse_mesh(file_,
+                        "its textures have more than " + std::to_string(kMaxTexels) + " pixels together");
         return texture_index_[{file, clamp}] = index;
     }
 
@@ -247,7 +248,7 @@ class Loader {
     [[noreturn]] void refuse_empty() const {
         std::vector<std::string> all;
         list_names(*scene_.mRootNode, all);
-        refuse(file_, empty_part(nodes_, part_, all));
+        refuse_mesh(file_, empty_part(nodes_, part_, all));
     }
     static void list_names(const aiNode& node, std::vector<std::string>& names) {
         names.emplace_back(node.mName.C_Str());
@@ -265,8 +266,8 @@ class Loader {
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
             const aiVector3D p = body_from_part * part.mVertices[i];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                refuse(file_,
-                       "part " + in_quotes(part.mName.C_Str()) + " is not finite once its node places it");
+                refuse_mesh(file_, "part " + in_quotes(part.mName.C_Str()) +
+                                       " is not finite once its node places it");
             mesh_.vertices_m.push_back({p.x, p.y, p.z});
             if (any_uvs_) {
                 const bool has = part.HasTextureCoords(0);
@@ -293,8 +294,8 @@ class Loader {
             if (face.mNumIndices != 3) continue;
             std::array<std::uint32_t, 3> t = {face.mIndices[0], face.mIndices[1], face.mIndices[2]};
             if (std::max({t[0], t[1], t[2]}) >= part.mNumVertices)
-                refuse(file_, "triangle " + std::to_string(i) + " of part " + in_quotes(part.mName.C_Str()) +
-                                  " names a vertex that does not exist");
+                refuse_mesh(file_, "triangle " + std::to_string(i) + " of part " +
+                                       in_quotes(part.mName.C_Str()) + " names a vertex that does not exist");
             // By place: some of assimp's loaders give each corner a vertex of its own.
             const auto at = [&](std::size_t corner) { return mesh_.vertices_m[base + t[corner]]; };
             if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) {
@@ -333,9 +334,9 @@ class Loader {
             if (bad++ == 0) first = i;
         }
         if (bad > 0)
-            refuse(file_, std::to_string(bad) + " of " + std::to_string(part.mNumVertices) +
-                              " vertices of part " + in_quotes(part.mName.C_Str()) +
-                              " are not finite, the first is number " + std::to_string(first));
+            refuse_mesh(file_, std::to_string(bad) + " of " + std::to_string(part.mNumVertices) +
+                                   " vertices of part " + in_quotes(part.mName.C_Str()) +
+                                   " are not finite, the first is number " + std::to_string(first));
     }
 };
 
@@ -345,7 +346,7 @@ constexpr const char* kMaterials = "hilcam_materials.mtl";
 // The files that assimp opens: the mesh and its materials are in memory already, others are opened as every file is.
 class MeshFiles final : public Assimp::IOSystem {
   public:
-    MeshFiles(NamedFiles& files, const Source& source) : files_(files), source_(source) {}
+    MeshFiles(NamedFiles& files, const MeshSource& source) : files_(files), source_(source) {}
 
     // The error in a file: assimp has words of its own for it, or goes on without the file.
     const std::optional<InputError>& refused() const { return refused_; }
@@ -376,7 +377,7 @@ class MeshFiles final : public Assimp::IOSystem {
 
   private:
     NamedFiles& files_;
-    const Source& source_;
+    const MeshSource& source_;
     std::optional<InputError> refused_;
     std::deque<std::string> beside_;  // in use as long as assimp reads
 
@@ -385,10 +386,10 @@ class MeshFiles final : public Assimp::IOSystem {
     }
 };
 
-Source source_of(NamedFiles& files, const std::string& kind) {
+MeshSource source_of(NamedFiles& files, const std::string& kind) {
     const std::filesystem::path& file = files.mesh();
     const std::string name = file.string();
-    Source source{(file.parent_path() / file.stem()).string() + kind, read_input_file(file, mesh_kind())};
+    MeshSource source{(file.parent_path() / file.stem()).string() + kind, read_input_file(file, mesh_kind())};
     if (kind == ".obj") {
         ObjSource obj = plain_obj(source.bytes, name);
         source.libraries = read_obj_libraries(obj, files);
@@ -421,20 +422,20 @@ void require_few(const aiScene& scene, const std::filesystem::path& file) {
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
             const unsigned corners = mesh.mFaces[k].mNumIndices;
             if (corners > kMaxCorners)
-                refuse(file, "has a polygon of " + std::to_string(corners) + " corners; accepted: at most " +
-                                 std::to_string(kMaxCorners));
+                refuse_mesh(file, "has a polygon of " + std::to_string(corners) +
+                                      " corners; accepted: at most " + std::to_string(kMaxCorners));
             of_mesh[i] += std::max(3u, corners) - 2;
         }
     }
     const std::uint64_t triangles = scene.mRootNode ? placed_triangles(*scene.mRootNode, of_mesh) : 0;
     if (triangles > kMaxTriangles)
-        refuse(file, "has " + std::to_string(triangles) + " triangles; accepted: at most " +
-                         std::to_string(kMaxTriangles));
+        refuse_mesh(file, "has " + std::to_string(triangles) + " triangles; accepted: at most " +
+                              std::to_string(kMaxTriangles));
     allow_more(kBytesPerTriangle * triangles, 1e-6 * static_cast<double>(triangles));
 }
 
 // A word of a list with blanks between its words.
-bool has_word(std::string_view list, std::string_view word) {
+bool lists_word(std::string_view list, std::string_view word) {
     std::istringstream words{std::string(list)};
     for (std::string one; words >> one;)
         if (one == word) return true;
@@ -447,13 +448,13 @@ void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     const std::string_view ending = std::string_view(kind).substr(1);
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         const aiImporterDesc& about = *importer.GetImporterInfo(i);
-        if (has_word(about.mFileExtensions, ending)) continue;
+        if (lists_word(about.mFileExtensions, ending)) continue;
         const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
         importer.UnregisterLoader(other.get());
     }
 }
 
-const aiScene& read_scene(Assimp::Importer& importer, const Source& source, NamedFiles& names) {
+const aiScene& read_scene(Assimp::Importer& importer, const MeshSource& source, NamedFiles& names) {
     const std::filesystem::path& file = names.mesh();
     keep_importer_of(std::filesystem::path(source.path).extension().string(), importer);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -467,7 +468,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source, Name
     }
     const std::string error = importer.GetErrorString();
     if (!scene && error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
-    if (!scene) refuse(file, "does not parse: " + error);
+    if (!scene) refuse_mesh(file, "does not parse: " + error);
     return *scene;
 }
 
@@ -486,7 +487,7 @@ bool is_gltf(const std::string& kind) { return kind == ".glb" || kind == ".gltf"
 
 MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind) {
     if (is_gltf(kind)) return gltf_contents(files, kind);
-    const Source source = source_of(files, kind);
+    const MeshSource source = source_of(files, kind);
     Assimp::Importer importer;
     MeshContents out = Loader(files, source, read_scene(importer, source, files), {}, -1).load_contents();
     out.missing_materials = source.libraries.missing;
@@ -498,7 +499,7 @@ MeshContents import_mesh_contents(NamedFiles& files, const std::string& kind) {
 std::vector<Mesh> import_mesh_parts(NamedFiles& files, const std::string& kind,
                                     std::span<const std::string> nodes) {
     if (is_gltf(kind)) return gltf_parts(files, kind, nodes);
-    const Source source = source_of(files, kind);
+    const MeshSource source = source_of(files, kind);
     Assimp::Importer importer;
     const aiScene& scene = read_scene(importer, source, files);
     std::vector<Mesh> meshes;

@@ -24,14 +24,14 @@ void read_header(KvnLines& lines, KvnLine& line) {
     lines.fail("the file ends; accepted: META_START");
 }
 
-struct Metadata {
+struct OemMetadata {
     OemSegment segment;
     TimeSystem system = TimeSystem::kUtc;
     SegmentSpan span;
 };
 
-Metadata read_metadata(KvnLines& lines) {
-    Metadata m;
+OemMetadata read_oem_metadata(KvnLines& lines) {
+    OemMetadata m;
     m.segment.line = lines.number();
     KvnSection meta;
     meta.read(lines, "META_STOP",
@@ -52,7 +52,7 @@ Metadata read_metadata(KvnLines& lines) {
     return m;
 }
 
-void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
+void read_state(const KvnLines& lines, const KvnLine& line, OemMetadata& m) {
     std::string_view epoch;
     const std::vector<double> v = data_numbers(lines, line.text, epoch);
     if (v.size() != 6 && v.size() != 9)
@@ -91,7 +91,7 @@ void skip_covariance(KvnLines& lines, KvnLine& line) {
 }
 
 // Data up to the next META_START (true) or the file's end.
-bool read_data(KvnLines& lines, KvnLine& line, Metadata& m) {
+bool read_data(KvnLines& lines, KvnLine& line, OemMetadata& m) {
     while (lines.next(line)) {
         if (line.text == "META_START") return true;
         if (line.text == "COVARIANCE_START")
@@ -135,7 +135,7 @@ std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
     read_header(lines, line);
     std::vector<OemSegment> segments;
     for (bool more = true; more;) {
-        Metadata m = read_metadata(lines);
+        OemMetadata m = read_oem_metadata(lines);
         more = read_data(lines, line, m);
         check_states(lines, m.segment);
         for (OemSegment& piece :

@@ -43,15 +43,15 @@ std::optional<PlyType> ply_type_of(std::string_view word) {
         std::string_view name, newer;
         PlyType type;
     };
-    static constexpr std::array<Known, 8> kTypes = {{{"char", "int8", {1, true, false}},
-                                                     {"uchar", "uint8", {1, false, false}},
-                                                     {"short", "int16", {2, true, false}},
-                                                     {"ushort", "uint16", {2, false, false}},
-                                                     {"int", "int32", {4, true, false}},
-                                                     {"uint", "uint32", {4, false, false}},
-                                                     {"float", "float32", {4, true, true}},
-                                                     {"double", "float64", {8, true, true}}}};
-    for (const Known& known : kTypes)
+    static constexpr std::array<Known, 8> kPlyTypes = {{{"char", "int8", {1, true, false}},
+                                                        {"uchar", "uint8", {1, false, false}},
+                                                        {"short", "int16", {2, true, false}},
+                                                        {"ushort", "uint16", {2, false, false}},
+                                                        {"int", "int32", {4, true, false}},
+                                                        {"uint", "uint32", {4, false, false}},
+                                                        {"float", "float32", {4, true, true}},
+                                                        {"double", "float64", {8, true, true}}}};
+    for (const Known& known : kPlyTypes)
         if (word == known.name || word == known.newer) return known.type;
     return {};
 }

@@ -28,7 +28,7 @@ CutCorner between(const CutCorner& a, const CutCorner& b, double t) {
 }
 
 // A triangle that is cut by the sides of a rectangle has seven corners at most.
-class Part {
+class CutPart {
   public:
     void add(const CutCorner& corner) {
         if (count_ < corners_.size()) corners_[count_++] = corner;
@@ -36,9 +36,9 @@ class Part {
     std::span<const CutCorner> corners() const { return std::span(corners_).first(count_); }
 
     // Returns the two parts on both sides of a line x = at, or y = at.
-    std::array<Part, 2> divided(bool along_x, std::int64_t line) const {
+    std::array<CutPart, 2> divided(bool along_x, std::int64_t line) const {
         const auto at = static_cast<double>(line);
-        std::array<Part, 2> out;
+        std::array<CutPart, 2> out;
         for (std::size_t i = 0; i < count_; ++i) {
             const CutCorner &a = corners_[i], &b = corners_[(i + 1) % count_];
             const double from = (along_x ? a.x : a.y) - at, to = (along_x ? b.x : b.y) - at;
@@ -197,7 +197,7 @@ class Cutter {
 
   private:
     struct Piece {
-        Part part;
+        CutPart part;
         std::uint8_t kind;
     };
     Mesh& mesh_;
@@ -216,10 +216,10 @@ class Cutter {
         surfaces_.push_back(static_cast<std::uint16_t>(surface));
     }
 
-    Part whole(std::size_t triangle, const KindMap& map) const {
+    CutPart whole(std::size_t triangle, const KindMap& map) const {
         // Beyond this many pictures side by side a texel is finer than single precision has it.
         constexpr double kFarthest = 1e6;
-        Part out;
+        CutPart out;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec2f uv = mesh_.uvs[mesh_.triangles[triangle][k]];
             CutCorner corner;
@@ -232,7 +232,7 @@ class Cutter {
     }
 
     // False: there would be too many pieces.
-    bool divide(const Part& part) {
+    bool divide(const CutPart& part) {
         if (part.corners().size() < 3) return true;
         if (steps_left_ == 0 || is_too_many()) return false;
         --steps_left_;
@@ -242,11 +242,11 @@ class Cutter {
             pieces_.push_back({part, map_->at(r.x0, r.y0)});
             return true;
         }
-        const std::array<Part, 2> parts = part.divided(line->along_x, line->at);
+        const std::array<CutPart, 2> parts = part.divided(line->along_x, line->at);
         return divide(parts[0]) && divide(parts[1]);
     }
 
-    void emit(const Part& part, std::int32_t surface) {
+    void emit(const CutPart& part, std::int32_t surface) {
         if (surface == SurfaceCut::kNothing) return;
         const auto corners = part.corners();
         const auto first = static_cast<std::uint32_t>(mesh_.vertices_m.size() + vertices_m_.size());

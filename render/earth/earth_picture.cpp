@@ -24,11 +24,11 @@ constexpr double kSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e
 constexpr double kMapStep = 1.0 / 256;  // share of the way from one map to the next
 // The disk's radius in pixels, and the camera's distance from the middle in radii.
 constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
-constexpr int kRings = 16;  // rings of a band, without the one that the next band shares
-constexpr int kRun = 64;    // columns of a piece
+constexpr int kRings = 16;       // rings of a band, without the one that the next band shares
+constexpr int kRunColumns = 64;  // columns of a piece
 // The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width.
 constexpr double kLimb_px = 1.5;
-constexpr int kFiner = 3, kLimbLooks = 4;
+constexpr int kFinerSteps = 3, kLimbLooks = 4;
 
 Vec3d from_steps(double longitude_rad, double latitude_rad) {
     return {std::cos(latitude_rad) * std::cos(longitude_rad),
@@ -70,10 +70,10 @@ HILCAM_CLONES void place_looks(const EarthPicture::Tile& tile, const float* x, c
 // Radiance and 2^-21 W m^-2 sr^-1 um^-1 in 16 bits: five of the exponent, from there on, and eleven digits, so an error of 1 / 4096 at
 // most. What is brighter than 2^11, brighter than any cloud, counts as that.
 constexpr std::uint32_t kDropped = 12, kLowest = (127u - 21) << 23;
-constexpr float kDark = 0x1p-21f;
-static_assert(std::bit_cast<std::uint32_t>(kDark) == kLowest);
+constexpr float kDarkest = 0x1p-21f;
+static_assert(std::bit_cast<std::uint32_t>(kDarkest) == kLowest);
 std::uint16_t coded(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(std::max(0.0f, value) + kDark) + (1u << (kDropped - 1));
+    const auto bits = std::bit_cast<std::uint32_t>(std::max(0.0f, value) + kDarkest) + (1u << (kDropped - 1));
     return static_cast<std::uint16_t>(std::min((bits - kLowest) >> kDropped, 0xFFFFu));
 }
 
@@ -112,7 +112,7 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
             const Bins before = row(0);
             sum = before + looks.in_row[i] * (row(1) - before);
         }
-        *reinterpret_cast<Bins*>(out + i) = sum - kDark;
+        *reinterpret_cast<Bins*>(out + i) = sum - kDarkest;
     }
 }
 
@@ -149,7 +149,7 @@ Vec3d EarthPicture::to_place(Vec3d v) const { return {dot(v, right_), dot(v, dow
 void EarthPicture::place_bands() {
     bands_.clear();
     const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // a pixel's part of the radius
-    const double step = kSpacing_px * pixel, fine = step / kFiner;
+    const double step = kSpacing_px * pixel, fine = step / kFinerSteps;
     pixel_ = static_cast<float>(pixel);
     inner_per_b_ = static_cast<float>(1 / step);
     const double limb_from = 1 - kLimb_px * pixel;
@@ -172,7 +172,7 @@ void EarthPicture::place_bands() {
     dark_from_ = static_cast<float>(1 + top_m_ / kEarthRadius_m + 0.5 * pixel + fine);
 }
 
-int EarthPicture::Band::runs() const { return (columns + kRun - 1) / kRun; }
+int EarthPicture::Band::runs() const { return (columns + kRunColumns - 1) / kRunColumns; }
 
 void EarthPicture::fill_run(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row,
                             int first) {
@@ -190,7 +190,7 @@ void EarthPicture::fill_run(const EarthModel& earth, const Spectrum& irradiance,
                         {numbers_, nullptr},
                         EarthModel::kLooksOfPixel};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
-    const int last = std::min(first + kRun, band.columns);
+    const int last = std::min(first + kRunColumns, band.columns);
     for (int column = first; column < last; ++column) {
         const double turn = 2 * kPi * column / band.columns;
         const Vec3d out_dir = std::cos(turn) * right_ + std::sin(turn) * down_;
@@ -244,7 +244,7 @@ void EarthPicture::make_piece(const EarthModel& earth, const Spectrum& sun_irrad
     std::size_t i = 0;
     while (piece >= bands_[i].rows * bands_[i].runs()) piece -= bands_[i].rows * bands_[i].runs(), ++i;
     const int runs = bands_[i].runs();
-    fill_run(earth, sun_irradiance, bands_[i], piece / runs, kRun * (piece % runs));
+    fill_run(earth, sun_irradiance, bands_[i], piece / runs, kRunColumns * (piece % runs));
 }
 
 EarthPicture::Tile EarthPicture::tile(Vec3d camera_m, const std::array<Vec3d, kNodes * kNodes>& dirs) const {

@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-constexpr float kGolden = 0.61803399f;
+constexpr float kGoldenRatio = 0.61803399f;
 // From node to node, of a whole turn: the root of a half. How many directions of two to nine nodes side by side lie in a small disk
 // then scatters by a third of what it does by the golden section, which would turn the spiral, being one by it itself, into its
 // own next directions (docs/decisions.md).
@@ -210,7 +210,7 @@ std::vector<Vec3f> transfer_directions(int count) {
     for (int point = 0; point < LightNode::kPoints; ++point)
         for (int i = point; i < count; i += LightNode::kPoints) {
             const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-            const float r = std::sqrt(u), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+            const float r = std::sqrt(u), phi = 2 * kPiF * kGoldenRatio * static_cast<float>(i);
             out.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)});
         }
     return out;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kTogether = 8;
 
-struct Places {
+struct StarPlaces {
     double* x;
     double* y;
     double* z;
@@ -22,7 +22,7 @@ struct Places {
 }
 
 // The same steps as StarObserver::apparent_dir(). at: where the observer sees the stars, without aberration.
-HILCAM_CLONES void aberrate(std::size_t count, const StarObserver& observer, Places at) {
+HILCAM_CLONES void aberrate(std::size_t count, const StarObserver& observer, StarPlaces at) {
     const Vec3d beta = observer.beta();
     const double inverse_lorentz = observer.inverse_lorentz();
     for (std::size_t first = 0; first < count; first += kTogether)
