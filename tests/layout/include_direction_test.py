@@ -33,7 +33,7 @@ ONLY_IN = {
     "embree": {"render/lod/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
     "meshoptimizer": {"io/meshes/gltf_meshopt.cpp", "render/lod/mesh_lod.cpp", "render/lod/shaped_parts.cpp"},
     "draco": {"io/meshes/gltf_draco.cpp"},
-    "yaml-cpp": {"io/config/config_yaml.cpp"},
+    "yaml-cpp": {"io/config/config_yaml.cpp", "io/config/yaml_flag.cpp", "io/config/yaml_place.cpp", "io/config/yaml_value.cpp"},
     "assimp": {"io/meshes/mesh_import.cpp"},
     "pugixml": {"io/files/ndm_xml.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},
