@@ -1,6 +1,6 @@
 #pragma once
 // Mesh files of all kinds but shapes, in this process: no caller but the child that mesh_file.cpp makes, and fuzzing. glTF has a
-// reader of its own (gltf_import.h), the others are read through assimp, which no other unit knows.
+// reader of its own (gltf_import.h), the others are read through assimp (mesh_scene.h).
 
 #include <cstdint>
 #include <span>

@@ -34,7 +34,7 @@ ONLY_IN = {
     "meshoptimizer": {"io/meshes/gltf_meshopt.cpp", "render/lod/mesh_lod.cpp", "render/lod/shaped_parts.cpp"},
     "draco": {"io/meshes/gltf_draco.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp", "io/config/yaml_flag.cpp", "io/config/yaml_place.cpp", "io/config/yaml_value.cpp"},
-    "assimp": {"io/meshes/mesh_import.cpp"},
+    "assimp": {"io/meshes/mesh_scene.cpp", "io/meshes/scene_mesh.cpp"},
     "pugixml": {"io/files/ndm_xml.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},
     "opencv2": set(),
