@@ -47,7 +47,7 @@ void YamlValue::refuse(const YAML::Node& at, const std::string& accepted, const 
             "found " + shown(at) + "; accepted: " + accepted + " (" + field_.meaning + ")" + advice);
 }
 
-// Through an alias a list of thousands may stand in thousands of places. 4 MiB of pairs as people write
+// A list of thousands may stand, through an alias, in thousands of places. 4 MiB of pairs as people write
 // them are half a million numbers.
 void YamlValue::count_number(const YAML::Node& at) const {
     if (++numbers_ > 1000000)

@@ -13,7 +13,7 @@ namespace hilcam {
 
 class YamlValue {
   public:
-    // What is given lives longer than this. numbers: of the configuration so far, in its lists.
+    // All of it must live longer than this. numbers: counts those in the lists of the whole configuration.
     YamlValue(const YAML::Node& node, const YamlPlace& place, const Field& field, const std::string& path,
               std::size_t& numbers)
         : node_(node), place_(place), field_(field), path_(path), numbers_(numbers) {}

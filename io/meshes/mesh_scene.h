@@ -1,6 +1,6 @@
 #pragma once
-// What assimp makes of a mesh file: its scene. It is kept to the importer of the file's ending, to files that named_files.h allows, and
-// to so many triangles as there may be.
+// The scene that assimp makes of a mesh file. assimp is kept to the importer of the file's ending, to files that named_files.h allows,
+// and to so many triangles as there may be.
 
 #include <memory>
 
