@@ -23,15 +23,15 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kAxes = AtmosphereTable::kAxes;
+constexpr std::size_t kTableAxes = AtmosphereTable::kAxes;
 constexpr std::size_t kMaxCells = 2'000'000;
 constexpr std::uintmax_t kMaxTableBytes = std::uintmax_t{4} << 30;  // 2 KiB a cell
-constexpr std::array<const char*, kAxes> kAxisNames = {"sun_zenith_deg", "view_zenith_deg", "azimuth_deg",
-                                                       "height_km"};
-constexpr std::array<double, kAxes> kAxisMost = {90, 90, 180, 1e6};
-constexpr std::array<double, kAxes> kAxisUnit = {kDegree_rad, kDegree_rad, kDegree_rad, 1000};
+constexpr std::array<const char*, kTableAxes> kAxisNames = {"sun_zenith_deg", "view_zenith_deg",
+                                                            "azimuth_deg", "height_km"};
+constexpr std::array<double, kTableAxes> kAxisMost = {90, 90, 180, 1e6};
+constexpr std::array<double, kTableAxes> kAxisUnit = {kDegree_rad, kDegree_rad, kDegree_rad, 1000};
 
-using Geometry = std::array<double, kAxes>;
+using Geometry = std::array<double, kTableAxes>;
 
 // The values of one wavelength of one geometry.
 struct Sample {
@@ -64,7 +64,7 @@ std::vector<std::string> split(const std::string& line, char separator) {
 
 Geometry read_geometry(const std::string& where, const std::vector<std::string>& cells) {
     Geometry out{};
-    for (std::size_t k = 0; k < kAxes; ++k)
+    for (std::size_t k = 0; k < kTableAxes; ++k)
         if (!to_number(cells[k], out[k]) || out[k] < 0 || out[k] > kAxisMost[k])
             refuse_table(where, std::string(kAxisNames[k]) + ": found " + in_quotes(cells[k]) +
                                     "; accepted: a number from 0 to " + plain(kAxisMost[k]));
@@ -299,7 +299,7 @@ Samples read_rows(const std::filesystem::path& file) {
             if (line != values && line != runs)
                 refuse_table(where,
                              "found " + in_quotes(line) + "; accepted: '" + values + "' or '" + runs + "'");
-            columns = line == values ? kAxes + 5 : kAxes + 1;
+            columns = line == values ? kTableAxes + 5 : kTableAxes + 1;
             continue;
         }
         const std::vector<std::string> cells = split(line, ',');
@@ -307,15 +307,15 @@ Samples read_rows(const std::filesystem::path& file) {
             refuse_table(where, "found " + std::to_string(cells.size()) +
                                     " columns; accepted: " + std::to_string(columns));
         const Geometry geometry = read_geometry(where, cells);
-        if (columns == kAxes + 1) {
-            if (!out.emplace(geometry, read_run(file.parent_path() / cells[kAxes], geometry)).second)
+        if (columns == kTableAxes + 1) {
+            if (!out.emplace(geometry, read_run(file.parent_path() / cells[kTableAxes], geometry)).second)
                 refuse_table(where, "the same geometry as a line before");
             continue;
         }
         std::array<double, 5> v{};
         for (std::size_t k = 0; k < v.size(); ++k)
-            if (!to_number(cells[kAxes + k], v[k]))
-                refuse_table(where, "found " + in_quotes(cells[kAxes + k]) + "; accepted: a number");
+            if (!to_number(cells[kTableAxes + k], v[k]))
+                refuse_table(where, "found " + in_quotes(cells[kTableAxes + k]) + "; accepted: a number");
         const Sample sample{v[0], v[1], v[2], v[3], v[4]};
         if (!(sample.wavelength_um >= 0.1 && sample.wavelength_um <= 100))
             refuse_table(where, "wavelength_um: accepted: 0.1 to 100");
@@ -350,7 +350,7 @@ AtmosphereTable::Cell cell_of(const std::string& where, std::vector<Sample> samp
 
 std::string name_of(const Geometry& g) {
     std::string out;
-    for (std::size_t k = 0; k < kAxes; ++k) {
+    for (std::size_t k = 0; k < kTableAxes; ++k) {
         if (k > 0) out.append(", ");
         out.append(kAxisNames[k]).append(" ").append(plain(g[k]));
     }
@@ -361,9 +361,9 @@ std::string name_of(const Geometry& g) {
 
 AtmosphereTable read_atmosphere(const std::filesystem::path& file, const SpectralGrid& grid) {
     const Samples samples = read_rows(file);
-    std::array<std::vector<double>, kAxes> axes;
+    std::array<std::vector<double>, kTableAxes> axes;
     for (const auto& [geometry, unused] : samples)
-        for (std::size_t k = 0; k < kAxes; ++k) axes[k].push_back(geometry[k]);
+        for (std::size_t k = 0; k < kTableAxes; ++k) axes[k].push_back(geometry[k]);
     std::size_t cells = 1;
     for (auto& axis : axes) {
         std::sort(axis.begin(), axis.end());
@@ -375,13 +375,13 @@ AtmosphereTable read_atmosphere(const std::filesystem::path& file, const Spectra
     AtmosphereTable table;
     for (std::size_t i = 0; i < cells; ++i) {
         Geometry g{};
-        for (std::size_t k = kAxes, rest = i; k-- > 0; rest /= axes[k].size())
+        for (std::size_t k = kTableAxes, rest = i; k-- > 0; rest /= axes[k].size())
             g[k] = axes[k][rest % axes[k].size()];
         const auto found = samples.find(g);
         if (found == samples.end()) refuse_table(file.string(), "has no geometry " + name_of(g));
         table.cells.push_back(cell_of(file.string() + ", " + name_of(g), found->second, grid));
     }
-    for (std::size_t k = 0; k < kAxes; ++k)
+    for (std::size_t k = 0; k < kTableAxes; ++k)
         for (const double value : axes[k]) table.axes[k].push_back(value * kAxisUnit[k]);
     return table;
 }

@@ -16,7 +16,7 @@ struct Named {
     int code;
 };
 // NAIF, "NAIF IDs Required Reading".
-constexpr std::array kNames = {
+constexpr std::array kNaifNames = {
     Named{"SSB", 0},
     Named{"SOLAR SYSTEM BARYCENTER", 0},
     Named{"MERCURY BARYCENTER", 1},
@@ -114,8 +114,8 @@ std::optional<int> kernel_code(const KernelPool& pool, std::string_view name) {
                 return static_cast<int>((*codes)[i]);
     }
     const auto own =
-        std::find_if(kNames.begin(), kNames.end(), [&](const Named& n) { return n.name == wanted; });
-    if (own != kNames.end()) return own->code;
+        std::find_if(kNaifNames.begin(), kNaifNames.end(), [&](const Named& n) { return n.name == wanted; });
+    if (own != kNaifNames.end()) return own->code;
     return {};
 }
 

@@ -17,7 +17,7 @@ constexpr float kPiOfClouds = static_cast<float>(kPi);
 // changes the light at 8 degrees of phase by 1 to 2 % (docs/earth.md).
 constexpr double kRadius_um = 10, kVariance = 0.15;
 constexpr int kStreams = 16;
-constexpr int kThinnest = -7, kThickest = 9;  // powers of two of the scaled thickness
+constexpr int kThinnestCloud = -7, kThickest = 9;  // powers of two of the scaled thickness
 
 // Where a value lies among `count` even steps of [0, 1].
 struct GridPlace {
@@ -63,7 +63,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
     std::vector<double> cosines;
     cosines.reserve(kCosines);
     for (int i = 0; i < kCosines; ++i) cosines.push_back(static_cast<double>(cosine_at(i)));
-    const ScatteringLayers made = scattering_layers(moments, kStreams, cosines, kThinnest, kThickest);
+    const ScatteringLayers made = scattering_layers(moments, kStreams, cosines, kThinnestCloud, kThickest);
     left_ = static_cast<float>(1 - made.forward_share);
 
     // From the layers' thicknesses to even steps of c.

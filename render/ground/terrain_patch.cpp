@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kStepsOfTile = 32;  // along a tile's edge
-constexpr std::size_t kTriangles =
+constexpr std::size_t kTileTriangles =
     2 * kStepsOfTile * kStepsOfTile + 8 * kStepsOfTile;  // triangles of a tile with its skirts
 
 // A square of the map: its first column and row, and the distance between the columns it uses.
@@ -140,7 +140,7 @@ class TerrainBuilder {
         std::vector<TerrainTile> done;
         while (!open.empty()) {
             const TerrainTile t = open.top();
-            const bool full = (done.size() + open.size() + 3) * kTriangles > view_.most_triangles;
+            const bool full = (done.size() + open.size() + 3) * kTileTriangles > view_.most_triangles;
             if (full || t.step == 1 || t.edge_px <= view_.edge_px) {
                 open.pop();
                 done.push_back(t);

@@ -27,7 +27,7 @@ constexpr int kPicture_px = 512;
 constexpr double kFinerPictures = 4;
 // The pictures' camera is so far away that directions are one; from a fortieth of it they differ by 1.4 degrees.
 constexpr double kFrom_radii = 1000, kLeast_radii = 40;
-constexpr int kCells = kCubeFaces * kFaceCells * kFaceCells;
+constexpr int kViewCells = kCubeFaces * kFaceCells * kFaceCells;
 // A byte for each triangle.
 using Marks = std::vector<std::uint8_t>;
 void add(const Marks& of, Marks& to) {
@@ -108,7 +108,7 @@ std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
                 pictures->mark_seen(cube_direction(row / kRow, {along(i), along(row % kRow)}),
                                     seen[number(row / kRow, i, row % kRow)]);
     });
-    std::vector<Marks> out(kCells, Marks(own.size()));
+    std::vector<Marks> out(kViewCells, Marks(own.size()));
     for (std::size_t cell = 0; cell < out.size(); ++cell) {
         const auto [face, across, down] = cell_at(cell);
         for (int j = 0; j <= kStepsOfRow; ++j)
@@ -141,7 +141,7 @@ VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> patches, 
 }  // namespace
 
 VisibleSets::VisibleSets(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> patches)
-    : radius_m_(radius_m), sets_(kCells) {
+    : radius_m_(radius_m), sets_(kViewCells) {
     const std::vector<Marks> seen = seen_by_cell(mesh, radius_m, patches);
     tbb::parallel_for(std::size_t{0}, sets_.size(),
                       [&](std::size_t cell) { sets_[cell] = set_of(mesh, patches, seen[cell]); });

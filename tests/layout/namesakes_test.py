@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Sources of a library that a unity build may compile as one give no two things in unnamed namespaces one name, however the build cuts
-the list of sources: constants, types and functions of equal parameters.
+the list of sources: constants, types and functions of equal parameters. Nor has a function a constant of its own that is named as another source's, as the compiler would warn that it
+shadows that.
 
 Prints each name with the sources that have it. The compiler says the same, but only for the sources that it meets together.
 """
@@ -16,6 +17,8 @@ FURTHER_CONSTANT = re.compile(r",\s*(k[A-Z]\w*)\s*=[^=]")
 TYPE = re.compile(r"^(?:struct|class|enum class|enum|union)\s+(\w+)\s*(?:[{:]|final)")
 ALIAS = re.compile(r"^using\s+(\w+)\s*=\s*([^;]+);")
 FUNCTION = re.compile(r"^(?:\[\[\w+\]\]\s*)?(?!template|return|using|namespace|typedef|static_assert|HILCAM_CHECK)[\w:<>,&*\s]+?[\s&*](\w+)\(")
+LOCAL_CONSTANT = re.compile(r"^\s+(?:static )?(?:constexpr|const)\b[^(={;]*?\b(k[A-Z]\w*)\s*[={\[]", re.MULTILINE)
+LOCAL_CONSTANTS = re.compile(r"^\s+(?:static )?constexpr\b[^;]*;", re.MULTILINE)
 
 
 def libraries():
@@ -65,15 +68,20 @@ def unnamed(text):
 
 def namesakes(sources):
     """Lines that say which names meet in a list of sources."""
-    declared = collections.defaultdict(dict)
+    declared, constants, local = collections.defaultdict(dict), set(), collections.defaultdict(set)
     for source in sources:
-        for kind, name, mark in unnamed((TOP / source).read_text()):
+        text = (TOP / source).read_text()
+        for kind, name, mark in unnamed(text):
             is_function = kind == "function"
             declared[f"{name}({mark})" if is_function else name].setdefault(source, "" if is_function else mark)
+            constants |= {name} if kind == "constant" else set()
+        for name in LOCAL_CONSTANT.findall(text) + sum(map(FURTHER_CONSTANT.findall, LOCAL_CONSTANTS.findall(text)), []):
+            local[name].add(source)
     for name, places in sorted(declared.items()):
+        shadowing = local[name] - set(places) if name in constants else set()
         # Aliases of one type are no two things.
-        if len(places) > 1 and (len(set(places.values())) > 1 or "" in places.values()):
-            yield f"{name}: {', '.join(sorted(places))}"
+        if len(places) > 1 and (len(set(places.values())) > 1 or "" in places.values()) or shadowing:
+            yield f"{name}: {', '.join(sorted(set(places) | shadowing))}"
 
 
 def main():
