@@ -206,7 +206,7 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
 }
 
 std::string to_text(const MeshSurvey& s) {
-    constexpr std::size_t kMaxNodes = 200;
+    constexpr std::size_t kMostNodesShown = 200;
     const Vec3d size_m = s.most_m - s.least_m;
     std::string out = fmt::format(
         "mesh {}\nsize       {:.6g} x {:.6g} x {:.6g} m: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to "
@@ -221,11 +221,11 @@ std::string to_text(const MeshSurvey& s) {
                            surface.name.empty() ? "without a name" : "'" + harmless(surface.name) + "'",
                            surface.textured ? ", with a texture" : "");
     out += fmt::format("nodes      {}\n", s.nodes.size());
-    for (std::size_t i = 0; i < std::min(s.nodes.size(), kMaxNodes); ++i)
+    for (std::size_t i = 0; i < std::min(s.nodes.size(), kMostNodesShown); ++i)
         out += fmt::format("  {:>10} triangles  {:{}}'{}'\n", s.nodes[i].triangles, "",
                            2 * std::min(s.nodes[i].depth, 20u), harmless(s.nodes[i].name));
-    if (s.nodes.size() > kMaxNodes)
-        out += fmt::format("  and {} more: --json has them all\n", s.nodes.size() - kMaxNodes);
+    if (s.nodes.size() > kMostNodesShown)
+        out += fmt::format("  and {} more: --json has them all\n", s.nodes.size() - kMostNodesShown);
     const std::vector<std::string> problems = problems_of(s);
     out += problems.empty() ? "problems: none\n" : "problems:\n";
     for (const std::string& problem : problems) out += "  " + problem + "\n";

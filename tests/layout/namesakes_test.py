@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Sources of a library that a unity build may compile as one give no two things in unnamed namespaces one name, however the build cuts
 the list of sources: constants, types and functions of equal parameters. Nor has a function a constant of its own that is named as another source's, as the compiler would warn that it
-shadows that.
+shadows that. And no two headers have constants of one name.
 
 Prints each name with the sources that have it. The compiler says the same, but only for the sources that it meets together.
 """
@@ -84,8 +84,18 @@ def namesakes(sources):
             yield f"{name}: {', '.join(sorted(set(places) | shadowing))}"
 
 
+def header_namesakes():
+    """Lines that say which constants more than one header has."""
+    places = collections.defaultdict(set)
+    for header in (header for layer in LAYERS for header in (TOP / layer).rglob("*.h")):
+        for line in header.read_text().split("\n"):
+            if match := CONSTANT.match(line):
+                places[match[1]].add(header.relative_to(TOP).as_posix())
+    return [f"{name}: {', '.join(sorted(headers))}" for name, headers in sorted(places.items()) if len(headers) > 1]
+
+
 def main():
-    faults, count = [], 0
+    faults, count = header_namesakes(), 0
     for library, sources in libraries():
         count += len(sources)
         faults += [f"{library}: {line}" for line in namesakes(sources)]
