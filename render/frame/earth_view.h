@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "render/background/background.h"
 #include "render/earth/detail_stream.h"
 #include "render/earth/kept_earth.h"
-#include "render/scene/background.h"
 #include "render/shading/frame_view.h"
 
 namespace hilcam {

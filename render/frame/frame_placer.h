@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "render/background/background.h"
 #include "render/frame/earth_view.h"
 #include "render/frame/image_motion.h"
 #include "render/frame/kept_handover.h"
@@ -19,7 +20,6 @@
 #include "render/frame/render_quality.h"
 #include "render/frame/visibility_choice.h"
 #include "render/indirect/kept_scene.h"
-#include "render/scene/background.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/scene.h"

@@ -1,4 +1,4 @@
-#include "render/scene/placed_bodies.h"
+#include "render/background/placed_bodies.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // What the bodies leave of the Sun at a place: eclipses, by discs that have limbs, and by the Earth's air.
 
-#include "render/scene/scene_bodies.h"
+#include "render/background/scene_bodies.h"
 #include "render/sky/bodies.h"
 #include "render/sky/sun.h"
 

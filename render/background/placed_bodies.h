@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 
-#include "render/scene/body_radiance.h"
-#include "render/scene/placed_body.h"
-#include "render/scene/scene_bodies.h"
+#include "render/background/body_radiance.h"
+#include "render/background/placed_body.h"
+#include "render/background/scene_bodies.h"
 
 namespace hilcam {
 

@@ -1,4 +1,4 @@
-#include "render/scene/body_radiance.h"
+#include "render/background/body_radiance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/scene/scene_bodies.h"
+#include "render/background/scene_bodies.h"
 
 #include "render/earth/earth_model.h"
 

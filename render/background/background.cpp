@@ -1,4 +1,4 @@
-#include "render/scene/background.h"
+#include "render/background/background.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "render/background/eclipses.h"
+#include "render/background/placed_body.h"
+#include "render/background/scene_bodies.h"
 #include "render/scene/color_bands.h"
-#include "render/scene/eclipses.h"
-#include "render/scene/placed_body.h"
-#include "render/scene/scene_bodies.h"
 #include "render/sky/disk_light.h"
 #include "render/sky/saturn_rings.h"
 

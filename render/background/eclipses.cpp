@@ -1,4 +1,4 @@
-#include "render/scene/eclipses.h"
+#include "render/background/eclipses.h"
 
 #include <algorithm>
 #include <cmath>

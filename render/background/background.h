@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
+#include "render/background/body_radiance.h"
+#include "render/background/eclipses.h"
+#include "render/background/placed_bodies.h"
 #include "render/earth/earth_moment.h"
 #include "render/earth/earth_rays.h"
-#include "render/scene/body_radiance.h"
-#include "render/scene/eclipses.h"
-#include "render/scene/placed_bodies.h"
 #include "render/scene/scene.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/pixel_box.h"
