@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMostTriangles = 8'000'000;
 
 // So many objects may have pictures of their own, by levels of so many triangles: one takes some milliseconds of the processor.
-constexpr std::size_t kFew = 8, kMostInPicture = 1'000'000;
+constexpr std::size_t kMostPictured = 8, kMostInPicture = 1'000'000;
 
 // Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
 // seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
@@ -89,7 +89,7 @@ VisibilityBuffer::Room VisibilityChoice::room() const {
 }
 
 std::optional<VisibilityBuffer::Room> VisibilityChoice::room_for_pictures() const {
-    if (objects_.all.empty() || objects_.all.size() > kFew) return {};
+    if (objects_.all.empty() || objects_.all.size() > kMostPictured) return {};
     VisibilityBuffer::Room out{1, 0, 0};
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
         for (std::size_t level = 0; level < objects_.all[i].levels.size(); ++level) {

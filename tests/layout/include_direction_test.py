@@ -21,7 +21,7 @@ ROOMS = (
     "emulator/tradeoff", "emulator/campaign", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
     "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion", "emulator/progress", "emulator/ground",
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/shm", "io/truth", "io/commands",
-    "io/spice", "io/maps", "io/files", "io/cache", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
+    "io/spice", "io/maps", "io/meshes", "io/files", "io/cache", "io/pictures", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
     "render/frame", "render/paths", "render/indirect", "render/sunlight", "render/ground_shading", "render/primary", "render/shading",
     "render/radiosity", "render/visibility", "render/planetshine", "render/probes", "render/background", "render/ground", "render/scene", "render/earth", "render/sky",
@@ -31,10 +31,10 @@ GDAL_FILES = {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_plac
               "io/maps/gdal_raster.cpp"}
 ONLY_IN = {
     "embree": {"render/lod/closest_triangle.cpp", "render/scene/embree_scene.cpp"},
-    "meshoptimizer": {"io/files/gltf_meshopt.cpp", "render/lod/mesh_lod.cpp", "render/lod/shaped_parts.cpp"},
-    "draco": {"io/files/gltf_draco.cpp"},
-    "yaml-cpp": {"io/config/config_yaml.cpp"},
-    "assimp": {"io/files/mesh_import.cpp"},
+    "meshoptimizer": {"io/meshes/gltf_meshopt.cpp", "render/lod/mesh_lod.cpp", "render/lod/shaped_parts.cpp"},
+    "draco": {"io/meshes/gltf_draco.cpp"},
+    "yaml-cpp": {"io/config/config_yaml.cpp", "io/config/yaml_flag.cpp", "io/config/yaml_place.cpp", "io/config/yaml_value.cpp"},
+    "assimp": {"io/meshes/mesh_scene.cpp", "io/meshes/scene_mesh.cpp"},
     "pugixml": {"io/files/ndm_xml.cpp"},
     "gemmi": {"sensor/convolution/fourier.cpp"},
     "opencv2": set(),
