@@ -117,8 +117,8 @@ class TreeWalk {
     void add(std::size_t number, const NodeMatrix& parent, std::uint32_t depth) {
         const Json& json = document_.at("nodes", number);
         if (is_hidden(json)) return;
-        if (out_.size() > kMaxNodes || depth > kDeepestNode)
-            document_.refuse("has more than " + std::to_string(kMaxNodes) + " nodes");
+        if (out_.size() > kMaxMeshNodes || depth > kDeepestNode)
+            document_.refuse("has more than " + std::to_string(kMaxMeshNodes) + " nodes");
         const std::string where = where_of(number);
         const NodeMatrix place = parent * own_place(document_, number);
         GltfNode node;

@@ -39,8 +39,8 @@ class NodeCounter {
         for (const json& index : list) {
             if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= seen_.size()) continue;
             count += count_at(static_cast<std::size_t>(index.get<std::uint64_t>()), depth);
-            if (count > kMaxNodes)
-                refuse(name_, "has more than " + std::to_string(kMaxNodes) +
+            if (count > kMaxMeshNodes)
+                refuse(name_, "has more than " + std::to_string(kMaxMeshNodes) +
                                   " nodes, each counted as often as another has it as a child");
         }
         return count;

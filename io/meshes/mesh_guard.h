@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxMaterials = 10'000;
 // assimp triangulates a polygon in a time that grows with the square of its corners: here about a second.
 inline constexpr std::size_t kMaxCorners = 10'000;
 // A node is more than a kilobyte in memory.
-inline constexpr std::uint64_t kMaxNodes = 200'000;
+inline constexpr std::uint64_t kMaxMeshNodes = 200'000;
 // 120 bytes each in memory, before the tree of the ray tracer.
 inline constexpr std::uint64_t kMaxTriangles = 100'000'000;
 // The depth to which nodes may lie: their tree is gone down by recursion.
