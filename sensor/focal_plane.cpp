@@ -22,7 +22,7 @@ namespace {
 
 tbb::blocked_range<int> image_rows(int height) { return {0, height, 16}; }
 
-constexpr float kMax_e = 1e9f;         // greatest mean charge of a pixel
+constexpr float kMaxCharge_e = 1e9f;   // greatest mean charge of a pixel
 constexpr float kMaxBefore_e = 1e12f;  // greatest charge of a radiance pixel
 
 // Factors on planes of the image, from one of them on.
@@ -54,7 +54,7 @@ HILCAM_CLONES float greatest(const float* in, std::size_t count) {
 HILCAM_CLONES void cut_off(const float* in, std::size_t count, float* out) {
     for (std::size_t x = 0; x < count; ++x) {
         const float value = in[x] > 0 ? in[x] : 0.0f;
-        out[x] = value < kMax_e ? value : kMax_e;
+        out[x] = value < kMaxCharge_e ? value : kMaxCharge_e;
     }
 }
 

@@ -24,9 +24,9 @@ class HaloInTable {
   public:
     explicit HaloInTable(const PointHalos& halos) : halos_(halos) {
         constexpr int kCopies = 12;
-        constexpr double kField_px = PointSpread::kField_px;
+        constexpr double kAcross_px = PointSpread::kField_px;
         const double beyond =
-            halos.share_beyond((2 * kCopies + 1) * kField_px / std::sqrt(kPi)) / (kField_px * kField_px);
+            halos.share_beyond((2 * kCopies + 1) * kAcross_px / std::sqrt(kPi)) / (kAcross_px * kAcross_px);
         for (int y = 0; y < kNodes; ++y)
             for (int x = 0; x < kNodes; ++x) {
                 double sum = beyond;
@@ -34,7 +34,7 @@ class HaloInTable {
                     for (int i = -kCopies; i <= kCopies; ++i)
                         if (i != 0 || j != 0)
                             sum += halos.share(
-                                std::hypot(x * kStep_px - i * kField_px, y * kStep_px - j * kField_px));
+                                std::hypot(x * kStep_px - i * kAcross_px, y * kStep_px - j * kAcross_px));
                 folded_.push_back(sum);
             }
     }

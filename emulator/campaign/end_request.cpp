@@ -8,8 +8,6 @@
 namespace hilcam {
 namespace {
 
-constexpr int kInterrupted = 130;  // status as shells give it: 128 + SIGINT
-
 std::atomic<bool> end_has_come{false};
 std::atomic<const std::string*> farewell_at_once{nullptr};
 static_assert(std::atomic<const std::string*>::is_always_lock_free);
@@ -19,7 +17,7 @@ void on_end_request(int) {
     end_has_come.store(true);
     if (const std::string* const line = farewell_at_once.load()) {
         [[maybe_unused]] const ssize_t wrote = write(STDERR_FILENO, line->data(), line->size());
-        _exit(kInterrupted);
+        _exit(kInterruptedStatus);
     }
     errno = kept;
 }

@@ -7,6 +7,9 @@
 
 namespace hilcam {
 
+// The exit status of an interrupted command as shells have it: 128 + SIGINT.
+inline constexpr int kInterruptedStatus = 130;
+
 // Listens while it lives; there is one at a time in a process.
 class EndRequest {
   public:
@@ -18,7 +21,7 @@ class EndRequest {
     // True once a signal has come.
     static bool has_come();
     // While nothing looks at has_come(), a signal ends the process at once: it writes this line to standard error and
-    // has the status of an interrupted command, 130. Empty: from now on somebody looks.
+    // has the status kInterruptedStatus. Empty: from now on somebody looks.
     void end_at_once(std::string farewell);
 
   private:

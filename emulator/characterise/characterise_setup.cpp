@@ -12,11 +12,11 @@
 namespace hilcam {
 namespace {
 
-constexpr int kWindow_px = 512;
+constexpr int kFlatWindow_px = 512;
 // A line camera's fixed pattern is one row of pixels: few columns would know it badly, and lines are cheap.
 constexpr int kLineWidth_px = 8192, kLines = 64;
 // Neighbours that a filter along the row or imperfect charge transfer needs before it has settled.
-constexpr int kMargin_px = 8;
+constexpr int kWindowMargin_px = 8;
 // Least noise of a dark pixel [DN] at which rounding adds 1/12 DN^2 to its variance: what is missing is of
 // the order exp(-2 pi^2 sigma^2) (Widrow, Kollar & Liu, IEEE Trans. Instrum. Meas. 45, 1996), here 6e-5.
 constexpr double kMinDarkNoise_dn = 0.7;
@@ -71,7 +71,7 @@ void set_window(LabSetup& s) {
     const bool lines = line_scan(c);
     require_lines(c, kLines);
     c.window_px =
-        lines ? central_window(c, kLineWidth_px, kLines) : central_window(c, kWindow_px, kWindow_px);
+        lines ? central_window(c, kLineWidth_px, kLines) : central_window(c, kFlatWindow_px, kFlatWindow_px);
     s.remarks.push_back(fmt::format("window {} x {} px about the boresight", c.window_px[2], c.window_px[3]));
 }
 
@@ -223,7 +223,8 @@ LabSetup lab_setup(const CameraModel& camera) {
 PixelSelection lab_selection(const LabSetup& s) {
     const CameraModel& c = s.camera;
     const PixelRectangle w = window_of(c);
-    const int margin_x = std::min(kMargin_px, w.width / 8), margin_y = std::min(kMargin_px, w.height / 8);
+    const int margin_x = std::min(kWindowMargin_px, w.width / 8),
+              margin_y = std::min(kWindowMargin_px, w.height / 8);
     PixelSelection out(static_cast<int>(c.black_columns) + margin_x,
                        static_cast<int>(c.black_rows) + margin_y, w.width - 2 * margin_x,
                        w.height - 2 * margin_y);

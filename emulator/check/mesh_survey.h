@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "io/files/mesh_file.h"
+#include "io/meshes/mesh_file.h"
 
 namespace hilcam {
 

@@ -5,7 +5,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kBetweenLines_ns = 10'000'000'000;
+constexpr std::int64_t kBetweenSilenceLines_ns = 10'000'000'000;
 
 const char* meaning_of(WhenStale what) {
     switch (what) {
@@ -56,7 +56,7 @@ void SilenceLog::look_at_tags(std::int64_t now_ns) {
     spdlog::warn("time tags of {} poses went back by more than {} s: {} (commands.poses.backwards)",
                  went_back - told_, poses_.rules().late_s, meaning_of(poses_.rules().backwards));
     told_ = went_back;
-    next_ns_ = now_ns + kBetweenLines_ns;
+    next_ns_ = now_ns + kBetweenSilenceLines_ns;
 }
 
 }  // namespace hilcam

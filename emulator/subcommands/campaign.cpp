@@ -16,8 +16,6 @@
 namespace hilcam {
 namespace {
 
-constexpr int kInterrupted = 130;  // status as shells give it: 128 + SIGINT
-
 struct CampaignArguments {
     ConfigArguments config;
     CampaignOptions options;
@@ -101,7 +99,7 @@ int carry_out(const CampaignArguments& o) {
     const CampaignOutcome outcome = run_campaign(campaign, options);
     if (outcome.interrupted) {
         spdlog::info("{}", interruption_text(outcome.before + outcome.made, outcome.all));
-        return kInterrupted;
+        return kInterruptedStatus;
     }
     say_outcome(outcome, options.out);
     if (!options.cases) {

@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::int64_t kEver_ns = std::numeric_limits<std::int64_t>::min();
 // A century and more: what goes beyond stays there instead of overflowing.
-constexpr double kFarthest_ns = 4e18;
+constexpr double kFarthestClock_ns = 4e18;
 
 std::int64_t scaled(std::int64_t ns, double scale) {
     if (scale == 1) return ns;
-    return std::llround(std::clamp(static_cast<double>(ns) * scale, -kFarthest_ns, kFarthest_ns));
+    return std::llround(std::clamp(static_cast<double>(ns) * scale, -kFarthestClock_ns, kFarthestClock_ns));
 }
 
 }  // namespace
@@ -53,7 +53,8 @@ std::int64_t SimulatedClock::Piece::simulated_of(std::int64_t camera) const {
 std::int64_t SimulatedClock::Piece::monotonic_of(std::int64_t camera) const {
     if (scale == 1) return monotonic_ns + (camera - camera_ns);
     const double ahead_ns = std::ceil(static_cast<double>(camera - camera_ns) / scale);
-    return monotonic_ns + static_cast<std::int64_t>(std::clamp(ahead_ns, -kFarthest_ns, kFarthest_ns));
+    return monotonic_ns +
+           static_cast<std::int64_t>(std::clamp(ahead_ns, -kFarthestClock_ns, kFarthestClock_ns));
 }
 
 SimulatedClock::SimulatedClock(TimeTai start, std::int64_t monotonic_start_ns, bool lockstep,

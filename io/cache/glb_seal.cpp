@@ -20,11 +20,11 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 12, kLengthAt = 8;  // magic, version, length
+constexpr std::size_t kGlbHeaderBytes = 12, kLengthAt = 8;  // magic, version, length
 // A chunk's length, its type "HCRC", and the checksum.
 using Seal = std::array<std::uint8_t, 12>;
 constexpr Seal kEmptySeal = {4, 0, 0, 0, 'H', 'C', 'R', 'C'};
-constexpr std::size_t kChecksumAt = 8;
+constexpr std::size_t kSealChecksumAt = 8;
 
 void put_little(std::uint64_t value, std::uint8_t* to) {
     for (std::size_t i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
@@ -73,8 +73,8 @@ std::optional<Seal> seal_of(int fd, std::uint64_t bytes) {
     Seal seal = kEmptySeal;
     std::optional<std::uint32_t> crc = checksum(fd, bytes);
     if (!crc) return std::nullopt;
-    crc = crc32_of(std::span(seal).first(kChecksumAt), *crc);
-    put_little(*crc, seal.data() + kChecksumAt);
+    crc = crc32_of(std::span(seal).first(kSealChecksumAt), *crc);
+    put_little(*crc, seal.data() + kSealChecksumAt);
     return seal;
 }
 
@@ -83,7 +83,7 @@ std::optional<Seal> seal_of(int fd, std::uint64_t bytes) {
 void seal_glb(const std::filesystem::path& file) {
     const Fd fd(open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
     const std::optional<std::uint64_t> size = fd ? size_of(fd.get()) : std::nullopt;
-    std::array<std::uint8_t, kHeaderBytes> header{};
+    std::array<std::uint8_t, kGlbHeaderBytes> header{};
     if (!size || !read_at(fd.get(), 0, header) || std::memcmp(header.data(), "glTF", 4) != 0 ||
         *size + kEmptySeal.size() > std::numeric_limits<std::uint32_t>::max())
         throw DeviceError(file.string() + ": no binary glTF was made");
@@ -96,7 +96,7 @@ void seal_glb(const std::filesystem::path& file) {
 
 bool is_sealed_glb(int fd) {
     const std::optional<std::uint64_t> size = size_of(fd);
-    if (!size || *size < kHeaderBytes + kEmptySeal.size()) return false;
+    if (!size || *size < kGlbHeaderBytes + kEmptySeal.size()) return false;
     const std::uint64_t before = *size - kEmptySeal.size();
     Seal found{};
     return read_at(fd, before, found) && seal_of(fd, before) == found;

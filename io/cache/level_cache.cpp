@@ -8,14 +8,14 @@ namespace hilcam {
 namespace {
 
 // Raised when coarser_levels() makes other levels of the same mesh.
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kLevelsVersion = 9;
 
-struct Header {
+struct LevelsHeader {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'L', 'D'};
-    std::uint32_t version = kVersion;
+    std::uint32_t version = kLevelsVersion;
     std::uint32_t levels = 0;
     std::uint64_t hash = 0;
-    bool operator==(const Header&) const = default;
+    bool operator==(const LevelsHeader&) const = default;
 };
 
 bool read_level(CacheReader& in, const Mesh& mesh, MeshLevel& level) {
@@ -38,8 +38,8 @@ bool read_level(CacheReader& in, const Mesh& mesh, MeshLevel& level) {
 }
 
 bool read_levels(CacheReader& in, std::uint64_t hash, const Mesh& mesh, std::vector<MeshLevel>& levels) {
-    Header header;
-    Header expected;
+    LevelsHeader header;
+    LevelsHeader expected;
     in(header);
     expected.hash = hash;
     if (!in.good() || header.levels > 16) return false;
@@ -52,7 +52,7 @@ bool read_levels(CacheReader& in, std::uint64_t hash, const Mesh& mesh, std::vec
 }
 
 void write_levels(CacheWriter& out, std::uint64_t hash, const std::vector<MeshLevel>& levels) {
-    Header header;
+    LevelsHeader header;
     header.levels = static_cast<std::uint32_t>(levels.size());
     header.hash = hash;
     out(header);

@@ -96,19 +96,19 @@ const char* kind_of(const Field& field) {
 }
 
 // A key with all below it.
-struct Entry {
+struct SectionEntry {
     std::string key;   // whole, "camera.shutter.kind"
     std::string word;  // its last part
     std::string kind, accepted, usual, meaning;
     bool required = false;
-    std::vector<Entry> below;
+    std::vector<SectionEntry> below;
 };
 
-std::vector<Entry> entries_of(const SectionField& section, const std::string& prefix) {
-    std::vector<Entry> out;
+std::vector<SectionEntry> entries_of(const SectionField& section, const std::string& prefix) {
+    std::vector<SectionEntry> out;
     for (const Field& field : section.fields) {
-        Entry entry{prefix + field.key,  field.key,     kind_of(field), accepted_text(field),
-                    default_text(field), field.meaning, field.required, {}};
+        SectionEntry entry{prefix + field.key,  field.key,     kind_of(field), accepted_text(field),
+                           default_text(field), field.meaning, field.required, {}};
         if (const std::optional<SectionField> nested = section_in(field))
             entry.below = entries_of(*nested, entry.key + ".");
         if (const auto* many = std::get_if<SectionsField>(&field.target))
@@ -119,18 +119,19 @@ std::vector<Entry> entries_of(const SectionField& section, const std::string& pr
 }
 
 // Returns what two sections have in common that are described alike: all but their defaults.
-std::string shape_of(const Entry& section) {
+std::string shape_of(const SectionEntry& section) {
     std::string out;
-    for (const Entry& e : section.below)
+    for (const SectionEntry& e : section.below)
         out += e.word + "|" + e.accepted + "|" + e.meaning + "|" + (e.required ? "!" : "") + "{" +
                shape_of(e) + "}";
     return out;
 }
 
 // "albedo 0.3, visible false": what `section` has otherwise than `other` of the same shape.
-void other_defaults(const Entry& section, const Entry& other, const std::string& prefix, std::string& out) {
+void other_defaults(const SectionEntry& section, const SectionEntry& other, const std::string& prefix,
+                    std::string& out) {
     for (std::size_t i = 0; i < section.below.size(); ++i) {
-        const Entry &mine = section.below[i], &its = other.below[i];
+        const SectionEntry &mine = section.below[i], &its = other.below[i];
         if (mine.usual != its.usual)
             out += (out.empty() ? "" : ", ") + prefix + mine.word + " " +
                    (mine.usual.empty() ? "none" : mine.usual);
@@ -142,19 +143,19 @@ constexpr std::size_t kMinFolded = 4;  // keys of a section that is worth foldin
 
 class ManualTable {
   public:
-    explicit ManualTable(const std::vector<Entry>& entries) {
+    explicit ManualTable(const std::vector<SectionEntry>& entries) {
         // Others are like those at the top rather than the other way round.
-        for (const Entry& e : entries)
+        for (const SectionEntry& e : entries)
             if (e.below.size() >= kMinFolded) seen_.emplace(shape_of(e), &e);
         add_all(entries);
     }
     std::string take() { return std::move(out_); }
 
   private:
-    void add(const Entry& e) {
+    void add(const SectionEntry& e) {
         out_ += "| `" + e.key + "` | " + e.accepted + " | " + e.usual + " | " + e.meaning + " |\n";
         if (e.below.size() < kMinFolded) return add_all(e.below);
-        const Entry& like = *seen_.emplace(shape_of(e), &e).first->second;
+        const SectionEntry& like = *seen_.emplace(shape_of(e), &e).first->second;
         if (&like == &e) return add_all(e.below);
         const std::string keys = e.below.front().key.substr(0, e.below.front().key.rfind('.')) + ".*";
         const std::string& first = like.below.front().key;
@@ -163,35 +164,35 @@ class ManualTable {
         out_ += "| `" + keys + "` | as `" + first.substr(0, first.rfind('.')) + ".*` | " + others +
                 " | the same keys |\n";
     }
-    void add_all(const std::vector<Entry>& entries) {
-        for (const Entry& e : entries) add(e);
+    void add_all(const std::vector<SectionEntry>& entries) {
+        for (const SectionEntry& e : entries) add(e);
     }
 
     std::string out_ = "| key | accepted | default | meaning |\n|---|---|---|---|\n";
-    std::map<std::string, const Entry*> seen_;
+    std::map<std::string, const SectionEntry*> seen_;
 };
 
 // The entry of a key; null: there is none.
-const Entry* find(const std::vector<Entry>& entries, std::string_view key) {
-    for (const Entry& e : entries) {
+const SectionEntry* find(const std::vector<SectionEntry>& entries, std::string_view key) {
+    for (const SectionEntry& e : entries) {
         if (e.key == key || e.key + ".N" == key) return &e;
-        if (const Entry* below = find(e.below, key)) return below;
+        if (const SectionEntry* below = find(e.below, key)) return below;
     }
     return nullptr;
 }
 
-std::vector<Entry> chosen(const SectionField& root, std::string_view prefix) {
-    std::vector<Entry> all = entries_of(root, "");
+std::vector<SectionEntry> chosen(const SectionField& root, std::string_view prefix) {
+    std::vector<SectionEntry> all = entries_of(root, "");
     if (prefix.empty()) return all;
-    const Entry* found = find(all, prefix);
+    const SectionEntry* found = find(all, prefix);
     if (!found)
         throw InputError("manual " + in_quotes(prefix) + ": no such key" + key_advice(prefix, root.fields));
     return {*found};
 }
 
-nlohmann::ordered_json json_of(const std::vector<Entry>& entries) {
+nlohmann::ordered_json json_of(const std::vector<SectionEntry>& entries) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Entry& e : entries) {
+    for (const SectionEntry& e : entries) {
         list.push_back({{"key", e.key},
                         {"kind", e.kind},
                         {"accepted", e.accepted},
@@ -226,7 +227,7 @@ std::string value_text(const SectionField& root, std::string_view key) {
 }
 
 std::string config_manual(const SectionField& root, std::string_view prefix) {
-    const std::vector<Entry> entries = chosen(root, prefix);
+    const std::vector<SectionEntry> entries = chosen(root, prefix);
     return ManualTable(entries).take();
 }
 

@@ -11,86 +11,87 @@
 namespace hilcam {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Whole ends as whole numbers, so that 1 does not become 1.0.
-Json plain_end(double end) {
+OrderedJson plain_end(double end) {
     if (std::abs(end) < 9.1e15 && end == std::trunc(end)) return static_cast<std::int64_t>(end);
     return end;
 }
 
-Json number_in(const Range& range, const char* type = "number") {
-    Json out = {{"type", type}};
+OrderedJson number_in(const Range& range, const char* type = "number") {
+    OrderedJson out = {{"type", type}};
     if (std::isfinite(range.least)) out["minimum"] = plain_end(range.least);
     if (std::isfinite(range.most)) out["maximum"] = plain_end(range.most);
     return out;
 }
 
-Json list_of(const Json& items, std::size_t fewest, std::size_t most) {
+OrderedJson list_of(const OrderedJson& items, std::size_t fewest, std::size_t most) {
     return {{"type", "array"}, {"items", items}, {"minItems", fewest}, {"maxItems", most}};
 }
 
-Json pairs_of(const Range& x, const Range& y) {
-    const Json pair = {
+OrderedJson pairs_of(const Range& x, const Range& y) {
+    const OrderedJson pair = {
         {"type", "array"}, {"prefixItems", {number_in(x), number_in(y)}}, {"minItems", 2}, {"maxItems", 2}};
     return {{"type", "array"}, {"items", pair}, {"minItems", 1}};
 }
 
-Json mapping_of(const SectionField& section);
+OrderedJson mapping_of(const SectionField& section);
 
 // A mapping, or the path of a file that holds it.
-Json section_of_field(const SectionField& section) {
-    return {{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, mapping_of(section)}}};
+OrderedJson section_of_field(const SectionField& section) {
+    return {{"anyOf", {OrderedJson{{"type", "string"}, {"minLength", 1}}, mapping_of(section)}}};
 }
 
 // Adds the word that may stand in the place of what is accepted.
-Json or_word(const Json& accepted, const std::string& word) {
-    return word.empty() ? accepted : Json{{"anyOf", {Json{{"enum", {word}}}, accepted}}};
+OrderedJson or_word(const OrderedJson& accepted, const std::string& word) {
+    return word.empty() ? accepted : OrderedJson{{"anyOf", {OrderedJson{{"enum", {word}}}, accepted}}};
 }
-Json list_of_mappings(const SectionsField& f) {
-    const Json list = {{"type", "array"}, {"items", section_of_field(f.append())}};
-    return or_word(Json{{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, list}}}, f.word);
+OrderedJson list_of_mappings(const SectionsField& f) {
+    const OrderedJson list = {{"type", "array"}, {"items", section_of_field(f.append())}};
+    return or_word(OrderedJson{{"anyOf", {OrderedJson{{"type", "string"}, {"minLength", 1}}, list}}}, f.word);
 }
 
-Json type_of(const Field& field) {
-    return std::visit(Overloaded{
-                          [](const NumberField& f) { return or_word(number_in(f.range), f.word); },
-                          [](const IntegerField& f) { return number_in(f.range, "integer"); },
-                          [](const FlagField&) {
-                              return Json{{"type", "boolean"}};
-                          },
-                          // Any plain value is a text: a serial number of digits, too.
-                          [](const TextField&) {
-                              return Json{{"type", {"string", "number", "boolean"}}};
-                          },
-                          [](const TextsField&) {
-                              const Json text = {{"type", {"string", "number", "boolean"}}};
-                              return Json{{"anyOf", {text, Json{{"type", "array"}, {"items", text}}}}};
-                          },
-                          [](const PathField&) {
-                              return Json{{"type", "string"}, {"minLength", 1}};
-                          },
-                          [](const ChoiceField& f) {
-                              return Json{{"enum", f.words}};
-                          },
-                          [](const NumbersField& f) { return list_of(number_in(f.range), f.fewest, f.most); },
-                          [](const Vec3Field& f) { return list_of(number_in(f.range), 3, 3); },
-                          [](const QuatField&) {
-                              return list_of(number_in({-1.001, 1.001}), 4, 4);
-                          },
-                          [](const CurveField& f) {
-                              return Json{{"anyOf", {number_in(f.range), pairs_of({0.1, 100}, f.range)}}};
-                          },
-                          [](const TableField& f) { return pairs_of(f.x_range, f.y_range); },
-                          [](const SectionField& f) { return section_of_field(f); },
-                          [](const OptionalSectionField& f) { return section_of_field(f.open()); },
-                          [](const SectionsField& f) { return list_of_mappings(f); },
-                      },
-                      field.target);
+OrderedJson type_of(const Field& field) {
+    return std::visit(
+        Overloaded{
+            [](const NumberField& f) { return or_word(number_in(f.range), f.word); },
+            [](const IntegerField& f) { return number_in(f.range, "integer"); },
+            [](const FlagField&) {
+                return OrderedJson{{"type", "boolean"}};
+            },
+            // Any plain value is a text: a serial number of digits, too.
+            [](const TextField&) {
+                return OrderedJson{{"type", {"string", "number", "boolean"}}};
+            },
+            [](const TextsField&) {
+                const OrderedJson text = {{"type", {"string", "number", "boolean"}}};
+                return OrderedJson{{"anyOf", {text, OrderedJson{{"type", "array"}, {"items", text}}}}};
+            },
+            [](const PathField&) {
+                return OrderedJson{{"type", "string"}, {"minLength", 1}};
+            },
+            [](const ChoiceField& f) {
+                return OrderedJson{{"enum", f.words}};
+            },
+            [](const NumbersField& f) { return list_of(number_in(f.range), f.fewest, f.most); },
+            [](const Vec3Field& f) { return list_of(number_in(f.range), 3, 3); },
+            [](const QuatField&) {
+                return list_of(number_in({-1.001, 1.001}), 4, 4);
+            },
+            [](const CurveField& f) {
+                return OrderedJson{{"anyOf", {number_in(f.range), pairs_of({0.1, 100}, f.range)}}};
+            },
+            [](const TableField& f) { return pairs_of(f.x_range, f.y_range); },
+            [](const SectionField& f) { return section_of_field(f); },
+            [](const OptionalSectionField& f) { return section_of_field(f.open()); },
+            [](const SectionsField& f) { return list_of_mappings(f); },
+        },
+        field.target);
 }
 
 // Returns the value that holds without the key, where that is one value.
-std::optional<Json> default_of(const Field& field) {
+std::optional<OrderedJson> default_of(const Field& field) {
     if (field.required) return {};
     const auto* number = std::get_if<NumberField>(&field.target);
     if (number && number->holds_word()) return number->word;
@@ -107,16 +108,17 @@ std::optional<Json> default_of(const Field& field) {
     return {};
 }
 
-Json mapping_of(const SectionField& section) {
-    Json properties = Json::object(), required = Json::array();
+OrderedJson mapping_of(const SectionField& section) {
+    OrderedJson properties = OrderedJson::object(), required = OrderedJson::array();
     for (const Field& field : section.fields) {
-        Json of_key = type_of(field);
+        OrderedJson of_key = type_of(field);
         of_key["description"] = field.meaning;
         if (const auto value = default_of(field)) of_key["default"] = *value;
         properties[field.key] = std::move(of_key);
         if (field.required) required.push_back(field.key);
     }
-    Json out = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+    OrderedJson out = {
+        {"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
     if (!required.empty()) out["required"] = std::move(required);
     return out;
 }
@@ -148,7 +150,7 @@ std::string config_schema(const SectionField& root, std::string_view prefix, con
         throw InputError("manual " + in_quotes(prefix) +
                          ": no such section; accepted: a section as `hilcam manual` prints it, as camera or "
                          "objects.N.materials");
-    Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
+    OrderedJson schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
     schema.update(mapping_of(*section));
     return schema.dump(1) + "\n";
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Configuration files: YAML into structs through their field lists (render/vocabulary/config_field.h). The
-// only unit that knows YAML.
+// Configuration files: YAML into structs through their field lists (render/vocabulary/config_field.h). YAML is known
+// here, to yaml_place.h, yaml_value.h and yaml_flag.h, and to no other unit.
 //
 // Every error is one InputError line: file:line:column, the key's path, what was found, what is accepted.
 // Keys that are unknown name the nearest known one. A section may be given as the path of another file,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/files/message_segments.h"
 #include "io/files/repeated_epochs.h"
 #include "io/system/input_file.h"
 #include "render/sky/motion_bounds.h"
@@ -342,21 +343,6 @@ void check_attitudes(const KvnLines& lines, const AemSegment& s) {
                    s.line);
 }
 
-void keep(const KvnLines& lines, std::vector<AemSegment>& kept, AemSegment&& segment,
-          const std::string& object) {
-    if (!object.empty() && !is_word(segment.object_name, object) && !is_word(segment.object_id, object))
-        return;
-    if (!kept.empty() && object.empty() && kept.back().object_id != segment.object_id)
-        lines.fail("has objects " + in_quotes(kept.back().object_id) + " and " +
-                       in_quotes(segment.object_id) + "; accepted: one of them by 'object'",
-                   segment.line);
-    if (!kept.empty() && segment.usable_start < kept.back().usable_stop)
-        lines.fail("the segment that begins here is usable from " + format_utc(segment.usable_start) +
-                       ", before the one of line " + std::to_string(kept.back().line) + " ends",
-                   segment.line);
-    kept.push_back(std::move(segment));
-}
-
 void read_header(KvnLines& lines) {
     KvnLine line;
     if (!lines.next(line) || line.key != "CCSDS_AEM_VERS" || (line.value != "1.0" && line.value != "2.0"))
@@ -389,13 +375,9 @@ std::vector<AemSegment> read_aem(std::string_view text, const std::string& name,
         for (AemSegment& piece :
              cut_at_repeated_epochs(lines, std::move(m.segment), &AemSegment::attitudes,
                                     static_cast<int (*)(const AemSegment&)>(&interpolation_nodes)))
-            keep(lines, segments, std::move(piece), object);
+            keep_segment(lines, segments, std::move(piece), object);
     }
-    if (notes) notes->insert(notes->end(), lines.notes().begin(), lines.notes().end());
-    if (segments.empty())
-        throw InputError(name + ": has no object " + in_quotes(object) +
-                         "; accepted: an OBJECT_NAME or OBJECT_ID");
-    return segments;
+    return kept_segments(lines, std::move(segments), name, object, notes);
 }
 
 std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object,

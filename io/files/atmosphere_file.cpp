@@ -23,15 +23,15 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kAxes = AtmosphereTable::kAxes;
+constexpr std::size_t kTableAxes = AtmosphereTable::kAxes;
 constexpr std::size_t kMaxCells = 2'000'000;
 constexpr std::uintmax_t kMaxTableBytes = std::uintmax_t{4} << 30;  // 2 KiB a cell
-constexpr std::array<const char*, kAxes> kAxisNames = {"sun_zenith_deg", "view_zenith_deg", "azimuth_deg",
-                                                       "height_km"};
-constexpr std::array<double, kAxes> kAxisMost = {90, 90, 180, 1e6};
-constexpr std::array<double, kAxes> kAxisUnit = {kDegree_rad, kDegree_rad, kDegree_rad, 1000};
+constexpr std::array<const char*, kTableAxes> kAxisNames = {"sun_zenith_deg", "view_zenith_deg",
+                                                            "azimuth_deg", "height_km"};
+constexpr std::array<double, kTableAxes> kAxisMost = {90, 90, 180, 1e6};
+constexpr std::array<double, kTableAxes> kAxisUnit = {kDegree_rad, kDegree_rad, kDegree_rad, 1000};
 
-using Geometry = std::array<double, kAxes>;
+using Geometry = std::array<double, kTableAxes>;
 
 // The values of one wavelength of one geometry.
 struct Sample {
@@ -40,7 +40,7 @@ struct Sample {
 };
 using Samples = std::map<Geometry, std::vector<Sample>>;
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+[[noreturn]] void refuse_table(const std::string& where, const std::string& what) {
     throw InputError(where + ": " + what);
 }
 
@@ -64,19 +64,19 @@ std::vector<std::string> split(const std::string& line, char separator) {
 
 Geometry read_geometry(const std::string& where, const std::vector<std::string>& cells) {
     Geometry out{};
-    for (std::size_t k = 0; k < kAxes; ++k)
+    for (std::size_t k = 0; k < kTableAxes; ++k)
         if (!to_number(cells[k], out[k]) || out[k] < 0 || out[k] > kAxisMost[k])
-            refuse(where, std::string(kAxisNames[k]) + ": found " + in_quotes(cells[k]) +
-                              "; accepted: a number from 0 to " + plain(kAxisMost[k]));
+            refuse_table(where, std::string(kAxisNames[k]) + ": found " + in_quotes(cells[k]) +
+                                    "; accepted: a number from 0 to " + plain(kAxisMost[k]));
     return out;
 }
 
 void require_physical(const std::string& where, const Sample& s) {
     if (!(s.tau_1 >= 0 && s.tau_1 <= 1 && s.tau_2 >= 0 && s.tau_2 <= 1))
-        refuse(where,
-               "a transmittance is not within 0 to 1: tau_1 " + plain(s.tau_1) + ", tau_2 " + plain(s.tau_2));
+        refuse_table(where, "a transmittance is not within 0 to 1: tau_1 " + plain(s.tau_1) + ", tau_2 " +
+                                plain(s.tau_2));
     if (!(s.radiance_sr >= 0 && s.sky >= 0 && s.radiance_sr < 100 && s.sky < 10))
-        refuse(where, "path radiance or sky irradiance is negative or more than the Sun can give");
+        refuse_table(where, "path radiance or sky irradiance is negative or more than the Sun can give");
 }
 
 // --- MODTRAN's text table
@@ -209,7 +209,8 @@ RunPlaces places_of(const std::filesystem::path& file, int number, const RunColu
     const auto column = [&](std::initializer_list<const char*> accepted) {
         for (const char* const name : accepted)
             if (const auto at = columns.find(name)) return *at;
-        refuse(file.string() + ":" + std::to_string(number), std::string("no column ") + *accepted.begin());
+        refuse_table(file.string() + ":" + std::to_string(number),
+                     std::string("no column ") + *accepted.begin());
     };
     return {column({"TOT_TRANS", "TOTAL_TRANS", "TRANS"}),
             column({"SOL_SCAT"}),
@@ -224,9 +225,9 @@ RunPlaces places_of(const std::filesystem::path& file, int number, const RunColu
 Sample sample_of(const std::string& where, const RunPlaces& at, const std::vector<double>& v, double mu_s) {
     for (const std::size_t used : {at.trans, at.scatter, at.ground, at.direct, at.path, at.sun})
         if (used >= v.size() || !std::isfinite(v[used]))
-            refuse(where, "column " + std::to_string(used + 1) +
-                              " has no number; accepted: a run that writes it, of a sunlit ground");
-    if (!(v[at.sun] > 0)) refuse(where, "the Sun's irradiance is not above 0");
+            refuse_table(where, "column " + std::to_string(used + 1) +
+                                    " has no number; accepted: a run that writes it, of a sunlit ground");
+    if (!(v[at.sun] > 0)) refuse_table(where, "the Sun's irradiance is not above 0");
     Sample s;
     s.tau_2 = v[at.trans];
     s.tau_1 = s.tau_2 > 0 ? std::min(1.0, v[at.path] / (v[at.sun] * s.tau_2)) : 0;
@@ -252,11 +253,11 @@ std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& 
     int number = 0;
     const RunColumns columns = find_columns(in, number);
     if (columns.all.empty())
-        refuse(file.string(), "has no line of column names that begins with WAVLEN or FREQ");
+        refuse_table(file.string(), "has no line of column names that begins with WAVLEN or FREQ");
     const RunPlaces at = places_of(file, number, columns);
     if (columns.all[at.sun].name == "SOL@OBS" && geometry[AtmosphereTable::kHeight] < 100)
-        refuse(file.string(),
-               "has no column TOA_SUN, and SOL@OBS is the Sun's only for an observer above 100 km");
+        refuse_table(file.string(),
+                     "has no column TOA_SUN, and SOL@OBS is the Sun's only for an observer above 100 km");
     const bool frequency = columns.all[0].name.starts_with("FREQ"),
                nanometres = columns.all[0].name.find("NM") != std::string::npos;
     const double mu_s = std::cos(geometry[AtmosphereTable::kSunZenith] * kDegree_rad);
@@ -268,15 +269,15 @@ std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& 
         if (v.front() <= -9999) break;
         const std::string where = file.string() + ":" + std::to_string(number);
         if (v.size() < columns.all.size())
-            refuse(where, "found " + std::to_string(v.size()) + " numbers for " +
-                              std::to_string(columns.all.size()) + " columns");
-        if (!(v[0] > 0)) refuse(where, "found " + plain(v[0]) + " as wavelength or frequency");
+            refuse_table(where, "found " + std::to_string(v.size()) + " numbers for " +
+                                    std::to_string(columns.all.size()) + " columns");
+        if (!(v[0] > 0)) refuse_table(where, "found " + plain(v[0]) + " as wavelength or frequency");
         Sample s = sample_of(where, at, v, mu_s);
         s.wavelength_um = frequency ? 1e4 / v[0] : (nanometres ? v[0] * 1e-3 : v[0]);
         require_physical(where, s);
         samples.push_back(s);
     }
-    if (samples.empty()) refuse(file.string(), "holds no row of numbers");
+    if (samples.empty()) refuse_table(file.string(), "holds no row of numbers");
     return samples;
 }
 
@@ -296,31 +297,32 @@ Samples read_rows(const std::filesystem::path& file) {
         if (line.empty() || line.starts_with('#')) continue;
         if (columns == 0) {
             if (line != values && line != runs)
-                refuse(where, "found " + in_quotes(line) + "; accepted: '" + values + "' or '" + runs + "'");
-            columns = line == values ? kAxes + 5 : kAxes + 1;
+                refuse_table(where,
+                             "found " + in_quotes(line) + "; accepted: '" + values + "' or '" + runs + "'");
+            columns = line == values ? kTableAxes + 5 : kTableAxes + 1;
             continue;
         }
         const std::vector<std::string> cells = split(line, ',');
         if (cells.size() != columns)
-            refuse(where, "found " + std::to_string(cells.size()) +
-                              " columns; accepted: " + std::to_string(columns));
+            refuse_table(where, "found " + std::to_string(cells.size()) +
+                                    " columns; accepted: " + std::to_string(columns));
         const Geometry geometry = read_geometry(where, cells);
-        if (columns == kAxes + 1) {
-            if (!out.emplace(geometry, read_run(file.parent_path() / cells[kAxes], geometry)).second)
-                refuse(where, "the same geometry as a line before");
+        if (columns == kTableAxes + 1) {
+            if (!out.emplace(geometry, read_run(file.parent_path() / cells[kTableAxes], geometry)).second)
+                refuse_table(where, "the same geometry as a line before");
             continue;
         }
         std::array<double, 5> v{};
         for (std::size_t k = 0; k < v.size(); ++k)
-            if (!to_number(cells[kAxes + k], v[k]))
-                refuse(where, "found " + in_quotes(cells[kAxes + k]) + "; accepted: a number");
+            if (!to_number(cells[kTableAxes + k], v[k]))
+                refuse_table(where, "found " + in_quotes(cells[kTableAxes + k]) + "; accepted: a number");
         const Sample sample{v[0], v[1], v[2], v[3], v[4]};
         if (!(sample.wavelength_um >= 0.1 && sample.wavelength_um <= 100))
-            refuse(where, "wavelength_um: accepted: 0.1 to 100");
+            refuse_table(where, "wavelength_um: accepted: 0.1 to 100");
         require_physical(where, sample);
         out[geometry].push_back(sample);
     }
-    if (out.empty()) refuse(file.string(), "holds no geometry");
+    if (out.empty()) refuse_table(file.string(), "holds no geometry");
     return out;
 }
 
@@ -331,7 +333,7 @@ AtmosphereTable::Cell cell_of(const std::string& where, std::vector<Sample> samp
     std::array<Curve, 4> curves;
     for (const Sample& s : samples) {
         if (!curves[0].wavelength_um.empty() && s.wavelength_um <= curves[0].wavelength_um.back())
-            refuse(where, "wavelength " + plain(s.wavelength_um) + " um is given twice");
+            refuse_table(where, "wavelength " + plain(s.wavelength_um) + " um is given twice");
         const std::array<double, 4> values = {s.tau_1, s.tau_2, s.radiance_sr, s.sky};
         for (std::size_t k = 0; k < 4; ++k) {
             curves[k].wavelength_um.push_back(s.wavelength_um);
@@ -339,7 +341,7 @@ AtmosphereTable::Cell cell_of(const std::string& where, std::vector<Sample> samp
         }
     }
     if (samples.size() < 2)
-        refuse(where, "has one wavelength; needed: at least two, about the scenario's bins");
+        refuse_table(where, "has one wavelength; needed: at least two, about the scenario's bins");
     curves[0].where = where;
     require_cover(curves[0], grid, "wavelengths");
     return {grid.average(curves[0]), grid.average(curves[1]), grid.average(curves[2]),
@@ -348,7 +350,7 @@ AtmosphereTable::Cell cell_of(const std::string& where, std::vector<Sample> samp
 
 std::string name_of(const Geometry& g) {
     std::string out;
-    for (std::size_t k = 0; k < kAxes; ++k) {
+    for (std::size_t k = 0; k < kTableAxes; ++k) {
         if (k > 0) out.append(", ");
         out.append(kAxisNames[k]).append(" ").append(plain(g[k]));
     }
@@ -359,27 +361,27 @@ std::string name_of(const Geometry& g) {
 
 AtmosphereTable read_atmosphere(const std::filesystem::path& file, const SpectralGrid& grid) {
     const Samples samples = read_rows(file);
-    std::array<std::vector<double>, kAxes> axes;
+    std::array<std::vector<double>, kTableAxes> axes;
     for (const auto& [geometry, unused] : samples)
-        for (std::size_t k = 0; k < kAxes; ++k) axes[k].push_back(geometry[k]);
+        for (std::size_t k = 0; k < kTableAxes; ++k) axes[k].push_back(geometry[k]);
     std::size_t cells = 1;
     for (auto& axis : axes) {
         std::sort(axis.begin(), axis.end());
         axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
         cells *= axis.size();
         if (cells > kMaxCells)
-            refuse(file.string(), "its geometries make more than two million combinations");
+            refuse_table(file.string(), "its geometries make more than two million combinations");
     }
     AtmosphereTable table;
     for (std::size_t i = 0; i < cells; ++i) {
         Geometry g{};
-        for (std::size_t k = kAxes, rest = i; k-- > 0; rest /= axes[k].size())
+        for (std::size_t k = kTableAxes, rest = i; k-- > 0; rest /= axes[k].size())
             g[k] = axes[k][rest % axes[k].size()];
         const auto found = samples.find(g);
-        if (found == samples.end()) refuse(file.string(), "has no geometry " + name_of(g));
+        if (found == samples.end()) refuse_table(file.string(), "has no geometry " + name_of(g));
         table.cells.push_back(cell_of(file.string() + ", " + name_of(g), found->second, grid));
     }
-    for (std::size_t k = 0; k < kAxes; ++k)
+    for (std::size_t k = 0; k < kTableAxes; ++k)
         for (const double value : axes[k]) table.axes[k].push_back(value * kAxisUnit[k]);
     return table;
 }

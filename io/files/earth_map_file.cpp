@@ -15,7 +15,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kHead = 28, kChannels = EarthSample::kChannels;
-constexpr std::uintmax_t kMaxBytes = 4'000'000'000;
+constexpr std::uintmax_t kMaxMapBytes = 4'000'000'000;
 
 std::uint32_t u32_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8 |
@@ -113,7 +113,7 @@ EarthMap decode_earth_map(std::span<const std::uint8_t> bytes, const std::string
 
 EarthMap read_earth_map(const std::filesystem::path& file) {
     const std::string bytes =
-        read_input_file(file, {kMaxBytes, "a map of the Earth (tools/make_earth_map.py)"});
+        read_input_file(file, {kMaxMapBytes, "a map of the Earth (tools/make_earth_map.py)"});
     return decode_earth_map({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
                             file.string());
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/files/message_segments.h"
 #include "io/files/repeated_epochs.h"
 #include "io/system/input_file.h"
 #include "render/sky/motion_bounds.h"
@@ -24,14 +25,14 @@ void read_header(KvnLines& lines, KvnLine& line) {
     lines.fail("the file ends; accepted: META_START");
 }
 
-struct Metadata {
+struct OemMetadata {
     OemSegment segment;
     TimeSystem system = TimeSystem::kUtc;
     SegmentSpan span;
 };
 
-Metadata read_metadata(KvnLines& lines) {
-    Metadata m;
+OemMetadata read_oem_metadata(KvnLines& lines) {
+    OemMetadata m;
     m.segment.line = lines.number();
     KvnSection meta;
     meta.read(lines, "META_STOP",
@@ -52,7 +53,7 @@ Metadata read_metadata(KvnLines& lines) {
     return m;
 }
 
-void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
+void read_state(const KvnLines& lines, const KvnLine& line, OemMetadata& m) {
     std::string_view epoch;
     const std::vector<double> v = data_numbers(lines, line.text, epoch);
     if (v.size() != 6 && v.size() != 9)
@@ -91,7 +92,7 @@ void skip_covariance(KvnLines& lines, KvnLine& line) {
 }
 
 // Data up to the next META_START (true) or the file's end.
-bool read_data(KvnLines& lines, KvnLine& line, Metadata& m) {
+bool read_data(KvnLines& lines, KvnLine& line, OemMetadata& m) {
     while (lines.next(line)) {
         if (line.text == "META_START") return true;
         if (line.text == "COVARIANCE_START")
@@ -100,28 +101,6 @@ bool read_data(KvnLines& lines, KvnLine& line, Metadata& m) {
             read_state(lines, line, m);
     }
     return false;
-}
-
-bool is_object(const OemSegment& s, const std::string& object) {
-    return is_word(s.object_name, object) || is_word(s.object_id, object);
-}
-
-void keep(const KvnLines& lines, std::vector<OemSegment>& kept, OemSegment&& segment,
-          const std::string& object) {
-    if (!object.empty() && !is_object(segment, object)) return;
-    if (!kept.empty()) {
-        const OemSegment& before = kept.back();
-        if (object.empty() && before.object_id != segment.object_id)
-            lines.fail("has objects " + in_quotes(before.object_id) + " and " + in_quotes(segment.object_id) +
-                           "; accepted: one of them by 'object'",
-                       segment.line);
-        if (segment.usable_start < before.usable_stop)
-            lines.fail("the segment that begins here is usable from " + format_utc(segment.usable_start) +
-                           ", before the one of line " + std::to_string(before.line) + " ends (" +
-                           format_utc(before.usable_stop) + ")",
-                       segment.line);
-    }
-    kept.push_back(std::move(segment));
 }
 
 int nodes_of(const OemSegment& s) { return interpolation_nodes(s.interpolation); }
@@ -135,18 +114,14 @@ std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
     read_header(lines, line);
     std::vector<OemSegment> segments;
     for (bool more = true; more;) {
-        Metadata m = read_metadata(lines);
+        OemMetadata m = read_oem_metadata(lines);
         more = read_data(lines, line, m);
         check_states(lines, m.segment);
         for (OemSegment& piece :
              cut_at_repeated_epochs(lines, std::move(m.segment), &OemSegment::states, &nodes_of))
-            keep(lines, segments, std::move(piece), object);
+            keep_segment(lines, segments, std::move(piece), object);
     }
-    if (notes) notes->insert(notes->end(), lines.notes().begin(), lines.notes().end());
-    if (segments.empty())
-        throw InputError(name + ": has no object " + in_quotes(object) +
-                         "; accepted: an OBJECT_NAME or OBJECT_ID");
-    return segments;
+    return kept_segments(lines, std::move(segments), name, object, notes);
 }
 
 std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object,

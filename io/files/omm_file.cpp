@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr double kDay_min = 1440, kDay_s = 86400;
+constexpr double kDay_min = 1440, kOmmDay_s = 86400;
 // More keywords than the standard has.
 constexpr std::size_t kMostKeywords = 200;
 
@@ -103,7 +103,7 @@ class OmmReader {
         out_.epoch = *epoch;
         out_.epoch_days_1950 =
             days_since_1950(date->year, date->month, date->day,
-                            (date->hour * 3600 + date->minute * 60 + date->second) / kDay_s);
+                            (date->hour * 3600 + date->minute * 60 + date->second) / kOmmDay_s);
     }
 
     // Empty: the set is one for SGP4.

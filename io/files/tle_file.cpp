@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLineColumns = 69;
 // Owners give names of more than the 24 characters of the format's description.
-constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kLongestTitle = 200;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kMinutesPerDay = 1440;
 
@@ -161,7 +161,7 @@ std::vector<ElementSet> read_tles(std::string_view text, const std::string& name
         refuse_odd_blanks(lines, line);
         if (is_name(lines, line)) {
             title = trimmed(line.starts_with("0 ") ? line.substr(2) : line);
-            if (title.size() > kLongestName)
+            if (title.size() > kLongestTitle)
                 lines.refuse(line, "an element set, or a satellite's name before it");
             continue;
         }

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-using Kind = EarthLayerConfig::Kind;
+using LayerKind = EarthLayerConfig::Kind;
 
 // The grey of a picture to the clouds' scale, and how high those reach: the figures of tools/make_earth_map.py, which says where they are from.
 constexpr float kCloudPower = 1.33f, kLowestTop_m = 2000, kTopRise_m = 8000;
@@ -34,17 +34,18 @@ class LayerValues {
     // Puts what they say at the i-th cell in place of what the map below has there.
     EarthMap::Texel texel(std::size_t i, EarthSample out) const {
         float value;
-        if (finds(Kind::kWater, i, value)) out.value[EarthSample::kWater] = std::clamp(value, 0.0f, 1.0f);
+        if (finds(LayerKind::kWater, i, value))
+            out.value[EarthSample::kWater] = std::clamp(value, 0.0f, 1.0f);
         put_land(i, out);
-        if (finds(Kind::kClouds, i, value))
+        if (finds(LayerKind::kClouds, i, value))
             put_cloud(std::pow(std::clamp(value, 0.0f, 1.0f), kCloudPower), out);
-        if (finds(Kind::kCloudThickness, i, value)) {
+        if (finds(LayerKind::kCloudThickness, i, value)) {
             const float x = CloudTable::kB * std::clamp(value, 0.0f, 1e4f);
             put_cloud(x / (1 + x), out);
         }
-        if (finds(Kind::kCloudTops, i, value))
+        if (finds(LayerKind::kCloudTops, i, value))
             out.value[EarthSample::kCloudTop] = std::clamp(value / EarthSample::kHighestTop_m, 0.0f, 1.0f);
-        if (finds(Kind::kLights, i, value))
+        if (finds(LayerKind::kLights, i, value))
             out.value[EarthSample::kLights] = std::clamp(value, 0.0f, 1.0f) * (1 - out.water());
         return EarthMap::coded(out);
     }
@@ -57,14 +58,14 @@ class LayerValues {
     };
     std::array<Channel, 7> channels_;
 
-    const Channel& of(Kind kind) const { return channels_[static_cast<std::size_t>(kind)]; }
-    bool finds(Kind kind, std::size_t i, float& value) const {
+    const Channel& of(LayerKind kind) const { return channels_[static_cast<std::size_t>(kind)]; }
+    bool finds(LayerKind kind, std::size_t i, float& value) const {
         if (of(kind).values.empty()) return false;
         value = of(kind).values[i];
         return std::isfinite(value);
     }
     void put_land(std::size_t i, EarthSample& out) const {
-        const Channel& land = of(Kind::kLand);
+        const Channel& land = of(LayerKind::kLand);
         if (!land.values.empty()) {
             const float* const rgb = land.values.data() + 3 * i;
             const Vec3f color{rgb[0], rgb[1], rgb[2]};
@@ -76,7 +77,7 @@ class LayerValues {
             }
         }
         float infrared;
-        if (finds(Kind::kInfrared, i, infrared))
+        if (finds(LayerKind::kInfrared, i, infrared))
             out.value[EarthSample::kInfrared] = std::clamp(infrared, 0.0f, 1.0f);
         // The colour of open water is the sea's own.
         if (out.water() >= kSea) std::fill_n(out.value.begin(), 4, 0.0f);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRecordBytes = kNaifRecordBytes, kWordBytes = 8;
 constexpr std::uint64_t kWordsInRecord = kRecordBytes / kWordBytes;
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 34;
+constexpr std::uintmax_t kMaxDafBytes = std::uintmax_t{1} << 34;
 constexpr std::size_t kMaxArrays = 1'000'000;
 constexpr std::uint64_t kMaxTransferBytes = std::uint64_t{1} << 30;
 
@@ -26,7 +26,7 @@ std::int32_t integers_of(const std::string& kind) { return kind == "PCK" ? 5 : 6
 }  // namespace
 
 DafFile::DafFile(const std::filesystem::path& file)
-    : name_(file.string()), file_(open_input_file(file, {kMaxBytes, "a SPICE kernel"})) {
+    : name_(file.string()), file_(open_input_file(file, {kMaxDafBytes, "a SPICE kernel"})) {
     size_ = file_->bytes;
     open();
 }

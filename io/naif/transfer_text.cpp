@@ -12,7 +12,7 @@ namespace hilcam {
 namespace {
 
 // A double has 53 bits, 14 hexadecimal digits at most.
-constexpr std::size_t kMostDigits = 16;
+constexpr std::size_t kMostTransferDigits = 16;
 // 16^256 is 2^1024, just beyond the largest double.
 constexpr int kMostExponent = 300;
 
@@ -47,7 +47,7 @@ std::optional<double> transfer_double(std::string_view word) {
     if (caret == std::string_view::npos) return {};
     std::string_view mantissa = word.substr(0, caret), exponent = word.substr(caret + 1);
     const bool negative = take_sign(mantissa), down = take_sign(exponent);
-    const auto digits = hex_of(mantissa, kMostDigits);
+    const auto digits = hex_of(mantissa, kMostTransferDigits);
     const auto power = hex_of(exponent, 3);
     if (!digits || !power || *power > kMostExponent) return {};
     const int bits = 4 * ((down ? -1 : 1) * static_cast<int>(*power) - static_cast<int>(mantissa.size()));

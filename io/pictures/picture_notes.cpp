@@ -11,13 +11,15 @@
 namespace hilcam {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json json_value(const PictureNote& note) {
-    return std::visit([](const auto& value) { return Json(value); }, note.value);
+OrderedJson json_value(const PictureNote& note) {
+    return std::visit([](const auto& value) { return OrderedJson(value); }, note.value);
 }
 // Names may be any bytes: what is no UTF-8 is replaced.
-std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string dumped(const OrderedJson& json) {
+    return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
 
 std::vector<double> distortion_of(const LensDistortion& d) {
     if (d.projection == Projection::kFisheye) return {d.k1, d.k2, d.k3, d.k4};
@@ -140,7 +142,7 @@ std::vector<std::pair<std::string, std::string>> png_texts(const PictureNotes& n
 }
 
 std::string json_of(const PictureNotes& notes) {
-    Json out = Json::object();
+    OrderedJson out = OrderedJson::object();
     for (const PictureNote& note : notes) out[note.key] = json_value(note);
     return dumped(out);
 }

@@ -18,11 +18,11 @@ constexpr int kMaxStep = 256;
 
 constexpr std::array<std::string_view, 3> kSources = {"software", "line0", "action1"};
 enum class NumbersFormat { kPng, kTiff };
-constexpr std::array<std::string_view, 2> kFormats = {"png", "tiff"};
-constexpr std::array<std::string_view, 6> kPatterns = {
+constexpr std::array<std::string_view, 2> kPictureFormats = {"png", "tiff"};
+constexpr std::array<std::string_view, 6> kPatternWords = {
     "off", "black", "white", "ramp_horizontal", "ramp_vertical", "ramp_horizontal_moving"};
 
-bool is_plain(char c) {
+bool is_plain_in_name(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '.' || c == '+' || c == '-';
 }
@@ -77,7 +77,7 @@ void parse_setting(std::string_view key, std::string_view text, TriggerSource& v
     value = parse_word<TriggerSource>(key, text, kSources);
 }
 void parse_setting(std::string_view key, std::string_view text, TestPattern& value) {
-    value = parse_word<TestPattern>(key, text, kPatterns);
+    value = parse_word<TestPattern>(key, text, kPatternWords);
 }
 
 // ":8080"
@@ -98,7 +98,7 @@ FormFields parse_form(std::string_view text) {
         const std::string_view field = text.substr(0, text.find('&'));
         text.remove_prefix(std::min(text.size(), field.size() + 1));
         for (const char c : field)
-            if (!is_plain(c) && c != '=')
+            if (!is_plain_in_name(c) && c != '=')
                 throw InputError("character " + std::to_string(static_cast<unsigned char>(c)) +
                                  " in a request; accepted: letters, digits, _ . + -");
         const std::size_t equals = field.find('=');
@@ -147,7 +147,7 @@ NumbersRequest parse_numbers_request(std::string_view query) {
         else if (key == "frame")
             r.frame = parse_number<std::uint64_t>(key, text, 0, ~std::uint64_t{0});
         else if (key == "format")
-            r.tiff = parse_word<NumbersFormat>(key, text, kFormats) == NumbersFormat::kTiff;
+            r.tiff = parse_word<NumbersFormat>(key, text, kPictureFormats) == NumbersFormat::kTiff;
         else
             refuse_key(key, "viewer, frame, format");
     }
@@ -227,7 +227,7 @@ FaultRequest parse_fault_request(std::string_view body) {
 }
 
 std::string_view name_of(TriggerSource source) { return kSources[static_cast<std::size_t>(source)]; }
-std::string_view name_of(TestPattern pattern) { return kPatterns[static_cast<std::size_t>(pattern)]; }
+std::string_view name_of(TestPattern pattern) { return kPatternWords[static_cast<std::size_t>(pattern)]; }
 
 bool is_own_host(std::string_view host, std::string_view machine_name) {
     // "[::1]:8080", "127.0.0.1:8080", "localhost"

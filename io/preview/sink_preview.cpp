@@ -30,7 +30,7 @@ constexpr auto kTruthPoll = 1s;
 // A viewer has a poll for pictures and one for figures under way, and now and then an order.
 constexpr std::size_t kWorkers = 24;
 // Those who dawdle with their requests are ended together, however many: so many do not keep others out.
-constexpr std::size_t kMaxWaiting = 232;
+constexpr std::size_t kMaxConnectionsWaiting = 232;
 constexpr int kBacklog = 128;  // in the kernel, behind those
 constexpr std::size_t kMaxBody_bytes = 4096;
 
@@ -57,7 +57,7 @@ class Workers : public httplib::TaskQueue {
     void shutdown() override { pool_.stop(); }
 
   private:
-    BoundedPool pool_{kWorkers, kMaxWaiting};
+    BoundedPool pool_{kWorkers, kMaxConnectionsWaiting};
 };
 
 std::string machine_name() {

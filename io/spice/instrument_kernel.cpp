@@ -13,9 +13,10 @@
 namespace hilcam {
 namespace {
 
-class Reader {
+class InstrumentReader {
   public:
-    Reader(const KernelPool& pool, int code) : pool_(pool), prefix_("INS" + std::to_string(code) + "_") {}
+    InstrumentReader(const KernelPool& pool, int code)
+        : pool_(pool), prefix_("INS" + std::to_string(code) + "_") {}
 
     bool any() const {
         const auto at = pool_.all().lower_bound(prefix_);
@@ -66,14 +67,14 @@ class Reader {
 };
 
 // The unit is the one in which the number is a pixel's size.
-std::optional<double> pitch_of(const Reader& r) {
+std::optional<double> pitch_of(const InstrumentReader& r) {
     if (const auto pitch = r.number("PIXEL_PITCH", 1e-3, 0.1)) return *pitch * 1e-3;
     const auto size = r.number("PIXEL_SIZE", 1e-6, 100);
     if (!size) return {};
     return *size >= 1 ? *size * 1e-6 : *size >= 1e-3 ? *size * 1e-3 : *size;
 }
 
-std::optional<double> half_field_of(const Reader& r, const std::optional<Vec3d>& boresight) {
+std::optional<double> half_field_of(const InstrumentReader& r, const std::optional<Vec3d>& boresight) {
     if (!boresight) return {};
     if (r.word("FOV_CLASS_SPEC") == "ANGLES") {
         const double unit_rad = r.word("FOV_ANGLE_UNITS") == "RADIANS" ? 1 : kDegree_rad;
@@ -94,7 +95,7 @@ std::optional<double> half_field_of(const Reader& r, const std::optional<Vec3d>&
     return out;
 }
 
-std::optional<Vec2d> center_of(const Reader& r, const InstrumentKernel& k) {
+std::optional<Vec2d> center_of(const InstrumentReader& r, const InstrumentKernel& k) {
     constexpr double kMost_px = 16384, kFirst_px = 0.5;
     const auto x = r.number("DISTORTION_X", -kMost_px, kMost_px),
                y = r.number("DISTORTION_Y", -kMost_px, kMost_px);
@@ -112,7 +113,7 @@ std::optional<Vec2d> center_of(const Reader& r, const InstrumentKernel& k) {
 InstrumentKernel instrument_kernel(const KernelPool& pool, std::string_view name, const std::string& key) {
     InstrumentKernel out;
     out.code = require_kernel_code(pool, name, key);
-    const Reader r(pool, out.code);
+    const InstrumentReader r(pool, out.code);
     if (!r.any())
         throw InputError(key + ": found " + in_quotes(name) + ", and no kernel has INS" +
                          std::to_string(out.code) +

@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kBarycentre = 0;
-constexpr std::size_t kDeepest = 16;
+constexpr std::size_t kDeepestChain = 16;
 
 StateVector sum(const StateVector& a, const StateVector& b) {
     return {a.position_m + b.position_m, a.velocity_m_s + b.velocity_m_s};
@@ -70,17 +70,17 @@ bool KernelBodies::state(int body, int center, double et_s, StateVector& out) co
         int body;
         StateVector from_center;  // the centre's state about this place
     };
-    std::array<Place, kDeepest> way;
+    std::array<Place, kDeepestChain> way;
     std::size_t count = 0;
     way[count++] = {center, {}};
-    for (int at = center; count < kDeepest;) {
+    for (int at = center; count < kDeepestChain;) {
         StateVector s = way[count - 1].from_center;
         if (!step(at, et_s, s)) break;
         way[count++] = {at, s};
     }
     StateVector s;
     int at = body;
-    for (std::size_t i = 0; i < kDeepest; ++i) {
+    for (std::size_t i = 0; i < kDeepestChain; ++i) {
         for (std::size_t k = 0; k < count; ++k)
             if (way[k].body == at) {
                 out = {s.position_m - way[k].from_center.position_m,

@@ -16,7 +16,7 @@ struct Named {
     int code;
 };
 // NAIF, "NAIF IDs Required Reading".
-constexpr std::array kNames = {
+constexpr std::array kNaifNames = {
     Named{"SSB", 0},
     Named{"SOLAR SYSTEM BARYCENTER", 0},
     Named{"MERCURY BARYCENTER", 1},
@@ -86,7 +86,7 @@ constexpr std::array kNames = {
     Named{"HARTLEY 2", 1000041},
 };
 
-std::string plain_name(std::string_view name) {
+std::string name_as_compared(std::string_view name) {
     std::string out;
     for (const char c : name) {
         const char letter = c == '_' ? ' ' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -101,7 +101,7 @@ std::string plain_name(std::string_view name) {
 
 std::optional<int> kernel_code(const KernelPool& pool, std::string_view name) {
     if (const auto number = parsed_as<int>(name)) return number;
-    const std::string wanted = plain_name(name);
+    const std::string wanted = name_as_compared(name);
     const auto names = pool.texts("NAIF_BODY_NAME");
     const auto codes = pool.numbers("NAIF_BODY_CODE");
     if (names && codes) {
@@ -110,12 +110,12 @@ std::optional<int> kernel_code(const KernelPool& pool, std::string_view name) {
                              std::to_string(names->size()) + " names and NAIF_BODY_CODE " +
                              std::to_string(codes->size()) + " codes; accepted: one code for each name");
         for (std::size_t i = names->size(); i-- > 0;)
-            if (plain_name((*names)[i]) == wanted && std::abs((*codes)[i]) < 2e9)
+            if (name_as_compared((*names)[i]) == wanted && std::abs((*codes)[i]) < 2e9)
                 return static_cast<int>((*codes)[i]);
     }
     const auto own =
-        std::find_if(kNames.begin(), kNames.end(), [&](const Named& n) { return n.name == wanted; });
-    if (own != kNames.end()) return own->code;
+        std::find_if(kNaifNames.begin(), kNaifNames.end(), [&](const Named& n) { return n.name == wanted; });
+    if (own != kNaifNames.end()) return own->code;
     return {};
 }
 

@@ -15,22 +15,23 @@ namespace {
 constexpr std::uintmax_t kMaxTextBytes = 256u << 20;
 constexpr int kDeepestMetaKernel = 8;
 // A mission's meta-kernels name some hundred files by a few symbols. A name is no longer than a path of Linux (PATH_MAX).
-constexpr std::size_t kMostNamed = 10'000, kMostSymbols = 1000, kLongestName = 4096;
+constexpr std::size_t kMostNamed = 10'000, kMostSymbols = 1000, kLongestPath = 4096;
 
 // The first bytes of a file say what it is.
-enum class Kind { kBinary, kShape, kText, kMeta };
-Kind kind_of(const std::filesystem::path& file) {
+enum class KernelKind { kBinary, kShape, kText, kMeta };
+KernelKind kind_of(const std::filesystem::path& file) {
     const InputFile in = open_input_file(file, {std::uintmax_t{1} << 34, "a SPICE kernel"});
     std::string word(std::min<std::uintmax_t>(in.bytes, 8), '\0');
     read_input_piece(in, file, 0, word.data(), word.size());
     const std::optional<TransferKind> transfer = transfer_kind_of(word);
     if (word.starts_with("DAF/") || word == "NAIF/DAF" || transfer == TransferKind::kDaf)
-        return Kind::kBinary;
-    if (word.starts_with("DAS/") || word == "NAIF/DAS" || transfer == TransferKind::kDas) return Kind::kShape;
+        return KernelKind::kBinary;
+    if (word.starts_with("DAS/") || word == "NAIF/DAS" || transfer == TransferKind::kDas)
+        return KernelKind::kShape;
     if (word.find('\0') != std::string::npos)
         throw InputError(file.string() + ": found the identification " + in_quotes(word) +
                          "; accepted: DAF/SPK, DAF/CK, DAF/PCK, or a text kernel");
-    return Kind::kText;
+    return KernelKind::kText;
 }
 
 // Puts the paths that a meta-kernel has for its symbols in their places.
@@ -69,7 +70,7 @@ class Symbols {
 // Says what a file of a set is; each is looked at once, however often it is named.
 struct Looked {
     std::filesystem::path file;
-    Kind kind = Kind::kText;
+    KernelKind kind = KernelKind::kText;
     std::vector<std::filesystem::path> named;  // by a meta-kernel
     KernelPool own;                            // its own variables that count for all
 };
@@ -80,9 +81,9 @@ std::vector<std::filesystem::path> names_of(const std::filesystem::path& file, c
     std::vector<std::filesystem::path> out;
     std::string name;
     const auto require_short = [&] {
-        if (name.size() > kLongestName)
+        if (name.size() > kLongestPath)
             throw InputError(where + ": KERNELS_TO_LOAD: found the name " + in_quotes(name) +
-                             " of more than " + std::to_string(kLongestName) +
+                             " of more than " + std::to_string(kLongestPath) +
                              " bytes; accepted: a shorter one");
     };
     const std::span<const std::string> parts = own.texts("KERNELS_TO_LOAD").value();
@@ -108,11 +109,11 @@ std::vector<std::filesystem::path> names_of(const std::filesystem::path& file, c
 
 Looked look_at(const std::filesystem::path& file) {
     Looked out{file, kind_of(file), {}, {}};
-    if (out.kind != Kind::kText) return out;
+    if (out.kind != KernelKind::kText) return out;
     KernelPool own;
     read_text_kernel(read_input_file(file, {kMaxTextBytes, "a SPICE kernel"}), file.string(), own);
     if (!own.find("KERNELS_TO_LOAD")) return out;
-    out.kind = Kind::kMeta;
+    out.kind = KernelKind::kMeta;
     out.named = names_of(file, own);
     // Those of a meta-kernel alone hold for it alone.
     for (const auto& [name, variable] : own.all())
@@ -138,7 +139,7 @@ class KernelList {
         auto at = looked_.find(key);
         if (at == looked_.end()) at = looked_.emplace(key, look_at(file)).first;
         const Looked& looked = at->second;
-        if (looked.kind == Kind::kShape && depth == 0)
+        if (looked.kind == KernelKind::kShape && depth == 0)
             throw InputError(file.string() +
                              ": is a shape kernel (DSK); accepted here: SPK, CK, PCK and text "
                              "kernels (a shape is an object's mesh)");
@@ -163,10 +164,10 @@ class KernelList {
 void load(const Looked& looked, KernelSet& set) {
     set.files.push_back(looked.file.string());
     // A mission's meta-kernel names shapes beside the rest.
-    if (looked.kind == Kind::kShape) return;
-    if (looked.kind == Kind::kBinary)
+    if (looked.kind == KernelKind::kShape) return;
+    if (looked.kind == KernelKind::kBinary)
         set.binaries.push_back(std::make_unique<DafFile>(looked.file));
-    else if (looked.kind == Kind::kText)
+    else if (looked.kind == KernelKind::kText)
         read_text_kernel(read_input_file(looked.file, {kMaxTextBytes, "a SPICE kernel"}),
                          looked.file.string(), set.pool);
     else

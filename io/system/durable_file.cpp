@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-constexpr const char* kMark = ".unfinished-";
+constexpr const char* kUnfinishedMark = ".unfinished-";
 
 [[noreturn]] void fail_file(const std::filesystem::path& file, int error) {
     throw DeviceError(file.string() + " cannot be written: " + std::strerror(error));
@@ -25,8 +25,8 @@ constexpr const char* kMark = ".unfinished-";
 std::filesystem::path unfinished_name(const std::filesystem::path& file) {
     std::array<char, 65> host{};
     if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
-    return file.parent_path() / (std::string(kMark) + host.data() + "-" + std::to_string(getpid()) + "-" +
-                                 file.filename().string());
+    return file.parent_path() / (std::string(kUnfinishedMark) + host.data() + "-" + std::to_string(getpid()) +
+                                 "-" + file.filename().string());
 }
 
 void make_parent(const std::filesystem::path& file) {
@@ -89,7 +89,7 @@ void remove_unfinished(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> found;
     for (auto at = std::filesystem::recursive_directory_iterator(folder, error);
          !error && at != std::filesystem::recursive_directory_iterator(); at.increment(error))
-        if (at->path().filename().string().starts_with(kMark)) found.push_back(at->path());
+        if (at->path().filename().string().starts_with(kUnfinishedMark)) found.push_back(at->path());
     for (const std::filesystem::path& file : found) std::filesystem::remove(file, error);
 }
 

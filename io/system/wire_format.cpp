@@ -60,7 +60,7 @@ struct Shift {
     std::uint16_t operator()(unsigned dn) const { return static_cast<std::uint16_t>(dn << up >> down); }
 };
 
-struct Source {
+struct PixelSource {
     const DnImage& frame;
     const Crop& crop;
     Shift shift;
@@ -71,7 +71,7 @@ struct Source {
 
 // --- one sample a pixel
 
-void write_bytes(const Source& s, std::uint8_t* out) {
+void write_bytes(const PixelSource& s, std::uint8_t* out) {
     const std::size_t width = s.width();
     const Shift shift = s.shift;
     for (int y = 0; y < s.crop.height; ++y, out += width) {
@@ -84,7 +84,7 @@ void write_bytes(const Source& s, std::uint8_t* out) {
 }
 
 // The wire is little-endian, as are the machines that Embree runs on.
-void write_words(const Source& s, std::uint16_t* row, std::uint8_t* out) {
+void write_words(const PixelSource& s, std::uint16_t* row, std::uint8_t* out) {
     const std::size_t width = s.width();
     const Shift shift = s.shift;
     const bool as_it_is = shift.up == 0 && shift.down == 0;
@@ -97,7 +97,7 @@ void write_words(const Source& s, std::uint16_t* row, std::uint8_t* out) {
 }
 
 // Pixels go on without a gap from row to row: those that fill no whole group of bytes wait for the next row.
-void write_packed(const Source& s, const PixelLayout& layout, std::uint16_t* row,
+void write_packed(const PixelSource& s, const PixelLayout& layout, std::uint16_t* row,
                   std::span<std::uint8_t> out) {
     const std::size_t group = layout.packing == Packing::kPfnc && layout.bits == 10 ? 4 : 2;
     std::size_t waiting = 0;
@@ -126,7 +126,7 @@ constexpr int mirrored(int at, int size) {
 // colours are those of the whole frame.
 class Neighbours {
   public:
-    Neighbours(const Source& source, std::span<std::uint16_t> scratch) : s_(source) {
+    Neighbours(const PixelSource& source, std::span<std::uint16_t> scratch) : s_(source) {
         const std::size_t length = source.width() + 2;
         for (std::size_t i = 0; i < 3; ++i) rows_[i] = scratch.data() + i * length;
     }
@@ -144,7 +144,7 @@ class Neighbours {
     const std::uint16_t* before(std::size_t x, std::size_t i) const { return rows_[i] + x; }
 
   private:
-    const Source& s_;
+    const PixelSource& s_;
     std::array<std::uint16_t*, 3> rows_{};
 };
 
@@ -174,7 +174,7 @@ void interpolate(const Neighbours& n, std::size_t x0, bool green_first, Shift sh
 
 // Calls emit(block) for all pixels, rows first.
 template <class Emit>
-void each_block(const Source& s, BayerPattern pattern, std::span<std::uint16_t> scratch, Emit emit) {
+void each_block(const PixelSource& s, BayerPattern pattern, std::span<std::uint16_t> scratch, Emit emit) {
     Neighbours n(s, scratch);
     Block block;
     for (int y = 0; y < s.crop.height; ++y) {
@@ -196,7 +196,8 @@ void each_block(const Source& s, BayerPattern pattern, std::span<std::uint16_t> 
     }
 }
 
-void write_rgb(const Source& s, BayerPattern pattern, std::span<std::uint16_t> scratch, std::uint8_t* out) {
+void write_rgb(const PixelSource& s, BayerPattern pattern, std::span<std::uint16_t> scratch,
+               std::uint8_t* out) {
     each_block(s, pattern, scratch, [&out](const Block& c) {
         for (std::size_t i = 0; i < c.pixels; ++i) {
             out[3 * i] = static_cast<std::uint8_t>(c.r[i]);
@@ -221,7 +222,8 @@ std::uint8_t red_difference(int r, int g, int b) {
     return static_cast<std::uint8_t>(std::clamp(((value + 65536) >> 17) + 128, 0, 255));
 }
 
-void write_yuyv(const Source& s, BayerPattern pattern, std::span<std::uint16_t> scratch, std::uint8_t* out) {
+void write_yuyv(const PixelSource& s, BayerPattern pattern, std::span<std::uint16_t> scratch,
+                std::uint8_t* out) {
     each_block(s, pattern, scratch, [&out](Block& c) {
         // A row's last pixel without a partner is its own.
         if (c.pixels % 2 != 0)
@@ -322,7 +324,7 @@ void write_wire(const DnImage& frame, const Crop& crop, int bits, WireFormat for
                 std::span<std::uint16_t> row, std::span<std::uint8_t> out) {
     HILCAM_CHECK(crop.width > 0 && crop.height > 0 && crop.left >= 0 && crop.top >= 0 &&
                  crop.left + crop.width <= frame.width() && crop.top + crop.height <= frame.height());
-    const Source source{frame, crop, Shift(bits, format_of(format).bits)};
+    const PixelSource source{frame, crop, Shift(bits, format_of(format).bits)};
     HILCAM_CHECK(row.size() >= 3 * source.width() + 8);
     HILCAM_CHECK(out.size() == wire_bytes(source.width() * static_cast<std::size_t>(crop.height), format));
     if (format == WireFormat::kRgb8) return write_rgb(source, pattern, row, out.data());
@@ -336,7 +338,7 @@ void write_wire(const DnImage& frame, const Crop& crop, int bits, WireFormat for
 void interpolate_colors(const DnImage& mosaic, BayerPattern pattern, std::span<std::uint16_t> row,
                         std::span<std::uint16_t> out) {
     const Crop all{0, 0, mosaic.width(), mosaic.height()};
-    const Source source{mosaic, all, Shift(16, 16)};
+    const PixelSource source{mosaic, all, Shift(16, 16)};
     HILCAM_CHECK(row.size() >= 3 * source.width() + 8 && out.size() == 3 * mosaic.pixels());
     std::uint16_t* to = out.data();
     each_block(source, pattern, row, [&to](const Block& c) {

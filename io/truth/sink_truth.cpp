@@ -14,7 +14,7 @@ namespace {
 // Niceness above the threads that make frames; the preview's threads are nicer still.
 constexpr int kNicer = 10;
 // The bytes that an IPv4 datagram holds: 65535 less the headers of IP and UDP.
-constexpr std::size_t kMaxDatagramBytes = 65507;
+constexpr std::size_t kMaxTruthBytes = 65507;
 
 LineServerSetup port_of(const TruthConfig& c) {
     return {c.address, static_cast<std::uint16_t>(c.port), c.allow, static_cast<std::size_t>(c.clients),
@@ -166,7 +166,7 @@ void TruthSink::write_settled_lines(bool all) {
 }
 
 void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& record, const std::string& line) {
-    const bool fits = line.size() <= kMaxDatagramBytes;
+    const bool fits = line.size() <= kMaxTruthBytes;
     const std::string shorter = fits ? std::string() : document_.line(truth, record, false);
     const std::string& text = fits ? line : shorter;
     for (const sockaddr_in& to : destinations_)

@@ -10,24 +10,24 @@ namespace hilcam {
 namespace {
 
 // Keys stay in the order in which they are written here.
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Rounds to a millionth of a pixel: more digits say nothing.
 double tidy_px(double px) { return std::round(px * 1e6) / 1e6; }
 // Rounds to the digits of single precision, without the tail.
 double tidy(float value) { return std::round(static_cast<double>(value) * 1e4) / 1e4; }
 
-Json of(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
-Json of(Quat q) {
+OrderedJson of(Vec3d v) { return OrderedJson::array({v.x, v.y, v.z}); }
+OrderedJson of(Quat q) {
     // q and -q are one attitude.
     const double sign = q.w < 0 ? -1 : 1;
-    return Json::array({sign * q.w, sign * q.x, sign * q.y, sign * q.z});
+    return OrderedJson::array({sign * q.w, sign * q.x, sign * q.y, sign * q.z});
 }
-Json of(Vec2d px) { return Json::array({tidy_px(px.x), tidy_px(px.y)}); }
+OrderedJson of(Vec2d px) { return OrderedJson::array({tidy_px(px.x), tidy_px(px.y)}); }
 // Left, top, width, height.
-Json of(const PixelBox& box) {
+OrderedJson of(const PixelBox& box) {
     if (box.empty()) return nullptr;
-    return Json::array({box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0});
+    return OrderedJson::array({box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0});
 }
 
 std::string_view name_of_body(std::uint32_t id) {
@@ -42,21 +42,21 @@ std::string_view name_of_body(std::uint32_t id) {
     return {};
 }
 
-Json image_of(const FrameTruth& t, const FrameRecord& record, const CameraModel& model) {
+OrderedJson image_of(const FrameTruth& t, const FrameRecord& record, const CameraModel& model) {
     const FrameIntrinsics lens = intrinsics_of(t.geometry, t.raster);
     const LensDistortion& d = t.geometry.distortion;
     const bool fisheye = d.projection == Projection::kFisheye;
-    Json out = {{"width_px", t.raster.width_px},
-                {"height_px", t.raster.height_px},
-                {"binning", {record.binning_x, record.binning_y}},
-                {"reverse", {record.reverse_x, record.reverse_y}},
-                {"black_columns", model.black_columns},
-                {"black_rows", model.black_rows},
-                {"projection", fisheye ? "fisheye" : "rectilinear"},
-                {"focal_length_px", of(lens.focal_length_px)},
-                {"principal_point_px", of(lens.principal_point_px)},
-                {"distortion", fisheye ? Json::array({d.k1, d.k2, d.k3, d.k4})
-                                       : Json::array({d.k1, d.k2, d.p1, d.p2, d.k3})}};
+    OrderedJson out = {{"width_px", t.raster.width_px},
+                       {"height_px", t.raster.height_px},
+                       {"binning", {record.binning_x, record.binning_y}},
+                       {"reverse", {record.reverse_x, record.reverse_y}},
+                       {"black_columns", model.black_columns},
+                       {"black_rows", model.black_rows},
+                       {"projection", fisheye ? "fisheye" : "rectilinear"},
+                       {"focal_length_px", of(lens.focal_length_px)},
+                       {"principal_point_px", of(lens.principal_point_px)},
+                       {"distortion", fisheye ? OrderedJson::array({d.k1, d.k2, d.k3, d.k4})
+                                              : OrderedJson::array({d.k1, d.k2, d.p1, d.p2, d.k3})}};
     if (d.polynomial.none()) return out;
     out["distortion_x"] = d.polynomial.terms_x();
     out["distortion_y"] = d.polynomial.terms_y();
@@ -64,20 +64,20 @@ Json image_of(const FrameTruth& t, const FrameRecord& record, const CameraModel&
 }
 
 // Returns the part that objects and bodies share; the Sun has no axes.
-Json thing_of(const SeenThing& thing, const std::string& name, const TruthWishes& wishes) {
-    Json out = {{"id", thing.id}, {"name", name}, {"position_m", of(thing.world.position_world_m)}};
+OrderedJson thing_of(const SeenThing& thing, const std::string& name, const TruthWishes& wishes) {
+    OrderedJson out = {{"id", thing.id}, {"name", name}, {"position_m", of(thing.world.position_world_m)}};
     const bool has_axes = thing.id != kSunId;
     if (has_axes) out["attitude_wxyz"] = of(thing.world.world_from_body);
     out["position_camera_m"] = of(thing.position_camera_m);
     if (has_axes) out["camera_from_body_wxyz"] = of(thing.camera_from_thing);
     out["distance_m"] = thing.distance_m;
     if (has_axes) out["phase_rad"] = thing.phase_rad;
-    out["center_px"] = thing.has_center ? of(thing.center_px) : Json(nullptr);
+    out["center_px"] = thing.has_center ? of(thing.center_px) : OrderedJson(nullptr);
     if (!wishes.visibility) return out;
     const bool visible = !thing.visible_box_px.empty();
     out["visible_px"] = thing.visible_px;
     out["visible_box_px"] = of(thing.visible_box_px);
-    out["visible_center_px"] = visible ? of(thing.visible_center_px) : Json(nullptr);
+    out["visible_center_px"] = visible ? of(thing.visible_center_px) : OrderedJson(nullptr);
     out["silhouette_px"] = thing.silhouette_px;
     out["silhouette_box_px"] = of(thing.silhouette_box_px);
     out["silhouette_cut"] = thing.silhouette_cut;
@@ -85,23 +85,23 @@ Json thing_of(const SeenThing& thing, const std::string& name, const TruthWishes
     return out;
 }
 
-Json object_of(const SeenThing& thing, const std::string& name, const TruthWishes& wishes) {
-    Json out = thing_of(thing, name, wishes);
+OrderedJson object_of(const SeenThing& thing, const std::string& name, const TruthWishes& wishes) {
+    OrderedJson out = thing_of(thing, name, wishes);
     out["radius_m"] = thing.radius_m;
     out["sunlit_fraction"] = thing.sunlit;
     return out;
 }
 
-Json body_of(const SeenThing& thing, const TruthWishes& wishes) {
-    Json out = thing_of(thing, std::string(name_of_body(thing.id)), wishes);
+OrderedJson body_of(const SeenThing& thing, const TruthWishes& wishes) {
+    OrderedJson out = thing_of(thing, std::string(name_of_body(thing.id)), wishes);
     out["equatorial_radius_m"] = thing.radius_m;
     out["polar_radius_m"] = thing.polar_radius_m;
     return out;
 }
 
 // figure: what the kind of thing calls its second figure.
-Json ground_list(const std::vector<SeenGroundThing>& things, const char* figure) {
-    Json out = Json::array();
+OrderedJson ground_list(const std::vector<SeenGroundThing>& things, const char* figure) {
+    OrderedJson out = OrderedJson::array();
     for (const SeenGroundThing& thing : things)
         out.push_back({{"longitude_deg", thing.longitude_deg},
                        {"latitude_deg", thing.latitude_deg},
@@ -110,7 +110,7 @@ Json ground_list(const std::vector<SeenGroundThing>& things, const char* figure)
                        {"center_px", of(thing.place_px)},
                        {"diameter_px", thing.diameter_px},
                        {"distance_m", thing.distance_m},
-                       {"visible", thing.visible ? Json(*thing.visible) : Json(nullptr)}});
+                       {"visible", thing.visible ? OrderedJson(*thing.visible) : OrderedJson(nullptr)}});
     return out;
 }
 
@@ -130,41 +130,42 @@ std::vector<std::string> TruthDocument::legend(const FrameTruth& t) const {
 
 std::string TruthDocument::header() const {
     const RunLabel& run = source_.run;
-    const Json out = {
+    const OrderedJson out = {
         {"version", 1},
         {"run", {{"id", run.id}, {"scenario", run.scenario}, {"seed", run.seed}, {"program", run.program}}},
         {"camera", source_.camera},
         {"camera_name", source_.model.name}};
-    return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return out.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, bool with_stars) const {
-    Json out = {{"version", 1},
-                {"camera", source_.camera},
-                {"camera_name", source_.model.name},
-                {"frame", record.id},
-                {"time_utc", format_utc(record.exposure_mid)},
-                {"time_tai_ns", record.exposure_mid.ns},
-                {"shown_tai_ns", t.time.ns},
-                {"monotonic_ns", record.exposure_mid_monotonic_ns},
-                {"exposure_s", record.exposure_s},
-                {"gain_db", record.gain_db},
-                {"pose_sequence", record.pose_sequence},
-                {"trigger_sequence", record.trigger_sequence},
-                {"quality_level", record.quality_level},
-                {"faults", names_of_bits(record.faults)},
-                {"image", image_of(t, record, source_.model)},
-                {"pose",
-                 {{"position_m", of(t.camera.position_world_m)},
-                  {"attitude_wxyz", of(t.camera.world_from_body)},
-                  {"velocity_m_s", of(t.camera_velocity_m_s)},
-                  {"rate_rad_s", of(t.camera_rate_rad_s)}}},
-                {"sun",
-                 {{"direction", of(t.sun_world_dir)},
-                  {"direction_camera", of(t.sun_camera_dir)},
-                  {"distance_m", t.sun_distance_m}}}};
+    OrderedJson out = {{"version", 1},
+                       {"camera", source_.camera},
+                       {"camera_name", source_.model.name},
+                       {"frame", record.id},
+                       {"time_utc", format_utc(record.exposure_mid)},
+                       {"time_tai_ns", record.exposure_mid.ns},
+                       {"shown_tai_ns", t.time.ns},
+                       {"monotonic_ns", record.exposure_mid_monotonic_ns},
+                       {"exposure_s", record.exposure_s},
+                       {"gain_db", record.gain_db},
+                       {"pose_sequence", record.pose_sequence},
+                       {"trigger_sequence", record.trigger_sequence},
+                       {"quality_level", record.quality_level},
+                       {"faults", names_of_bits(record.faults)},
+                       {"image", image_of(t, record, source_.model)},
+                       {"pose",
+                        {{"position_m", of(t.camera.position_world_m)},
+                         {"attitude_wxyz", of(t.camera.world_from_body)},
+                         {"velocity_m_s", of(t.camera_velocity_m_s)},
+                         {"rate_rad_s", of(t.camera_rate_rad_s)}}},
+                       {"sun",
+                        {{"direction", of(t.sun_world_dir)},
+                         {"direction_camera", of(t.sun_camera_dir)},
+                         {"distance_m", t.sun_distance_m}}}};
     if (t.height_above_ground_m) out["height_above_ground_m"] = *t.height_above_ground_m;
-    Json objects = Json::array(), bodies = Json::array(), parts = Json::array(), stars = Json::array();
+    OrderedJson objects = OrderedJson::array(), bodies = OrderedJson::array(), parts = OrderedJson::array(),
+                stars = OrderedJson::array();
     for (const SeenThing& thing : t.things)
         if (thing.is_body)
             bodies.push_back(body_of(thing, t.wishes));
@@ -201,7 +202,7 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
         out["stars_left_out"] = t.stars_left_out + (with_stars ? 0 : t.stars.size());
     }
     // Names may be any bytes: what is no UTF-8 is replaced.
-    return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return out.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace hilcam

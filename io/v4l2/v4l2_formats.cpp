@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::array<BayerPattern, 4> kPatterns = {"RGGB", "GRBG", "GBRG", "BGGR"};
+constexpr std::array<BayerPattern, 4> kV4l2Patterns = {"RGGB", "GRBG", "GBRG", "BGGR"};
 // V4L2 has a code for each phase.
 using Phases = std::array<std::uint32_t, 4>;
 constexpr Phases kBayer8 = {V4L2_PIX_FMT_SRGGB8, V4L2_PIX_FMT_SGRBG8, V4L2_PIX_FMT_SGBRG8,
@@ -20,8 +20,8 @@ constexpr Phases kBayer12 = {V4L2_PIX_FMT_SRGGB12, V4L2_PIX_FMT_SGRBG12, V4L2_PI
                              V4L2_PIX_FMT_SBGGR12};
 
 std::uint32_t phase_of(const Phases& codes, BayerPattern pattern) {
-    for (std::size_t i = 0; i < kPatterns.size(); ++i)
-        if (kPatterns[i] == pattern) return codes[i];
+    for (std::size_t i = 0; i < kV4l2Patterns.size(); ++i)
+        if (kV4l2Patterns[i] == pattern) return codes[i];
     throw InputError("format: found a Bayer format, but the camera has " +
                      (pattern.empty() ? std::string("no colour filters")
                                       : "the colour filters '" + std::string(pattern) + "'") +

@@ -8,14 +8,14 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uint32_t kMark = 0x48434D52;  // "HCMR"
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint32_t kRowMark = 0x48434D52;  // "HCMR"
+constexpr std::uint16_t kRowVersion = 1;
 
 }  // namespace
 
 void write_metadata_row(const FrameRecord& r, std::span<std::uint8_t> row) {
     ByteWriter out(row);
-    out.u32(kMark).u16(kVersion).u16(kMetadataBytes).u64(r.id);
+    out.u32(kRowMark).u16(kRowVersion).u16(kMetadataBytes).u64(r.id);
     out.u64(static_cast<std::uint64_t>(r.exposure_mid.ns));
     out.u64(static_cast<std::uint64_t>(r.exposure_mid_monotonic_ns));
     out.f64(r.exposure_s).f64(r.gain_db).u32(r.pose_sequence).u32(r.trigger_sequence);
@@ -28,7 +28,7 @@ void write_metadata_row(const FrameRecord& r, std::span<std::uint8_t> row) {
 std::optional<FrameRecord> read_metadata_row(std::span<const std::uint8_t> row) {
     if (row.size() < kMetadataBytes || crc16(row.first(kMetadataBytes)) != 0) return std::nullopt;
     ByteReader in(row);
-    if (in.u32() != kMark || in.u16() != kVersion || in.u16() != kMetadataBytes) return std::nullopt;
+    if (in.u32() != kRowMark || in.u16() != kRowVersion || in.u16() != kMetadataBytes) return std::nullopt;
     FrameRecord r;
     r.id = in.u64();
     r.exposure_mid.ns = in.i64();

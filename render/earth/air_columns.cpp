@@ -24,7 +24,7 @@ float root_of_cosine(float mu) {
 }
 
 // Out of the air even along the horizon.
-constexpr double kAway_m = 4e6;
+constexpr double kFarAway_m = 4e6;
 
 // Null where light from below is the same everywhere.
 const AirByPlace* lit_by_place(const Atmosphere& air) {
@@ -56,7 +56,8 @@ AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
         const Vec3d sun_dir = sun_dir_at(row % kSuns, kSuns, kPi * (row / kSuns) / (kAzimuths - 1));
         const auto look_up = [&](double height_m, Vec3d to_viewer) {
             const Vec3d point{0, 0, kEarthEquatorialRadius_m + height_m};
-            return look_in_parts(air, by_place_, point + kAway_m * to_viewer, -to_viewer, kAway_m, sun_dir);
+            return look_in_parts(air, by_place_, point + kFarAway_m * to_viewer, -to_viewer, kFarAway_m,
+                                 sun_dir);
         };
         // What is lifted is taken as it is seen across the Sun's direction.
         constexpr int kAcross = (kAzimuths - 1) / 2;
@@ -86,7 +87,7 @@ void AirColumns::fill_passing(const Atmosphere& air) {
         const double root = static_cast<double>(height) / (kPassHeights - 1);
         const Vec3d lowest{0, 0, kEarthEquatorialRadius_m + 1 + root * root * (air.top_m() - 1)},
             ahead{1, 0, 0};
-        return look_in_parts(air, by_place_, lowest - kAway_m * ahead, ahead,
+        return look_in_parts(air, by_place_, lowest - kFarAway_m * ahead, ahead,
                              std::numeric_limits<double>::infinity(), sun_dir);
     };
     tbb::parallel_for(0, kPassAzimuths * kPassSuns, [&](int row) {

@@ -17,13 +17,13 @@ constexpr float kPiOfClouds = static_cast<float>(kPi);
 // changes the light at 8 degrees of phase by 1 to 2 % (docs/earth.md).
 constexpr double kRadius_um = 10, kVariance = 0.15;
 constexpr int kStreams = 16;
-constexpr int kThinnest = -7, kThickest = 9;  // powers of two of the scaled thickness
+constexpr int kThinnestCloud = -7, kThickest = 9;  // powers of two of the scaled thickness
 
 // Where a value lies among `count` even steps of [0, 1].
-struct Place {
+struct GridPlace {
     int low;
     float share;
-    Place(float x, int count) {
+    GridPlace(float x, int count) {
         const float at = std::clamp(x, 0.0f, 1.0f) * static_cast<float>(count - 1);
         low = std::min(static_cast<int>(at), count - 2);
         share = at - static_cast<float>(low);
@@ -63,7 +63,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
     std::vector<double> cosines;
     cosines.reserve(kCosines);
     for (int i = 0; i < kCosines; ++i) cosines.push_back(static_cast<double>(cosine_at(i)));
-    const ScatteringLayers made = scattering_layers(moments, kStreams, cosines, kThinnest, kThickest);
+    const ScatteringLayers made = scattering_layers(moments, kStreams, cosines, kThinnestCloud, kThickest);
     left_ = static_cast<float>(1 - made.forward_share);
 
     // From the layers' thicknesses to even steps of c.
@@ -124,7 +124,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
 void CloudTable::place(float mu0, float mu, float cos_phase, EarthAspect& out) const {
     const float s = std::clamp(mu0, 0.002f, 1.0f), v = std::clamp(mu, 0.002f, 1.0f);
     const float azimuth = std::acos(phase_cosine_azimuth(s, v, cos_phase));
-    const Place a(azimuth / kPiOfClouds, kAzimuths), x(std::sqrt(s), kCosines), y(std::sqrt(v), kCosines);
+    const GridPlace a(azimuth / kPiOfClouds, kAzimuths), x(std::sqrt(s), kCosines), y(std::sqrt(v), kCosines);
     std::array<float, kThick> many{};
     for (int i = 0; i < 8; ++i) {
         const int da = i >> 2, dx = i >> 1 & 1, dy = i & 1;
@@ -142,7 +142,7 @@ void CloudTable::place(float mu0, float mu, float cos_phase, EarthAspect& out) c
     const float slant = 1 / s + 1 / v, down = 1 / std::max(0.02f, mu0);
     for (std::size_t k = 0; k < EarthAspect::kSteps; ++k) {
         const float c = static_cast<float>(k * k) / ((EarthAspect::kSteps - 1) * (EarthAspect::kSteps - 1));
-        const Place t(c, kThick);
+        const GridPlace t(c, kThick);
         const auto i = static_cast<std::size_t>(t.low);
         out.many[k] = many[i] + t.share * (many[i + 1] - many[i]);
         out.share[k] = -std::expm1(-scaled_thickness(c) * slant);
@@ -153,7 +153,7 @@ void CloudTable::place(float mu0, float mu, float cos_phase, EarthAspect& out) c
 }
 
 Spectrum CloudTable::reflected(const EarthAspect& aspect, float c) {
-    const Place at(std::sqrt(c), EarthAspect::kSteps);
+    const GridPlace at(std::sqrt(c), EarthAspect::kSteps);
     const auto i = static_cast<std::size_t>(at.low);
     const float many = aspect.many[i] + at.share * (aspect.many[i + 1] - aspect.many[i]);
     const float share = aspect.share[i] + at.share * (aspect.share[i + 1] - aspect.share[i]);
@@ -163,7 +163,7 @@ Spectrum CloudTable::reflected(const EarthAspect& aspect, float c) {
 }
 
 float CloudTable::transmitted(float c, float mu) const {
-    const Place y(std::sqrt(std::clamp(mu, 0.0f, 1.0f)), kCosines), t(c, kThick);
+    const GridPlace y(std::sqrt(std::clamp(mu, 0.0f, 1.0f)), kCosines), t(c, kThick);
     const float* low = transmitted_.data() + y.low * kThick + t.low;
     const float a = low[0] + t.share * (low[1] - low[0]);
     const float b = low[kThick] + t.share * (low[kThick + 1] - low[kThick]);
@@ -171,7 +171,7 @@ float CloudTable::transmitted(float c, float mu) const {
 }
 
 float CloudTable::spherical_albedo(float c) const {
-    const Place t(c, kThick);
+    const GridPlace t(c, kThick);
     const float* low = spherical_.data() + t.low;
     return low[0] + t.share * (low[1] - low[0]);
 }

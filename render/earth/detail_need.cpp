@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr double kRadius_m = kEarthFigure.equatorial_radius_m;
+constexpr double kEquatorialRadius_m = kEarthFigure.equatorial_radius_m;
 constexpr double kCloudLevel_m = 4000;  // that of EarthModel
 
 double angle_rad(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
@@ -57,21 +57,21 @@ struct DetailNeed::Sight {
           up(normalized(camera_m)),
           boresight(normalized(stretched(kEarthFigure, view.boresight))),
           sun_dir(normalized(stretched(kEarthFigure, view.sun_dir))),
-          distance_m(std::max(length(camera_m), 1.0001 * kRadius_m)),
+          distance_m(std::max(length(camera_m), 1.0001 * kEquatorialRadius_m)),
           // Stretching turns directions by a sixth of a degree at most; a pixel more on each side.
           half_field_rad(view.half_field_rad + 0.003 + view.pixel_rad),
           pixel_rad(view.pixel_rad),
           // Clouds stand out beyond the ground's horizon.
-          horizon_rad(angle_rad(kRadius_m / distance_m) + angle_rad(kRadius_m / (kRadius_m + kCloudLevel_m))),
+          horizon_rad(angle_rad(kEquatorialRadius_m / distance_m) + angle_rad(kEquatorialRadius_m / (kEquatorialRadius_m + kCloudLevel_m))),
           coarser_by(0) {}
 
     // The ground, or a cloud whose shadow falls on it, may be in the field.
     bool may_see(const Cap& cap) const {
         const double mu0 = dot(cap.middle, sun_dir) + cap.radius_rad;
         const double shadow_m = mu0 > 0 ? kCloudLevel_m / std::max(0.05, mu0) : kCloudLevel_m;
-        const Vec3d to_middle = kRadius_m * cap.middle - camera_m;
+        const Vec3d to_middle = kEquatorialRadius_m * cap.middle - camera_m;
         const double far_m = length(to_middle),
-                     reach_m = 2 * kRadius_m * std::sin(std::min(kPi, cap.radius_rad) / 2) + shadow_m;
+                     reach_m = 2 * kEquatorialRadius_m * std::sin(std::min(kPi, cap.radius_rad) / 2) + shadow_m;
         if (far_m <= reach_m) return true;
         return angle_rad(dot(to_middle, boresight) / far_m) <= half_field_rad + std::asin(reach_m / far_m);
     }
@@ -79,9 +79,9 @@ struct DetailNeed::Sight {
     // The finest level, as EarthMap counts it, of a look at any place of the cap; the level of texel_m is 0.
     double finest_level(const Cap& cap, double from_below_rad, double texel_m) const {
         const double nearest_rad = std::max(0.0, from_below_rad - cap.radius_rad);
-        const double d_m = std::sqrt(distance_m * distance_m + kRadius_m * kRadius_m -
-                                     2 * distance_m * kRadius_m * std::cos(nearest_rad));
-        const double mu = std::max(0.02, (distance_m * std::cos(nearest_rad) - kRadius_m) / d_m);
+        const double d_m = std::sqrt(distance_m * distance_m + kEquatorialRadius_m * kEquatorialRadius_m -
+                                     2 * distance_m * kEquatorialRadius_m * std::cos(nearest_rad));
+        const double mu = std::max(0.02, (distance_m * std::cos(nearest_rad) - kEquatorialRadius_m) / d_m);
         // A look is as wide as the shorter side of a footprint, and an eighth of the longer (map_looks.h): the ray's slant makes it
         // long, and so do columns that run together towards a pole.
         const double width_m = static_cast<double>(kTexelOfLook) * pixel_rad * d_m *
@@ -132,7 +132,7 @@ bool DetailNeed::add_if_needed(const Sight& sight, const DetailKey& key) {
     const Cap cap = cap_of(shape_, key);
     const double from_below_rad = angle_rad(dot(cap.middle, sight.up));
     if (from_below_rad > sight.horizon_rad + cap.radius_rad || !sight.may_see(cap)) return true;
-    const double texel_m = kPi * kRadius_m / shape_.rows;
+    const double texel_m = kPi * kEquatorialRadius_m / shape_.rows;
     // A level counts for looks up to a level finer or coarser.
     if (sight.finest_level(cap, from_below_rad, texel_m) >= key.level + 1) return true;
     if (tiles_.size() == most_) return false;

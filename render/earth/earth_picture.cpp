@@ -20,15 +20,15 @@ constexpr double kEarthRadius_m = kEarthFigure.equatorial_radius_m;
 // come near to a pixel's mean (ShippedEarth.IsKeptAsAPictureThatIsBetterThanARayAPixel).
 constexpr double kSpacing_px = 0.6, kWidth_px = 0.75;
 // A step of the Sun takes 27 s. The angles at which the ground is seen change as much with a step of the camera's distance.
-constexpr double kSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e-3;
+constexpr double kPictureSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e-3;
 constexpr double kMapStep = 1.0 / 256;  // share of the way from one map to the next
 // The disk's radius in pixels, and the camera's distance from the middle in radii.
 constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
-constexpr int kRings = 16;  // rings of a band, without the one that the next band shares
-constexpr int kRun = 64;    // columns of a piece
+constexpr int kPictureRings = 16;  // rings of a band, without the one that the next band shares
+constexpr int kRunColumns = 64;    // columns of a piece
 // The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width.
 constexpr double kLimb_px = 1.5;
-constexpr int kFiner = 3, kLimbLooks = 4;
+constexpr int kFinerSteps = 3, kLimbLooks = 4;
 
 Vec3d from_steps(double longitude_rad, double latitude_rad) {
     return {std::cos(latitude_rad) * std::cos(longitude_rad),
@@ -69,12 +69,13 @@ HILCAM_CLONES void place_looks(const EarthPicture::Tile& tile, const float* x, c
 
 // Radiance and 2^-21 W m^-2 sr^-1 um^-1 in 16 bits: five of the exponent, from there on, and eleven digits, so an error of 1 / 4096 at
 // most. What is brighter than 2^11, brighter than any cloud, counts as that.
-constexpr std::uint32_t kDropped = 12, kLowest = (127u - 21) << 23;
-constexpr float kDark = 0x1p-21f;
-static_assert(std::bit_cast<std::uint32_t>(kDark) == kLowest);
+constexpr std::uint32_t kDropped = 12, kLowestBits = (127u - 21) << 23;
+constexpr float kDarkestCoded = 0x1p-21f;
+static_assert(std::bit_cast<std::uint32_t>(kDarkestCoded) == kLowestBits);
 std::uint16_t coded(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(std::max(0.0f, value) + kDark) + (1u << (kDropped - 1));
-    return static_cast<std::uint16_t>(std::min((bits - kLowest) >> kDropped, 0xFFFFu));
+    const auto bits =
+        std::bit_cast<std::uint32_t>(std::max(0.0f, value) + kDarkestCoded) + (1u << (kDropped - 1));
+    return static_cast<std::uint16_t>(std::min((bits - kLowestBits) >> kDropped, 0xFFFFu));
 }
 
 // Sixteen looks: where they begin in the picture's columns, and their weights.
@@ -98,7 +99,7 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
         const std::size_t stride = looks.stride[i];
         const auto value = [&](std::size_t at) {
             return reinterpret_cast<Bins>((__builtin_convertvector(light[at], BinBits) << kDropped) +
-                                          kLowest);
+                                          kLowestBits);
         };
         const auto row = [&](std::size_t r) {
             const Bins left = value(r);
@@ -112,7 +113,7 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
             const Bins before = row(0);
             sum = before + looks.in_row[i] * (row(1) - before);
         }
-        *reinterpret_cast<Bins*>(out + i) = sum - kDark;
+        *reinterpret_cast<Bins*>(out + i) = sum - kDarkestCoded;
     }
 }
 
@@ -123,8 +124,8 @@ EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir, MapNumbers
     return {{steps(std::atan2(camera_m.y, camera_m.x), kCameraStep_rad),
              steps(std::asin(camera_m.z / distance_m), kCameraStep_rad),
              steps(std::log(distance_m / kEarthRadius_m), kDistanceStep)},
-            {steps(std::atan2(sun_dir.y, sun_dir.x), kSunStep_rad),
-             steps(std::asin(std::clamp(sun_dir.z, -1.0, 1.0)), kSunStep_rad)},
+            {steps(std::atan2(sun_dir.y, sun_dir.x), kPictureSunStep_rad),
+             steps(std::asin(std::clamp(sun_dir.z, -1.0, 1.0)), kPictureSunStep_rad)},
             {steps(numbers.clouds, kMapStep), steps(numbers.ground, kMapStep)}};
 }
 
@@ -135,7 +136,7 @@ bool EarthPicture::is_for(Vec3d camera_m, double pixel_rad) {
 }
 
 EarthPicture::EarthPicture(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
-    bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kRings + 4);
+    bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kPictureRings + 4);
     // Addresses for the widest disk; its pages are taken by take_memory(). A step of the grid nearer, and half of one.
     distance_m_ =
         (1 - 1.5 * kDistanceStep) * kEarthRadius_m * std::max(kNearest, 1 / (kLargest_px * pixel_rad));
@@ -149,7 +150,7 @@ Vec3d EarthPicture::to_place(Vec3d v) const { return {dot(v, right_), dot(v, dow
 void EarthPicture::place_bands() {
     bands_.clear();
     const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // a pixel's part of the radius
-    const double step = kSpacing_px * pixel, fine = step / kFiner;
+    const double step = kSpacing_px * pixel, fine = step / kFinerSteps;
     pixel_ = static_cast<float>(pixel);
     inner_per_b_ = static_cast<float>(1 / step);
     const double limb_from = 1 - kLimb_px * pixel;
@@ -162,8 +163,8 @@ void EarthPicture::place_bands() {
         used_ += static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns + 1);
     };
     const int inner = static_cast<int>(std::ceil(limb_from / step)) + 1;
-    for (int from = 0; from < inner; from += kRings)
-        add(from * step, step, std::min(kRings, inner - from) + 1);
+    for (int from = 0; from < inner; from += kPictureRings)
+        add(from * step, step, std::min(kPictureRings, inner - from) + 1);
     // A ring's middle lies half a step off the limb of the ground; dark ones end them.
     const int below = static_cast<int>(std::ceil(kLimb_px * pixel / fine)) + 3;
     const int above =
@@ -172,7 +173,7 @@ void EarthPicture::place_bands() {
     dark_from_ = static_cast<float>(1 + top_m_ / kEarthRadius_m + 0.5 * pixel + fine);
 }
 
-int EarthPicture::Band::runs() const { return (columns + kRun - 1) / kRun; }
+int EarthPicture::Band::runs() const { return (columns + kRunColumns - 1) / kRunColumns; }
 
 void EarthPicture::fill_run(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row,
                             int first) {
@@ -190,7 +191,7 @@ void EarthPicture::fill_run(const EarthModel& earth, const Spectrum& irradiance,
                         {numbers_, nullptr},
                         EarthModel::kLooksOfPixel};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
-    const int last = std::min(first + kRun, band.columns);
+    const int last = std::min(first + kRunColumns, band.columns);
     for (int column = first; column < last; ++column) {
         const double turn = 2 * kPi * column / band.columns;
         const Vec3d out_dir = std::cos(turn) * right_ + std::sin(turn) * down_;
@@ -218,7 +219,7 @@ void EarthPicture::take_memory(std::size_t used) {
 void EarthPicture::begin(const Key& key) {
     camera_m_ = kEarthRadius_m * std::exp(key.camera[2] * kDistanceStep) *
                 from_steps(key.camera[0] * kCameraStep_rad, key.camera[1] * kCameraStep_rad);
-    sun_dir_ = from_steps(key.sun[0] * kSunStep_rad, key.sun[1] * kSunStep_rad);
+    sun_dir_ = from_steps(key.sun[0] * kPictureSunStep_rad, key.sun[1] * kPictureSunStep_rad);
     numbers_ = {key.maps[0] * kMapStep, key.maps[1] * kMapStep};
     const Vec3d from_m = stretched(kEarthFigure, camera_m_);
     distance_m_ = length(from_m);
@@ -244,7 +245,7 @@ void EarthPicture::make_piece(const EarthModel& earth, const Spectrum& sun_irrad
     std::size_t i = 0;
     while (piece >= bands_[i].rows * bands_[i].runs()) piece -= bands_[i].rows * bands_[i].runs(), ++i;
     const int runs = bands_[i].runs();
-    fill_run(earth, sun_irradiance, bands_[i], piece / runs, kRun * (piece % runs));
+    fill_run(earth, sun_irradiance, bands_[i], piece / runs, kRunColumns * (piece % runs));
 }
 
 EarthPicture::Tile EarthPicture::tile(Vec3d camera_m, const std::array<Vec3d, kNodes * kNodes>& dirs) const {
@@ -296,7 +297,7 @@ EarthPicture::Spot EarthPicture::spot_of(float b, float turn) const {
     const float ring = b * inner_per_b_;
     const bool limb = !(b < limb_from_);
     const auto row = static_cast<std::size_t>(ring);
-    const Band& band = limb ? bands_.back() : bands_[row / kRings];
+    const Band& band = limb ? bands_.back() : bands_[row / kPictureRings];
     const float column = turn * static_cast<float>(band.columns);
     const int left = std::min(static_cast<int>(column), band.columns - 1);
     Spot out{band,          0, static_cast<std::size_t>(left), 0, column - static_cast<float>(left), limb,
@@ -304,7 +305,7 @@ EarthPicture::Spot EarthPicture::spot_of(float b, float turn) const {
     if (out.dark)
         out.row = static_cast<std::size_t>(band.rows) - 2;
     else if (!limb)
-        out.row = row % kRings, out.in_row = ring - static_cast<float>(row);
+        out.row = row % kPictureRings, out.in_row = ring - static_cast<float>(row);
     return out;
 }
 

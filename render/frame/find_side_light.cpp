@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-constexpr double kGolden = 0.6180339887498949;
+constexpr double kGoldenRatioOfTurn = 0.6180339887498949;
 constexpr int kSunRings = 3, kSunSpokes = 8;
 
 struct Axes {
@@ -64,7 +64,7 @@ void find_side_light(const FrameView& frame, const WorldSnapshot& world, std::ve
         const double r = std::sqrt((ring + 0.5) / kSunRings);
         const Spectrum share = sky.sun_disk().relative_radiance(static_cast<float>(std::sqrt(1 - r * r)));
         for (int spoke = 0; spoke < kSunSpokes; ++spoke) {
-            const double phi = 2 * kPi * (spoke + kGolden * ring) / kSunSpokes;
+            const double phi = 2 * kPi * (spoke + kGoldenRatioOfTurn * ring) / kSunSpokes;
             const Vec3d dir = normalized(sun.along + (r * sine * std::cos(phi)) * sun.side +
                                          (r * sine * std::sin(phi)) * sun.up);
             if (shown(dir)) continue;
@@ -87,7 +87,7 @@ void find_side_light(const FrameView& frame, const WorldSnapshot& world, std::ve
                 const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
                 const double one_minus = u * (1 - body.cone_cosine);
                 const double s = std::sqrt(one_minus * (2 - one_minus));
-                const double phi = 2 * kPi * kGolden * static_cast<double>(i);
+                const double phi = 2 * kPi * kGoldenRatioOfTurn * static_cast<double>(i);
                 const Vec3d dir = (1 - one_minus) * axes.along + (s * std::cos(phi)) * axes.side +
                                   (s * std::sin(phi)) * axes.up;
                 SideLight& light = lights[first + i];

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kAcross = 9;
+constexpr int kGridAcross = 9;
 
 // A point of the picture, at the frame's time.
 struct Seen {
@@ -118,8 +118,8 @@ class Collection {
     }
 
   private:
-    std::array<Seen, kAcross * kAcross + 1> seen_;
-    std::array<Vec2d, kAcross * kAcross + 1> displacements_px_;
+    std::array<Seen, kGridAcross * kGridAcross + 1> seen_;
+    std::array<Vec2d, kGridAcross * kGridAcross + 1> displacements_px_;
     std::size_t count_ = 0;
     double largest_px_ = 0;
 };
@@ -160,12 +160,12 @@ ImageMotion image_motion(const MovingFrame& moving, const Instants& instants) {
     const bool one_line = moving.frame.rays->scan_line_time_s() > 0;
     Collection all;
     Vec2d displacement_px;
-    const int rows = one_line ? 1 : kAcross;
+    const int rows = one_line ? 1 : kGridAcross;
     for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < kAcross; ++x) {
-            const double y_px = one_line ? g.center_px().y : (y + 0.5) * g.height_px / kAcross;
-            const Vec3d dir =
-                normalized(world_from_camera * g.direction_camera((x + 0.5) * g.width_px / kAcross, y_px));
+        for (int x = 0; x < kGridAcross; ++x) {
+            const double y_px = one_line ? g.center_px().y : (y + 0.5) * g.height_px / kGridAcross;
+            const Vec3d dir = normalized(world_from_camera *
+                                         g.direction_camera((x + 0.5) * g.width_px / kGridAcross, y_px));
             const Seen seen = look(moving.frame, middle, dir);
             if (seen.thing != Seen::Thing::kSky && follower.displacement_px(seen, displacement_px))
                 all.add(seen, displacement_px);

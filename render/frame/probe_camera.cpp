@@ -17,7 +17,7 @@ ImageGeometry picture_of(int picture_px, int sphere_px, double radius_m, double 
     return geometry;
 }
 
-constexpr double kMargin = 1.01;  // on the object's radius
+constexpr double kProbeMargin = 1.01;  // on the object's radius
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void ProbeCamera::aim(const WorldSnapshot& world, std::size_t i, double distance
     world_from_view_ = to_matrix(camera_.world_from_body);
     view_.geometry = picture_of(picture_px, sphere_px, radius_m, distance_m);
     view_.start_at_m = world.objects[i].position_world_m - view_.rays_world_m;
-    view_.start_before_m = kMargin * radius_m;
+    view_.start_before_m = kProbeMargin * radius_m;
     view_.is_point[i] = 0;
     rays_->place(view_.geometry, {world.time, camera_, {}, {}});
     mark(world.objects[i], (*view_.objects)[i]->cluster_bounds_m);
@@ -105,7 +105,7 @@ int ProbeCamera::cells_across(const ObjectPlan& plan) {
 }
 
 double ProbeCamera::before_m(const ObjectPlan& plan, double radius_m) {
-    return plan.distance_m - kMargin * radius_m;
+    return plan.distance_m - kProbeMargin * radius_m;
 }
 
 }  // namespace hilcam

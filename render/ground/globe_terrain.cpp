@@ -12,7 +12,7 @@ namespace hilcam {
 namespace {
 
 // Quadrilaterals along the edge of a tile as it lies in a mesh.
-constexpr std::size_t kSeen = GroundTile::kQuads, kBeside = GroundTile::kSketchQuads;
+constexpr std::size_t kSeenQuads = GroundTile::kQuads, kBesideQuads = GroundTile::kSketchQuads;
 // Distances over which a vertex goes to the level above: of those at which tiles of its level are used.
 constexpr double kMorphFrom = 1.5, kMorphTo = 2;
 // A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
@@ -110,7 +110,7 @@ bool GlobeTerrain::is_outside(const TerrainView& view, const GroundTile& tile) c
 
 std::size_t GlobeTerrain::triangles_of(std::span<const Leaf> leaves) {
     std::size_t sum = 0;
-    for (const Leaf& leaf : leaves) sum += MeshGrid::triangles(leaf.outside ? kBeside : kSeen);
+    for (const Leaf& leaf : leaves) sum += MeshGrid::triangles(leaf.outside ? kBesideQuads : kSeenQuads);
     return sum;
 }
 
@@ -122,7 +122,7 @@ GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edge
     wave.reserve(kCubeFaces);
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
-        if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBeside) > most_triangles)
+        if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBesideQuads) > most_triangles)
             return Selected::kTooManyTriangles;
         if (!require_sketches(wave)) return Selected::kNotYet;
         std::vector<GroundTileKey> next;
@@ -216,12 +216,12 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
     const std::size_t beside = leaves.size() - seen;
     Mesh& mesh = out.mesh;
     for (std::size_t i = 0, vertex = 0, triangle = 0; i < leaves.size(); ++i) {
-        const std::size_t quads = i < seen ? kSeen : kBeside;
+        const std::size_t quads = i < seen ? kSeenQuads : kBesideQuads;
         out.grids.push_back({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(triangle),
                              static_cast<std::uint32_t>(quads)});
         vertex += MeshGrid::vertices(quads), triangle += MeshGrid::triangles(quads);
     }
-    mesh.vertices_m.resize(seen * MeshGrid::vertices(kSeen) + beside * MeshGrid::vertices(kBeside));
+    mesh.vertices_m.resize(seen * MeshGrid::vertices(kSeenQuads) + beside * MeshGrid::vertices(kBesideQuads));
     mesh.normals.resize(mesh.vertices_m.size());
     if (surface_.has(GroundKind::kAlbedo) || !details_.empty()) mesh.colors.resize(mesh.vertices_m.size());
     if (surface_.has_hapke()) mesh.hapke.resize(mesh.vertices_m.size());
@@ -230,7 +230,7 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
     mesh.surfaces.resize(1);
     auto normals = std::make_shared<GroundNormals>();
     normals->tiles.resize(seen);
-    normals->triangles_per_tile = static_cast<std::uint32_t>(MeshGrid::triangles(kSeen));
+    normals->triangles_per_tile = static_cast<std::uint32_t>(MeshGrid::triangles(kSeenQuads));
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
         Shares shares;
         find_shares(view, edges, leaves[i], shares);
@@ -277,7 +277,7 @@ void GlobeTerrain::append(const Leaf& leaf, const Shares& shares, Vec3d anchor_m
             mesh.hapke[to] = blend(tile.own_hapke[i], 1 - share, tile.above_hapke[i], share, {}, 0);
     }
     const Vec3f down =
-        to_float(-maker_.spacing_m(leaf.key.level) * (kSeen / grid.quads) * up_at(tile.middle_m));
+        to_float(-maker_.spacing_m(leaf.key.level) * (kSeenQuads / grid.quads) * up_at(tile.middle_m));
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; x += y == 0 || y + 1 == side ? 1 : side - 1) {
             const std::size_t from = vertex(std::clamp<std::size_t>(x, 1, inner),

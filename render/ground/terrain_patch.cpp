@@ -9,8 +9,9 @@
 namespace hilcam {
 namespace {
 
-constexpr int kSteps = 32;                                            // along a tile's edge
-constexpr std::size_t kTriangles = 2 * kSteps * kSteps + 8 * kSteps;  // triangles of a tile with its skirts
+constexpr int kStepsOfTile = 32;  // along a tile's edge
+constexpr std::size_t kTileTriangles =
+    2 * kStepsOfTile * kStepsOfTile + 8 * kStepsOfTile;  // triangles of a tile with its skirts
 
 // A square of the map: its first column and row, and the distance between the columns it uses.
 struct TerrainTile {
@@ -59,13 +60,13 @@ class TerrainBuilder {
     std::set<std::array<int, 3>> leaves_;
 
     static std::array<int, 3> key_of(int column, int row, int step) {
-        const int span = step * kSteps;
+        const int span = step * kStepsOfTile;
         return {column / span, row / span, step};
     }
     // The step of the tile that holds a point, if that tile is coarser than `step`; else `step`.
     int coarser_step(int column, int row, int step) const {
         if (column < 0 || row < 0 || column >= map_.columns() - 1 || row >= map_.rows() - 1) return step;
-        for (int s = step; s * kSteps < 2 * std::max(map_.columns(), map_.rows()); s *= 2)
+        for (int s = step; s * kStepsOfTile < 2 * std::max(map_.columns(), map_.rows()); s *= 2)
             if (leaves_.contains(key_of(column, row, s))) return s;
         return step;
     }
@@ -74,18 +75,18 @@ class TerrainBuilder {
     // edge.
     Vec3d vertex_at(const TerrainTile& t, int x, int y) const {
         const int column = last_column(t.column + x * t.step), row = last_row(t.row + y * t.step);
-        if (x == 0 || x == kSteps) {
-            const int s = coarser_step(x == 0 ? t.column - 1 : t.column + kSteps * t.step,
-                                       std::min(row, last_row(t.row + (kSteps - 1) * t.step)), t.step);
+        if (x == 0 || x == kStepsOfTile) {
+            const int s = coarser_step(x == 0 ? t.column - 1 : t.column + kStepsOfTile * t.step,
+                                       std::min(row, last_row(t.row + (kStepsOfTile - 1) * t.step)), t.step);
             if (s > t.step && row % s != 0) {
                 const int above = row / s * s, below = last_row(above + s);
                 const double share = static_cast<double>(row - above) / (below - above);
                 return (1 - share) * place(column, above) + share * place(column, below);
             }
         }
-        if (y == 0 || y == kSteps) {
-            const int s = coarser_step(std::min(column, last_column(t.column + (kSteps - 1) * t.step)),
-                                       y == 0 ? t.row - 1 : t.row + kSteps * t.step, t.step);
+        if (y == 0 || y == kStepsOfTile) {
+            const int s = coarser_step(std::min(column, last_column(t.column + (kStepsOfTile - 1) * t.step)),
+                                       y == 0 ? t.row - 1 : t.row + kStepsOfTile * t.step, t.step);
             if (s > t.step && column % s != 0) {
                 const int left = column / s * s, right = last_column(left + s);
                 const double share = static_cast<double>(column - left) / (right - left);
@@ -117,7 +118,7 @@ class TerrainBuilder {
 
     // Width of the tile's edges on the screen, where it is nearest to the camera.
     double edge_px(const TerrainTile& t) const {
-        const int span = t.step * kSteps;
+        const int span = t.step * kStepsOfTile;
         // The nearest point of a tile is near the one under the camera, if that is inside; else at its
         // border.
         const int column = std::clamp(column_of(view_.camera_m), t.column, last_column(t.column + span));
@@ -128,7 +129,7 @@ class TerrainBuilder {
 
     std::vector<TerrainTile> tiles() const {
         int step = 1;
-        while (step * kSteps < std::max(map_.columns(), map_.rows()) - 1) step *= 2;
+        while (step * kStepsOfTile < std::max(map_.columns(), map_.rows()) - 1) step *= 2;
         std::priority_queue<TerrainTile> open;
         const auto add = [&](TerrainTile t) {
             if (t.column >= map_.columns() - 1 || t.row >= map_.rows() - 1) return;
@@ -139,14 +140,14 @@ class TerrainBuilder {
         std::vector<TerrainTile> done;
         while (!open.empty()) {
             const TerrainTile t = open.top();
-            const bool full = (done.size() + open.size() + 3) * kTriangles > view_.most_triangles;
+            const bool full = (done.size() + open.size() + 3) * kTileTriangles > view_.most_triangles;
             if (full || t.step == 1 || t.edge_px <= view_.edge_px) {
                 open.pop();
                 done.push_back(t);
                 continue;
             }
             open.pop();
-            const int half = t.step / 2, reach = half * kSteps;
+            const int half = t.step / 2, reach = half * kStepsOfTile;
             for (const int dy : {0, reach})
                 for (const int dx : {0, reach}) add({t.column + dx, t.row + dy, half, 0});
         }
@@ -161,7 +162,7 @@ class TerrainBuilder {
 
     void append(const TerrainTile& t, Mesh& mesh) const {
         const auto base = static_cast<std::uint32_t>(mesh.vertices_m.size());
-        constexpr int kTileSide = kSteps + 1;
+        constexpr int kTileSide = kStepsOfTile + 1;
         for (int y = 0; y < kTileSide; ++y)
             for (int x = 0; x < kTileSide; ++x) {
                 const int column = last_column(t.column + x * t.step), row = last_row(t.row + y * t.step);
@@ -173,23 +174,23 @@ class TerrainBuilder {
         const auto inside = [&](int x, int y) {
             return t.column + x * t.step < map_.columns() - 1 && t.row + y * t.step < map_.rows() - 1;
         };
-        for (int y = 0; y < kSteps; ++y)
-            for (int x = 0; x < kSteps; ++x) {
+        for (int y = 0; y < kStepsOfTile; ++y)
+            for (int x = 0; x < kStepsOfTile; ++x) {
                 if (!inside(x, y)) continue;
                 mesh.triangles.push_back({at(x, y), at(x, y + 1), at(x + 1, y)});
                 mesh.triangles.push_back({at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)});
             }
-        for (int i = 0; i < kSteps; ++i) {
+        for (int i = 0; i < kStepsOfTile; ++i) {
             skirt(t, i, 0, i + 1, 0, base, mesh);
-            skirt(t, i + 1, kSteps, i, kSteps, base, mesh);
+            skirt(t, i + 1, kStepsOfTile, i, kStepsOfTile, base, mesh);
             skirt(t, 0, i + 1, 0, i, base, mesh);
-            skirt(t, kSteps, i, kSteps, i + 1, base, mesh);
+            skirt(t, kStepsOfTile, i, kStepsOfTile, i + 1, base, mesh);
         }
     }
 
     // A strip that hangs from the border between two points: rounding shall open no gap.
     void skirt(const TerrainTile& t, int x0, int y0, int x1, int y1, std::uint32_t base, Mesh& mesh) const {
-        constexpr int kTileSide = kSteps + 1;
+        constexpr int kTileSide = kStepsOfTile + 1;
         const auto down = [&](int x, int y) {
             const int column = last_column(t.column + x * t.step), row = last_row(t.row + y * t.step);
             const Vec3d edge = vertex_at(t, x, y);

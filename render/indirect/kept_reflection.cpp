@@ -61,53 +61,61 @@ KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const Vertex&
     return nullptr;
 }
 
-void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
+void KeptScene::add_reflected(Tile& tile, std::span<const Vertex> vertices,
+                              std::span<GlossyRequest> requests) const {
     if (vertices.empty()) return;
     Together block;
     Lobes lobes;
     float room = kMostFollowed;
-    while (!vertices.empty()) {
-        vertices = vertices.subspan(gather(tile, vertices, block));
+    for (std::size_t first = 0; first < vertices.size();) {
+        const std::size_t end = gather(tile, vertices, first, block);
+        std::fill(requests.begin() + static_cast<std::ptrdiff_t>(first),
+                  requests.begin() + static_cast<std::ptrdiff_t>(end), GlossyRequest{});
+        first = end;
         const std::span<Place> places(block.places.data(), block.place_count);
         find(tile.frame, places);
         for (Place& place : places)
             if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
         for (Place& place : places) reflect_facets(tile.frame, lobes, place);
-        for (const Use& use : std::span(block.uses.data(), block.use_count)) add_use(tile, use, room);
+        for (const Use& use : std::span(block.uses.data(), block.use_count))
+            add_use(tile, use, requests, room);
     }
 }
 
-// Takes the first of these vertices, as many as there is room for. Returns how many.
-std::size_t KeptScene::gather(const Tile& tile, std::span<Vertex> vertices, Together& block) const {
-    std::size_t next = 0, &count = block.place_count, &used = block.use_count;
+// Takes vertices from the first on, as many as there is room for. Returns the number of the one after them.
+std::size_t KeptScene::gather(const Tile& tile, std::span<const Vertex> vertices, std::size_t first,
+                              Together& block) const {
+    std::size_t next = first, &count = block.place_count, &used = block.use_count;
     count = used = 0;
     for (; next < vertices.size() && count < block.places.size() && used < block.uses.size(); ++next) {
-        Vertex& at = vertices[next];
+        const Vertex& at = vertices[next];
         if (at.surface.is_glass()) continue;
         const std::uint32_t quad = quad_of(tile, at);
         Place* place = tile.seen ? shared_place({block.places.data(), count}, at, quad) : nullptr;
         if (!place) place = &block.places[count++], place->at = &at, place->quad = quad;
-        block.uses[used++] = {&at, place};
+        block.uses[used++] = {&at, static_cast<std::uint32_t>(next), place};
     }
     return next;
 }
 
 void KeptScene::reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const {
-    Vertex& at = *place.at;
+    const Vertex& at = *place.at;
     place.met = {}, place.bodies = {}, place.directions = 0;
-    place.follower = nullptr;
+    place.mirrors_near = true, place.has_bodies = false;
+    place.follower = GlossyRequest::kNobody;
     if (!at.surface.material->has_facets()) return;
-    if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(frame, place);
+    if (at.surface.alpha < kNarrowestKept) place.mirrors_near = is_near(frame, place);
     if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(frame, lobes, place);
     if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
 }
 
 // Adds what a vertex has of its place's light to its pixel, or leaves its lobe to rays. room: for so many more samples.
-void KeptScene::add_use(Tile& tile, const Use& use, float& room) const {
-    Vertex& at = *use.at;
+void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const {
+    const Vertex& at = *use.at;
     Place& place = *use.place;
-    at.mirrors_near = place.at->mirrors_near;
-    at.has_bodies = place.at->has_bodies;
+    GlossyRequest& request = requests[use.number];
+    request.mirrors_near = place.mirrors_near;
+    request.has_bodies = place.has_bodies;
     if (!is_lit(place)) return;
     const Scatterer& surface = at.surface;
     Spectrum reflected = place.diffuse;
@@ -115,12 +123,12 @@ void KeptScene::add_use(Tile& tile, const Use& use, float& room) const {
     Spectrum met, bodies;  // light of other surfaces and of bodies in the lobe
     if (surface.material->has_facets()) {
         met = has_own_colors(surface) ? lobe_albedo(at) * place.met : place.met;
-        at.follows_lobe = at.weight_samples <= room && hangs_on_few(tile, at, met, place.directions);
-        if (at.follows_lobe) {
-            room -= at.weight_samples, follow_together(at, place);
+        request.follows_lobe = at.weight_samples <= room && hangs_on_few(tile, at, met, place.directions);
+        if (request.follows_lobe) {
+            room -= at.weight_samples, follow_together(use.number, place, requests);
             const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
-            at.kept_lobe = largest(at.weight * plain);
-            at.kept_lobe_directions = place.directions;
+            request.kept_lobe = largest(at.weight * plain);
+            request.kept_lobe_directions = place.directions;
             met = {};
         } else {
             bodies = sum_of_bodies(at, place.bodies);
@@ -135,14 +143,14 @@ void KeptScene::add_use(Tile& tile, const Use& use, float& room) const {
     tile.move(at, LightPart::kDiffuse, LightPart::kGlossy, at.weight * met);
 }
 
-void KeptScene::follow_together(Vertex& at, Place& place) {
-    if (!place.follower || place.followers == kMostTogether) {
-        place.follower = &at, place.followers = 1, at.follows_too = nullptr;
+void KeptScene::follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests) {
+    if (place.follower == GlossyRequest::kNobody || place.followers == kMostTogether) {
+        place.follower = number, place.followers = 1;
         return;
     }
     ++place.followers;
-    at.follows_lobe = false;
-    at.follows_too = place.follower->follows_too, place.follower->follows_too = &at;
+    requests[number].follows_lobe = false;
+    requests[number].next = requests[place.follower].next, requests[place.follower].next = number;
 }
 
 void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
@@ -221,7 +229,7 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
     const Vertex& at = *place.at;
     // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
     // does, it has all of them.
-    const bool narrow = at.surface.alpha < kNarrowestKept, whole = narrow && !at.mirrors_near;
+    const bool narrow = at.surface.alpha < kNarrowestKept, whole = narrow && !place.mirrors_near;
     const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
     const std::uint32_t node = place.found ? place.nearest : LightNodes::kClosed;
     const MetByLobe* met = lobes.met.find(at, node);
@@ -240,11 +248,11 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
 void KeptScene::reflect_far_bodies(Place& place) const {
-    Vertex& at = *place.at;
+    const Vertex& at = *place.at;
     const Vec3f mirror = reflect(at.view_dir, at.normal);
-    at.has_bodies = !at.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
-                    sky_.is_clear_of_bodies(mirror);
-    if (at.has_bodies) place.bodies = sent_of_bodies(at);
+    place.has_bodies = !place.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
+                       sky_.is_clear_of_bodies(mirror);
+    if (place.has_bodies) place.bodies = sent_of_bodies(at);
 }
 
 std::optional<std::uint32_t> KeptScene::nearest_node(const FrameView& frame, std::size_t object,

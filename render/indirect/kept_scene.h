@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "render/indirect/alike_lobes.h"
+#include "render/indirect/glossy_request.h"
 #include "render/indirect/mirrored_suns.h"
 #include "render/planetshine/sky_light.h"
 #include "render/radiosity/kept_updates.h"
@@ -55,10 +56,9 @@ class KeptScene {
 
     // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
     static constexpr std::size_t kMostFollowed = 4096;
-    // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes which of
-    // those have something near in the mirror's direction, which have the bodies' light already, and which wide lobes
-    // are left to rays. Loop, any thread.
-    void add_reflected(Tile& tile, std::span<Vertex> vertices) const;
+    // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart. requests: gets what is left to rays, by
+    // the vertex' number. Loop, any thread.
+    void add_reflected(Tile& tile, std::span<const Vertex> vertices, std::span<GlossyRequest> requests) const;
     // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
     void add_mirrored_suns(Tile& tile, std::span<const Vertex> vertices) const {
         mirrored_suns_.add_light(tile, vertices);
@@ -126,7 +126,7 @@ class KeptScene {
     using SentOfBodies = std::array<SkyLight::Glossy, SkyLight::kMaxBodies>;
     // A vertex on its way through the lookup: many go together, so that none waits for memory.
     struct Place {
-        Vertex* at;
+        const Vertex* at;
         std::uint32_t quad;  // square of four pixels in which it is seen
         LightNodes::Search search;
         NodesAbout about;
@@ -136,13 +136,17 @@ class KeptScene {
         // texture colours facets, theirs is what white ones would reflect.
         Spectrum diffuse, met;
         SentOfBodies bodies;
-        float directions;  // that bring what is met (KeptLight::Lobe)
-        Vertex* follower;  // the first whose lobe is left to rays, which are those of all of them; null: none
+        float directions;   // that bring what is met (KeptLight::Lobe)
+        bool mirrors_near;  // as GlossyRequest has it
+        bool has_bodies;    // likewise
+        std::uint32_t
+            follower;  // number of the first whose lobe is left to rays, which are those of all of them; kNobody: none
         std::size_t followers;
     };
-    // A vertex, and the place whose light it has.
+    // A vertex, its number, and the place whose light it has.
     struct Use {
-        Vertex* at;
+        const Vertex* at;
+        std::uint32_t number;
         Place* place;
     };
     // Vertices that go together, and where they are.
@@ -162,7 +166,8 @@ class KeptScene {
         AlikeLobes<MetByLobe> met;
         AlikeLobes<SentOfBodies> bodies;
     };
-    std::size_t gather(const Tile& tile, std::span<Vertex> vertices, Together& block) const;
+    std::size_t gather(const Tile& tile, std::span<const Vertex> vertices, std::size_t first,
+                       Together& block) const;
     Place* shared_place(std::span<Place> places, const Vertex& at, std::uint32_t quad) const;
     void find(const FrameView& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
@@ -178,8 +183,8 @@ class KeptScene {
     void reflect_far_bodies(Place& place) const;
     MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
     SentOfBodies sent_of_bodies(const Vertex& at) const;
-    void add_use(Tile& tile, const Use& use, float& room) const;
-    static void follow_together(Vertex& at, Place& place);
+    void add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const;
+    static void follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests);
     static bool hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions);
     SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, Vec3f normal, float reflectance) const;
     SkyLight::Glossy sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const;

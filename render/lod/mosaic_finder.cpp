@@ -14,13 +14,13 @@ namespace hilcam {
 namespace {
 
 // The largest triangles that are looked at as ground; not more mosaics than a byte tells apart (PackedTriangle::patch).
-constexpr std::size_t kMaxSeeds = 64;
+constexpr std::size_t kMaxGrounds = 64;
 constexpr int kFinest = 1536, kCoarsest = 16;        // texels along the longer side: at most, and at least
-constexpr double kMinFilled = 0.2;                   // the share of its rectangle that the ground fills
+constexpr double kLeastFilled = 0.2;                 // the share of its rectangle that the ground fills
 constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // the share of the ground beside what lies on it
-constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
+constexpr float kFlatGroundCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
 
-struct FlatTriangle {
+struct GroundTriangle {
     std::uint32_t number;
     std::uint16_t surface;
     Vec3d area;  // vector
@@ -33,8 +33,8 @@ std::array<Vec3d, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {
 }
 
 // Triangles that a mosaic may have, the largest first.
-std::vector<FlatTriangle> flat_triangles(const Mesh& mesh, std::span<const std::uint8_t> may_be) {
-    std::vector<FlatTriangle> out;
+std::vector<GroundTriangle> flat_triangles(const Mesh& mesh, std::span<const std::uint8_t> may_be) {
+    std::vector<GroundTriangle> out;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!may_be[t]) continue;
         const Vec3d area = area_vector(mesh, mesh.triangles[t]);
@@ -45,11 +45,11 @@ std::vector<FlatTriangle> flat_triangles(const Mesh& mesh, std::span<const std::
             !mesh.normals.empty() &&
             std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), [&](std::uint32_t v) {
                 const Vec3f corner = mesh.normals[v];  // zero: the triangle's own
-                return corner != Vec3f{} && std::abs(dot(corner, normal)) < kFlatCorner;
+                return corner != Vec3f{} && std::abs(dot(corner, normal)) < kFlatGroundCorner;
             });
         if (!curved) out.push_back({t, mesh.surface_of_triangle[t], area, area_m2});
     }
-    std::sort(out.begin(), out.end(), [](const FlatTriangle& a, const FlatTriangle& b) {
+    std::sort(out.begin(), out.end(), [](const GroundTriangle& a, const GroundTriangle& b) {
         return a.area_m2 != b.area_m2 ? a.area_m2 > b.area_m2 : a.number < b.number;
     });
     return out;
@@ -73,7 +73,7 @@ class MosaicFinder {
     std::vector<Mosaic> find() {
         std::vector<Mosaic> out;
         std::size_t seeds = 0;
-        for (std::size_t s = 0; s < flat_.size() && seeds < kMaxSeeds; ++s) {
+        for (std::size_t s = 0; s < flat_.size() && seeds < kMaxGrounds; ++s) {
             if (used_[s]) continue;
             // What is left is crumbs.
             if (flat_[s].area_m2 < 8 * error_m_ * error_m_) break;
@@ -87,7 +87,7 @@ class MosaicFinder {
   private:
     const Mesh& mesh_;
     double error_m_, rounding_m_;
-    std::vector<FlatTriangle> flat_;
+    std::vector<GroundTriangle> flat_;
     std::vector<std::uint8_t> used_;  // in a mosaic, or looked at as ground
     MosaicPainter painter_;
 
@@ -144,7 +144,7 @@ class MosaicFinder {
         out.corner_m = to_float(dot(triangles[0][0], up) * up + r.x0 * r.across + r.y0 * r.down);
         const double longer_m = std::max(r.width(), r.height());
         out.texel_m = static_cast<float>(std::max(error_m_, longer_m / kFinest));
-        return area_m2 > kMinFilled * r.area() && longer_m > kCoarsest * static_cast<double>(out.texel_m);
+        return area_m2 > kLeastFilled * r.area() && longer_m > kCoarsest * static_cast<double>(out.texel_m);
     }
     // The longest of the edges that one triangle has.
     std::vector<Vec3d> border(const std::vector<std::size_t>& ground) const {
@@ -246,11 +246,11 @@ std::vector<Mosaic> find_mosaics(const Mesh& mesh, std::span<const std::uint8_t>
 
 std::vector<MosaicParts> mosaic_parts(std::span<const Mosaic> mosaics, const Mesh& mesh,
                                       std::span<const std::uint8_t> may_be) {
-    const std::vector<FlatTriangle> flat = flat_triangles(mesh, may_be);
+    const std::vector<GroundTriangle> flat = flat_triangles(mesh, may_be);
     std::vector<MosaicParts> out;
     for (const Mosaic& mosaic : mosaics) {
         MosaicParts& parts = out.emplace_back();
-        for (const FlatTriangle& t : flat) {
+        for (const GroundTriangle& t : flat) {
             const auto three = corners_of(mesh, t.number);
             if (mosaic.holds(t.surface, three) && mosaic.covers(three))
                 (t.surface == mosaic.surface[0] ? parts.ground : parts.upon).push_back(t.number);

@@ -61,63 +61,69 @@ float rays_for(float samples) {
 
 }  // namespace
 
-void KeptRays::add_of(Tile& tile, Vertex& at, NextRays& rays) {
+void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
+    const Vertex& at = asking.vertices[number];
+    const GlossyRequest& request = asking.requests[number];
     const Scatterer& surface = at.surface;
     if (surface.is_glass()) return add_through_glass(tile, at, rays);
-    if (at.follows_lobe) follow_lobe(tile, at, rays);
+    if (request.follows_lobe) follow_lobe(tile, asking, number, rays);
     if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
     const Spectrum weight = at.weight * tile.frame.kept->lobe_albedo(at);
     // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
     const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
-    if (at.has_bodies && surface.alpha > 0 && !is_bright) return;
+    if (request.has_bodies && surface.alpha > 0 && !is_bright) return;
     const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
     if (surface.alpha < kNarrowestLobe) {
         const bool meets_sun = surface.alpha == 0;
-        NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !at.has_bodies};
+        NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !request.has_bodies};
         ray.part = LightPart::kMirrorRays;
         ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.facets;
         // What bad mirrors show is not looked for where nothing stands near.
-        if (at.mirrors_near || is_bright)
+        if (request.mirrors_near || is_bright)
             add(tile, ray, rays);
         else if (dot(at.geometric_normal, mirror) > 0)
             add_background(tile, ray);
         return;
     }
     // Where nothing stands near, the bodies in a lobe are all there is, and kept_scene.h has them.
-    if (at.mirrors_near) add_in_narrow_lobe(tile, at, mirror, weight, rays);
+    if (request.mirrors_near) add_in_narrow_lobe(tile, at, mirror, weight, rays);
 }
 
-// Has the vertices, from the first on, have their pixels' shares of what the same rays find.
-KeptRays::Followers KeptRays::share_rays(const Tile& tile, Vertex& first) {
+// Gives the pixels of vertices that the same rays serve, from the first on, their shares of what these find.
+KeptRays::Followers KeptRays::share_rays(const Tile& tile, const Asking& asking, std::size_t number) {
+    const Vertex& first = asking.vertices[number];
+    const GlossyRequest& request = asking.requests[number];
     Followers out;
     const std::size_t begin = share_count_;
-    for (const Vertex* at = &first; at; at = at->follows_too) {
-        out.vertex[out.count++] = at;
-        out.samples += at->weight_samples;
-        const float samples = at->weight_samples / first.weight_samples;
-        shares_[share_count_++] = {at->pixel, at->halves, samples * tile.frame.kept->lobe_tint(*at)};
+    for (std::size_t i = number; i != GlossyRequest::kNobody; i = asking.requests[i].next) {
+        const Vertex& at = asking.vertices[i];
+        out.vertex[out.count++] = &at;
+        out.samples += at.weight_samples;
+        const float samples = at.weight_samples / first.weight_samples;
+        shares_[share_count_++] = {at.pixel, at.halves, samples * tile.frame.kept->lobe_tint(at)};
     }
-    first.lobe = &lobes_[lobe_count_++];
-    *first.lobe = {
-        {shares_.data() + begin, out.count}, first.kept_lobe, first.kept_lobe_directions, {}, {}, {}};
+    out.lobe = &lobes_[lobe_count_++];
+    *out.lobe = {
+        {shares_.data() + begin, out.count}, request.kept_lobe, request.kept_lobe_directions, {}, {}, {}};
     return out;
 }
 
 // Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all.
-void KeptRays::follow_lobe(Tile& tile, Vertex& at, NextRays& rays) {
+void KeptRays::follow_lobe(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
+    const Vertex& at = asking.vertices[number];
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
-    const Followers followers = share_rays(tile, at);
+    const Followers followers = share_rays(tile, asking, number);
     const std::size_t count =
         std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))), FollowedLobe::kMostRays);
     const Frame local(at.normal);
     const std::size_t first = rays.count;
     for (std::size_t i = 0; i < count && !rays.full(); ++i) {
         const Vertex& from = *followers.vertex[i % followers.count];
-        const auto number = static_cast<float>(at.sample + i);
+        const auto sample = static_cast<float>(at.sample + i);
         const Vec3f facet = local.to_world(sample_visible_normal(
-            at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kPlasticAlong * number, 1.0f),
-            std::fmod(0.25f * quarter + kPlasticAbout * number, 1.0f)));
+            at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kPlasticAlong * sample, 1.0f),
+            std::fmod(0.25f * quarter + kPlasticAbout * sample, 1.0f)));
         const Vec3f dir = normalized(reflect(at.view_dir, facet));
         if (dot(from.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
             rays.add({&at,
@@ -137,9 +143,11 @@ void KeptRays::follow_lobe(Tile& tile, Vertex& at, NextRays& rays) {
                             (at.weight * tile.frame.kept->plain_lobe_albedo(at));
     KeptScene::LobeRays bodies(*tile.frame.kept, at);
     for (const NextRay& ray : own) bodies.count(ray.dir);
-    std::uint8_t number = 0;
-    for (NextRay& ray : own)
-        ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir), ray.lobe_ray = number++;
+    std::uint8_t of_lobe = 0;
+    for (NextRay& ray : own) {
+        ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir);
+        ray.lobe = followers.lobe, ray.lobe_ray = of_lobe++;
+    }
 }
 
 void KeptRays::add_found(Tile& tile) const {

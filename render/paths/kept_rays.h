@@ -17,8 +17,13 @@ class KeptRays {
   public:
     // Begins with other vertices: no lobe is followed.
     void clear() { share_count_ = lobe_count_ = 0; }
-    // Adds a vertex's rays: a mirror's one direction, which may be many, four of a narrow lobe, both of a sheet of glass. Loop.
-    void add_of(Tile& tile, Vertex& at, NextRays& rays);
+    // Vertices that keep light, and what each leaves to rays.
+    struct Asking {
+        std::span<const Vertex> vertices;
+        std::span<const GlossyRequest> requests;
+    };
+    // Adds the rays of one of them: a mirror's one direction, which may be many, four of a narrow lobe, both of a sheet of glass. Loop.
+    void add_of(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays);
     // Adds what the rays of lobes have found, once all have come back, to the pixels that have it. Loop.
     void add_found(Tile& tile) const;
 
@@ -32,10 +37,11 @@ class KeptRays {
     struct Followers {
         std::array<const Vertex*, KeptScene::kMostTogether> vertex;
         std::size_t count = 0;
-        float samples = 0;  // that see them
+        float samples = 0;             // that see them
+        FollowedLobe* lobe = nullptr;  // what the rays find
     };
-    Followers share_rays(const Tile& tile, Vertex& first);
-    void follow_lobe(Tile& tile, Vertex& at, NextRays& rays);
+    Followers share_rays(const Tile& tile, const Asking& asking, std::size_t first);
+    void follow_lobe(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays);
 };
 
 }  // namespace hilcam

@@ -19,7 +19,7 @@ namespace {
 struct Places {
     alignas(64) std::array<float, kMostSamples> radius, cosine, sine;
 };
-const Places kPlaces = [] {
+const Places kMirrorPlaces = [] {
     Places out;
     for (std::size_t i = 0; i < kMostSamples; ++i) {
         const float number = static_cast<float>(i) + 0.5f;
@@ -43,8 +43,8 @@ struct Lanes {
 HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer_m, const Lanes& ways_m,
                                  std::size_t first, Lanes& dirs) {
     const Frame local = lobe;
-    const float *radius = kPlaces.radius.data() + first, *cosine = kPlaces.cosine.data() + first,
-                *sine = kPlaces.sine.data() + first;
+    const float *radius = kMirrorPlaces.radius.data() + first, *cosine = kMirrorPlaces.cosine.data() + first,
+                *sine = kMirrorPlaces.sine.data() + first;
     for (std::size_t k = 0; k < kPacketSize; ++k)
         dirs.set(k, sample_facets(alpha, local, normalized(to_viewer_m - ways_m.at(k)),
                                   {radius[k], cosine[k], sine[k]}));

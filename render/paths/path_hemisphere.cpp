@@ -22,12 +22,12 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kDirections = 60;
-constexpr std::size_t kMaxRays = kDirections + 2;  // the fixed directions and the two exact ones
+constexpr std::size_t kHemisphereDirections = 60;
+constexpr std::size_t kMaxRays = kHemisphereDirections + 2;  // the fixed directions and the two exact ones
 
 // All 120 triangles' middles: the orbit of one point under the symmetries of the dodecahedron, kept where z >
 // 0. The plane z = 0 is one of its 15 planes of symmetry, so that exactly half of them are above it.
-std::array<Vec3f, kDirections> make_directions() {
+std::array<Vec3f, kHemisphereDirections> make_directions() {
     const double golden = 0.5 * (1 + std::sqrt(5.0));
     // One triangle: a face's middle, a corner of the face, the middle of an edge between.
     const Vec3d face = normalized(Vec3d{0, 1, golden}), corner = normalized(Vec3d{1, 1, 1}),
@@ -51,15 +51,15 @@ std::array<Vec3f, kDirections> make_directions() {
         add({-p.x, p.y, p.z});
         add(turned(p));
     }
-    std::array<Vec3f, kDirections> out;
+    std::array<Vec3f, kHemisphereDirections> out;
     std::size_t count = 0;
     for (const Vec3d& p : points)
-        if (p.z > 0 && count < kDirections) out[count++] = to_float(p);
-    HILCAM_CHECK(points.size() == 2 * kDirections && count == kDirections);
+        if (p.z > 0 && count < kHemisphereDirections) out[count++] = to_float(p);
+    HILCAM_CHECK(points.size() == 2 * kHemisphereDirections && count == kHemisphereDirections);
     return out;
 }
 
-const std::array<Vec3f, kDirections> kHemisphere = make_directions();
+const std::array<Vec3f, kHemisphereDirections> kHemisphere = make_directions();
 
 // Each direction stands for so wide a cone.
 constexpr float kSpread_rad = 0.3f;
@@ -138,7 +138,8 @@ class HemispherePaths final : public PathModel {
             const Cosines c{no, direction.z, dot(at.view_dir, dir)};
             const Spectrum weight = (kSolidAngle * direction.z) * (at.weight * brdf_value(surface, c));
             // All directions together against the threshold.
-            if (static_cast<float>(kDirections) * at.importance(weight) >= least && largest(weight) > 0)
+            if (static_cast<float>(kHemisphereDirections) * at.importance(weight) >= least &&
+                largest(weight) > 0)
                 rays_[count++] = {at.start(), dir, weight, false, false};
         }
         return count;

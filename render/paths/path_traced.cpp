@@ -46,6 +46,7 @@ class TracedPaths final : public PathModel {
     static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
     std::array<Vertex, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
+    std::array<GlossyRequest, kMostRays> requests_;  // of the vertices in work that keep light
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
     KeptRays kept_rays_;
@@ -60,17 +61,19 @@ class TracedPaths final : public PathModel {
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.kept) {
-                Vertex* const others =
-                    std::partition(current_, current_ + count, [](const Vertex& v) { return v.keeps_light; });
+                Vertex* const others = std::partition(current_, current_ + count, [&](const Vertex& v) {
+                    return frame.keeps_light[v.object] != 0;
+                });
                 keep = static_cast<std::size_t>(others - current_);
                 frame.radiance->add_light(tile, {current_, keep}, BodySampling::kNone);
-                frame.kept->add_reflected(tile, {current_, keep});
+                frame.kept->add_reflected(tile, {current_, keep}, requests_);
                 frame.kept->add_mirrored_suns(tile, {current_, keep});
             }
             frame.radiance->add_light(tile, {current_ + keep, count - keep}, BodySampling::kSampled);
             const bool last = depth == frame.max_depth;
             NextRays rays{next_};
-            for (std::size_t i = 0; i < keep; ++i) kept_rays_.add_of(tile, current_[i], rays);
+            for (std::size_t i = 0; i < keep; ++i)
+                kept_rays_.add_of(tile, {{current_, keep}, requests_}, i, rays);
             choose(tile, {current_ + keep, count - keep}, last, rays);
             count = follow(tile, rays.count, last);
         }
@@ -168,8 +171,9 @@ class TracedPaths final : public PathModel {
                          ray.width(), vertex))
             return false;
         vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
-        vertex.halves = ray.from->halves, vertex.lobe = ray.from->lobe;
-        vertex.lobe_ray = vertex.lobe && ray.from->depth > 1 ? ray.from->lobe_ray : ray.lobe_ray;
+        vertex.halves = ray.from->halves;
+        vertex.lobe = ray.from->lobe ? ray.from->lobe : ray.lobe;
+        vertex.lobe_ray = ray.from->lobe ? ray.from->lobe_ray : ray.lobe_ray;
         vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
         vertex.weight = ray.weight;
         vertex.ray_part = ray.from->depth > 1 ? ray.from->ray_part : ray.part;
@@ -265,8 +269,8 @@ class TracedPaths final : public PathModel {
                 if (!meets_object(frame, hits, k, ray.origin_m, ray.dir)) {
                     if (ray.sees_bodies)
                         add_background(tile, ray);
-                    else if (ray.from->lobe)
-                        ray.from->lobe->sky += ray.if_free;
+                    else if (ray.lobe)
+                        ray.lobe->sky += ray.if_free;
                     continue;
                 }
                 if (!last && add_met(frame, hits, k, ray, found)) ++found;

@@ -12,8 +12,8 @@
 namespace hilcam {
 namespace {
 
-constexpr float kGolden = 0.61803399f;
-constexpr std::size_t kLanes = 16;
+constexpr float kGoldenTurns = 0.61803399f;
+constexpr std::size_t kSkyLanes = 16;
 
 // Sums over what a lobe sees of a body, by its brightest bin: of the light, and of it times Schlick's Fresnel term.
 struct SchlickSums {
@@ -27,8 +27,8 @@ struct SchlickSums {
                                                        const float* schlick, std::size_t count) {
     using Eight [[gnu::vector_size(32)]] = float;
     constexpr std::size_t kEach = 8;
-    std::array<Eight, kLanes / kEach> lights = {}, terms = {};
-    for (std::size_t first = 0; first < count; first += kLanes)
+    std::array<Eight, kSkyLanes / kEach> lights = {}, terms = {};
+    for (std::size_t first = 0; first < count; first += kSkyLanes)
         for (std::size_t k = 0; k < lights.size(); ++k) {
             const std::size_t i = first + kEach * k;
             Eight weights, values, schlicks;
@@ -38,7 +38,7 @@ struct SchlickSums {
             const Eight light = weights * values;
             lights[k] += light, terms[k] += light * schlicks;
         }
-    std::array<float, kLanes> light, term;
+    std::array<float, kSkyLanes> light, term;
     std::memcpy(light.data(), lights.data(), sizeof light);
     std::memcpy(term.data(), terms.data(), sizeof term);
     return {lane_sum(light), lane_sum(term)};
@@ -65,7 +65,7 @@ struct SchlickSums {
 Vec3f spiral(Vec3f axis, float one_minus_cosine, std::size_t i, std::size_t count) {
     const float below =
         (static_cast<float>(i) + 0.5f) / static_cast<float>(count) * one_minus_cosine;  // 1 - cos
-    const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+    const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * kGoldenTurns * static_cast<float>(i);
     return Frame(axis).to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
@@ -224,7 +224,7 @@ struct FacetSlopes {
     explicit FacetSlopes(std::size_t n) : count(n) {
         for (std::size_t i = 0; i < n; ++i) {
             const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
-            const float phi = 2 * kPiF * kGolden * static_cast<float>(i);
+            const float phi = 2 * kPiF * kGoldenTurns * static_cast<float>(i);
             squared[i] = u / (1 - u);
             x[i] = std::sqrt(squared[i]) * std::cos(phi), y[i] = std::sqrt(squared[i]) * std::sin(phi);
         }

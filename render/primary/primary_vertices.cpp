@@ -16,7 +16,7 @@ namespace {
 
 // The greatest lean of two facets against each other that make one vertex: its kept light and its mirrored
 // rays are those of one of them.
-constexpr float kLeansAlike = 0.94f;          // cosine
+constexpr float kNormalsAlike = 0.94f;        // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
 constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that are taken for one
 // Normals that turn by this much of a lobe's alpha within a triangle are several: at the lobe's middle one of them is off by
@@ -134,7 +134,7 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
     for (auto vertex = so_far.rbegin(); vertex != so_far.rend() && vertex->pixel == pixel; ++vertex) {
         if (vertex->object != object || vertex->surface_number != surface || vertex->back != lie.back)
             continue;
-        const float alike = has_narrow_lobe(vertex->surface) ? kLeansAlikeNarrow : kLeansAlike;
+        const float alike = has_narrow_lobe(vertex->surface) ? kLeansAlikeNarrow : kNormalsAlike;
         if (dot(vertex->normal, lie.normal) > alike) return &*vertex;
     }
     return nullptr;

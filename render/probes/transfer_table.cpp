@@ -16,7 +16,7 @@
 namespace hilcam {
 namespace {
 
-constexpr float kGolden = 0.61803399f;
+constexpr float kGoldenRatio = 0.61803399f;
 // From node to node, of a whole turn: the root of a half. How many directions of two to nine nodes side by side lie in a small disk
 // then scatters by a third of what it does by the golden section, which would turn the spiral, being one by it itself, into its
 // own next directions (docs/decisions.md).
@@ -35,7 +35,7 @@ struct Met {
 };
 static_assert(LightNode::kPoints == 4);
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
-constexpr std::uint32_t kDark = kFree - 1;
+constexpr std::uint32_t kDarkNode = kFree - 1;
 constexpr std::uint32_t kBuried = kFree - 2;  // index of a point that does not count
 constexpr std::uint32_t kUnder = kFree - 3;   // below the surface at its point: does not count
 constexpr std::uint32_t kTracing = kFree - 4;
@@ -124,7 +124,7 @@ class Tracer {
             // As rays leave surfaces in path_vertex.cpp.
             const float greatest = std::max({std::abs(point_m.x), std::abs(point_m.y), std::abs(point_m.z)});
             constexpr int kMaxSheets = 16;
-            out = kDark;
+            out = kDarkNode;
             if (ray.sheets < kMaxSheets)
                 through.push_back({ray.direction,
                                    point_m + 32 * std::numeric_limits<float>::epsilon() * greatest * ray.dir,
@@ -135,7 +135,7 @@ class Tracer {
         const Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
         const bool back = dot(normal, ray.dir) > 0;
         NodesAbout about;
-        out = kDark;
+        out = kDarkNode;
         if (nodes_.find(point_m, {back ? -normal : normal, surface, back}, about) && about.count > 0) {
             const std::uint32_t node = about.nearest();
             out = Met::pack(node, hits.distance[k] < 0.5f * nodes_.cube_m(),
@@ -158,8 +158,8 @@ class Tracer {
         for (std::size_t first = 0; first < met.size(); first += of_point) {
             bool buried = true;
             for (std::size_t d = first; d < first + of_point; ++d)
-                buried =
-                    buried && met[d] != kFree && (met[d] == kDark || distance[d] < 0.5f * nodes_.cube_m());
+                buried = buried && met[d] != kFree &&
+                         (met[d] == kDarkNode || distance[d] < 0.5f * nodes_.cube_m());
             if (buried) std::fill_n(met.begin() + static_cast<std::ptrdiff_t>(first), of_point, kBuried);
         }
     }
@@ -209,7 +209,7 @@ std::vector<Vec3f> transfer_directions(int count) {
     for (int point = 0; point < LightNode::kPoints; ++point)
         for (int i = point; i < count; i += LightNode::kPoints) {
             const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-            const float r = std::sqrt(u), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+            const float r = std::sqrt(u), phi = 2 * kPiF * kGoldenRatio * static_cast<float>(i);
             out.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)});
         }
     return out;
@@ -263,7 +263,8 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
                 if (m == kUnder) continue;
                 ++counted_[n];
                 if (m == kFree) free_[n * free_words() + d / 64] |= std::uint64_t{1} << (d % 64);
-                if (m != kFree && m != kDark) blocks[b].links.push_back({m, static_cast<std::uint8_t>(d)});
+                if (m != kFree && m != kDarkNode)
+                    blocks[b].links.push_back({m, static_cast<std::uint8_t>(d)});
             }
             blocks[b].counts.push_back(blocks[b].links.size() - before);
         }
@@ -289,7 +290,7 @@ void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
     for_each_node(blocks, [&](std::size_t, std::span<Link> links) {
         for (Link& link : links)
             if (Met::is_close(link.met) && !is_live(Met::node(link.met), Met::point(link.met)))
-                link.met = kDark;
+                link.met = kDarkNode;
     });
 }
 
@@ -302,7 +303,7 @@ std::vector<std::uint32_t> TransferTable::numbers_of_open(std::vector<Block>& bl
         more = false;
         for_each_node(blocks, [&](std::size_t n, std::span<Link> links) {
             const auto leads_out = [&](const Link& l) {
-                return l.met != kDark && open[Met::node(l.met)] != 0;
+                return l.met != kDarkNode && open[Met::node(l.met)] != 0;
             };
             if (!open[n] && std::any_of(links.begin(), links.end(), leads_out)) open[n] = 1, more = true;
         });
@@ -320,7 +321,8 @@ void TransferTable::pack(std::vector<Block>& blocks, std::span<const std::uint32
         const std::size_t to = numbers[n];
         if (to == LightNodes::kClosed) return;
         for (const Link& link : links) {
-            const std::uint32_t node = link.met == kDark ? LightNodes::kClosed : numbers[Met::node(link.met)];
+            const std::uint32_t node =
+                link.met == kDarkNode ? LightNodes::kClosed : numbers[Met::node(link.met)];
             if (node == LightNodes::kClosed) continue;
             Entry entry;
             entry.node = node & 0xFFFFFFu;

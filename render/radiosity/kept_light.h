@@ -101,6 +101,43 @@ class KeptLight {
         return local(lobes_[node]).body({local_x_[d], local_y_[d], local_z_[d]});
     }
 
+    // --- nodes, as the solver asks for them
+
+    // Node axes.
+    struct Local {
+        Frame frame;
+        Vec2f turn;
+        Vec3f dir(Vec3f body) const {
+            const Vec3f l = frame.to_local(body);
+            return {turn.x * l.x + turn.y * l.y, turn.x * l.y - turn.y * l.x, l.z};
+        }
+        Vec3f body(Vec3f l) const {
+            return frame.to_world({turn.x * l.x - turn.y * l.y, turn.y * l.x + turn.x * l.y, l.z});
+        }
+    };
+    Local axes(std::size_t node) const { return local(lobes_[node]); }
+    // Returns the direction of that number in the axes of every node; zero in z beyond a table's own.
+    Vec3f local_direction(std::size_t d) const { return {local_x_[d], local_y_[d], local_z_[d]}; }
+    const Material& material(std::uint16_t surface) const { return *materials_[surface]; }
+    // Returns the albedo of facets that are as wide as lobes of other surfaces find them (min_alpha()).
+    const MaterialAlbedo& wide_albedo(std::uint16_t surface) const { return albedos_->wide[surface]; }
+    // Returns what a node reflects over pi of light from everywhere.
+    Spectrum white(std::size_t node) const { return white_[node].unpacked(); }
+    // Returns a spectrum of a node's surface in its texture's colour.
+    Spectrum colored(std::size_t node, const Spectrum& of) const {
+        return colors_.empty() ? of : colors_[node] * of;
+    }
+    // Returns a spectrum of a node's facets in its texture's colour, which those have that no body lies below.
+    Spectrum facet_color(std::size_t n, const Spectrum& of) const {
+        const bool colored = !colors_.empty() && materials_[table_->nodes().nodes()[n].surface]->is_bare();
+        return colored ? colors_[n] * of : of;
+    }
+    // Number of a node's first entry in KeptSolution::along, or kNoLobe: it has no facets.
+    static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
+    std::uint32_t first_along(std::size_t node) const { return lobes_[node].first_along; }
+    // Number of the entries of all nodes with facets.
+    std::size_t entries_along() const { return along_; }
+
     // Makes room for what a source of this kind gives; its number. Owner thread.
     std::size_t add_term(KeptSource::Kind kind);
     KeptSolution make_solution(KeptSource::Kind kind) const;
@@ -159,35 +196,27 @@ class KeptLight {
     static constexpr std::size_t kNoTerm = ~std::size_t{0};
     Lobe lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t node, Vec3f normal, Vec3f view_dir,
               float alpha) const;
-    // True when anything stands near a direction from a node, within about 20 degrees.
+    // The same of a solution, and of links, that need not be those that are shown; null: there are none.
+    Lobe lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
+              std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
+    static constexpr float kNear = 0.88f;  // cosine of 28 degrees: further than the next direction
+    // True when anything stands near a direction from a node, within the angle of that cosine.
     bool is_near(std::uint32_t node, Vec3f dir) const;
     std::size_t bytes() const;
 
   private:
-    friend class KeptSolver;
-    static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
-    // The same of a solution, and of links, that need not be those that are shown; null: there are none.
-    Lobe lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
-              std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
     // The values of a node that lookups of lobes read, side by side.
     struct alignas(32) LobeNode {
         std::uint32_t normal;              // packed
         std::array<std::int16_t, 2> turn;  // the turn in units of 1 / 32767
         std::uint32_t first_entry;
-        // Number of its first entry in KeptSolution::along, or kNoLobe: it has no facets.
-        std::uint32_t first_along;
-        std::uint64_t free;  // the first 64 directions
+        std::uint32_t first_along;  // as first_along() gives it
+        std::uint64_t free;         // the first 64 directions
         std::uint16_t entries, counted;
         std::uint8_t live;  // bits by point
         bool all_free;
     };
     static_assert(sizeof(LobeNode) == 32);
-
-    // Returns a spectrum of a node's facets in its texture's colour, which those have that no body lies below.
-    Spectrum facet_color(std::size_t n, const Spectrum& of) const {
-        const bool colored = !colors_.empty() && materials_[table_->nodes().nodes()[n].surface]->is_bare();
-        return colored ? colors_[n] * of : of;
-    }
 
     const ShownObject* shown_;
     std::shared_ptr<const TransferTable> table_;
@@ -208,18 +237,6 @@ class KeptLight {
     std::vector<KeptSolution> terms_;         // their irradiance is in the next
     std::vector<PackedSpectrum> irradiance_;  // by node and term
 
-    // Node axes.
-    struct Local {
-        Frame frame;
-        Vec2f turn;
-        Vec3f dir(Vec3f body) const {
-            const Vec3f l = frame.to_local(body);
-            return {turn.x * l.x + turn.y * l.y, turn.x * l.y - turn.y * l.x, l.z};
-        }
-        Vec3f body(Vec3f l) const {
-            return frame.to_world({turn.x * l.x - turn.y * l.y, turn.y * l.x + turn.x * l.y, l.z});
-        }
-    };
     static Local local(const LobeNode& node);
     void describe_lobe(std::size_t node);
     void find_what_throws();

@@ -9,14 +9,14 @@
 namespace hilcam {
 namespace {
 
-constexpr float kFarthest = std::numeric_limits<float>::infinity();
+constexpr float kMeetsNothing = std::numeric_limits<float>::infinity();
 constexpr std::size_t kNodesAtOnce = 256;  // nodes
 
 struct Probe {
     std::size_t node;  // number of the node in the block
     std::uint16_t direction;
     Vec3f origin_m, dir;
-    float distance_m = kFarthest;
+    float distance_m = kMeetsNothing;
     KeptLinks::Link link{};
 };
 
@@ -33,7 +33,7 @@ class Prober {
         std::vector<Probe> probes;
         for (std::size_t n = first; n < last; ++n) aim(n, n - first, probes);
         for (const KeptNeighbour& other : near_) ask(other, probes);
-        std::erase_if(probes, [](const Probe& p) { return p.distance_m == kFarthest; });
+        std::erase_if(probes, [](const Probe& p) { return p.distance_m == kMeetsNothing; });
         return probes;
     }
 

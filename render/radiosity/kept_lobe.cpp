@@ -183,7 +183,6 @@ void KeptLight::for_each_met(std::size_t n, const Visit& visit) const {
 bool KeptLight::is_near(std::uint32_t n, Vec3f dir) const {
     const LobeNode& node = lobes_[n];
     if (node.all_free) return false;
-    constexpr float kNear = 0.88f;  // 28 degrees: further than the next direction
     const Vec3f l = local(node).dir(dir);
     bool near = false;
     for_each_met(n, [&](std::size_t d) {

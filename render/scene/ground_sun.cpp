@@ -15,11 +15,12 @@ constexpr int kQuads = GroundNormals::kQuads, kSide = kQuads + 1;
 using SeenCells = std::array<std::uint8_t, kSide * kSide>;             // 1: the vertex sees the Sun
 constexpr int kCellsAcross = 4, kLanes = kCellsAcross * kCellsAcross;  // vertices that are asked together
 constexpr std::uint32_t kBlock = 4;                                    // quadrilaterals on an edge of a block
-constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kInfinitelyFar = std::numeric_limits<float>::infinity();
 
 // A box as the Sun sees it: z towards the Sun.
 struct Box {
-    float x0 = kFar, x1 = -kFar, y0 = kFar, y1 = -kFar, z0 = kFar, z1 = -kFar;
+    float x0 = kInfinitelyFar, x1 = -kInfinitelyFar, y0 = kInfinitelyFar, y1 = -kInfinitelyFar,
+          z0 = kInfinitelyFar, z1 = -kInfinitelyFar;
 
     void grow(Vec3f p) {
         x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);

@@ -14,15 +14,15 @@ std::uint32_t snorm16(float value) {
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(scaled));
 }
 
-using Box = std::array<Vec3f, 2>;
-constexpr float kFar = std::numeric_limits<float>::infinity();
-constexpr Box kNothing{Vec3f{kFar, kFar, kFar}, Vec3f{-kFar, -kFar, -kFar}};
+using Extent = std::array<Vec3f, 2>;
+constexpr float kEndless = std::numeric_limits<float>::infinity();
+constexpr Extent kNoExtent{Vec3f{kEndless, kEndless, kEndless}, Vec3f{-kEndless, -kEndless, -kEndless}};
 
-std::vector<Box> clusters_of(const Mesh& mesh) {
-    std::vector<Box> boxes;
+std::vector<Extent> clusters_of(const Mesh& mesh) {
+    std::vector<Extent> boxes;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const bool first = i % kClusterTriangles == 0;
-        if (first) boxes.push_back(kNothing);
+        if (first) boxes.push_back(kNoExtent);
         // Neighbours share most of their corners.
         const auto& before = mesh.triangles[first ? i : i - 1];
         for (const std::uint32_t vertex : mesh.triangles[i])

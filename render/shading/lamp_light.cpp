@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 constexpr double kNearest_m = 1e-3;
-constexpr double kNowhere_m = 1e-9;
+constexpr double kNoDistance_m = 1e-9;
 
 struct LitBy {
     const Vertex* at;
@@ -41,7 +41,7 @@ bool is_hidden(const FrameView& frame, Vec3d dir, double distance_m) {
 bool PlacedLamp::shines_on(Vec3d place_m, LampRay& ray) const {
     const Vec3d to_lamp_m = position_m - place_m;
     ray.distance_m = length(to_lamp_m);
-    if (!(ray.distance_m > kNowhere_m)) return false;
+    if (!(ray.distance_m > kNoDistance_m)) return false;
     ray.dir = to_lamp_m / ray.distance_m;
     const double near_m = std::max(ray.distance_m, kNearest_m);
     ray.per_m2 = static_cast<float>(beam->at(axis, -ray.dir) / (near_m * near_m));

@@ -107,9 +107,6 @@ void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const
     vertex.offset_m = rounding_m(vertex.point_m, origin_m);
 
     vertex.object = hits.object[k], vertex.triangle = hits.triangle[k];
-    vertex.keeps_light = frame.keeps_light[vertex.object] != 0;
-    vertex.mirrors_near = true;
-    vertex.has_bodies = vertex.follows_lobe = false;
     vertex.lobe = nullptr;
     vertex.known_sun = object.known_sun.empty() || frame.objects->size() > 1
                            ? KnownSun::kAsk

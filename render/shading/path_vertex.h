@@ -26,13 +26,8 @@ struct Facet {
     const Facet* next = nullptr;
 };
 
-struct Vertex {
-    std::uint32_t pixel;     // in the tile
-    std::uint16_t sample;    // in the pixel
-    std::uint16_t depth;     // 1: seen by the camera
-    SampleMask samples;      // those of the pixel that see its plane; 0: one of a ray
-    Vec2f place_px;          // where in the pixel it is seen, where samples see it
-    float lift_m;            // where samples see it, rays start further above: planes differ
+// Where a ray has met an object, and how the surface lies there.
+struct VertexGeometry {
     Vec3f point_m;           // ray space
     float offset_m;          // distance above the surface at which a ray must start
     Vec3f geometric_normal;  // towards the viewer's side, unit
@@ -42,33 +37,48 @@ struct Vertex {
     std::uint32_t object, triangle;
     std::uint16_t surface_number;  // surface of the object's mesh
     bool back;                     // the side that its triangle's own normal points away from
-    bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
-    KnownSun known_sun;  // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
-    bool mirrors_near;   // where that, something may stand in the mirror's direction
-    bool has_bodies;     // the light of bodies in its lobe has been added
-    bool follows_lobe;   // rays are to find what its lobe, which is not narrow, reflects
-    const Vertex* follows_too;  // where that, the next one that has the light of its rays; null: the last
-    float kept_lobe;            // where that, what kept light has in it, greatest bin; of so many directions
-    float kept_lobe_directions;
-    LightPart ray_part;     // where a ray has met it: the part of its light
-    FollowedLobe* lobe;     // the lobe whose rays have met it, or are its own; null: its light is its pixel's
-    std::uint8_t lobe_ray;  // which of them
-    float sunlit;           // share of it that what lies on it leaves in the Sun (lod/mosaic.h)
-    float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
-    HalfShares halves;      // where in the pixel they are
-    float facet_alpha;      // alpha of the lobes of its facets
-    const Facet* facets;    // the vertex's own among them; null: it is one
-    Spectrum weight;
-    Scatterer surface;
 
-    // Returns the figure that thresholds are held against: the largest weight of one of the samples for which
-    // a ray stands.
-    float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
     // Returns where a ray begins that leaves to this side: above the surface, or below it through glass.
     Vec3f start(bool above = true) const {
         return point_m + (above ? offset_m : -offset_m) * geometric_normal;
     }
 };
+
+// How light scatters there.
+struct VertexSurface {
+    Scatterer surface;
+    KnownSun known_sun;   // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
+    float sunlit;         // share of it that what lies on it leaves in the Sun (mosaic.h)
+    float facet_alpha;    // alpha of the lobes of its facets
+    const Facet* facets;  // the vertex's own among them; null: it is one
+};
+
+// What of the light that it sends reaches which pixel, or which lobe whose rays have met it.
+struct VertexThroughput {
+    Spectrum weight;
+    float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
+    std::uint16_t depth;    // 1: seen by the camera
+    LightPart ray_part;     // where a ray has met it: the part of its light
+    std::uint8_t lobe_ray;  // which of a lobe's rays that is
+    FollowedLobe* lobe;     // the lobe whose rays have met it; null: its light is its pixel's
+
+    // Returns the figure that thresholds are held against: the largest weight of one of the samples for which
+    // a ray stands.
+    float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
+};
+
+// Where in the picture it is seen, or the first vertex of its path.
+struct VertexCoverage {
+    std::uint32_t pixel;   // in the tile
+    std::uint16_t sample;  // in the pixel
+    SampleMask samples;    // those of the pixel that see its plane; 0: one of a ray
+    Vec2f place_px;        // where in the pixel it is seen, where samples see it
+    float lift_m;          // where samples see it, rays start further above: planes differ
+    HalfShares halves;     // where in the pixel they are
+};
+
+// What one stage of its light finds for a later one is a value of that stage's, not a member here.
+struct Vertex : VertexGeometry, VertexSurface, VertexThroughput, VertexCoverage {};
 
 // The orientation of the surface where a ray meets it.
 struct Lie {

@@ -107,7 +107,7 @@ class RowRays : public RayGenerator {
     }
 };
 
-constexpr int kMaxSteps = 32;
+constexpr int kMaxLensSteps = 32;
 constexpr double kFound_px = 1e-4;
 
 class RollingRays final : public RowRays {
@@ -121,7 +121,7 @@ class RollingRays final : public RowRays {
         if (!project(dir, distance_m, y, seen)) return false;
         double miss = seen.position_px.y - y;
         double next = seen.position_px.y;
-        for (int step = 0; step < kMaxSteps && is_near(next); ++step) {
+        for (int step = 0; step < kMaxLensSteps && is_near(next); ++step) {
             if (!project(dir, distance_m, next, seen)) return false;
             const double next_miss = seen.position_px.y - next;
             if (std::abs(next_miss) < kFound_px) return lens_shows(dir, distance_m, next, seen);
@@ -151,7 +151,7 @@ class PushbroomRays final : public RowRays {
         double miss = 0;
         if (!off_line(dir, distance_m, y, seen, miss)) return false;
         double next = y + 0.25;
-        for (int step = 0; step < kMaxSteps; ++step) {
+        for (int step = 0; step < kMaxLensSteps; ++step) {
             double next_miss = 0;
             if (!off_line(dir, distance_m, next, seen, next_miss)) return false;
             const double speed = (next_miss - miss) / (next - y);  // rows of the sensor per row of the image

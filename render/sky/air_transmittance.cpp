@@ -8,21 +8,22 @@
 namespace hilcam {
 namespace {
 
-constexpr double kGround_m = AirBall::kGround_m, kTop_m = AirBall::kTop_m;
+constexpr double kGround_m = AirBall::kGround_m, kAirTop_m = AirBall::kTop_m;
 constexpr double kSunAngularRadius_rad = kSunRadius_m / kAstronomicalUnit_m;
 
 // Directions that leave to space, by the distance to the top between its least and greatest value
 // (Bruneton & Neyret, EGSR 2008): smooth at the horizon.
 double direction_coordinate(double r, double mu) {
-    const double nearest = kTop_m - r, rho = std::sqrt(std::max(0.0, r * r - kGround_m * kGround_m));
-    const double farthest = rho + std::sqrt(kTop_m * kTop_m - kGround_m * kGround_m);
-    return farthest > nearest ? (AirBall::to_sphere_far(r, mu, kTop_m) - nearest) / (farthest - nearest) : 0;
+    const double nearest = kAirTop_m - r, rho = std::sqrt(std::max(0.0, r * r - kGround_m * kGround_m));
+    const double farthest = rho + std::sqrt(kAirTop_m * kAirTop_m - kGround_m * kGround_m);
+    return farthest > nearest ? (AirBall::to_sphere_far(r, mu, kAirTop_m) - nearest) / (farthest - nearest)
+                              : 0;
 }
 double direction_at(double r, double u) {
-    const double nearest = kTop_m - r, rho = std::sqrt(std::max(0.0, r * r - kGround_m * kGround_m));
-    const double farthest = rho + std::sqrt(kTop_m * kTop_m - kGround_m * kGround_m);
+    const double nearest = kAirTop_m - r, rho = std::sqrt(std::max(0.0, r * r - kGround_m * kGround_m));
+    const double farthest = rho + std::sqrt(kAirTop_m * kAirTop_m - kGround_m * kGround_m);
     const double d = nearest + u * (farthest - nearest);
-    return d > 0 ? std::clamp((kTop_m * kTop_m - r * r - d * d) / (2 * r * d), -1.0, 1.0) : 1.0;
+    return d > 0 ? std::clamp((kAirTop_m * kAirTop_m - r * r - d * d) / (2 * r * d), -1.0, 1.0) : 1.0;
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ void AirTransmittance::fill(const AirPhysics& air) {
             const double r = AirBall::height_at(static_cast<double>(y) / (table_.height() - 1));
             const double mu = direction_at(r, static_cast<double>(x) / (table_.width() - 1));
             Spectrum depth;
-            for_each_air_step(-r * mu, 0, AirBall::to_sphere_far(r, mu, kTop_m), 60, [&](AirStep step) {
+            for_each_air_step(-r * mu, 0, AirBall::to_sphere_far(r, mu, kAirTop_m), 60, [&](AirStep step) {
                 const double d = step.distance_m;
                 const double height = std::sqrt(r * r + d * d + 2 * r * mu * d) - kGround_m;
                 depth += static_cast<float>(step.length_m) * air.at(height).extinction;
@@ -58,19 +59,19 @@ void AirTransmittance::fill(const AirPhysics& air) {
 }
 
 Spectrum AirTransmittance::to_space(double r, double mu) const {
-    if (r >= kTop_m) r = kTop_m;
+    if (r >= kAirTop_m) r = kAirTop_m;
     return table_(direction_coordinate(r, mu), AirBall::height_coordinate(r));
 }
 Spectrum AirTransmittance::to_sun(double r, double mu_s) const {
-    if (r > kTop_m) {
+    if (r > kAirTop_m) {
         // From outside: where the ray enters, if it does.
-        const double inside = r * r * (mu_s * mu_s - 1) + kTop_m * kTop_m;
+        const double inside = r * r * (mu_s * mu_s - 1) + kAirTop_m * kAirTop_m;
         Spectrum clear;
         clear.bin.fill(1);
         if (mu_s >= 0 || inside <= 0) return clear;
         const double d = -r * mu_s - std::sqrt(inside);
-        const double mu_entry = std::clamp((r * mu_s + d) / kTop_m, -1.0, 1.0);
-        return to_sun(kTop_m, mu_entry);
+        const double mu_entry = std::clamp((r * mu_s + d) / kAirTop_m, -1.0, 1.0);
+        return to_sun(kAirTop_m, mu_entry);
     }
     const double horizon = std::max(r, kGround_m);
     const double sine_h = kGround_m / horizon;

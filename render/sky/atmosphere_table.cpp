@@ -17,7 +17,7 @@ using Geometry = std::array<double, AtmosphereTable::kAxes>;
 constexpr std::array<const char*, AtmosphereTable::kAxes> kNames = {
     "zenith angle of the Sun", "zenith angle of the viewer", "azimuth", "height of the viewer"};
 
-double angle_between(Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); }
+double angle_rad_between(Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); }
 
 // Returns the angles at the ground point of a ray. to_viewer, sun_dir: unit.
 Geometry geometry_of(Vec3d ground_m, Vec3d to_viewer, Vec3d sun_dir, double viewer_height_m) {
@@ -25,7 +25,7 @@ Geometry geometry_of(Vec3d ground_m, Vec3d to_viewer, Vec3d sun_dir, double view
     const Vec3d viewer = to_viewer - dot(to_viewer, up) * up, sun = sun_dir - dot(sun_dir, up) * up;
     const double lengths = length(viewer) * length(sun);
     const double azimuth = lengths > 1e-9 ? std::acos(std::clamp(dot(viewer, sun) / lengths, -1.0, 1.0)) : 0;
-    return {angle_between(sun_dir, up), angle_between(to_viewer, up), azimuth, viewer_height_m};
+    return {angle_rad_between(sun_dir, up), angle_rad_between(to_viewer, up), azimuth, viewer_height_m};
 }
 
 class TableAtmosphere final : public Atmosphere {
@@ -94,7 +94,7 @@ class TableAtmosphere final : public Atmosphere {
 
     // tau_1 and the sky do not depend on the viewer: as for one straight above, at the greatest height.
     Geometry straight_down(Vec3d point_m, Vec3d sun_dir) const {
-        return {angle_between(normalized(point_m), sun_dir),
+        return {angle_rad_between(normalized(point_m), sun_dir),
                 table_.axes[AtmosphereTable::kViewZenith].front(),
                 table_.axes[AtmosphereTable::kAzimuth].front(), table_.axes[AtmosphereTable::kHeight].back()};
     }

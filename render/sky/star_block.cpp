@@ -7,26 +7,26 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kTogether = 8;
+constexpr std::size_t kStarsTogether = 8;
 
-struct Places {
+struct StarPlaces {
     double* x;
     double* y;
     double* z;
 };
 
-// Makes them unit vectors. count: a multiple of kTogether, here and below.
+// Makes them unit vectors. count: a multiple of kStarsTogether, here and below.
 [[gnu::always_inline]] inline void normalize(double& x, double& y, double& z) {
     const double length = std::sqrt(x * x + y * y + z * z);
     x /= length, y /= length, z /= length;
 }
 
 // The same steps as StarObserver::apparent_dir(). at: where the observer sees the stars, without aberration.
-HILCAM_CLONES void aberrate(std::size_t count, const StarObserver& observer, Places at) {
+HILCAM_CLONES void aberrate(std::size_t count, const StarObserver& observer, StarPlaces at) {
     const Vec3d beta = observer.beta();
     const double inverse_lorentz = observer.inverse_lorentz();
-    for (std::size_t first = 0; first < count; first += kTogether)
-        for (std::size_t i = first; i < first + kTogether; ++i) {
+    for (std::size_t first = 0; first < count; first += kStarsTogether)
+        for (std::size_t i = first; i < first + kStarsTogether; ++i) {
             double x = at.x[i], y = at.y[i], z = at.z[i];
             normalize(x, y, z);
             const double along = x * beta.x + y * beta.y + z * beta.z;
@@ -46,7 +46,7 @@ void StarBlock::find_dirs(const StarObserver& observer) {
         const Vec3d displaced = observer.displaced(*stars_[i]);
         x_[i] = displaced.x, y_[i] = displaced.y, z_[i] = displaced.z;
     }
-    const std::size_t padded = (count_ + kTogether - 1) / kTogether * kTogether;
+    const std::size_t padded = (count_ + kStarsTogether - 1) / kStarsTogether * kStarsTogether;
     for (std::size_t i = count_; i < padded; ++i) x_[i] = 1, y_[i] = z_[i] = 0;
     aberrate(padded, observer, {x_.data(), y_.data(), z_.data()});
 }

@@ -33,7 +33,7 @@ constexpr auto kSun_w_m2_um = std::to_array<double>({
 });
 
 // Neckel & Labs 1994: wavelength [nm], A0 ... A5.
-constexpr double kLimb[30][7] = {
+constexpr double kLimbLaw[30][7] = {
     {303.327, 0.08011, 0.70695, 0.49910, -0.31080, -0.02177, 0.04642},
     {310.843, 0.08160, 0.71609, 0.69685, -0.87703, 0.47008, -0.08760},
     {320.468, 0.08833, 0.77285, 0.65382, -1.04647, 0.72921, -0.19775},
@@ -68,15 +68,15 @@ constexpr double kLimb[30][7] = {
 
 std::array<double, 6> limb_polynomial(double wavelength_nm) {
     std::size_t above = 0;
-    while (above < 30 && kLimb[above][0] < wavelength_nm) ++above;
+    while (above < 30 && kLimbLaw[above][0] < wavelength_nm) ++above;
     const std::size_t hi = std::min<std::size_t>(above, 29),
                       lo = above == 0 ? 0 : std::min<std::size_t>(above - 1, 29);
-    const double step = kLimb[hi][0] - kLimb[lo][0];
-    const double share = step > 0 ? (wavelength_nm - kLimb[lo][0]) / step : 0;
+    const double step = kLimbLaw[hi][0] - kLimbLaw[lo][0];
+    const double share = step > 0 ? (wavelength_nm - kLimbLaw[lo][0]) / step : 0;
     std::array<double, 6> out{};
     double mean = 0;  // over the disk: 2 int P(mu) mu dmu
     for (std::size_t k = 0; k < 6; ++k) {
-        out[k] = kLimb[lo][k + 1] + share * (kLimb[hi][k + 1] - kLimb[lo][k + 1]);
+        out[k] = kLimbLaw[lo][k + 1] + share * (kLimbLaw[hi][k + 1] - kLimbLaw[lo][k + 1]);
         mean += 2 * out[k] / static_cast<double>(k + 2);
     }
     for (double& a : out) a /= mean;

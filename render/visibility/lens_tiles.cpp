@@ -25,7 +25,7 @@ Vec2d ideal_of(const ImageGeometry& g, Vec2d screen_px) {
     return {center.x + g.focal_length_px * dir.x, center.y + g.focal_length_px * dir.y};
 }
 
-struct Box {
+struct TileBox {
     double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
     void grow(Vec2d p) {
         x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
@@ -34,10 +34,10 @@ struct Box {
 };
 
 // Whole tiles, also where they reach beyond the picture. A lens takes the border to the border.
-Box ideal_box(const ImageGeometry& g) {
+TileBox ideal_box(const ImageGeometry& g) {
     const auto whole = [](int size) { return std::ceil(size / kSide_px) * kSide_px; };
     const double width = whole(g.padded_width()), height = whole(g.padded_height());
-    Box box;
+    TileBox box;
     for (double x = 0; x <= width; x += 4) box.grow(ideal_of(g, {x, 0})), box.grow(ideal_of(g, {x, height}));
     for (double y = 0; y <= height; y += 4) box.grow(ideal_of(g, {0, y})), box.grow(ideal_of(g, {width, y}));
     box.x0 -= 1, box.x1 += 1, box.y0 -= 1, box.y1 += 1;
@@ -46,15 +46,15 @@ Box ideal_box(const ImageGeometry& g) {
 
 // The greatest second derivative, over the whole box, of the place on the screen by the ideal one, along any
 // line [1/px].
-struct Curvature {
+struct LensCurvature {
     double bend_per_px = 0;
     bool folds = false;
 };
-Curvature curvature_in(const ImageGeometry& g, const Box& box) {
+LensCurvature curvature_in(const ImageGeometry& g, const TileBox& box) {
     const Vec2d center = center_of(g);
     const double f = g.focal_length_px, h = 1e-3;
     const auto screen = [&](double x, double y) { return g.distortion.distorted({x, y}); };
-    Curvature out;
+    LensCurvature out;
     for (int j = 0; j <= kGridSteps; ++j)
         for (int i = 0; i <= kGridSteps; ++i) {
             const double x = (box.x0 + (box.x1 - box.x0) * i / kGridSteps - center.x) / f;
@@ -81,7 +81,7 @@ Curvature curvature_in(const ImageGeometry& g, const Box& box) {
 // A tile of the screen as an affine map, and how far the lens is from that.
 struct Fit {
     Vec2d middle, right, down;  // ideal places: of the tile's middle, by a pixel to the right, and down
-    Box ideal;                  // the box of the whole tile
+    TileBox ideal;              // the box of the whole tile
     double error_px = 0;        // on the screen, at most
 };
 Fit fit(const ImageGeometry& g, int tile_x, int tile_y) {
@@ -134,7 +134,7 @@ bool LensTiles::takes(const ImageGeometry& geometry) {
     if (geometry.distortion.none()) return true;
     if (geometry.distortion.projection != Projection::kRectilinear) return false;
     if (!geometry.distortion.polynomial.none()) return false;
-    const Box box = ideal_box(geometry);
+    const TileBox box = ideal_box(geometry);
     if (!(box.x1 - box.x0 < 1e5 && box.y1 - box.y0 < 1e5)) return false;
     return !curvature_in(geometry, box).folds && tile_error_px(geometry) <= kMaxError_px;
 }
@@ -151,10 +151,10 @@ LensTiles::LensTiles(const ImageGeometry& geometry)
                    (geometry.padded_height() - center.y) / f};
         return;
     }
-    const Box box = ideal_box(geometry);
+    const TileBox box = ideal_box(geometry);
     slopes_ = {(box.x0 - center.x) / f, (box.x1 - center.x) / f, (box.y0 - center.y) / f,
                (box.y1 - center.y) / f};
-    const Curvature curvature = curvature_in(geometry, box);
+    const LensCurvature curvature = curvature_in(geometry, box);
     const auto single = [](double v) { return static_cast<float>(v); };
     const LensDistortion& d = geometry.distortion;
     screen_ = {single(center.x), single(center.y), single(f), single(d.k1), single(d.k2), single(d.k3),

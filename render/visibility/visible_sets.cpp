@@ -21,13 +21,13 @@ namespace {
 // Cells of 11 degrees, as narrower ones have hardly fewer triangles; pictures from nine directions in each, 5.6 degrees apart, with
 // four times as many samples each way as those that the sets are for. Of the generated satellite's samples one in 10,000 meets what
 // its set lacks.
-constexpr int kAcross = 8;  // cells along a face of a cube
-constexpr int kSteps = 2;   // from one of a cell's directions to the last of a row
+constexpr int kFaceCells = 8;   // cells along a face of a cube
+constexpr int kStepsOfRow = 2;  // from one of a cell's directions to the last of a row
 constexpr int kPicture_px = 512;
-constexpr double kFiner = 4;
+constexpr double kFinerPictures = 4;
 // The pictures' camera is so far away that directions are one; from a fortieth of it they differ by 1.4 degrees.
 constexpr double kFrom_radii = 1000, kLeast_radii = 40;
-constexpr int kCells = kCubeFaces * kAcross * kAcross;
+constexpr int kViewCells = kCubeFaces * kFaceCells * kFaceCells;
 // A byte for each triangle.
 using Marks = std::vector<std::uint8_t>;
 void add(const Marks& of, Marks& to) {
@@ -37,16 +37,17 @@ void add(const Marks& of, Marks& to) {
 std::size_t cell_of(Vec3d dir) {
     const CubePoint point = cube_point(dir);
     const auto step = [](double at) {
-        return std::clamp(static_cast<int>((at + 1) / 2 * kAcross), 0, kAcross - 1);
+        return std::clamp(static_cast<int>((at + 1) / 2 * kFaceCells), 0, kFaceCells - 1);
     };
-    return static_cast<std::size_t>((point.face * kAcross + step(point.at.y)) * kAcross + step(point.at.x));
+    return static_cast<std::size_t>((point.face * kFaceCells + step(point.at.y)) * kFaceCells +
+                                    step(point.at.x));
 }
 struct Cell {
     int face, across, down;
 };
 Cell cell_at(std::size_t number) {
     const int n = static_cast<int>(number);
-    return {n / (kAcross * kAcross), n % kAcross, n / kAcross % kAcross};
+    return {n / (kFaceCells * kFaceCells), n % kFaceCells, n / kFaceCells % kFaceCells};
 }
 
 // Takes pictures of a mesh from afar.
@@ -94,7 +95,7 @@ std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
     std::vector<std::uint32_t> own(mesh.triangles.size());
     for (std::uint32_t i = 0; i < own.size(); ++i)
         own[i] = !patches.empty() && patches[i] == kNotShown ? kNotShown : i;
-    constexpr int kRow = kAcross * kSteps + 1;
+    constexpr int kRow = kFaceCells * kStepsOfRow + 1;
     const auto number = [](int face, int across, int down) {
         return static_cast<std::size_t>((face * kRow + down) * kRow + across);
     };
@@ -107,12 +108,12 @@ std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
                 pictures->mark_seen(cube_direction(row / kRow, {along(i), along(row % kRow)}),
                                     seen[number(row / kRow, i, row % kRow)]);
     });
-    std::vector<Marks> out(kCells, Marks(own.size()));
+    std::vector<Marks> out(kViewCells, Marks(own.size()));
     for (std::size_t cell = 0; cell < out.size(); ++cell) {
         const auto [face, across, down] = cell_at(cell);
-        for (int j = 0; j <= kSteps; ++j)
-            for (int i = 0; i <= kSteps; ++i)
-                add(seen[number(face, across * kSteps + i, down * kSteps + j)], out[cell]);
+        for (int j = 0; j <= kStepsOfRow; ++j)
+            for (int i = 0; i <= kStepsOfRow; ++i)
+                add(seen[number(face, across * kStepsOfRow + i, down * kStepsOfRow + j)], out[cell]);
     }
     return out;
 }
@@ -140,14 +141,15 @@ VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> patches, 
 }  // namespace
 
 VisibleSets::VisibleSets(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> patches)
-    : radius_m_(radius_m), sets_(kCells) {
+    : radius_m_(radius_m), sets_(kViewCells) {
     const std::vector<Marks> seen = seen_by_cell(mesh, radius_m, patches);
     tbb::parallel_for(std::size_t{0}, sets_.size(),
                       [&](std::size_t cell) { sets_[cell] = set_of(mesh, patches, seen[cell]); });
 }
 
 bool VisibleSets::serves(double distance_m, double sample_rad) const {
-    constexpr double kMost = kPicture_px * kVisibilitySamplesAcross / kFiner;  // samples across the mesh
+    constexpr double kMost =
+        kPicture_px * kVisibilitySamplesAcross / kFinerPictures;  // samples across the mesh
     return distance_m >= kLeast_radii * radius_m_ && 2 * radius_m_ <= kMost * sample_rad * distance_m;
 }
 

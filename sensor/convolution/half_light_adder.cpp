@@ -10,8 +10,8 @@
 namespace hilcam {
 namespace {
 
-constexpr int kBlock_px = HalfKernels::kBlock_px, kReach_px = HalfKernels::kMaxReach_px;
-static_assert(kBlock_px == RadianceImage::kBlock_px);
+constexpr int kAddedBlock_px = HalfKernels::kBlock_px, kReach_px = HalfKernels::kMaxReach_px;
+static_assert(kAddedBlock_px == RadianceImage::kBlock_px);
 
 // --- rows of pixels
 
@@ -93,16 +93,17 @@ void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, 
                             channel.most_e,
                             zone_weights_.empty() ? nullptr : zone_weights_[zone].data(),
                             static_cast<std::size_t>(image.width())};
-        const int across = (width + kBlock_px - 1) / kBlock_px, down = (height + kBlock_px - 1) / kBlock_px;
+        const int across = (width + kAddedBlock_px - 1) / kAddedBlock_px,
+                  down = (height + kAddedBlock_px - 1) / kAddedBlock_px;
         tbb::parallel_for(
             tbb::blocked_range2d<int>(0, down, 0, across), [&](const tbb::blocked_range2d<int>& range) {
                 Scratch scratch;
                 for (int j = range.rows().begin(); j < range.rows().end(); ++j)
                     for (int i = range.cols().begin(); i < range.cols().end(); ++i) {
-                        const int x = i * kBlock_px, y = j * kBlock_px;
+                        const int x = i * kAddedBlock_px, y = j * kAddedBlock_px;
                         if (!gather(source, x, y, scratch)) continue;
-                        kernels.add(scratch.parts, std::min(kBlock_px, width - x),
-                                    std::min(kBlock_px, height - y), image.row(y).data() + x, stride);
+                        kernels.add(scratch.parts, std::min(kAddedBlock_px, width - x),
+                                    std::min(kAddedBlock_px, height - y), image.row(y).data() + x, stride);
                     }
             });
     }
@@ -112,10 +113,11 @@ void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, 
 bool HalfLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& scratch) const {
     const auto known = [&](int y) {
         bool any = false;
-        for (int x = x_px - kBlock_px; x <= x_px + kBlock_px; x += kBlock_px) any = any || source.knows(x, y);
+        for (int x = x_px - kAddedBlock_px; x <= x_px + kAddedBlock_px; x += kAddedBlock_px)
+            any = any || source.knows(x, y);
         return any;
     };
-    if (!known(y_px - kBlock_px) && !known(y_px) && !known(y_px + kBlock_px)) return false;
+    if (!known(y_px - kAddedBlock_px) && !known(y_px) && !known(y_px + kAddedBlock_px)) return false;
     for (int row = 0; row < static_cast<int>(kArea_px); ++row) copy_row(source, x_px, y_px, row, scratch);
     find_sharp(scratch);
     return take_smooth(scratch);
@@ -146,11 +148,11 @@ void HalfLightAdder::copy_row(const Source& source, int x_px, int y_px, int row,
     to_charge(
         {source.rates_e_s(x0, y, count, rates_e_s.data()), lens, zone, source.exposure_s, source.most_e},
         count, factor.data() + (x0 - left), charge_e.data() + (x0 - left));
-    for (int block = x_px - kBlock_px; block <= x_px + kBlock_px; block += kBlock_px) {
+    for (int block = x_px - kAddedBlock_px; block <= x_px + kAddedBlock_px; block += kAddedBlock_px) {
         if (!source.knows(block, y)) continue;
         const auto within = [&](int reach_px) {
             return std::array{std::max({block, x_px - reach_px, x0}),
-                              std::min({block + kBlock_px, x_px + kBlock_px + reach_px, x1})};
+                              std::min({block + kAddedBlock_px, x_px + kAddedBlock_px + reach_px, x1})};
         };
         const auto [begin, end] = within(kRim_px);
         std::copy(source.light.kinds(y).data() + begin, source.light.kinds(y).data() + end,

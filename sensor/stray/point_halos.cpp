@@ -26,7 +26,7 @@ struct HaloLaw {
 
 namespace {
 
-constexpr double kSeen_e = 0.02;
+constexpr double kSeenHalo_e = 0.02;
 
 // Places a step apart along x, from a source.
 struct Places {
@@ -56,7 +56,7 @@ HILCAM_CLONES void add_difference(const HaloLaw& law, const HaloLaw& other, cons
 PointHalos::PointHalos(const StrayLightConfig& stray, const ImageGeometry& detector)
     : glare_(stray.veiling_glare_fraction),
       radius_px_(stray.glare_radius_px),
-      least_e_(kSeen_e * PointSpread::kField_px * PointSpread::kField_px /
+      least_e_(kSeenHalo_e * PointSpread::kField_px * PointSpread::kField_px /
                share_beyond(0.5 * PointSpread::kField_px)),
       width_px_(detector.width_px),
       height_px_(detector.height_px),

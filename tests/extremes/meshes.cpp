@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "io/files/mesh_file.h"
+#include "io/meshes/mesh_file.h"
 #include "render/vocabulary/check.h"
 #include "tests/extremes/convex_truth.h"
 #include "tests/extremes/groups.h"

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "io/files/albedo_file.h"
+#include "io/meshes/albedo_file.h"
 #include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

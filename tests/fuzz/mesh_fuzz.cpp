@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/files/mesh_file.h"
-#include "io/files/mesh_import.h"
+#include "io/meshes/mesh_file.h"
+#include "io/meshes/mesh_import.h"
 #include "render/vocabulary/check.h"
 
 namespace {

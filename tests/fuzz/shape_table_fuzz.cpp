@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "io/files/shape_table.h"
+#include "io/meshes/shape_table.h"
 #include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -21,7 +21,7 @@ std::string padded(std::string xml) {
     xml.resize((xml.size() + 3) / 4 * 4, '\n');
     return xml;
 }
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+std::span<const std::uint8_t> text_bytes(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -54,7 +54,7 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
                 }),
       xml(padded(genicam_xml(gige_features(core.limits, id.multipart, id.more_lines), id.model))),
       zip(zip_of("hilcam.xml", xml)) {
-    bootstrap.add_description(bytes_of(xml), zip);
+    bootstrap.add_description(text_bytes(xml), zip);
     add_device_registers();
     acquisition.on_end([this] { trigger.rearm(); });
     core.publish_stream();

@@ -14,6 +14,8 @@
 
 namespace hilcam {
 
+inline constexpr double kMax64 = 9.2e18;  // a limit below the largest 64-bit integer of GenICam
+
 struct EnumEntry {
     std::string name;
     std::uint64_t value;

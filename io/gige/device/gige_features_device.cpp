@@ -10,8 +10,6 @@ namespace r = feature_register;
 
 namespace {
 
-constexpr double kMax64 = 9.2e18;  // below the largest 64-bit integer of GenICam
-
 Feature count(const char* name, std::uint32_t address, const char* meaning) {
     return integer64(name, address, meaning).between(0, kMax64).read_only();
 }

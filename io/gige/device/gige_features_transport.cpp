@@ -12,7 +12,6 @@ namespace r = feature_register;
 namespace {
 
 constexpr double kMax32 = 4294967295.0;
-constexpr double kMax64 = 9.2e18;
 
 Feature ip(const char* name, std::uint32_t address, const char* meaning) {
     return integer(name, address, meaning).between(0, kMax32).as("IPV4Address");

@@ -6,6 +6,7 @@
 
 #include "emulator/send/choice_option.h"
 #include "emulator/send/command_examples.h"
+#include "emulator/subcommands/subcommands.h"
 
 namespace hilcam {
 namespace {

@@ -1,0 +1,20 @@
+#pragma once
+// What the lookup of cached light leaves to rays, for each shading point: which part of its facet lobe is still to be found.
+
+#include <cstdint>
+
+namespace hilcam {
+
+struct GlossyRequest {
+    static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+
+    bool mirrors_near = true;   // something may stand in the mirror's direction
+    bool has_bodies = false;    // the light of bodies in the lobe has been added
+    bool follows_lobe = false;  // rays are to find what the lobe, which is not narrow, reflects
+    std::uint32_t next =
+        kNobody;  // where that, or one before: the next vertex that has the light of the same rays, by its number
+    float kept_lobe = 0;             // where that, kept light in the lobe, greatest bin
+    float kept_lobe_directions = 0;  // that bring it
+};
+
+}  // namespace hilcam
