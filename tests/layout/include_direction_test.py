@@ -36,7 +36,7 @@ ONLY_IN = {
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
     "pugixml": {"io/files/ndm_xml.cpp"},
-    "gemmi": {"sensor/convolution/fourier.cpp"},
+    "pocketfft": {"sensor/convolution/fourier.cpp"},
     "opencv2": set(),
     "png": {"io/pictures/png_codec.cpp"},
     "turbojpeg": {"io/pictures/jpeg_codec.cpp"},
