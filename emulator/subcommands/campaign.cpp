@@ -4,6 +4,7 @@
 
 #include "emulator/campaign/campaign.h"
 #include "emulator/campaign/case_record.h"
+#include "emulator/campaign/end_request.h"
 #include "emulator/campaign/slurm_script.h"
 #include "emulator/run/page_maker.h"
 #include "emulator/send/command_examples.h"

@@ -3,7 +3,12 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "emulator/run/camera_station.h"
+#include "emulator/run/probe_report.h"
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
@@ -14,6 +19,7 @@ namespace {
 
 struct PrepareArguments {
     ConfigArguments config;
+    std::optional<ProbeChoice> probe;
 };
 
 // Loads what a camera loads for a run, and makes what of it is not on disk.
@@ -30,6 +36,10 @@ LightLoading prepare_camera(const ScenarioConfig& bench, std::size_t index, cons
 int carry_out(const PrepareArguments& o) {
     const ScenarioConfig scenario = load_and_warn(o.config);
     const auto threads = limit_threads(scenario);
+    if (o.probe) {
+        fmt::print("{}", in_memory(scenario, [&] { return probe_report(scenario, *o.probe); }));
+        return 0;
+    }
     const SpectralGrid grid(scenario.spectrum_edges_um);
     const Stopwatch watch;
     std::size_t made = 0, found = 0;
@@ -50,7 +60,17 @@ void add_prepare_command(CLI::App& app, Action& action) {
     CLI::App* prepare = app.add_subcommand(
         "prepare", "make what a run needs and keeps on disk, so that its first frame has the best light");
     add_config(prepare, o->config);
-    set_examples(prepare, {"hilcam prepare geo_inspection"});
+    prepare
+        ->add_option_function<std::pair<std::string, std::uint32_t>>(
+            "--probe",
+            [o](const std::pair<std::string, std::uint32_t>& of) {
+                o->probe = {of.first, of.second};
+            },
+            "OBJECT N: print what this probe of an object sees, as JSON; render --pixel names a pixel's "
+            "probe")
+        ->type_name("OBJECT N");
+    set_examples(prepare,
+                 {"hilcam prepare geo_inspection", "hilcam prepare geo_inspection --probe target 100"});
     when_named(prepare, action, o, carry_out);
 }
 

@@ -109,14 +109,6 @@ class Sweep {
 
     void measure(Kind kind, const std::vector<std::size_t>& choices) {
         const ScenarioConfig scenario = scenario_of(choices);
-        // The hemisphere's rays are 60 to the power of the depth.
-        constexpr std::int64_t kDeepest = 3;
-        if (kind != Kind::kOwn && scenario.quality.render.path_model == "hemisphere" &&
-            scenario.quality.render.max_depth > kDeepest)
-            return leave_out(choices,
-                             fmt::format("the hemisphere model takes 60 times longer with each surface; "
-                                         "its depth ends at {} here",
-                                         kDeepest));
         StillCamera camera(scenario);
         const auto seed = static_cast<std::uint64_t>(scenario.seed);
         const ElectronImage* electrons = nullptr;

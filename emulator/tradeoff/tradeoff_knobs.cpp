@@ -28,7 +28,7 @@ const std::vector<KnobRow>& knob_rows() {
     static const std::vector<KnobRow> rows = {
         {"path model",
          "quality.path_model",
-         {"direct", "kept", "hemisphere", "path"},
+         {"direct", "kept", "path"},
          Needs::kSurfaces,
          KnobRole::kPathModel},
         {"depth", "quality.max_depth", {"1", "2", "3", "4", "6"}, Needs::kSurfaces, KnobRole::kDepth},

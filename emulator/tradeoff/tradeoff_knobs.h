@@ -3,9 +3,8 @@
 // table.
 //
 // A value is what `--set` takes, so that it is read and checked as a user's would be, and can be handed back
-// to one. Not here: the hemisphere's 60 directions, which the symmetry of the dodecahedron fixes
-// (render/paths/path_hemisphere.cpp); single or double precision, which geometry decides (bodies and world in
-// double, rays in single); `watertight` is the one choice of precision.
+// to one. Not here: single or double precision, which geometry decides (bodies and world in double, rays in
+// single); `watertight` is the one choice of precision.
 
 #include <filesystem>
 #include <string>

@@ -113,8 +113,6 @@ struct BrdfModel {
     Spectrum passed(const SurfaceLook&, float) const { return {}; }
     // The share of light that comes back in all directions, about: chooses a sample's part, ends paths.
     float albedo(const SurfaceLook& at, float, int bins) const { return mean(at.base, bins); }
-    // The lobe's albedo over what a mirror in its place reflects: where one direction stands for the lobe.
-    float lobe_share(float) const { return 1; }
 };
 
 }  // namespace hilcam

@@ -42,7 +42,6 @@ struct Dielectric : FacetModel<Dielectric> {
     float albedo(const SurfaceLook& at, float no, int bins) const {
         return facets(no) + mean(at.base, bins) * (1 - facets(no));
     }
-    float lobe_share(float no) const { return facets(no) / fresnel_dielectric(refractive_index, no); }
 };
 
 }  // namespace hilcam::brdf

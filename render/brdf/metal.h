@@ -36,7 +36,6 @@ struct Metal : FacetModel<Metal> {
     float albedo(const SurfaceLook& at, float no, int bins) const {
         return mean(at.highlight, bins) * facets(no) + mean(at.base, bins) * (1 - facets(no));
     }
-    float lobe_share(float no) const { return facets(no); }
 };
 
 }  // namespace hilcam::brdf

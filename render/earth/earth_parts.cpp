@@ -30,17 +30,21 @@ std::vector<EarthModel::PartInfo> EarthModel::parts() const {
         return text.substr(0, text.find('.') + 2);
     };
     std::vector<PartInfo> out;
-    out.push_back({Part::kSurface, map_text(ground()) + finer_levels(detail_.get()),
-                   ground().bytes() + (detail_ ? detail_bytes_ : 0)});
-    if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
+    const auto add = [&](Part part, const std::string& text, std::size_t bytes) {
+        PartInfo& info = out.emplace_back();
+        info.part = part, info.text = text, info.bytes = bytes;
+    };
+    add(Part::kSurface, map_text(ground()) + finer_levels(detail_.get()),
+        ground().bytes() + (detail_ ? detail_bytes_ : 0));
+    if (glints_) add(Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0);
     if (table_)
-        out.push_back({Part::kClouds,
-                       "clouds: table by doubling, shadows" + std::string(together() ? "" : ", ") +
-                           (cloud_maps_->count() > 1 ? std::to_string(cloud_maps_->count()) + " maps by time"
-                                                     : (together() ? "" : "a map of their own")),
-                       table_->bytes() + cloud_maps_->bytes()});
-    if (air_) out.push_back({Part::kAir, "air: above the clouds and below them", columns_->bytes()});
-    if (lights_ > 0) out.push_back({Part::kLights, "lights of cities", 0});
+        add(Part::kClouds,
+            "clouds: table by doubling, shadows" + std::string(together() ? "" : ", ") +
+                (cloud_maps_->count() > 1 ? std::to_string(cloud_maps_->count()) + " maps by time"
+                                          : (together() ? "" : "a map of their own")),
+            table_->bytes() + cloud_maps_->bytes());
+    if (air_) add(Part::kAir, "air: above the clouds and below them", columns_->bytes());
+    if (lights_ > 0) add(Part::kLights, "lights of cities", 0);
     return out;
 }
 

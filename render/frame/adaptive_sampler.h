@@ -18,7 +18,7 @@
 // is no less on the mean, as the picture's own differences add to it. What all nine miss stays unseen.
 //
 // Errors are those of sampling: pixel area, shadows of the disk, light paths. What a quality leaves out
-// (depth, levels of detail, the fixed directions of `hemisphere`) is no noise, and not in them. The lens's
+// (depth, levels of detail) is no noise, and not in them. The lens's
 // falloff is left out, which is on the safe side: it takes more of the error than of the noise.
 
 #include <array>

@@ -1,6 +1,7 @@
 #pragma once
 // Places everything for one frame and finds what may be seen: objects at their levels of detail, bodies,
-// terrain, the plan, and the bounds on the screen inside which rays have something to meet.
+// terrain, the plan, and the bounds on the screen inside which rays have something to meet. What of the world cannot be is in
+// possible_world.h, which visibility buffer a frame uses in visibility_choice.h, how it sees the Earth in earth_view.h.
 //
 // Owns the scene; what it has placed is a FrameView, which those who trace only read.
 
@@ -10,14 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "render/earth/detail_stream.h"
-#include "render/earth/kept_earth.h"
+#include "render/background/background.h"
+#include "render/frame/earth_view.h"
 #include "render/frame/image_motion.h"
 #include "render/frame/kept_handover.h"
 #include "render/frame/plan.h"
+#include "render/frame/possible_world.h"
 #include "render/frame/render_quality.h"
+#include "render/frame/visibility_choice.h"
 #include "render/indirect/kept_scene.h"
-#include "render/scene/background.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/scene.h"
@@ -30,7 +32,6 @@
 #include "render/sky/star_sky.h"
 #include "render/visibility/screen_mask.h"
 #include "render/visibility/visibility_buffer.h"
-#include "render/visibility/visible_sets.h"
 
 namespace hilcam {
 
@@ -51,8 +52,7 @@ class FramePlacer {
     bool take_light();
     void stop_looking_ahead() {
         if (kept_) kept_->stop_looking_ahead();
-        if (kept_earth_) kept_earth_->stop_looking_ahead();
-        if (earth_detail_) earth_detail_->stop_looking_ahead();
+        earth_view_.stop_looking_ahead();
     }
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
     // buffer. Loop.
@@ -78,11 +78,11 @@ class FramePlacer {
     const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
     bool is_point(std::size_t object) const { return frame_.is_point[object] != 0; }
     // Returns how much of the world could not be.
-    std::uint64_t left_out() const { return left_out_; }
+    std::uint64_t left_out() const { return possible_.left_out(); }
     // Returns the object as the placed frame shows it.
     VisibilityBuffer::Shown shown(std::size_t object) const;
     // Returns what pictures of single objects need (object_picture.h); empty: there are none.
-    const std::optional<VisibilityBuffer::Room>& picture_room() const { return picture_room_; }
+    const std::optional<VisibilityBuffer::Room>& picture_room() const { return visibility_.picture_room(); }
     double radius_m(std::size_t object) const { return radii_m_[object]; }
     const ShownObject& object(std::size_t object) const { return objects_[object]; }
     // The last of the objects is the ground.
@@ -111,14 +111,16 @@ class FramePlacer {
     std::size_t max_stars() const { return max_stars_; }  // greatest number of stars that a frame can show
     const Background& background() const { return background_; }
     const Lamps& lamps() const { return lamps_; }
-    const Atmosphere* air() const { return air_.get(); }                      // may be null
-    const DetailStream* earth_detail() const { return earth_detail_.get(); }  // may be null
-    EmbreeScene& embree() { return embree_; }                                 // for measuring
+    const Atmosphere* air() const { return air_.get(); }                       // may be null
+    const DetailStream* earth_detail() const { return earth_view_.detail(); }  // may be null
+    EmbreeScene& embree() { return embree_; }                                  // for measuring
 
   private:
     std::size_t triangles_ = 0;
     EmbreeScene embree_;
-    std::vector<ShownObject> objects_;          // the last one is the terrain, if there is any
+    std::vector<ShownObject> objects_;  // the last one is the terrain, if there is any
+    PossibleWorld possible_;
+    WorldSnapshot& world_;                      // of that
     std::vector<std::size_t> levels_;           // level of detail at which each object is shown
     std::vector<const ObjectSurfaces*> shown_;  // at that level
     std::vector<double> radii_m_;
@@ -131,60 +133,28 @@ class FramePlacer {
     std::unique_ptr<Atmosphere> air_;
     std::shared_ptr<const EarthModel> earth_;
     ColorBands bands_;
-    std::unique_ptr<KeptEarth> kept_earth_;       // null: none
-    std::unique_ptr<DetailStream> earth_detail_;  // null: the Earth's map is in memory
     Background background_;
     KeptScene::Settings kept_settings_;
     std::unique_ptr<KeptScene> kept_;  // null: its tables have not come
     KeptHandover handover_;
     bool uses_kept_light_ = false, any_placed_ = false;
     ScreenMask object_mask_, full_mask_;
-    // Buffers of 4 x 4 and of 8 x 8 samples a pixel, as levels of quality use them; null: rays.
-    std::unique_ptr<VisibilityBuffer> visibility_, fine_visibility_;
-    // Buffers of ground alone (ground_light.h), by the pixels between their places, from 1; null: rays.
-    std::array<std::unique_ptr<VisibilityBuffer>, 2> ground_visibility_;
-    std::vector<VisibilityBuffer::Shown> seen_;
-    // Sets of what may be seen from afar of those objects that are many of a make, by its levels; none: of all others.
-    using LevelSets = std::vector<std::unique_ptr<const VisibleSets>>;
-    std::vector<std::shared_ptr<const LevelSets>> visible_sets_;
-    bool uses_visibility_ = false, sees_ground_ = false;
-    int ground_step_px_ = 1;
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;
     std::unique_ptr<ShownTerrain> terrain_;
     double lod_error_px_;
     RayDensity density_;
-    std::optional<VisibilityBuffer::Room> picture_room_;
+    EarthView earth_view_;
+    VisibilityChoice visibility_;
     FrameView frame_;
-    WorldSnapshot world_;
-    std::vector<std::uint8_t> is_left_out_;  // per object
-    std::uint64_t left_out_ = 0;
 
-    void take_world(const WorldSnapshot& world);
     std::unique_ptr<KeptScene> make_kept() const;
     void use_kept_light();
     void choose_levels();
     void place_objects();
     void place_background();
-    void place_earth_picture();
-    void place_earth_detail();
-    void make_visibility(const ImageGeometry& geometry, const RenderQuality& level);
-    void make_ground_visibility(const ImageGeometry& geometry, const RenderQuality& level);
-    // That of the quality in use.
-    VisibilityBuffer* ground_visibility() const {
-        return ground_visibility_[static_cast<std::size_t>(ground_step_px_ - 1)].get();
-    }
-    bool ground_is_alone() const;
-    VisibilityBuffer::Room visibility_room() const;
-    std::optional<VisibilityBuffer::Room> room_for_pictures(std::span<const RenderQuality> levels) const;
+    std::size_t plain_ground_triangles(const ImageGeometry& geometry) const;
     RayDensity density_for(std::size_t object) const;
-    // Returns the buffer of the present quality's samples; null: there is none.
-    VisibilityBuffer* visibility() const {
-        return (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
-    }
-    void light_by_rays();
-    void make_visible_sets();
-    const VisibleSet* visible_set(std::size_t object) const;
 };
 
 }  // namespace hilcam

@@ -104,7 +104,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
 
 FrameTracer::Paths FrameTracer::make_paths(const Modules& modules, const std::string& name) {
     Paths paths;
-    for (std::size_t i = 0; i < slots(); ++i) paths.push_back(modules.paths.make(name));
+    for (std::size_t i = 0; i < slots(); ++i) paths.push_back(make_path_model(modules, name));
     return paths;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "render/frame/truth_outlines.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/stopwatch.h"
 
@@ -78,8 +79,9 @@ void TruthProbe::report() {
     if (truth_.wishes.rays()) trace_pixels();
     if (truth_.wishes.visibility) {
         count_pixels();
-        if (truth_.wishes.silhouettes) find_silhouettes();
-        for (SeenThing& thing : truth_.things) measure_outline(thing);
+        TruthOutlines outlines(placer_, rays_, truth_);
+        if (truth_.wishes.silhouettes) outlines.find_silhouettes();
+        for (SeenThing& thing : truth_.things) outlines.measure(thing);
     }
     if (truth_.wishes.stars) report_stars();
     truth_.took_ms = watch.ms();
@@ -118,7 +120,7 @@ void TruthProbe::report_objects() {
     HILCAM_CHECK(truth_.wishes.thing_of_object.empty() ||
                  truth_.wishes.thing_of_object.size() == placer_.objects());
     for (std::size_t i = 0; i < placer_.objects(); ++i) {
-        const std::uint32_t owner = owner_of(i), id = owner + 1;
+        const std::uint32_t owner = owner_of(truth_, i), id = owner + 1;
         const Pose& pose = world_.objects[i];
         if (owner < truth_.things.size()) {
             const Vec3d from_camera_m = pose.position_world_m - world_.camera.position_world_m;
@@ -184,7 +186,7 @@ void TruthProbe::report_stars() {
         SeenStar seen;
         if (!field.look(dir, kFar, star.irradiance_w_m2_um, where, seen.irradiance_w_m2_um)) continue;
         const Vec2d at_px = truth_.raster.frame_px(where.position_px);
-        if (!on_image(where.position_px) || !(at_px.x >= 0 && at_px.x < truth_.raster.width_px) ||
+        if (!rays_.on_image(where.position_px) || !(at_px.x >= 0 && at_px.x < truth_.raster.width_px) ||
             !(at_px.y >= 0 && at_px.y < truth_.raster.height_px))
             continue;
         if (truth_.stars.size() == truth_.stars.capacity()) {
@@ -236,11 +238,6 @@ PixelBox TruthProbe::padded_box(int x0, int y0, int x1, int y1) const {
             within(std::ceil(std::max(a.y, b.y)), g.padded_height())};
 }
 
-// Black columns and rows lie beside it.
-bool TruthProbe::on_image(Vec2d p) const {
-    return p.x >= 0 && p.y >= 0 && p.x < frame_.geometry.width_px && p.y < frame_.geometry.height_px;
-}
-
 // The picture has no rays for objects that it draws as points.
 bool TruthProbe::can_see(const PixelBox& padded) const {
     if (padded.empty()) return false;
@@ -259,7 +256,7 @@ void TruthProbe::trace_block(int x0, int y0) {
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x) {
             const Vec2d at = truth_.raster.image_px({x + 0.5, y + 0.5});
-            if (!anything || !on_image(at)) {
+            if (!anything || !rays_.on_image(at)) {
                 write(x, y, {});
                 continue;
             }
@@ -272,25 +269,11 @@ void TruthProbe::trace_block(int x0, int y0) {
     for (std::size_t k = 0; k < count; ++k) write(pixels[k][0], pixels[k][1], met[k]);
 }
 
-std::uint32_t TruthProbe::id_of(const RayMet& met) const {
-    switch (met.kind) {
-        case RayMet::Kind::kObject:
-            return 1 + owner_of(met.index);
-        case RayMet::Kind::kBody:
-            return truth_id(static_cast<BodyId>(met.index));
-        case RayMet::Kind::kSun:
-            return kSunId;
-        case RayMet::Kind::kSky:
-            break;
-    }
-    return kSkyId;
-}
-
 void TruthProbe::write(int x, int y, const RayMet& met) {
     const auto at = static_cast<std::size_t>(x);
     const bool sky = met.kind == RayMet::Kind::kSky;
     TruthLayers& layers = truth_.layers;
-    layers.object.row(y)[at] = id_of(met);
+    layers.object.row(y)[at] = id_of(truth_, met);
     if (layers.part.planes() > 0)
         layers.part.row(y)[at] =
             met.kind == RayMet::Kind::kObject ? 1 + static_cast<std::uint32_t>(met.index) : 0;

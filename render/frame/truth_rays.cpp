@@ -122,4 +122,27 @@ bool TruthRays::exists(Vec2d point_px) const {
     return std::abs(back.x - at.x) < kSame_px && std::abs(back.y - at.y) < kSame_px;
 }
 
+bool TruthRays::on_image(Vec2d p) const {
+    return p.x >= 0 && p.y >= 0 && p.x < frame_.geometry.width_px && p.y < frame_.geometry.height_px;
+}
+
+std::uint32_t owner_of(const FrameTruth& truth, std::size_t object) {
+    const std::vector<std::uint32_t>& owners = truth.wishes.thing_of_object;
+    return owners.empty() ? static_cast<std::uint32_t>(object) : owners[object];
+}
+
+std::uint32_t id_of(const FrameTruth& truth, const RayMet& met) {
+    switch (met.kind) {
+        case RayMet::Kind::kObject:
+            return 1 + owner_of(truth, met.index);
+        case RayMet::Kind::kBody:
+            return truth_id(static_cast<BodyId>(met.index));
+        case RayMet::Kind::kSun:
+            return kSunId;
+        case RayMet::Kind::kSky:
+            break;
+    }
+    return kSkyId;
+}
+
 }  // namespace hilcam

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "render/frame/frame_placer.h"
+#include "render/frame/frame_truth.h"
 
 namespace hilcam {
 
@@ -31,6 +32,8 @@ class TruthRays {
     std::uint32_t meets_body(std::span<const Vec2d> points_px, const PlacedBody& body) const;
     // The lens has a direction for that place: beside the picture a polynomial of distortion may not.
     bool exists(Vec2d point_px) const;
+    // The radiance image has that place; black columns and rows lie beside it.
+    bool on_image(Vec2d point_px) const;
 
   private:
     void generate(std::span<const Vec2d> points_px, std::span<CameraRay> rays) const;
@@ -39,5 +42,10 @@ class TruthRays {
     const FrameView& frame_;
     float pixel_rad_;
 };
+
+// Returns the number of the thing that an object of the renderer is part of.
+std::uint32_t owner_of(const FrameTruth& truth, std::size_t object);
+// Returns the id of the thing that a ray has met.
+std::uint32_t id_of(const FrameTruth& truth, const RayMet& met);
 
 }  // namespace hilcam

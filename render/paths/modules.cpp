@@ -1,5 +1,8 @@
 #include "render/paths/modules.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "render/paths/path_models.h"
 #include "render/shading/ray_generators.h"
 #include "render/sky/atmosphere_models.h"
@@ -20,7 +23,6 @@ Modules::Modules() {
     rays.add("rolling", [](const RayConfig& c) { return make_rolling_rays(c.line_time_s); });
     rays.add("pushbroom", [](const RayConfig& c) { return make_pushbroom_rays(c.line_time_s); });
     paths.add("direct", make_direct_paths);
-    paths.add("hemisphere", make_hemisphere_paths);
     paths.add("kept", make_kept_paths);
     paths.add("path", make_traced_paths);
     radiance.add("reflected", [] { return make_radiance_equation(false); });
@@ -28,6 +30,16 @@ Modules::Modules() {
     atmospheres.add("none", [](const AtmosphereRequest&) { return std::unique_ptr<Atmosphere>(); });
     atmospheres.add("precomputed", make_precomputed_atmosphere);
     atmospheres.add("table", make_table_atmosphere);
+}
+
+std::unique_ptr<PathModel> make_path_model(const Modules& modules, const std::string& name) {
+    const std::vector<std::string> known = modules.paths.list();
+    if (name == "hemisphere" && std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(
+            "quality.path_model: found 'hemisphere', which is the example of a plug-in now "
+            "(tests/plugin/hemisphere_plugin.cpp, named under 'plugins'); accepted: " +
+            modules.paths.names());
+    return modules.paths.make(name);
 }
 
 }  // namespace hilcam

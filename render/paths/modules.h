@@ -29,4 +29,8 @@ struct Modules {
     Modules();
 };
 
+// Returns the path model of this name. Throws InputError that lists the names when there is none, and says where
+// one is that the program has had. Owner thread.
+std::unique_ptr<PathModel> make_path_model(const Modules& modules, const std::string& name);
+
 }  // namespace hilcam

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "render/scene/background.h"
+#include "render/background/background.h"
 
 namespace hilcam {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "render/background/background.h"
 #include "render/planetshine/body_map.h"
-#include "render/scene/background.h"
 
 namespace hilcam {
 

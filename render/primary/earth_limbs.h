@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/background/background.h"
 #include "render/earth/earth_model.h"
-#include "render/scene/background.h"
 #include "render/sky/bodies.h"
 
 namespace hilcam {

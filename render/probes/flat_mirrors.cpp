@@ -12,12 +12,12 @@ namespace hilcam {
 namespace {
 
 constexpr double kSamePlane = 0.999986;  // cosine of 0.3 degrees
-constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
+constexpr float kMirrorCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
 // Mirrors that are smaller than this share of the object's radius, squared, throw too little; so do those
 // that fill less than this of their rectangle, as bars do.
-constexpr double kMinArea = 1e-2, kMinFilled = 0.2;
+constexpr double kMinArea = 1e-2, kMinMirrorFilled = 0.2;
 // The number of the largest parts that are looked at, each with all that lies in its plane.
-constexpr std::size_t kMaxSeeds = 64;
+constexpr std::size_t kMaxMirrorSeeds = 64;
 
 // Triangles that lie in one plane to the last digits that count.
 struct PlanePart {
@@ -29,7 +29,7 @@ struct PlanePart {
     int mirror = -1;
 };
 
-struct FlatTriangle {
+struct MirrorTriangle {
     Vec3f a, b, c;
     Vec3d area;  // vector
 };
@@ -44,21 +44,21 @@ bool is_curved(const PackedTriangle& triangle, Vec3d normal) {
     if (triangle.flat) return false;
     return std::any_of(triangle.corner_normals.begin(), triangle.corner_normals.end(),
                        [&](std::uint32_t packed) {
-                           return std::abs(dot(unpack_normal(packed), to_float(normal))) < kFlatCorner;
+                           return std::abs(dot(unpack_normal(packed), to_float(normal))) < kMirrorCorner;
                        });
 }
 
 // The rectangle lies along that edge of the largest triangle with which it is smallest.
-void lay_out(std::span<const FlatTriangle> triangles, Vec3d normal, Vec3d middle, FlatMirror& out) {
-    const FlatTriangle& largest = *std::max_element(triangles.begin(), triangles.end(),
-                                                    [](const FlatTriangle& a, const FlatTriangle& b) {
+void lay_out(std::span<const MirrorTriangle> triangles, Vec3d normal, Vec3d middle, FlatMirror& out) {
+    const MirrorTriangle& largest = *std::max_element(triangles.begin(), triangles.end(),
+                                                    [](const MirrorTriangle& a, const MirrorTriangle& b) {
                                                         return dot(a.area, a.area) < dot(b.area, b.area);
                                                     });
     const auto edge = [](Vec3f from, Vec3f to) { return to_double(to) - to_double(from); };
     const std::array<Vec3d, 3> edges{edge(largest.a, largest.b), edge(largest.b, largest.c),
                                      edge(largest.a, largest.c)};
     std::vector<std::array<Vec3d, 3>> corners;
-    for (const FlatTriangle& t : triangles)
+    for (const MirrorTriangle& t : triangles)
         corners.push_back({to_double(t.a), to_double(t.b), to_double(t.c)});
     const PlaneRectangle r = smallest_rectangle(corners, edges, normal);
     out.across = to_float(r.across), out.down = to_float(r.down), out.normal = to_float(normal);
@@ -78,18 +78,18 @@ class MirrorFinder {
     std::vector<FlatMirror> find() {
         sort_into_parts();
         join_parts();
-        const std::vector<std::vector<FlatTriangle>> of = triangles();
+        const std::vector<std::vector<MirrorTriangle>> of = triangles();
         std::vector<FlatMirror> out;
         for (std::size_t m = 0; m < mirrors_.size() && out.size() < kMaxFlatMirrors; ++m) {
             FlatMirror mirror;
             lay_out(of[m], normalized(mirrors_[m].area), mirrors_[m].middle, mirror);
             const double whole_m2 =
                 static_cast<double>(mirror.width_m) * static_cast<double>(mirror.height_m);
-            if (!(mirrors_[m].area_m2 > kMinFilled * whole_m2)) continue;
+            if (!(mirrors_[m].area_m2 > kMinMirrorFilled * whole_m2)) continue;
             mirror.surface = mirrors_[m].surface;
             mirror.area_m2 = static_cast<float>(mirrors_[m].area_m2);
             mirror.tolerance_m = static_cast<float>(2 * tolerance_m_);
-            for (const FlatTriangle& t : of[m]) mirror.draw(t.a, t.b, t.c);
+            for (const MirrorTriangle& t : of[m]) mirror.draw(t.a, t.b, t.c);
             mirror.sum_up();
             out.push_back(std::move(mirror));
         }
@@ -118,7 +118,7 @@ class MirrorFinder {
             const PackedTriangle& packed = surfaces_.triangles[i];
             if (!(throws_[packed.surface] > 0)) continue;
             const auto& corner = mesh_.triangles[i];
-            FlatTriangle t{
+            MirrorTriangle t{
                 mesh_.vertices_m[corner[0]], mesh_.vertices_m[corner[1]], mesh_.vertices_m[corner[2]], {}};
             const Vec3d a = to_double(t.a);
             t.area = upwards(0.5 * cross(to_double(t.b) - a, to_double(t.c) - a));
@@ -141,7 +141,7 @@ class MirrorFinder {
     }
 
     void sort_into_parts() {
-        for_each_triangle([&](std::uint16_t surface, const FlatTriangle& t, std::uint64_t key) {
+        for_each_triangle([&](std::uint16_t surface, const MirrorTriangle& t, std::uint64_t key) {
             const auto [found, added] = part_of_.try_emplace(key, parts_.size());
             if (added) parts_.emplace_back().key = key;
             PlanePart& part = parts_[found->second];
@@ -161,7 +161,7 @@ class MirrorFinder {
 
     void join_parts() {
         std::size_t seeds = 0;
-        for (std::size_t s = 0; s < parts_.size() && seeds < kMaxSeeds; ++s) {
+        for (std::size_t s = 0; s < parts_.size() && seeds < kMaxMirrorSeeds; ++s) {
             const PlanePart& seed = parts_[s];
             if (seed.mirror >= 0) continue;
             ++seeds;
@@ -193,9 +193,9 @@ class MirrorFinder {
     }
 
     // Each mirror's triangles.
-    std::vector<std::vector<FlatTriangle>> triangles() const {
-        std::vector<std::vector<FlatTriangle>> out(mirrors_.size());
-        for_each_triangle([&](std::uint16_t, const FlatTriangle& t, std::uint64_t key) {
+    std::vector<std::vector<MirrorTriangle>> triangles() const {
+        std::vector<std::vector<MirrorTriangle>> out(mirrors_.size());
+        for_each_triangle([&](std::uint16_t, const MirrorTriangle& t, std::uint64_t key) {
             const int mirror = parts_[part_of_.at(key)].mirror;
             if (mirror >= 0) out[static_cast<std::size_t>(mirror)].push_back(t);
         });
@@ -276,7 +276,7 @@ float FlatMirror::filled(Vec2f middle_m, Vec2f size_m) const {
 
 bool FlatMirror::holds(Vec3f point_m, Vec3f normal_there) const {
     const Vec3f from = point_m - corner_m;
-    return std::abs(dot(normal_there, normal)) > kFlatCorner &&
+    return std::abs(dot(normal_there, normal)) > kMirrorCorner &&
            std::abs(dot(from, normal)) < 2 * tolerance_m &&
            filled({dot(from, across), dot(from, down)}, {4 * cell_m().x, 4 * cell_m().y}) > 0;
 }

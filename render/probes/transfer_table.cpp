@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "render/brdf/microfacet.h"
+#include "render/probes/probe_axes.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/surface.h"
 
@@ -80,9 +81,7 @@ class Tracer {
         for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
             const Vec3f geometric = unpack_normal(node.geometric[p]);
             for (std::size_t d = p * of_point; d < (p + 1) * of_point; ++d) {
-                const Vec3f l = local_[d];
-                const Vec2f t = turns_[n];
-                const Vec3f dir = frame.to_world({t.x * l.x - t.y * l.y, t.y * l.x + t.x * l.y, l.z});
+                const Vec3f dir = probe_direction(frame, turns_[n], local_[d]);
                 met[d] = kUnder;
                 if (dot(dir, geometric) <= 0) continue;
                 met[d] = kTracing;

@@ -13,8 +13,7 @@ namespace hilcam {
 namespace {
 
 // The lobe of a sender's facets towards one that gathers: of its points, as each leans and as much as it is seen.
-template <class Sender>
-void add_lobe(const Sender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
+void add_lobe(const NodeSender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
     const float io = -dot(dir, source_dir);
     const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f)), ih = 0.5f / inverse;
     float sum = 0, seen = 0;
@@ -51,15 +50,11 @@ Vec3f direction_to(const KeptSource& source) {
 }  // namespace
 
 KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeScene& scene)
-    : lights_(lights.begin(), lights.end()), scene_(scene) {
-    std::size_t nodes = 0;
-    for (const KeptLight* light : lights_) {
-        base_.push_back(nodes);
-        if (light) nodes += light->table().size();
-    }
-    senders_.resize(nodes), shines_.resize(nodes), radiosity_.resize(nodes), brought_.resize(nodes),
-        first_.resize(nodes), sends_on_.resize(nodes), by_lobes_.resize(nodes), second_.resize(nodes),
-        first_second_.resize(nodes), now_.resize(nodes), before_.resize(nodes);
+    : lights_(lights.begin(), lights.end()), senders_(lights, scene) {
+    const std::size_t nodes = senders_.count();
+    radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes), sends_on_.resize(nodes),
+        by_lobes_.resize(nodes), second_.resize(nodes), first_second_.resize(nodes), now_.resize(nodes),
+        before_.resize(nodes);
     // Addresses for the most there can be; pages are taken as they are needed.
     second_along_.resize(lights_.size());
     for (std::size_t i = 0; i < lights_.size(); ++i)
@@ -74,7 +69,7 @@ Spectrum KeptSolver::unmirrored(const std::vector<Spectrum>& irradiance, std::si
 }
 
 void KeptSolver::solve(std::span<const Member> group) {
-    for (const Member& member : group) light_nodes(member);
+    for (const Member& member : group) senders_.light(member);
     for (const Member& member : group) gather_first(member, group);
     for (const Member& member : group) gather_second(member);
     bounce(group);
@@ -84,7 +79,7 @@ void KeptSolver::solve(std::span<const Member> group) {
 void KeptSolver::gather_first(const Member& member, std::span<const Member> group) {
     const KeptLight& light = *lights_[member.object];
     const TransferTable& table = light.table();
-    const std::size_t base = base_[member.object];
+    const std::size_t base = senders_.first(member.object);
     const Vec3f source_dir = direction_to(member.source);
     KeptSolution& out = *member.out;
     const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
@@ -114,11 +109,11 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
                 brought += {bright, bright * bright};
             };
             for (const TransferTable::Entry e : table.entries(n)) {
-                if (!shines_[base + e.node]) {
+                if (!senders_.shines(base + e.node)) {
                     if (along) *along++ = {};
                     continue;
                 }
-                const Sender& from = senders_[base + e.node];
+                const NodeSender& from = senders_[base + e.node];
                 Spectrum radiance = from.diffuse.unpacked();
                 if (from.alpha > 0)
                     add_lobe(from, direction(e.direction), source_dir,
@@ -129,7 +124,7 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
             const std::span<const KeptLinks::Link> links = member.links->of(n);
             for (std::size_t i = 0; i < links.size(); ++i) {
                 const KeptLinks::Link& link = links[i];
-                const Sender& from = senders_[base_[link.object] + link.node];
+                const NodeSender& from = senders_[senders_.first(link.object) + link.node];
                 Spectrum radiance = from.diffuse.unpacked();
                 // A mirror's light is too sharp for directions to find it far away, and blurred it falls
                 // where none is.
@@ -158,7 +153,7 @@ void KeptSolver::bounce(std::span<const Member> group) {
     for (int i = 0; i < kMaxBounces; ++i) {
         for (const Member& member : group) {
             const KeptLight& light = *lights_[member.object];
-            const std::size_t base = base_[member.object];
+            const std::size_t base = senders_.first(member.object);
             tbb::parallel_for(Nodes(0, light.table().size(), 4096), [&](const Nodes& r) {
                 for (std::size_t n = r.begin(); n < r.end(); ++n)
                     radiosity_[base + n] =
@@ -175,7 +170,7 @@ void KeptSolver::bounce(std::span<const Member> group) {
         before = step.change;
         if (left * step.change > kLeft * step.light) continue;
         for (const Member& member : group) {
-            const std::size_t base = base_[member.object];
+            const std::size_t base = senders_.first(member.object);
             tbb::parallel_for(
                 Nodes(base, base + lights_[member.object]->table().size(), 4096), [&](const Nodes& r) {
                     for (std::size_t n = r.begin(); n < r.end(); ++n)
@@ -192,7 +187,7 @@ void KeptSolver::bounce(std::span<const Member> group) {
 KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
     const KeptLight& light = *lights_[member.object];
     const TransferTable& table = light.table();
-    const std::size_t base = base_[member.object];
+    const std::size_t base = senders_.first(member.object);
     // Sums that do not depend on how the work was shared out.
     return tbb::parallel_deterministic_reduce(
         Nodes(0, table.size(), kBlock), Progress{},
@@ -226,7 +221,7 @@ KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
 void KeptSolver::smooth(const Member& member) {
     constexpr float kFew = 4, kMany = 1e9f;
     const KeptLight& light = *lights_[member.object];
-    const std::size_t base = base_[member.object];
+    const std::size_t base = senders_.first(member.object);
     const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
     const auto kept = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
     for_nodes(light.table().size(), [&](const Nodes& r) {
@@ -247,7 +242,7 @@ void KeptSolver::smooth(const Member& member) {
 
 void KeptSolver::store(const Member& member) {
     const KeptLight& light = *lights_[member.object];
-    const std::size_t base = base_[member.object];
+    const std::size_t base = senders_.first(member.object);
     KeptSolution& out = *member.out;
     const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
     const auto add_to = [](PackedSpectrum& sum, const Spectrum& more) {
@@ -269,21 +264,6 @@ void KeptSolver::store(const Member& member) {
                 add_to(out.along_links[link_to++], radiosity_to(link));
         }
     });
-}
-
-float KeptSolver::seen_of_cone(const Member& member, const KeptLight& light, std::size_t n) {
-    const TransferTable& table = light.table();
-    const std::span<const std::uint64_t> is_free = member.links->free(table, n);
-    const ConeShare cone(light.axes(n).dir(member.source.dir), member.source.cone_cosine, table.directions());
-    float all = 0, free = 0;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(table.directions()); ++d) {
-        if (!table.is_live(n, table.point_of(d))) continue;
-        const Vec3f dir = light.local_direction(d);
-        const float in = cone.of(dir.x, dir.y, dir.z);
-        all += in;
-        if (is_free[d / 64] >> (d % 64) & 1u) free += in;
-    }
-    return all > 0 ? free / all : 0;
 }
 
 }  // namespace hilcam

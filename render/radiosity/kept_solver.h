@@ -18,37 +18,26 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <array>
-#include <numeric>
 #include <span>
 #include <vector>
 
-#include "render/radiosity/kept_light.h"
-#include "render/radiosity/kept_links.h"
+#include "render/radiosity/node_senders.h"
 
 namespace hilcam {
 
 class KeptSolver {
   public:
-    // An object of a group: what it meets of the others, the source in its own axes, and where the result
-    // goes.
-    struct Member {
-        std::size_t object;
-        const KeptLinks* links;
-        KeptSource source;
-        KeptSolution* out;
-    };
+    using Member = KeptMember;
 
     // lights: of all objects, by number; null where none is kept; they outlive this. Owner thread.
     KeptSolver(std::span<const KeptLight* const> lights, const EmbreeScene& scene);
 
-    const EmbreeScene& scene() const { return scene_; }
+    const EmbreeScene& scene() const { return senders_.scene(); }
     std::span<const KeptLight* const> lights() const { return lights_; }
     // Returns an object's share of the workspace.
     std::size_t bytes(std::size_t object) const {
         constexpr std::size_t kOfNode =
-            sizeof(Sender) + sizeof(Brought) + sizeof(std::uint32_t) + 2 + 6 * sizeof(Spectrum);
+            sizeof(NodeSender) + sizeof(Brought) + sizeof(std::uint32_t) + 2 + 6 * sizeof(Spectrum);
         return lights_[object]->table().size() * (kOfNode + (mirrored_.empty() ? 0 : sizeof(Spectrum))) +
                second_along_[object].size() * sizeof(PackedSpectrum);
     }
@@ -57,28 +46,6 @@ class KeptSolver {
     void solve(std::span<const Member> group);
 
   private:
-    // The points of a node in the light of a source, per unit of it.
-    struct LitPoints {
-        std::size_t count = 0;                                       // points that lie open
-        std::array<std::uint32_t, LightNode::kPoints> normal{};      // packed
-        std::array<float, LightNode::kPoints> cosine{}, received{};  // the source's to the normal; irradiance
-
-        float sum() const { return std::accumulate(received.begin(), received.end(), 0.0f); }
-        float mean() const { return count > 0 ? sum() / static_cast<float>(count) : 0.0f; }
-        // Returns the cosine that the source has where it is received, in the mean. Only where some is.
-        float mean_cosine() const {
-            const float at = std::inner_product(cosine.begin(), cosine.end(), received.begin(), 0.0f);
-            return std::clamp(at / sum(), 1e-3f, 1.0f);
-        }
-    };
-    // The radiance that a node sends, per unit of the source.
-    struct alignas(64) Sender {
-        PackedSpectrum diffuse;
-        PackedSpectrum lobe;  // the lobe of its facets at normal incidence, per irradiance
-        float gain;           // irradiance that facets send of one that they receive
-        float alpha;          // 0: no facets that shine
-        LitPoints lit;        // where there are facets
-    };
     // The light that a node's directions bring the first way, by its brightest bin: sums of it and of its squares.
     struct Brought {
         float sum = 0, squares = 0;
@@ -93,11 +60,8 @@ class KeptSolver {
     };
 
     std::vector<const KeptLight*> lights_;
-    const EmbreeScene& scene_;
-    std::vector<std::size_t> base_;  // by object: of its nodes in what follows
-    std::vector<Sender> senders_;
-    std::vector<std::uint8_t> shines_;  // by node: it sends anything, as most of the dark side does not
-    std::vector<Spectrum> radiosity_;   // over pi
+    NodeSenders senders_;              // their numbers of nodes are those of all that follows
+    std::vector<Spectrum> radiosity_;  // over pi
     std::vector<Brought> brought_;
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
     // Light that has come by one way and goes on by the lobes of bright facets: whether a node has such, the part of what it sends,
@@ -110,20 +74,12 @@ class KeptSolver {
     // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
     std::vector<Spectrum> mirrored_;
 
-    // Has nodes seen to in blocks, so that one who waits for a block does not wait for all of them. No
-    // result depends on them.
     using Nodes = tbb::blocked_range<std::size_t>;
-    static constexpr std::size_t kBlock = 256;  // nodes
+    static constexpr std::size_t kBlock = NodeSenders::kBlock;
     template <class Body>
     static void for_nodes(std::size_t count, const Body& body) {
         tbb::parallel_for(Nodes(0, count, kBlock), body, tbb::simple_partitioner{});
     }
-    void light_nodes(const Member& member);
-    void light_block(const Member& member, std::size_t first, std::size_t last);
-    std::uint32_t blocked(const Member& member, const RayPacket& rays) const;
-    void send(const KeptLight& light, std::size_t node, const LitPoints& lit, Sender& sender) const;
-    static void widen(const KeptLight& light, std::size_t node, const KeptSource& source, Sender& sender);
-    static float seen_of_cone(const Member& member, const KeptLight& light, std::size_t node);
     void gather_first(const Member& member, std::span<const Member> group);
     void gather_second(const Member& member);
     void part_lobes(const Member& member);
@@ -131,7 +87,7 @@ class KeptSolver {
     Spectrum sent_on(const Member& member, std::size_t node, float choice, Vec3f to) const;
     // Returns what a node of another object sends along a link: all of it as paint does.
     Spectrum radiosity_to(const KeptLinks::Link& link) const {
-        const std::size_t n = base_[link.object] + link.node;
+        const std::size_t n = senders_.first(link.object) + link.node;
         return radiosity_[n] + by_lobes_[n];
     }
     // Returns a node's irradiance without what mirrors throw there. Only of an object that has such.

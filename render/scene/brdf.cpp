@@ -118,10 +118,6 @@ Spectrum brdf_mirrored(const Scatterer& at, float cosine) {
     return std::visit([&](const auto& model) { return model.mirrored(at, cosine); }, at.material->brdf);
 }
 
-float brdf_lobe_share(const Scatterer& at, float no) {
-    return std::visit([&](const auto& model) { return model.lobe_share(no); }, at.material->brdf);
-}
-
 float brdf_below_facets(const Material& material, float no) {
     const LobeAlbedo* const facets = facets_of(material);
     return facets ? 1 - (*facets)(no) : 1.0f;

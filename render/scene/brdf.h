@@ -65,8 +65,6 @@ float brdf_albedo(const Scatterer& at, float no, int bins);
 double reflectance_of(const Material& material, const SpectralGrid& grid);
 // Returns what a facet reflects that is met at this cosine; zero of models without facets.
 Spectrum brdf_mirrored(const Scatterer& at, float cosine);
-// The albedo of a facet lobe over what a mirror in its place reflects at this cosine to the normal.
-float brdf_lobe_share(const Scatterer& at, float no);
 // Returns what facets leave to several reflections or the body below them, 1 - E(no); 1 without facets.
 float brdf_below_facets(const Material& material, float no);
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "render/scene/background.h"
+#include "render/background/background.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/surface.h"

@@ -1,12 +1,10 @@
 #pragma once
 // A path model follows light paths behind what the camera sees; one of the program's exchangeable models.
 //
-//   direct      what the camera sees, lit by the Sun; nothing else
-//   hemisphere  Peng et al. 2011: 60 fixed directions of equal area at every target, again at what they meet
-//   kept        light between surfaces and from the bodies out of what is kept (kept_scene.h), rays for
-//   mirrors; random
-//               paths where nothing is kept
-//   path        random paths with next-event estimation, multiple importance sampling and Russian roulette
+//   direct   what the camera sees, lit by the Sun; nothing else
+//   kept     light between surfaces and from the bodies out of what is kept (kept_scene.h), rays for mirrors;
+//            random paths where nothing is kept
+//   path     random paths with next-event estimation, multiple importance sampling and Russian roulette
 // A path ends where it leaves the scene, where it can no longer add contribution_threshold, or at max_depth
 // surfaces.
 

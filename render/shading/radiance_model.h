@@ -13,13 +13,9 @@ namespace hilcam {
 
 // The rays that find the light of the Earth, the Moon and the planets on the objects.
 enum class BodySampling {
-    kNone,        // nobody
-    kSampled,     // one random direction to each, weighed against the path's own direction
-    kQuadrature,  // fixed directions over each one's disk, for what scatters wider than kNarrowAlpha
+    kNone,     // nobody
+    kSampled,  // one random direction to each, weighed against the path's own direction
 };
-// Facet lobes narrower than this (GGX alpha) would fall between fixed directions; they are followed as
-// mirrors.
-inline constexpr float kNarrowAlpha = 0.35f;
 
 class RadianceModel {
   public:

@@ -137,8 +137,8 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     if (finds_edges) tile.edges->add_light(tile, sun);
 }
 
-// Directions to the bodies, over each one's cone.
-void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling how) {
+// A random direction to each of the bodies, over its cone.
+void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
     const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
@@ -148,36 +148,23 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling h
         tile.add(*by.at, LightPart::kPlanetshine, light);
     };
     ShadowRays<SunlitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
-    // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
-    constexpr int kQuadrature = 64;
-    constexpr float kGolden = 0.61803399f;
-    const int count = how == BodySampling::kSampled ? 1 : kQuadrature;
     std::uint32_t use = 2;
     for (const BodyLight& lamp : background.body_lights()) {
         const Frame axis(to_float(lamp.world_dir));
         ++use;
         for (const Vertex& at : vertices) {
             if (!at.surface.has_lobes() || !body_light_counts(frame, at, lamp)) continue;
-            for (int i = 0; i < count; ++i) {
-                float u1 = (static_cast<float>(i) + 0.5f) / kQuadrature, u2 = static_cast<float>(i) * kGolden;
-                if (how == BodySampling::kSampled) {
-                    const auto random = tile.random_of(at, use);
-                    u1 = uniform01(random[0]), u2 = uniform01(random[1]);
-                }
-                const Vec3f dir = in_cone_at(axis, lamp.one_minus_cosine, u1, u2);
-                const float ni = dot(at.normal, dir);
-                if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
-                const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
-                Scatterer surface = at.surface;
-                if (how == BodySampling::kQuadrature && surface.alpha < kNarrowAlpha) surface.alpha = 0;
-                float density = cone_density(lamp) * kQuadrature;
-                // Rounding may put what is drawn at a cone's edge outside of it.
-                if (how == BodySampling::kSampled)
-                    density = cone_density(lamp) + density_of_others(frame, at, dir, &lamp) +
-                              (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
-                const Spectrum weight = (ni / density) * (at.weight * brdf_value(surface, c));
-                if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
-            }
+            const auto random = tile.random_of(at, use);
+            const Vec3f dir =
+                in_cone_at(axis, lamp.one_minus_cosine, uniform01(random[0]), uniform01(random[1]));
+            const float ni = dot(at.normal, dir);
+            if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
+            const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
+            // Rounding may put what is drawn at a cone's edge outside of it.
+            const float density = cone_density(lamp) + density_of_others(frame, at, dir, &lamp) +
+                                  (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
+            const Spectrum weight = (ni / density) * (at.weight * brdf_value(at.surface, c));
+            if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
         }
     }
 }
@@ -192,7 +179,7 @@ class RadianceEquation final : public RadianceModel {
                 tile.add(at, LightPart::kEmission, at.weight * at.surface.material->emission);
         add_sunlight(tile, vertices);
         add_lamps_reflected(tile, vertices);
-        if (lamps != BodySampling::kNone) add_body_light(tile, vertices, lamps);
+        if (lamps == BodySampling::kSampled) add_body_light(tile, vertices);
     }
     bool emits() const override { return emission_; }
     bool reflects_plainly() const override { return true; }

@@ -38,8 +38,9 @@ int fft_size(int n);
 
 class Convolver {
   public:
-    // Each function is asked once for every frequency pair. The image's transform must be real, so of values
-    // at opposite frequencies one is the other's conjugate. Owner thread.
+    // Width and height have no prime factors but those of fft_size. Each function is asked once for every
+    // frequency pair. The image's transform must be real, so of values at opposite frequencies one is the
+    // other's conjugate. Owner thread.
     Convolver(int width, int height, const std::vector<Transfer>& transfers);
     ~Convolver();
     Convolver(Convolver&&) noexcept;

@@ -1,22 +1,11 @@
-// The first pass over this file includes what PocketFFT includes, before any pass asks for wider
-// instructions.
 #include "sensor/convolution/fourier.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
-
-// Threads are oneTBB's, vectors this file's own.
-#define POCKETFFT_NO_MULTITHREADING
-#define POCKETFFT_NO_VECTORS
-#define POCKETFFT_CACHE_SIZE 0
-#include <gemmi/third_party/pocketfft_hdronly.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sensor/convolution/fourier.cpp"
@@ -27,51 +16,19 @@
 // change.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-// PocketFFT anew for each level of instructions, each in a namespace of its own.
-#undef POCKETFFT_HDRONLY_H
-#define pocketfft HWY_CONCAT(pocketfft_, HWY_NAMESPACE)
+#include <pocketfft/pocketfft-inl.h>
+
 HWY_BEFORE_NAMESPACE();
-#include <gemmi/third_party/pocketfft_hdronly.h>
 
 namespace hilcam {
 namespace HWY_NAMESPACE {
+
+namespace lines = pocketfft::HWY_NAMESPACE;
 
 constexpr std::size_t kLanes = HWY_LANES(float);
 static_assert(PlaneFourier::kMaxLanes % kLanes == 0);
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-
-// A transform of this thread may use this memory beside its values.
-thread_local void* room_of_transform = nullptr;
-
-}  // namespace HWY_NAMESPACE
-}  // namespace hilcam
-
-// A transform goes to and fro between its values and as much memory again. PocketFFT takes that from the
-// heap, which a frame must not; of vectors, its array is lent the room instead.
-namespace pocketfft::detail {
-template <>
-class arr<hilcam::HWY_NAMESPACE::Lanes> {
-  public:
-    explicit arr(std::size_t) {}
-    hilcam::HWY_NAMESPACE::Lanes* data() {
-        return static_cast<hilcam::HWY_NAMESPACE::Lanes*>(hilcam::HWY_NAMESPACE::room_of_transform);
-    }
-    hilcam::HWY_NAMESPACE::Lanes& operator[](std::size_t i) { return data()[i]; }
-};
-template <>
-class arr<cmplx<hilcam::HWY_NAMESPACE::Lanes>> {
-  public:
-    using Complex = cmplx<hilcam::HWY_NAMESPACE::Lanes>;
-    explicit arr(std::size_t) {}
-    Complex* data() { return static_cast<Complex*>(hilcam::HWY_NAMESPACE::room_of_transform); }
-    Complex& operator[](std::size_t i) { return data()[i]; }
-};
-}  // namespace pocketfft::detail
-
-namespace hilcam {
-namespace HWY_NAMESPACE {
-
-using Complex = pocketfft::detail::cmplx<Lanes>;
+using Complex = lines::cmplx<Lanes>;
 
 HWY_INLINE Lanes load(const float* from) {
     Lanes lanes;
@@ -142,13 +99,11 @@ class LanesFourier final : public PlaneFourier {
             transpose(real), transpose(imaginary);
             for (std::size_t k = 0; k < kLanes; ++k) values[x + k] = {real[k], imaginary[k]};
         }
-        room_of_transform = room;
-        along_x_.exec(values, 1.0f, true);
+        along_x_.exec(values, reinterpret_cast<Complex*>(room), true);
     }
     void rows_back(float* block, std::size_t v, float* plane, float* room) const override {
         auto* values = reinterpret_cast<Complex*>(block);
-        room_of_transform = room;
-        along_x_.exec(values, 1.0f, false);
+        along_x_.exec(values, reinterpret_cast<Complex*>(room), false);
         // Beyond the width the plane stays zero: what is there goes through the columns' transforms, too.
         for (std::size_t x = width_; x % kLanes != 0; ++x) values[x] = {Lanes{}, Lanes{}};
         for (std::size_t x = 0; x < width_; x += kLanes) {
@@ -199,18 +154,17 @@ class LanesFourier final : public PlaneFourier {
 
   private:
     std::size_t width_, height_, stride_;
-    pocketfft::detail::cfftp<float> along_x_;
-    pocketfft::detail::rfftp<float> along_y_;
+    lines::cfftp<float> along_x_;
+    lines::rfftp<float> along_y_;
 
     static std::size_t real_row(std::size_t v) { return v == 0 ? 0 : 2 * v - 1; }
     bool is_complex(std::size_t v) const { return v != 0 && 2 * v < height_; }
 
     void columns(float* plane, std::size_t first, float* room, bool forward) const {
         auto* values = reinterpret_cast<Lanes*>(room);
-        room_of_transform = values + height_;
         for (std::size_t x = first; x < first + kMaxLanes; x += kLanes) {
             for (std::size_t y = 0; y < height_; ++y) values[y] = load(plane + y * stride_ + x);
-            along_y_.exec(values, 1.0f, forward);
+            along_y_.exec(values, values + height_, forward);
             for (std::size_t y = 0; y < height_; ++y) store(values[y], plane + y * stride_ + x);
         }
     }
@@ -223,7 +177,6 @@ std::unique_ptr<PlaneFourier> make(int width, int height) {
 }  // namespace HWY_NAMESPACE
 }  // namespace hilcam
 HWY_AFTER_NAMESPACE();
-#undef pocketfft
 
 #if HWY_ONCE
 namespace hilcam {
@@ -232,6 +185,26 @@ namespace {
 std::size_t whole_vectors(int count) {
     constexpr std::size_t most = PlaneFourier::kMaxLanes;
     return (static_cast<std::size_t>(count) + most - 1) / most * most;
+}
+
+namespace lines = pocketfft::HWY_NAMESPACE;
+
+// `count` lines of `length` values; the first values of two lines are `next_line` apart, two values of a
+// line `next_value`.
+struct Lines {
+    std::size_t count, next_line, length, next_value;
+};
+
+void transform(std::complex<float>* values, const Lines& of, bool forward) {
+    const lines::cfftp<float> plan(of.length);
+    std::vector<lines::cmplx<float>> line(of.length), room(of.length);
+    for (std::size_t i = 0; i < of.count; ++i) {
+        std::complex<float>* const first = values + i * of.next_line;
+        for (std::size_t k = 0; k < of.length; ++k)
+            line[k] = {first[k * of.next_value].real(), first[k * of.next_value].imag()};
+        plan.exec(line.data(), room.data(), forward);
+        for (std::size_t k = 0; k < of.length; ++k) first[k * of.next_value] = {line[k].r, line[k].i};
+    }
 }
 
 }  // namespace
@@ -246,23 +219,33 @@ std::size_t PlaneFourier::room_floats(int width, int height) {
 }
 
 HWY_EXPORT(make);
+
 std::unique_ptr<PlaneFourier> make_plane_fourier(int width, int height) {
     return HWY_DYNAMIC_DISPATCH(make)(width, height);
 }
 
 void fourier_forward(std::span<std::complex<float>> square, std::size_t size) {
-    constexpr std::ptrdiff_t step = sizeof(std::complex<float>);
-    const pocketfft::stride_t strides{static_cast<std::ptrdiff_t>(size) * step, step};
-    pocketfft::c2c({size, size}, strides, strides, {0, 1}, pocketfft::FORWARD, square.data(), square.data(),
-                   1.0f);
+    transform(square.data(), {size, 1, size, size}, true);
+    transform(square.data(), {size, size, size, 1}, true);
 }
 
 void real_from_half_spectrum(std::span<const std::complex<float>> spectrum, std::size_t size,
                              std::span<float> square) {
-    constexpr std::ptrdiff_t step = sizeof(float);
-    const auto line = static_cast<std::ptrdiff_t>(size), half = line / 2 + 1;
-    pocketfft::c2r({size, size}, {half * 2 * step, 2 * step}, {line * step, step}, {0, 1},
-                   pocketfft::BACKWARD, spectrum.data(), square.data(), 1.0f);
+    const std::size_t half = size / 2 + 1;
+    std::vector<std::complex<float>> rows(spectrum.begin(), spectrum.end());
+    transform(rows.data(), {half, 1, size, half}, false);
+    const lines::rfftp<float> plan(size);
+    std::vector<float> room(size);
+    for (std::size_t y = 0; y < size; ++y) {
+        const std::complex<float>* const row = rows.data() + y * half;
+        // PocketFFT's order: the real part of frequency 0, then both parts of each that follows; the last
+        // one of an even size has no imaginary part.
+        float* const line = square.data() + y * size;
+        line[0] = row[0].real();
+        for (std::size_t i = 1; i < size; ++i)
+            line[i] = i % 2 == 1 ? row[(i + 1) / 2].real() : row[i / 2].imag();
+        plan.exec(line, room.data(), false);
+    }
 }
 
 }  // namespace hilcam

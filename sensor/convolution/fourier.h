@@ -1,6 +1,7 @@
 #pragma once
-// Discrete Fourier transforms in single precision, by PocketFFT (M. Reinecke, BSD-3). Forward takes exp(-2 pi
-// i ...); neither direction scales, so there and back multiplies by the number of values.
+// Discrete Fourier transforms in single precision, by the passes of PocketFFT (M. Reinecke, BSD-3). Forward
+// takes exp(-2 pi i ...); neither direction scales, so there and back multiplies by the number of values.
+// Sizes are products of 2, 3, 5 and 7, as `fft_size` of convolve.h gives them.
 //
 // A PlaneFourier takes a real plane to its half spectrum and back, with as many lines side by side as a
 // vector has lanes:
@@ -55,7 +56,7 @@ class PlaneFourier {
     virtual void blur(float* block, std::size_t v, const SpectrumBlur& blur) const = 0;
 };
 
-// Returns the transform for the widest vectors of this processor. Sizes are positive.
+// Returns the transform for the widest vectors of this processor. Throws std::runtime_error for a size with another prime factor.
 std::unique_ptr<PlaneFourier> make_plane_fourier(int width, int height);
 
 // Transforms a square of size x size values in place. Owner thread; allocates.

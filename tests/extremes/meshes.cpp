@@ -206,7 +206,7 @@ Group mesh_models() {
                 "none.",
                 "0.",
                 {}};
-    for (const auto& [model, depth] : {std::pair{"direct", 1}, {"hemisphere", 2}, {"path", 16}, {"path", 64}})
+    for (const auto& [model, depth] : {std::pair{"direct", 1}, {"path", 16}, {"path", 64}})
         group.cases.push_back(
             {std::string(model) + ", " + std::to_string(depth), {0}, [model = model, depth = depth] {
                  Stage s;

@@ -98,10 +98,26 @@ TEST(Plugin, ANameIsTakenOnceAndAnUnknownOneListsTheKnown) {
         modules.paths.make("pathh");
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_STREQ(
-            error.what(),
-            "quality.path_model: found 'pathh'; accepted: direct | distance | hemisphere | kept | path");
+        EXPECT_STREQ(error.what(),
+                     "quality.path_model: found 'pathh'; accepted: direct | distance | kept | path");
     }
+}
+
+// A scenario of a program that had the model is told where it is.
+TEST(Plugin, AModelThatHasBecomeAPlugInIsNamedWithItsPlace) {
+    Modules modules;
+    try {
+        make_path_model(modules, "hemisphere");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     "quality.path_model: found 'hemisphere', which is the example of a plug-in now "
+                     "(tests/plugin/hemisphere_plugin.cpp, named under 'plugins'); accepted: direct | kept | "
+                     "path");
+    }
+    const std::vector<std::filesystem::path> files = {HILCAM_PLUGIN_HEMISPHERE};
+    load_plugins(files, modules);
+    EXPECT_TRUE(make_path_model(modules, "hemisphere"));
 }
 
 }  // namespace

@@ -100,6 +100,18 @@ class Benches(unittest.TestCase):
         # As floats it scales whole numbers, so depth alone is compared.
         self.assertTrue(numpy.array_equal(pixels[..., list(image.spec().channelnames).index("depth.Z")], layers["depth.Z"]))
 
+    def test_parts_of_the_light_are_layers_that_sum_to_the_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "parts.exr"
+            subprocess.run([HILCAM, "render", SCENARIO, "--stage", "radiance", "--parts", "--out", file], check=True, capture_output=True)
+            layers = hilcam.read_exr(file)
+        self.assertGreater(max(map(len, layers)), 31)  # names that OpenEXR calls long
+        parts = [layers[name] for name in layers if name.endswith(".R")]
+        self.assertGreater(len(parts), 10)
+        self.assertGreater(layers["direct.sun.R"].max(), 0)
+        image_parts = sum(layers[name].astype(float) for name in layers if name.endswith(".R") and name != "points.R")
+        self.assertLess(numpy.abs(image_parts - layers["R"]).max(), 1e-5 * layers["R"].max())
+
     def test_a_bench_that_cannot_be_says_why(self):
         with self.assertRaisesRegex(hilcam.BenchFailed, "camera.exposure_ms: found '-1'"):
             with hilcam.Bench(SCENARIO, {"camera.exposure_ms": -1}, program=HILCAM):

@@ -8,26 +8,26 @@ namespace hilcam {
 
 inline constexpr double kFurnace_k = 3000;
 
-// The mean radiance of a picture; the Sun is outside. `samples_per_axis`: of random paths. 60^depth rays of
-// fixed directions want few pixels.
-inline double furnace_mean(const std::string& path_model, int depth, double reflectance,
-                           int samples_per_axis) {
-    Stage s;
-    const bool fixed = path_model == "hemisphere";
+// Closes the box about the stage's camera; the Sun is outside.
+inline void add_furnace(Stage& s, double reflectance) {
     s.models.radiance = "emissive";
-    s.quality.path_model = path_model;
-    s.quality.max_depth = depth;
     s.quality.contribution_threshold = 0;
-    s.camera(fixed ? 2 : 32, 0.3);
-    s.quality.samples_per_axis = fixed ? 1 : samples_per_axis;
     MaterialConfig grey = lambert(reflectance);
     grey.temperature_k = kFurnace_k;
     s.add(cube(grey, s.grid, 4), {0.2, 0.1, 0.3}, {0.1, 0.2, 0.3});
     s.sun({0, 0, -1});
+}
+// The mean radiance of a picture. `samples_per_axis`: of random paths.
+inline double furnace_mean(const std::string& path_model, int depth, double reflectance,
+                           int samples_per_axis) {
+    Stage s;
+    s.quality.path_model = path_model;
+    s.quality.max_depth = depth;
+    s.quality.samples_per_axis = samples_per_axis;
+    s.camera(32, 0.3);
+    add_furnace(s, reflectance);
     s.render();
-    double sum = 0;
-    for (const float value : s.radiance.plane(0)) sum += static_cast<double>(value);
-    return sum / static_cast<double>(s.radiance.plane(0).size());
+    return s.mean();
 }
 // Of the black body, in the picture's first bin.
 inline double furnace_black() { return planck_w_m2_sr_um(Stage().grid.center_um(0), kFurnace_k); }

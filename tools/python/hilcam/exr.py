@@ -12,6 +12,7 @@ import numpy
 _UINT, _FLOAT = 0, 2
 _NONE, _ZIPS, _ZIP = 0, 2, 3
 _LINES = {_NONE: 1, _ZIPS: 1, _ZIP: 16}
+_LONG_NAMES = 0x400  # names of more than 31 characters, as layers of parts of the light have
 
 
 def _text(data, at):
@@ -21,7 +22,7 @@ def _text(data, at):
 
 def _header(data):
     magic, version = struct.unpack_from("<II", data)
-    if magic != 20000630 or version & 0xFFFFFF00:
+    if magic != 20000630 or version & 0xFFFFFF00 & ~_LONG_NAMES:
         raise ValueError("no OpenEXR picture of one part in scan lines")
     attributes, at = {}, 8
     while data[at]:

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "emulator/motion/kepler_orbit.h"
-#include "render/scene/background.h"
+#include "render/background/background.h"
 #include "render/vocabulary/time_system.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/stage.h"

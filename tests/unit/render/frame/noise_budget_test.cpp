@@ -224,7 +224,7 @@ TEST(QualityLevels, ALevelIsTheQualityThatItNames) {
     const std::vector<RenderQuality> levels = {
         level([](RenderQuality& q) { q.samples_per_axis = 2, q.sun_disk = true; }),
         level([](RenderQuality& q) { q.noise_budget = 0.5; }),
-        level([](RenderQuality& q) { q.path_model = "hemisphere", q.max_depth = 2; }),
+        level([](RenderQuality& q) { q.path_model = "kept", q.max_depth = 2; }),
         level([](RenderQuality& q) { q.path_model = "direct", q.samples_per_axis = 3; }),
         level([](RenderQuality& q) { q.contribution_threshold = 0.5; })};
     const auto prepare = [](BudgetStage& s, const RenderQuality& own, std::span<const RenderQuality> lower) {

@@ -100,7 +100,7 @@ TEST(Convolver, LayersAddUp) {
 // Odd and even sizes, and a shift by a whole pixel written as phases.
 TEST(Convolver, ComplexFunctionsMoveThePicture) {
     for (const int width : {64, 75}) {
-        Convolver shift(width, 31,
+        Convolver shift(width, 35,
                         {[](double u, double v) { return std::polar(1.0, -2 * kPi * (2 * u + v)); }});
         shift.row(10)[20] = 8;
         shift.run();

@@ -1,4 +1,4 @@
-#include "render/scene/body_albedo.h"
+#include "render/background/body_albedo.h"
 
 #include <algorithm>
 #include <cmath>

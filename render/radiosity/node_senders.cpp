@@ -1,18 +1,13 @@
-// Finds what the nodes of an object send: of a source that shines on them, KeptSolver's first step, and of its light that has
-// come to them by one way, which bright facets send on by their lobes.
+#include "render/radiosity/node_senders.h"
 
-#include <tbb/task_group.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "render/radiosity/kept_solver.h"
 #include "render/scene/lamp.h"
 #include "render/scene/surface.h"
-#include "render/vocabulary/random.h"
 
 namespace hilcam {
 namespace {
@@ -33,13 +28,25 @@ std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_co
 
 }  // namespace
 
-void KeptSolver::light_nodes(const Member& member) {
-    for_nodes(lights_[member.object]->table().size(),
-              [&](const Nodes& r) { light_block(member, r.begin(), r.end()); });
+NodeSenders::NodeSenders(std::span<const KeptLight* const> lights, const EmbreeScene& scene)
+    : lights_(lights.begin(), lights.end()), scene_(scene) {
+    std::size_t nodes = 0;
+    for (const KeptLight* light : lights_) {
+        base_.push_back(nodes);
+        if (light) nodes += light->table().size();
+    }
+    senders_.resize(nodes), shines_.resize(nodes);
+}
+
+void NodeSenders::light(const KeptMember& member) {
+    using Nodes = tbb::blocked_range<std::size_t>;
+    tbb::parallel_for(
+        Nodes(0, lights_[member.object]->table().size(), kBlock),
+        [&](const Nodes& r) { light_block(member, r.begin(), r.end()); }, tbb::simple_partitioner{});
 }
 
 // Returns which rays are blocked by the object itself, or by one that stands near.
-std::uint32_t KeptSolver::blocked(const Member& member, const RayPacket& rays) const {
+std::uint32_t NodeSenders::blocked(const KeptMember& member, const RayPacket& rays) const {
     std::uint32_t out = scene_.occluded_by(member.object, rays);
     for (const KeptNeighbour& other : member.links->near()) {
         RayPacket there = rays;
@@ -56,11 +63,11 @@ std::uint32_t KeptSolver::blocked(const Member& member, const RayPacket& rays) c
     return out;
 }
 
-void KeptSolver::light_block(const Member& member, std::size_t first, std::size_t last) {
+void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::size_t last) {
     const KeptLight& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const KeptSource& source = member.source;
-    Sender* const senders = senders_.data() + base_[member.object];
+    NodeSender* const senders = senders_.data() + base_[member.object];
     std::array<LitPoints, kBlock> lit;
     RayPacket rays;
     std::array<float*, kPacketSize> of;  // by ray, what it asks for
@@ -118,7 +125,7 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
             member.out->seen[n] = static_cast<std::uint8_t>(std::lround(255 * share));
             for (float& received : points.received) received *= share;
         }
-        Sender& sender = senders[n];
+        NodeSender& sender = senders[n];
         send(light, n, points, sender);
         if (source.kind == KeptSource::Kind::kGlow)
             sender.diffuse = PackedSpectrum(light.material(table.nodes().nodes()[n].surface).emission);
@@ -129,7 +136,7 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
 
 // A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
 // reflect.
-void KeptSolver::widen(const KeptLight& light, std::size_t n, const KeptSource& source, Sender& sender) {
+void NodeSenders::widen(const KeptLight& light, std::size_t n, const KeptSource& source, NodeSender& sender) {
     constexpr float kBegins = 0.2f, kWhole = 0.4f;
     const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
     sender.alpha = std::min(1.0f, std::hypot(sender.alpha, 0.5f * sine));
@@ -144,7 +151,7 @@ void KeptSolver::widen(const KeptLight& light, std::size_t n, const KeptSource& 
     if (paint == 1) sender.alpha = 0;
 }
 
-void KeptSolver::send(const KeptLight& light, std::size_t n, const LitPoints& lit, Sender& sender) const {
+void NodeSenders::send(const KeptLight& light, std::size_t n, const LitPoints& lit, NodeSender& sender) {
     sender = {};
     const float received = lit.mean();
     if (!(received > 0)) return;
@@ -162,98 +169,19 @@ void KeptSolver::send(const KeptLight& light, std::size_t n, const LitPoints& li
     sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));
 }
 
-// Leaves to lobes what they send on of the Sun's light, where that is worth it. Not of what mirrors throw, which is not along
-// the entries.
-void KeptSolver::part_lobes(const Member& member) {
-    // A hundredth of what white paint sends in the Sun: with all of them light between the parts of geo_inspection is the same to
-    // 0.1 %, for three times the work.
-    constexpr float kWorthIt = 0.01f / kPiF;
-    const KeptLight& light = *lights_[member.object];
-    const std::size_t base = base_[member.object];
-    const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
-    for_nodes(light.table().size(), [&](const Nodes& r) {
-        for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            sends_on_[base + n] = 0, by_lobes_[base + n] = {};
-            if (!keeps_along || light.first_along(n) == KeptLight::kNoLobe) continue;
-            const Spectrum came = light.throws_sun() ? unmirrored(first_, base + n) : first_[base + n];
-            const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
-            const Spectrum sent =
-                (1 / kPiF) * (light.facet_color(n, light.albedo(surface).white_lobe()) * came);
-            if (largest(sent) < kWorthIt) continue;
-            sends_on_[base + n] = 1, by_lobes_[base + n] = sent;
-        }
-    });
-}
-
-// Numbers what facets will have of the lobes of others, by node in order.
-std::size_t KeptSolver::number_second(const Member& member) {
-    const KeptLight& light = *lights_[member.object];
-    const std::uint8_t* const sends = sends_on_.data() + base_[member.object];
-    std::uint32_t* const first = first_second_.data() + base_[member.object];
-    for_nodes(light.table().size(), [&](const Nodes& r) {
-        for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            first[n] = 0;
-            if (light.first_along(n) != KeptLight::kNoLobe)
-                for (const TransferTable::Entry e : light.table().entries(n)) first[n] += sends[e.node];
-        }
-    });
-    if (tbb::is_current_task_group_canceling()) return 0;  // not all are counted
-    std::uint32_t sum = 0;
-    for (std::size_t n = 0; n < light.table().size(); ++n) sum += std::exchange(first[n], sum);
-    return sum;
-}
-
-void KeptSolver::gather_second(const Member& member) {
-    part_lobes(member);
-    const KeptLight& light = *lights_[member.object];
+float NodeSenders::seen_of_cone(const KeptMember& member, const KeptLight& light, std::size_t n) {
     const TransferTable& table = light.table();
-    const std::size_t base = base_[member.object];
-    const std::span<const std::uint8_t> sends = std::span(sends_on_).subspan(base, table.size());
-    if (std::find(sends.begin(), sends.end(), 1) == sends.end()) {
-        std::ranges::fill(std::span(second_).subspan(base, table.size()), Spectrum{});
-        return;
+    const std::span<const std::uint64_t> is_free = member.links->free(table, n);
+    const ConeShare cone(light.axes(n).dir(member.source.dir), member.source.cone_cosine, table.directions());
+    float all = 0, free = 0;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(table.directions()); ++d) {
+        if (!table.is_live(n, table.point_of(d))) continue;
+        const Vec3f dir = light.local_direction(d);
+        const float in = cone.of(dir.x, dir.y, dir.z);
+        all += in;
+        if (is_free[d / 64] >> (d % 64) & 1u) free += in;
     }
-    std::vector<PackedSpectrum>& along = second_along_[member.object];
-    if (const std::size_t count = number_second(member); count > along.size()) along.resize(count);
-    // The golden section of 2^32, so that a place's points take turns (Schretter et al., Journal of Graphics Tools 16(2), 2012).
-    constexpr std::uint32_t kGolden = 0x9E3779B9;
-    for_nodes(table.size(), [&](const Nodes& r) {
-        for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            const bool has_facets = light.first_along(n) != KeptLight::kNoLobe;
-            std::size_t to = first_second_[base + n];
-            Spectrum sum;
-            for (const TransferTable::Entry e : table.entries(n)) {
-                if (!sends_on_[base + e.node]) continue;
-                const float choice = uniform01(kGolden * static_cast<std::uint32_t>(n + e.direction));
-                const Spectrum sent = sent_on(member, e.node, choice, -light.direction(n, e.direction));
-                if (has_facets) along[to++] = PackedSpectrum(sent);
-                sum += sent;
-            }
-            second_[base + n] = (kPiF / static_cast<float>(table.counted(n))) * sum;
-        }
-    });
-}
-
-// The radiance that a node's facets send in a direction of what has come to it by one way. One of its points stands for all of
-// them, as often as it is seen from there. choice: 0 to 1.
-Spectrum KeptSolver::sent_on(const Member& member, std::size_t n, float choice, Vec3f to) const {
-    const KeptLight& light = *lights_[member.object];
-    const LightNode& node = light.table().nodes().nodes()[n];
-    std::array<float, LightNode::kPoints> facing{};
-    float all = 0;
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-        if (light.table().is_live(n, p)) facing[p] = std::max(0.0f, dot(unpack_normal(node.normal[p]), to));
-        all += facing[p];
-    }
-    if (!(all > 0)) return {};
-    std::size_t p = 0;
-    float rest = choice * all;
-    for (std::size_t i = 0; i < LightNode::kPoints && rest >= 0; rest -= facing[i++])
-        if (facing[i] > 0) p = i;
-    const float alpha = std::max(light.material(node.surface).ggx_alpha, KeptLight::min_alpha(light.table()));
-    const KeptLight::Lobe lobe = light.lobe(member.out, member.links, {}, static_cast<std::uint32_t>(n),
-                                            unpack_normal(node.normal[p]), to, alpha);
-    return light.facet_color(n, light.albedo(node.surface).lobe(facing[p])) * lobe.kept;
+    return all > 0 ? free / all : 0;
 }
 
 }  // namespace hilcam

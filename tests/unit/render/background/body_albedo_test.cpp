@@ -1,6 +1,6 @@
 // What a body without a model sends up again to the air above it.
 
-#include "render/scene/body_albedo.h"
+#include "render/background/body_albedo.h"
 
 #include <gtest/gtest.h>
 

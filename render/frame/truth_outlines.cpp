@@ -1,8 +1,4 @@
-// Finds what a thing would cover if it were alone (TruthProbe).
-//
-// In the frame nearly all of it is known from the pixels' own rays: where they see the thing it is there, and
-// where they see the sky it is not, as nothing stands before it. Rays of its own go only where something else
-// is seen, and beside the frame.
+#include "render/frame/truth_outlines.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -12,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "render/frame/truth_probe.h"
 #include "render/visibility/screen_bounds.h"
 
 namespace hilcam {
@@ -59,21 +54,21 @@ std::size_t pixel_number(const FrameRaster& raster, Vec2d frame_px) {
 
 }  // namespace
 
-void TruthProbe::Outline::add(Vec2d frame_px, double area) {
+void TruthOutlines::Outline::add(Vec2d frame_px, double area) {
     area_px += area;
     const int x = static_cast<int>(std::floor(frame_px.x)), y = static_cast<int>(std::floor(frame_px.y));
     x0 = std::min(x0, x), x1 = std::max(x1, x + 1);
     y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
 }
 
-void TruthProbe::Outline::add(const Outline& other) {
+void TruthOutlines::Outline::add(const Outline& other) {
     area_px += other.area_px;
     x0 = std::min(x0, other.x0), x1 = std::max(x1, other.x1);
     y0 = std::min(y0, other.y0), y1 = std::max(y1, other.y1);
 }
 
 // Bounds the sphere that holds the thing, in px of the frame, up to a frame's size beside it.
-PixelBox TruthProbe::canvas_bounds(const SeenThing& thing) const {
+PixelBox TruthOutlines::canvas_bounds(const SeenThing& thing) const {
     const FrameRaster& raster = truth_.raster;
     const int width = raster.width_px, height = raster.height_px;
     const PixelBox canvas{-width, -height, 2 * width, 2 * height};
@@ -101,14 +96,14 @@ PixelBox TruthProbe::canvas_bounds(const SeenThing& thing) const {
             within(std::ceil(std::max(a.y, b.y)), canvas.y0, canvas.y1)};
 }
 
-std::uint32_t TruthProbe::meets_alone(const SeenThing& thing, std::span<const Vec2d> image_px) const {
+std::uint32_t TruthOutlines::meets_alone(const SeenThing& thing, std::span<const Vec2d> image_px) const {
     std::uint32_t met = 0;
     if (thing.is_body) {
         for (const PlacedBody& body : frame_.background->disks())
             if (truth_id(body.id) == thing.id) met = rays_.meets_body(image_px, body);
     } else {
         for (std::size_t i = 0; i < placer_.objects(); ++i)
-            if (owner_of(i) + 1 == thing.id) met |= rays_.meets_object(image_px, i);
+            if (owner_of(truth_, i) + 1 == thing.id) met |= rays_.meets_object(image_px, i);
     }
     for (std::size_t k = 0; k < image_px.size(); ++k)
         if ((met >> k & 1u) != 0 && !rays_.exists(image_px[k])) met &= ~(1u << k);
@@ -118,8 +113,8 @@ std::uint32_t TruthProbe::meets_alone(const SeenThing& thing, std::span<const Ve
 // Sums up what the thing covers of the places that fill(row, packets) gives, over all rows from one to
 // another. marks: a byte for each pixel of the frame, which is set where it is covered.
 template <class Fill>
-TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, int last_row, const Fill& fill,
-                                        std::vector<std::uint8_t>* marks) const {
+TruthOutlines::Outline TruthOutlines::covered(const SeenThing& thing, int first_row, int last_row,
+                                              const Fill& fill, std::vector<std::uint8_t>* marks) const {
     const auto add_rows = [&](const tbb::blocked_range<int>& range, Outline sum) {
         const auto trace = [&](std::span<const Vec2d> frame_px, std::span<const double> area_px) {
             std::array<Vec2d, kPacketSize> image_px;
@@ -146,8 +141,8 @@ TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, i
 }
 
 // Finds the part within the frame that lies behind other things and under black pixels.
-TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelBox& bounds,
-                                            std::vector<std::uint8_t>* marks) const {
+TruthOutlines::Outline TruthOutlines::hidden_part(const SeenThing& thing, const PixelBox& bounds,
+                                                  std::vector<std::uint8_t>* marks) const {
     const PixelBox box{std::max(bounds.x0, 0), std::max(bounds.y0, 0),
                        std::min(bounds.x1, truth_.raster.width_px),
                        std::min(bounds.y1, truth_.raster.height_px)};
@@ -159,14 +154,15 @@ TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelB
             if (id == thing.id) continue;
             // Black pixels have had no ray.
             const Vec2d at{x + 0.5, y + 0.5};
-            if (id != kSkyId || !on_image(truth_.raster.image_px(at))) packets.add(at, 1);
+            if (id != kSkyId || !rays_.on_image(truth_.raster.image_px(at))) packets.add(at, 1);
         }
     };
     return covered(thing, box.y0, box.y1, fill, marks);
 }
 
 // Finds the part in a box beside the frame; rays go through the middles of squares of `step` pixels.
-TruthProbe::Outline TruthProbe::part_beside(const SeenThing& thing, const PixelBox& box, int step) const {
+TruthOutlines::Outline TruthOutlines::part_beside(const SeenThing& thing, const PixelBox& box,
+                                                  int step) const {
     if (box.empty()) return {};
     const int rows = (box.y1 - box.y0 + step - 1) / step;
     const auto fill = [&](int row, auto& packets) {
@@ -180,8 +176,8 @@ TruthProbe::Outline TruthProbe::part_beside(const SeenThing& thing, const PixelB
 }
 
 // Finds the part in all of the bounds beside the frame; step: gets the side of the squares.
-TruthProbe::Outline TruthProbe::parts_beside(const SeenThing& thing, const PixelBox& bounds,
-                                             int& step) const {
+TruthOutlines::Outline TruthOutlines::parts_beside(const SeenThing& thing, const PixelBox& bounds,
+                                                   int& step) const {
     const int width = truth_.raster.width_px, height = truth_.raster.height_px;
     const int y0 = std::max(bounds.y0, 0), y1 = std::min(bounds.y1, height);
     const std::array<PixelBox, 4> beside = {{{bounds.x0, bounds.y0, bounds.x1, std::min(bounds.y1, 0)},
@@ -197,15 +193,15 @@ TruthProbe::Outline TruthProbe::parts_beside(const SeenThing& thing, const Pixel
 }
 
 // A body that is a point has none, and ground neither: there is as much of it as the camera needs.
-bool TruthProbe::has_outline(const SeenThing& thing) const {
+bool TruthOutlines::has_outline(const SeenThing& thing) const {
     const auto disks = frame_.background->disks();
     if (thing.is_body)
         return std::any_of(disks.begin(), disks.end(),
                            [&](const PlacedBody& body) { return truth_id(body.id) == thing.id; });
-    return !placer_.has_terrain() || thing.id != 1 + owner_of(placer_.objects() - 1);
+    return !placer_.has_terrain() || thing.id != 1 + owner_of(truth_, placer_.objects() - 1);
 }
 
-PixelSilhouette TruthProbe::silhouette_of(const SeenThing& thing, std::vector<std::uint8_t>& marks) const {
+PixelSilhouette TruthOutlines::silhouette_of(const SeenThing& thing, std::vector<std::uint8_t>& marks) const {
     PixelSilhouette out;
     out.thing = thing.id;
     const PixelBox bounds = canvas_bounds(thing);
@@ -223,8 +219,7 @@ PixelSilhouette TruthProbe::silhouette_of(const SeenThing& thing, std::vector<st
     return out;
 }
 
-// This comes before measure_outline(), which has other boxes of small things than their pixels'.
-void TruthProbe::find_silhouettes() {
+void TruthOutlines::find_silhouettes() {
     truth_.silhouettes.clear();
     std::vector<std::uint8_t> marks(static_cast<std::size_t>(truth_.raster.width_px) *
                                     static_cast<std::size_t>(truth_.raster.height_px));
@@ -232,7 +227,7 @@ void TruthProbe::find_silhouettes() {
         if (!thing.is_body && has_outline(thing)) truth_.silhouettes.push_back(silhouette_of(thing, marks));
 }
 
-void TruthProbe::measure_outline(SeenThing& thing) {
+void TruthOutlines::measure(SeenThing& thing) const {
     if (!has_outline(thing)) return;
     const PixelBox bounds = canvas_bounds(thing);
     if (bounds.empty()) return;
@@ -252,7 +247,7 @@ void TruthProbe::measure_outline(SeenThing& thing) {
                            all.y1 + step > 2 * height;
 }
 
-void TruthProbe::measure_small(SeenThing& thing, const PixelBox& bounds) {
+void TruthOutlines::measure_small(SeenThing& thing, const PixelBox& bounds) const {
     const double step_x = static_cast<double>(bounds.x1 - bounds.x0) / kFine;
     const double step_y = static_cast<double>(bounds.y1 - bounds.y0) / kFine;
     Outline all, visible;
@@ -270,8 +265,8 @@ void TruthProbe::measure_small(SeenThing& thing, const PixelBox& bounds) {
             const Vec2d at = frame_px[k];
             all.add(at, area_px[k]);
             const bool in_frame = at.x >= 0 && at.y >= 0 && at.x < truth_.raster.width_px &&
-                                  at.y < truth_.raster.height_px && on_image(points[k]);
-            if (!in_frame || id_of(first[k]) != thing.id) continue;
+                                  at.y < truth_.raster.height_px && rays_.on_image(points[k]);
+            if (!in_frame || id_of(truth_, first[k]) != thing.id) continue;
             visible.add(at, area_px[k]);
             sum_px = {sum_px.x + area_px[k] * at.x, sum_px.y + area_px[k] * at.y};
         }

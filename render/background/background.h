@@ -1,62 +1,24 @@
 #pragma once
 // The background, which a ray sees that meets no object: the Moon and the planets with their air, the Sun's
-// disk, or black sky. Stars are point sources, not here. Also how much of the Sun reaches a place: distance,
-// and eclipses by bodies.
+// disk, or black sky. Stars are point sources, not here. Where the bodies are is in placed_bodies.h, what they send in body_radiance.h,
+// how they stand before the Sun in eclipses.h.
 
 #include <array>
 #include <optional>
-#include <vector>
+#include <string>
 
+#include "render/background/body_radiance.h"
+#include "render/background/eclipses.h"
+#include "render/background/placed_bodies.h"
 #include "render/earth/earth_moment.h"
 #include "render/earth/earth_rays.h"
-#include "render/scene/color_bands.h"
 #include "render/scene/scene.h"
-#include "render/sky/disk_light.h"
-#include "render/sky/saturn_rings.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {
 
 class EarthPatch;
-
-// A body this small is drawn as points, as an object is (plan.h): a grid of rays would meet too much of it or too little, and
-// otherwise from frame to frame. Those with air are not, nor is the Earth by its model.
-inline constexpr double kBodyPoints_px = 8.0;
-
-// A body that shines on the objects: the cone that holds it.
-struct BodyLight {
-    Vec3d world_dir;          // from the objects
-    float cone_sine_squared;  // square of the sine of its half angle; 1 inside it
-    float one_minus_cosine;   // 1 - cosine of its half angle, with all its digits where it is small
-    Spectrum max_over_sun;    // greatest value of its radiance, per unit of solar irradiance [sr^-1]
-};
-
-// A body for one frame. Body axes: its own; "from" the body's centre.
-struct PlacedBody {
-    BodyId id{};
-    Vec3d world_dir;         // from the camera to its centre, as seen
-    double distance_m = 0;   // distance of the centre from the camera
-    double cone_cosine = 1;  // cosine of the cone that holds it and its air; half a space inside it
-    double disk_cosine = 1;  // cosine of the body without air
-    Vec3d camera_m;          // the camera in body axes
-    Vec3d sun_dir;           // in body axes
-    Mat3d fixed_from_world;
-    Figure figure{};
-    Spectrum irradiance_w_m2_um;  // irradiance by the Sun at the body
-    double sun_radius_rad = 0;    // the Sun's radius, seen from the body
-    // Another body's light on it (planetshine), the strongest first.
-    struct Shine {
-        Vec3d dir;  // to that body, in this one's axes
-        Spectrum irradiance_w_m2_um;
-    };
-    std::array<Shine, 2> shine{};
-    std::size_t shine_count = 0;
-    // Factors on its look that give the whole of it the light of its magnitude (disk_light.h).
-    float globe_factor = 1, ring_factor = 1;
-    bool may_be_eclipsed = false;  // another body can stand between it and the Sun
-    bool in_points = false;        // a disk whose light comes by points: rays of the camera find it dark
-};
 
 class Background {
   public:
@@ -82,26 +44,26 @@ class Background {
     Vec3d sun_camera_dir() const { return sun_camera_dir_; }
 
     // Bodies with a disk, nearest first; and those that are points.
-    std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
-    std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
-    std::span<const BodyLight> body_lights() const { return {body_lights_.data(), body_light_count_}; }
+    std::span<const PlacedBody> disks() const { return placed_.disks(); }
+    std::span<const PlacedBody> points() const { return placed_.points(); }
+    std::span<const BodyLight> body_lights() const { return placed_.lights(); }
     // Irradiance of a point body at the camera [W m^-2 um^-1].
-    Spectrum point_irradiance(const PlacedBody& body) const;
+    Spectrum point_irradiance(const PlacedBody& body) const { return light_.point_irradiance(body); }
     // Returns the radiance of a body's ground and rings in a direction of any length from the camera, whatever stands before
     // it; 0 beside it [W m^-2 sr^-1 um^-1]. width_rad: cone of which the rings show the mean; 0: a pixel's. Loop.
     Spectrum ground_radiance(const PlacedBody& body, Vec3d dir, double width_rad = 0) const;
-    const Atmosphere* air() const { return air_; }
-    const EarthModel* earth() const { return earth_; }
+    const Atmosphere* air() const { return scene_.air; }
+    const EarthModel* earth() const { return scene_.earth; }
     // Returns where this frame lies between the Earth's maps.
     MapNumbers map_numbers() const { return earth_moment_.number; }
     // Has this frame's looks at the Earth see finer levels; they outlive it. Loop, after place().
     void show_detail(const DetailTiles& tiles) { earth_moment_.detail = &tiles; }
     bool shows_detail() const { return earth_moment_.detail != nullptr; }
-    std::string name_of(BodyId id) const;
+    std::string name_of(BodyId id) const { return scene_.name_of(id); }
     // Returns how far above its ground a body is to be seen [m].
-    double top_m(BodyId id) const;
+    double top_m(BodyId id) const { return scene_.top_m(id); }
     // The camera is in air, so that objects are seen through it.
-    bool camera_in_air() const { return camera_in_air_; }
+    bool camera_in_air() const { return placed_.camera_in_air(); }
 
     // Adds weight * radiance of the nearest body along a ray (origin relative to the objects, world axes,
     // direction of any length), air included. Gives whether a body was met; air alone is not, and dims
@@ -148,17 +110,17 @@ class Background {
         return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
     }
     // Returns the distance from the camera to the nearest place that any body can have.
-    double nearest_m() const { return nearest_m_; }
+    double nearest_m() const { return placed_.nearest_m(); }
     // Light and transmittance of the air before an object at a distance; only where camera_in_air().
     Atmosphere::Sight air_before(Vec3d dir, double distance_m) const;
 
-    const SceneBody& scene_of(const PlacedBody& body) const { return (*scene_)[index_of(body.id)]; }
+    const SceneBody& scene_of(const PlacedBody& body) const { return scene_[body.id]; }
     // A copy, placed as this one, that shows bodies and an Earth of fewer parts (sky_cost.h), which must outlive it. Not for the loop.
     Background with(const std::array<SceneBody, kMaxBodies>& bodies, const EarthModel* earth) const;
-    const std::array<SceneBody, kMaxBodies>& bodies() const { return *scene_; }
+    const std::array<SceneBody, kMaxBodies>& bodies() const { return *scene_.all; }
 
     // Says in words what makes a body's look cost more than its law; empty: nothing does. Not for the loop.
-    std::string describe(const PlacedBody& body) const;
+    std::string describe(const PlacedBody& body) const { return light_.describe(body); }
 
     // Says what the air lacks for a ray of the camera (Atmosphere::missing).
     std::string air_missing(Vec3d dir) const;
@@ -178,64 +140,41 @@ class Background {
                            EarthPatch& patch) const;
 
     // The share of the Sun's irradiance that the bodies leave at a place in the world [0..1], per bin.
-    Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
+    Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const {
+        return eclipses_.sun_seen_from(place_world_m, standing_on);
+    }
 
   private:
-    const std::array<SceneBody, kMaxBodies>* scene_;
-    const Atmosphere* air_;
-    const EarthModel* earth_;
+    SceneBodies scene_;
     EarthMoment earth_moment_;
     Spectrum sun_irradiance_1au_;
     SunDisk disk_;
-    ColorBands bands_;
-    SaturnRings rings_;
-    std::optional<SaturnLight> saturn_light_;  // none: no magnitude says how bright Saturn is
-    int bins_;
-    std::array<Spectrum, kMaxBodies> map_factor_;  // on texel colours
-    std::array<Spectrum, kMaxBodies> map_mean_;    // mean colour after that; 1 without a map
+    Eclipses eclipses_;
+    BodyRadiance light_;
+    PlacedBodies placed_;
 
-    std::array<PlacedBody, kMaxBodies> disks_, points_;
-    std::array<BodyLight, kMaxBodies> body_lights_;
-    std::size_t disk_count_ = 0, point_count_ = 0, body_light_count_ = 0;
     const PlacedBody* plain_ = nullptr;
     Spectrum plain_radiance_;
-    Bodies bodies_;
     Vec3d objects_from_camera_m_;
     Spectrum sun_irradiance_, sun_clear_irradiance_;
     Vec3d sun_world_dir_{0, 0, 1}, sun_camera_dir_{0, 0, 1};
     double sun_disk_cosine_ = 1;
-    double nearest_m_ = 0;
     double pixel_rad_ = 0;
-    bool camera_in_air_ = false, earth_in_patches_ = false;
+    bool earth_in_patches_ = false;
 
-    const Figure& figure(std::size_t i) const { return bodies_.figure(static_cast<BodyId>(i)); }
-    PlacedBody placed(BodyId id, const WorldSnapshot& world, bool stays) const;
     // The cone that a ray stands for.
     struct Cone {
         double width_rad;
         bool of_pixel;  // for one of the camera's
     };
+    void place_sun(const WorldSnapshot& world, Vec3d objects_world_m);
+    void choose_quick_ways();
     bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance, Cone cone) const;
     bool add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, Cone cone, Spectrum& weight,
                    Spectrum& radiance) const;
+    void add_air(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,
+                 Spectrum& radiance) const;
     bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
-    void add_planetshine(const WorldSnapshot& world, PlacedBody& body) const;
-    void set_brightness(PlacedBody& body) const;
-    // Radius with air or mountains.
-    double outer_radius_m(BodyId id) const;
-    bool is_seen_in_points(const PlacedBody& body, double pixel_rad) const;
-    double met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
-    bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*scene_)[index_of(id)].rings; }
-    // A ray sees rings up to `until`, in lengths of its direction; dark where their light comes by points.
-    struct RingSight {
-        double until, width_rad;
-        bool lit;
-    };
-    void add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, const RingSight& sight,
-                   Spectrum& weight, Spectrum& radiance) const;
-    bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }
-    bool is_modelled(BodyId id) const { return earth_ && id == BodyId::kEarth; }
-    Spectrum surface_radiance(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir) const;
 };
 
 }  // namespace hilcam

@@ -1,0 +1,34 @@
+#pragma once
+// What the bodies leave of the Sun at a place: eclipses, by discs that have limbs, and by the Earth's air.
+
+#include "render/background/scene_bodies.h"
+#include "render/sky/bodies.h"
+#include "render/sky/sun.h"
+
+namespace hilcam {
+
+class Eclipses {
+  public:
+    Eclipses(const SceneBodies& scene, const SunDisk& disk, int bins)
+        : scene_(scene), disk_(disk), bins_(bins) {}
+
+    // Once per frame.
+    void place(const Bodies& bodies) { bodies_ = bodies; }
+    void show(const SceneBodies& scene) { scene_ = scene; }
+
+    // The share of the Sun's irradiance that the bodies leave at a place in the world [0..1], per bin. standing_on: hides nothing. Loop,
+    // any thread.
+    Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
+    // The same at a place of a body that is placed, in its axes from its centre.
+    Spectrum sun_seen_from(BodyId body, Vec3d from_centre_world_m) const {
+        return sun_seen_from(bodies_[body].world_m + from_centre_world_m, body);
+    }
+
+  private:
+    SceneBodies scene_;
+    SunDisk disk_;
+    int bins_;
+    Bodies bodies_;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,63 @@
+#pragma once
+// What a thing would cover if it were alone: its silhouette, within the frame and up to a frame's size beside it.
+//
+// In the frame nearly all of it is known from the pixels' own rays: where they see the thing it is there, and
+// where they see the sky it is not, as nothing stands before it. Rays of its own go only where something else
+// is seen, and beside the frame.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/frame/frame_placer.h"
+#include "render/frame/frame_truth.h"
+#include "render/frame/truth_rays.h"
+
+namespace hilcam {
+
+class TruthOutlines {
+  public:
+    // truth: whose pixels are traced and counted; all outlives this.
+    TruthOutlines(const FramePlacer& placer, const TruthRays& rays, FrameTruth& truth)
+        : placer_(placer), frame_(placer.frame()), world_(placer.world()), rays_(rays), truth_(truth) {}
+
+    // Fills the silhouettes of the truth. This comes before measure(), which has other boxes of small things than their pixels'. Runs on
+    // oneTBB, as the next.
+    void find_silhouettes();
+    // Sets what of a thing is visible of all that it covers.
+    void measure(SeenThing& thing) const;
+
+  private:
+    // Area and bounds of what a thing alone covers.
+    struct Outline {
+        double area_px = 0;
+        int x0 = 1 << 30, y0 = 1 << 30, x1 = -(1 << 30), y1 = -(1 << 30);
+
+        Outline() = default;
+        Outline(const PixelBox& box, double area)
+            : area_px(area), x0(box.x0), y0(box.y0), x1(box.x1), y1(box.y1) {}
+        void add(Vec2d frame_px, double area);
+        void add(const Outline& other);
+        PixelBox box() const { return area_px > 0 ? PixelBox{x0, y0, x1, y1} : PixelBox{}; }
+    };
+    PixelBox canvas_bounds(const SeenThing& thing) const;
+    std::uint32_t meets_alone(const SeenThing& thing, std::span<const Vec2d> image_px) const;
+    template <class Fill>
+    Outline covered(const SeenThing& thing, int first_row, int last_row, const Fill& fill,
+                    std::vector<std::uint8_t>* marks) const;
+    Outline hidden_part(const SeenThing& thing, const PixelBox& bounds,
+                        std::vector<std::uint8_t>* marks = nullptr) const;
+    Outline part_beside(const SeenThing& thing, const PixelBox& box, int step) const;
+    Outline parts_beside(const SeenThing& thing, const PixelBox& bounds, int& step) const;
+    bool has_outline(const SeenThing& thing) const;
+    PixelSilhouette silhouette_of(const SeenThing& thing, std::vector<std::uint8_t>& marks) const;
+    void measure_small(SeenThing& thing, const PixelBox& bounds) const;
+
+    const FramePlacer& placer_;
+    const FrameView& frame_;
+    const WorldSnapshot& world_;
+    const TruthRays& rays_;
+    FrameTruth& truth_;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,155 @@
+#include "render/frame/visibility_choice.h"
+
+#include <algorithm>
+#include <map>
+
+#include "render/ground_shading/ground_light.h"
+
+namespace hilcam {
+namespace {
+
+// Frames that show more triangles than this are left to rays, which hardly cost more for more.
+constexpr std::size_t kMostTriangles = 8'000'000;
+
+// So many objects may have pictures of their own, by levels of so many triangles: one takes some milliseconds of the processor.
+constexpr std::size_t kMostPictured = 8, kMostInPicture = 1'000'000;
+
+// Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
+// seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
+constexpr std::size_t kManyLike = 16, kMostInSets = 20'000;
+
+}  // namespace
+
+void VisibilityChoice::make(const ImageGeometry& geometry, std::span<const RenderQuality> levels,
+                            bool has_terrain, std::size_t ground_triangles) {
+    for (const RenderQuality& level : levels) {
+        if (level.uses_buffer() && !has_terrain && VisibilityBuffer::takes(geometry)) {
+            const PixelSamples samples = level.pixel_samples();
+            std::unique_ptr<VisibilityBuffer>& made = samples.quarters() == 1 ? standard_ : fine_;
+            if (!made)
+                made = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), room());
+            if (visible_sets_.empty()) make_visible_sets();
+        }
+        if (!level.sees_ground() || ground_triangles == 0) continue;
+        const std::size_t most = std::min(kMostTriangles, ground_triangles + ground_triangles / 4);
+        auto& made = ground_[static_cast<std::size_t>(level.ground_step_px - 1)];
+        if (!made)
+            made = std::make_unique<VisibilityBuffer>(
+                ground_geometry(geometry, static_cast<int>(level.ground_step_px)),
+                VisibilityBuffer::Room{1, most, most});
+    }
+    seen_.reserve(objects_.all.size());
+    const bool buffer =
+        std::any_of(levels.begin(), levels.end(), [](const RenderQuality& q) { return q.uses_buffer(); });
+    if (buffer && !has_terrain) picture_room_ = room_for_pictures();
+}
+
+void VisibilityChoice::set_quality(const RenderQuality& quality) {
+    uses_buffer_ = quality.uses_buffer(), sees_ground_ = quality.sees_ground();
+    ground_step_px_ = static_cast<int>(quality.ground_step_px);
+}
+
+void VisibilityChoice::make_visible_sets() {
+    std::map<const ObjectSurfaces*, std::vector<std::size_t>> makes;
+    for (std::size_t i = 0; i < objects_.all.size(); ++i)
+        makes[objects_.all[i].levels.front().get()].push_back(i);
+    visible_sets_.resize(objects_.all.size());
+    for (const auto& [make, objects] : makes) {
+        if (objects.size() < kManyLike) continue;
+        const std::size_t first = objects.front();
+        LevelSets sets(objects_.all[first].levels.size());
+        for (std::size_t level = 0; level < sets.size(); ++level)
+            if (const MeshView mesh = objects_.scene.mesh(first, level); mesh.triangles.size() <= kMostInSets)
+                sets[level] = std::make_unique<VisibleSets>(mesh, objects_.radii_m[first],
+                                                            objects_.all[first].levels[level]->patches);
+        const auto shared = std::make_shared<const LevelSets>(std::move(sets));
+        for (const std::size_t i : objects) visible_sets_[i] = shared;
+    }
+}
+
+// Null: all of an object is looked at.
+const VisibleSet* VisibilityChoice::visible_set(const FrameView& frame, std::size_t object) const {
+    if (!visible_sets_[object]) return nullptr;
+    const VisibleSets* const sets = (*visible_sets_[object])[objects_.levels[object]].get();
+    const double sample_rad = 1 / (frame.geometry.focal_length_px * frame.samples.across());
+    if (!sets || !sets->serves(objects_.plans[object].distance_m, sample_rad)) return nullptr;
+    const Pose& pose = objects_.world.objects[object];
+    return &sets->from(transposed(to_matrix(pose.world_from_body)) *
+                       (objects_.world.camera.position_world_m - pose.position_world_m));
+}
+
+VisibilityBuffer::Room VisibilityChoice::room() const {
+    VisibilityBuffer::Room out{objects_.all.size(), 0, 0};
+    for (std::size_t i = 0; i < objects_.all.size(); ++i) {
+        const MeshView mesh = objects_.scene.mesh(i, 0);
+        out.vertices = std::min(kMostTriangles, out.vertices + mesh.vertices_m.size());
+        out.triangles = std::min(kMostTriangles, out.triangles + mesh.triangles.size());
+    }
+    return out;
+}
+
+std::optional<VisibilityBuffer::Room> VisibilityChoice::room_for_pictures() const {
+    if (objects_.all.empty() || objects_.all.size() > kMostPictured) return {};
+    VisibilityBuffer::Room out{1, 0, 0};
+    for (std::size_t i = 0; i < objects_.all.size(); ++i)
+        for (std::size_t level = 0; level < objects_.all[i].levels.size(); ++level) {
+            const MeshView mesh = objects_.scene.mesh(i, level);
+            if (std::max(mesh.triangles.size(), mesh.vertices_m.size()) > kMostInPicture) continue;
+            out.vertices = std::max(out.vertices, mesh.vertices_m.size());
+            out.triangles = std::max(out.triangles, mesh.triangles.size());
+        }
+    return out.triangles > 0 ? std::optional(out) : std::nullopt;
+}
+
+bool VisibilityChoice::takes_picture_of(std::size_t i) const {
+    const MeshView mesh = objects_.scene.mesh(i, objects_.levels[i]);
+    return uses_buffer_ && picture_room_ && mesh.triangles.size() <= picture_room_->triangles &&
+           mesh.vertices_m.size() <= picture_room_->vertices;
+}
+
+VisibilityBuffer::Shown VisibilityChoice::shown(std::size_t i) const {
+    return {static_cast<std::uint32_t>(i),
+            objects_.world.objects[i],
+            objects_.radii_m[i],
+            objects_.scene.mesh(i, objects_.levels[i]),
+            objects_.surfaces[i]->cluster_bounds_m,
+            objects_.surfaces[i]->patches};
+}
+
+// In space, and where its mesh is all there is to see of it.
+bool VisibilityChoice::ground_is_alone(const FrameView& frame) const {
+    return ground() && sees_ground_ && !frame.background->camera_in_air() && frame.start_before_m <= 0 &&
+           objects_.plans.back().use == ObjectUse::kMesh && objects_.plans.back().samples_per_axis == 1 &&
+           frame.rays->linear();
+}
+
+void VisibilityChoice::place(FrameView& frame) {
+    seen_.clear();
+    if (ground_is_alone(frame)) {
+        seen_.push_back({0, objects_.world.objects.back(), objects_.radii_m.back(), objects_.scene.mesh(0, 0),
+                         objects_.surfaces.back()->cluster_bounds_m});
+        if (ground()->place(objects_.world.camera, seen_))
+            frame.ground = ground(), frame.ground_step_px = ground_step_px_;
+        return;
+    }
+    VisibilityBuffer* const of_objects = buffer(frame.samples);
+    if (!of_objects || !uses_buffer_ || !frame.rays->is_still()) return;
+    for (std::size_t i = 0; i < objects_.all.size(); ++i)
+        if (objects_.plans[i].use == ObjectUse::kMesh) {
+            seen_.push_back(shown(i));
+            seen_.back().visible = visible_set(frame, i);
+        }
+    if (of_objects->place(objects_.world.camera, seen_))
+        frame.visibility = of_objects;
+    else
+        light_by_rays(frame);
+}
+
+// The camera's rays find the light of all that they meet.
+void VisibilityChoice::light_by_rays(FrameView& frame) {
+    frame.has_lit_apart = false;
+    for (std::size_t i = 0; i < objects_.all.size(); ++i)
+        if (frame.lit_apart[i]) frame.lit_apart[i] = 0, objects_.plans[i].picture_px = 0;
+}
+
+}  // namespace hilcam

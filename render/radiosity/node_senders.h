@@ -1,0 +1,83 @@
+#pragma once
+// What the nodes of an object send of a source's own light: the first step of a solution. No ray is traced but those that ask which
+// nodes the source shines on.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "render/radiosity/kept_light.h"
+#include "render/radiosity/kept_links.h"
+
+namespace hilcam {
+
+// An object of a group: what it meets of the others, the source in its own axes, and where the result
+// goes.
+struct KeptMember {
+    std::size_t object;
+    const KeptLinks* links;
+    KeptSource source;
+    KeptSolution* out;
+};
+
+// The points of a node in the light of a source, per unit of it.
+struct LitPoints {
+    std::size_t count = 0;                                       // points that lie open
+    std::array<std::uint32_t, LightNode::kPoints> normal{};      // packed
+    std::array<float, LightNode::kPoints> cosine{}, received{};  // the source's to the normal; irradiance
+
+    float sum() const { return std::accumulate(received.begin(), received.end(), 0.0f); }
+    float mean() const { return count > 0 ? sum() / static_cast<float>(count) : 0.0f; }
+    // Returns the cosine that the source has where it is received, in the mean. Only where some is.
+    float mean_cosine() const {
+        const float at = std::inner_product(cosine.begin(), cosine.end(), received.begin(), 0.0f);
+        return std::clamp(at / sum(), 1e-3f, 1.0f);
+    }
+};
+// The radiance that a node sends, per unit of the source.
+struct alignas(64) NodeSender {
+    PackedSpectrum diffuse;
+    PackedSpectrum lobe;  // the lobe of its facets at normal incidence, per irradiance
+    float gain;           // irradiance that facets send of one that they receive
+    float alpha;          // 0: no facets that shine
+    LitPoints lit;        // where there are facets
+};
+// Of all nodes of all objects, which are numbered through.
+class NodeSenders {
+  public:
+    // lights: of all objects, by number; null where none is kept; they outlive this. Owner thread.
+    NodeSenders(std::span<const KeptLight* const> lights, const EmbreeScene& scene);
+
+    // Finds what an object's nodes send, and fills what of a body's light comes without a way. On oneTBB.
+    void light(const KeptMember& member);
+
+    // Number of an object's first node, and of all nodes.
+    std::size_t first(std::size_t object) const { return base_[object]; }
+    std::size_t count() const { return senders_.size(); }
+    const NodeSender& operator[](std::size_t node) const { return senders_[node]; }
+    // It sends anything, as most of the dark side does not.
+    bool shines(std::size_t node) const { return shines_[node] != 0; }
+    const EmbreeScene& scene() const { return scene_; }
+
+    // Has nodes seen to in blocks, so that one who waits for a block does not wait for all of them. No
+    // result depends on them.
+    static constexpr std::size_t kBlock = 256;  // nodes
+
+  private:
+    std::vector<const KeptLight*> lights_;
+    const EmbreeScene& scene_;
+    std::vector<std::size_t> base_;  // by object: of its nodes in what follows
+    std::vector<NodeSender> senders_;
+    std::vector<std::uint8_t> shines_;
+
+    void light_block(const KeptMember& member, std::size_t first, std::size_t last);
+    std::uint32_t blocked(const KeptMember& member, const RayPacket& rays) const;
+    static void send(const KeptLight& light, std::size_t node, const LitPoints& lit, NodeSender& sender);
+    static void widen(const KeptLight& light, std::size_t node, const KeptSource& source, NodeSender& sender);
+    static float seen_of_cone(const KeptMember& member, const KeptLight& light, std::size_t node);
+};
+
+}  // namespace hilcam
