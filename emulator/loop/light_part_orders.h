@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "io/contract/light_part_source.h"
 #include "io/system/timed_semaphore.h"
@@ -22,7 +23,7 @@ namespace hilcam {
 
 class LightPartOrders : public LightPartSource {
   public:
-    // What is made around a frame that is taken apart, on the threads of those who ask.
+    // The maker makes what a frame is taken apart into, and what is shown of it, on the threads of those who ask.
     struct Maker {
         std::function<std::unique_ptr<PartsBuffer>(LightPart part)> make_buffer;
         // light: the part's image of that frame.
@@ -31,7 +32,7 @@ class LightPartOrders : public LightPartSource {
 
     // refusal: why frames cannot be taken apart; empty: they can.
     explicit LightPartOrders(std::string refusal) : refusal_(std::move(refusal)) {}
-    // Before the threads start; without it no order is taken.
+    // Sets the maker, before the threads start; without it no order is taken.
     void serve(Maker maker) { maker_ = std::move(maker); }
 
     std::string refusal() const override { return refusal_; }
@@ -42,7 +43,7 @@ class LightPartOrders : public LightPartSource {
         std::unique_ptr<PartsBuffer> buffer;
         LightPart part{};
         bool with_truth = false;
-        FrameRecord record;  // of the frame, when it is done
+        FrameRecord record;  // the frame, when it is done
     };
     // Gives the order that the frame which begins now is to carry out, to be followed by done(); null: nobody asks. Loop, one thread.
     Order* begin() noexcept {

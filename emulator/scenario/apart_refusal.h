@@ -1,6 +1,6 @@
 #pragma once
-// Which scenarios' pictures can be taken apart into the parts of their light: those of one rendering in which each pixel is sampled as
-// often as every other.
+// Pictures can be taken apart into the parts of their light where they are of one rendering in which each pixel is sampled as often as
+// every other.
 
 #include <span>
 #include <string>
