@@ -30,13 +30,12 @@ bool begins_without_light(const ScenarioConfig& scenario, const RunLimits& limit
            limits.record.empty() && limits.replay.empty();
 }
 
-Exposure exposure_of(const FrameRecord& record) {
-    return {
+// The frame's numbers of one part of its light.
+DnImage numbers_of(const RadianceImage& light, const FrameRecord& record, const IdealSensor& sensor) {
+    const Exposure exposure{
         .exposure_s = record.exposure_s, .gain_db = record.gain_db, .black_level_dn = record.black_level_dn};
-}
-
-FrameLayout layout_of(const FrameRecord& record) {
-    return {record.binning_x, record.binning_y, record.reverse_x, record.reverse_y};
+    return sensor.take(light, exposure,
+                       {record.binning_x, record.binning_y, record.reverse_x, record.reverse_y});
 }
 
 // Governed, frames have any of these.
@@ -125,12 +124,14 @@ void CameraStation::load(const SpectralGrid& grid) {
 
 void CameraStation::serve_light_parts() {
     const auto sensor = std::make_shared<const IdealSensor>(scenario_.camera, sampling_of(scenario_));
-    light_parts_.serve({[this](LightPart part) {
-                            return std::make_unique<PartsBuffer>(exposures_->make_parts_buffer(part));
-                        },
-                        [sensor](const RadianceImage& light, const FrameRecord& record) {
-                            return sensor->take(light, exposure_of(record), layout_of(record));
-                        }});
+    LightPartOrders::Maker maker;
+    maker.make_buffer = [this](LightPart part) {
+        return std::make_unique<PartsBuffer>(exposures_->make_parts_buffer(part));
+    };
+    maker.numbers_of = [sensor](const RadianceImage& light, const FrameRecord& record) {
+        return numbers_of(light, record, *sensor);
+    };
+    light_parts_.serve(std::move(maker));
 }
 
 void CameraStation::prepare(const StationLinks& links) {

@@ -30,10 +30,10 @@ TEST(ApartRefusal, AScanningLineIsNeverOfSeveralInstants) {
 }
 
 TEST(ApartRefusal, NamesTheLevelThatFramesMayHave) {
-    EXPECT_EQ(
-        refusal({"loop.levels=[{samples_per_axis: 1}, {noise_budget: 0.5}]", "quality.samples_per_axis=2"})
-            .substr(0, 28),
-        "loop.levels.1.noise_budget: ");
+    EXPECT_EQ(refusal({"loop.frame_budget_ms=10", "loop.levels=[{samples_per_axis: 1}, {noise_budget: 0.5}]",
+                       "quality.samples_per_axis=2"})
+                  .substr(0, 28),
+              "loop.levels.1.noise_budget: ");
 }
 
 }  // namespace
