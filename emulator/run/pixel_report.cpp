@@ -20,16 +20,6 @@ FrameRaster raster(const ScenarioConfig& s) {
                      {s.camera.binning_x, s.camera.binning_y});
 }
 
-// Pixels of the image along one axis that a pixel of the frame is made of.
-struct Reach {
-    int first, last;  // the one after it
-};
-Reach reach_of(const RasterAxis& axis, int frame_px, int guard_px) {
-    const double a = axis.image_px(frame_px), b = axis.image_px(frame_px + 1);
-    return {static_cast<int>(std::lround(std::min(a, b))) + guard_px,
-            static_cast<int>(std::lround(std::max(a, b))) + guard_px};
-}
-
 // Electrons per radiance of a pixel's light in this exposure; of a detector with filters, by that over the pixel.
 Spectrum electrons_per_radiance(const StillCamera& camera, FramePixel pixel) {
     const CameraModel& model = camera.scenario().camera;
@@ -184,8 +174,8 @@ PixelBox radiance_pixels(const StillCamera& camera, FramePixel pixel) {
                          std::to_string(lies.width_px - 1) + " and 0 to " +
                          std::to_string(lies.height_px - 1));
     const int guard_px = camera.renderer().geometry().guard_px;
-    const Reach x = reach_of(lies.x, pixel.x, guard_px), y = reach_of(lies.y, pixel.y, guard_px);
-    return {x.first, y.first, x.last, y.last};
+    const PixelReach x = reach_of(lies.x, pixel.x), y = reach_of(lies.y, pixel.y);
+    return {x.first + guard_px, y.first + guard_px, x.last + guard_px, y.last + guard_px};
 }
 
 std::string pixel_report(const StillCamera& camera, FramePixel pixel, const PixelRecord& record) {

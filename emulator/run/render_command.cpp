@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
+#include "emulator/scenario/apart_refusal.h"
 #include "io/pictures/image_file.h"
 #include "sensor/published_frame.h"
 
@@ -107,29 +109,23 @@ void check_names(PictureStage stage, const RenderFiles& files) {
         throw InputError("--view " + files.view.string() + ": is the file of --out; accepted: another one");
 }
 
-// Parts are those of one rendering in which each pixel is sampled as often as every other.
 void require_parts(const ScenarioConfig& s) {
-    if (s.quality.motion == MotionQuality::kExact)
-        throw InputError(
-            "--parts and --pixel: take one instant apart; found quality.motion: exact; accepted: "
-            "--set quality.motion=off");
-    if (s.quality.render.noise_budget > 0)
-        throw InputError(
-            "--parts and --pixel: found quality.noise_budget above 0; accepted: --set "
-            "quality.noise_budget=0");
+    const std::array quality{render_quality_of(s)};
+    if (const std::string why = apart_refusal(s, quality); !why.empty())
+        throw InputError("--parts and --pixel: " + why);
 }
 
 // What is asked about the light of a picture, beside the picture.
 struct AskedLight {
-    std::optional<LightParts> parts;
+    std::optional<PartsBuffer> buffer;
     std::optional<PixelRecord> record;
 
     AskedLight(const RenderFiles& files, StillCamera& camera) {
         if (!files.parts && !files.pixel) return;
         require_parts(camera.scenario());
-        parts.emplace(camera.radiance());
+        buffer.emplace(camera.renderer().make_parts_buffer(camera.radiance()));
         if (files.pixel) record.emplace().box = radiance_pixels(camera, *files.pixel);
-        camera.renderer().keep_parts(&*parts, record ? &*record : nullptr);
+        camera.renderer().keep_parts(&*buffer, record ? &*record : nullptr);
     }
 };
 
@@ -168,8 +164,8 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
     if (stage == PictureStage::kRadiance) {
         const PixelRectangle frame = frame_in_radiance(scenario.camera, renderer.geometry(), oversampling);
         if (files.parts)
-            return writer.write_radiance(files.out, asked.parts->sum(), frame, oversampling, record,
-                                         &*asked.parts);
+            return writer.write_radiance(files.out, asked.buffer->parts.sum(), frame, oversampling, record,
+                                         &asked.buffer->parts);
         return writer.write_radiance(files.out, radiance, frame, oversampling, record);
     }
     const ElectronImage& electrons = camera.expose();
