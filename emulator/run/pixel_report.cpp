@@ -39,7 +39,7 @@ std::string number(double value, const char* format = "%.4g") {
     return text;
 }
 
-// What one surface adds to the pixel, part by part.
+// A surface, and the light that it adds to the pixel, part by part.
 struct Group {
     PixelRecord::Entry surface;  // the first of its entries
     struct Share {

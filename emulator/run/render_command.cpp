@@ -115,7 +115,7 @@ void require_parts(const ScenarioConfig& s) {
         throw InputError("--parts and --pixel: " + why);
 }
 
-// What is asked about the light of a picture, beside the picture.
+// The questions about the light of a picture, beside the picture itself.
 struct AskedLight {
     std::optional<PartsBuffer> buffer;
     std::optional<PixelRecord> record;

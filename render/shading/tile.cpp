@@ -41,7 +41,7 @@ void Tile::note(std::uint32_t pixel, LightPart part, const Spectrum& light) cons
 }
 
 void Tile::note_move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const {
-    if (at.lobe || at.depth > 1) return;  // of the ray's part as a whole
+    if (at.lobe || at.depth > 1) return;  // all of it is of the ray's part
     parts->move(at.pixel, from, to, light);
     if (!parts->is_recorded(at.pixel)) return;
     parts->record->add(entry_of(at, from, -parts->share * light));

@@ -18,10 +18,10 @@ enum class LightPart : std::uint8_t {
     kMirroredSun,   // the Sun by way of flat mirrors
     kDiffuse,       // light by way of other surfaces, from the cache, by all but facets
     kGlossy,        // the same by facets
-    kGlossyRays,    // what rays along a glossy lobe meet
-    kMirrorRays,    // what a mirror shows
-    kTransmission,  // what is seen through glass
-    kPath,          // what random paths, or the directions of a hemisphere, find
+    kGlossyRays,    // light from where rays along a glossy lobe end
+    kMirrorRays,    // the picture in a mirror
+    kTransmission,  // light that comes through glass
+    kPath,          // light that random paths, or the directions of a hemisphere, find
     kBackground,    // bodies and the Sun's disk, where no object stands before them
     kAir,           // air between the camera and what it sees
     kPoints,  // stars, lamps and small things that are drawn as points: the sensor adds them to the picture
