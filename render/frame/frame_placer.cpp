@@ -30,8 +30,9 @@ RayDensity density_of(const RenderQuality& quality) {
 // Frames that show more triangles than this are left to rays, which hardly cost more for more.
 constexpr std::size_t kMostTriangles = 8'000'000;
 
-// So many objects may have pictures of their own, by levels of so many triangles: one takes some milliseconds of the processor.
-constexpr std::size_t kFew = 8, kMostInPicture = 1'000'000;
+// So many objects may have pictures of their own, by levels of so many triangles: one takes 0.15 ms of the processor where twenty
+// are a few pixels wide, and some milliseconds where it is 64.
+constexpr std::size_t kMostPictured = 32, kMostInPicture = 1'000'000;
 
 // Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
 // seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
@@ -188,7 +189,7 @@ std::optional<VisibilityBuffer::Room> FramePlacer::room_for_pictures(
     std::span<const RenderQuality> levels) const {
     const bool buffer =
         std::any_of(levels.begin(), levels.end(), [](const RenderQuality& q) { return q.uses_buffer(); });
-    if (!buffer || terrain_ || objects_.empty() || objects_.size() > kFew) return {};
+    if (!buffer || terrain_ || objects_.empty() || objects_.size() > kMostPictured) return {};
     VisibilityBuffer::Room room{1, 0, 0};
     for (std::size_t i = 0; i < objects_.size(); ++i)
         for (std::size_t level = 0; level < objects_[i].levels.size(); ++level) {
