@@ -125,7 +125,7 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
     const auto lit = [&](const FromBody& from, const Spectrum* glass) {
         Spectrum weight = glass ? from.weight * *glass : from.weight, light;
         frame.background->add_bodies(from.at->start(), to_double(from.dir), weight, light);
-        tile.add(*from.at, light);
+        tile.add(*from.at, LightPart::kPlanetshine, light);
     };
     ShadowRays<FromBody, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     for (const BodyLight& body : frame.background->body_lights()) {
