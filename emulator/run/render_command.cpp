@@ -83,6 +83,16 @@ void require_unused(const RenderFiles& files) {
             refuse(file, "the truth of a picture that is there already");
 }
 
+// Refuses to say what a pixel is made of and to write nothing of what else is asked for.
+void require_no_file(const RenderFiles& files) {
+    const auto refuse = [](const std::string& option) {
+        throw InputError(option + ": goes with a picture, and there is none; accepted: --out FILE beside it");
+    };
+    if (files.parts) refuse("--parts");
+    if (!files.view.empty()) refuse("--view " + files.view.string());
+    if (!files.truth.empty()) refuse("--truth " + files.truth.string());
+}
+
 // Refuses names that cannot be, before minutes of rendering.
 void check_names(PictureStage stage, const RenderFiles& files) {
     const auto is_one_of = [&](std::initializer_list<const char*> endings) {
@@ -95,7 +105,7 @@ void check_names(PictureStage stage, const RenderFiles& files) {
                           : is_one_of({".png", ".tiff", ".tif", ".fits", ".fit", ".raw"});
     if (files.parts && stage != PictureStage::kRadiance)
         throw InputError("--parts: they are parts of the light at the lens; accepted with --stage radiance");
-    if (files.out.empty() && files.pixel) return;
+    if (files.out.empty() && files.pixel) return require_no_file(files);
     if (!fits)
         throw InputError(files.out.string() +
                          ": accepted: .exr for radiance, .exr or .fits for electrons, .png, .tiff, .fits or "
@@ -109,20 +119,25 @@ void check_names(PictureStage stage, const RenderFiles& files) {
         throw InputError("--view " + files.view.string() + ": is the file of --out; accepted: another one");
 }
 
-void require_parts(const ScenarioConfig& s) {
+// What a pixel is made of is known where it is worked out itself.
+void require_parts(const ScenarioConfig& s, bool pixel) {
     const std::array quality{render_quality_of(s)};
     if (const std::string why = apart_refusal(s, quality); !why.empty())
         throw InputError("--parts and --pixel: " + why);
+    if (pixel && s.quality.render.sees_ground() && s.quality.render.ground_step_px > 1)
+        throw InputError(
+            "--pixel: three of four pixels of the ground are made of their neighbours; found "
+            "quality.ground_step_px: 2; accepted: --set quality.ground_step_px=1");
 }
 
-// The questions about the light of a picture, beside the picture itself.
+// The parts of a picture's light, and the record of a pixel, where they are asked for.
 struct AskedLight {
     std::optional<PartsBuffer> buffer;
     std::optional<PixelRecord> record;
 
     AskedLight(const RenderFiles& files, StillCamera& camera) {
         if (!files.parts && !files.pixel) return;
-        require_parts(camera.scenario());
+        require_parts(camera.scenario(), files.pixel.has_value());
         buffer.emplace(camera.renderer().make_parts_buffer(camera.radiance()));
         if (files.pixel) record.emplace().box = radiance_pixels(camera, *files.pixel);
         camera.renderer().keep_parts(&*buffer, record ? &*record : nullptr);

@@ -71,6 +71,13 @@ bool write(const Tile& tile, float share, bool may_leave, HalfLight& halves) {
 
 std::size_t pool_slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
 
+// A pixel whose light is no number is dark, and so are all of its parts.
+void leave_out_not_finite(std::span<const Spectrum> pixels, const TileParts& parts) {
+    for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
+        for (std::size_t i = 0; i < kImageParts && !is_finite(pixels[pixel]); ++i)
+            parts.of(static_cast<LightPart>(i))[pixel] = {};
+}
+
 }  // namespace
 
 FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
@@ -138,6 +145,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
     find_halves(placer, marks, radiance);
     for (GroundSeen& seen : ground_seen_) seen.x_px = seen.y_px = -1;
     if (parts_) parts_->parts.clear();
+    if (record_) record_->entries.clear();
     TileStats sum = trace_places(placer.frame(), radiance);
     const int all = levels_[level_].tiles.size();
     tiles_done_.store(0, std::memory_order_relaxed);
@@ -263,7 +271,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
         tile.parts = &parts;
     }
     if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
-    if (parts_) write_parts(parts, share);
+    if (parts_) leave_out_not_finite(pixels, parts), write_parts(parts, share);
     if (const std::uint64_t left_out = leave_out_not_finite(pixels); left_out > 0) {
         stats.not_finite += left_out;
         std::replace_if(
@@ -278,9 +286,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
 void FrameTracer::write_parts(const TileParts& tile, float share) const {
     for (std::size_t i = 0; i < kImageParts; ++i) {
         const auto part = static_cast<LightPart>(i);
-        if (!parts_->parts.has(part)) continue;
-        leave_out_not_finite(tile.of(part));
-        write(tile.of(part), share, tile.box, parts_->parts.of(part));
+        if (parts_->parts.has(part)) write(tile.of(part), share, tile.box, parts_->parts.of(part));
     }
 }
 

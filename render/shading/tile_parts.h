@@ -13,7 +13,7 @@
 namespace hilcam {
 
 struct TileParts {
-    PixelBox box;                   // box of the tile
+    PixelBox box;                   // the tile's place
     std::span<Spectrum> sums;       // by part, then by pixel; of kImageParts
     PixelRecord* record = nullptr;  // record of some pixels, which may lie elsewhere; null: none
     float share = 1;                // factor on sums that makes them radiance
