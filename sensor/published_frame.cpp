@@ -1,5 +1,8 @@
 #include "sensor/published_frame.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hilcam {
 namespace {
 
@@ -22,6 +25,11 @@ FrameRaster raster_of(const CameraModel& camera, int oversampling, const FrameLa
     return {width, height,
             axis_of({width, camera.black_columns, layout.binning_x, layout.reverse_x}, oversampling),
             axis_of({height, camera.black_rows, layout.binning_y, layout.reverse_y}, oversampling)};
+}
+
+PixelReach reach_of(const RasterAxis& axis, int frame_px) {
+    const double a = axis.image_px(frame_px), b = axis.image_px(frame_px + 1);
+    return {static_cast<int>(std::lround(std::min(a, b))), static_cast<int>(std::lround(std::max(a, b)))};
 }
 
 FrameIntrinsics intrinsics_of(const ImageGeometry& image, const FrameRaster& raster) {

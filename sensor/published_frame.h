@@ -21,6 +21,12 @@ struct FrameLayout {
 // oversampling: pixels of the radiance image across one of the detector. Loop.
 FrameRaster raster_of(const CameraModel& camera, int oversampling, const FrameLayout& layout);
 
+// Pixels of the radiance image, counted from its window's corner, that a pixel of the frame is made of along one axis.
+struct PixelReach {
+    int first, last;  // the one after it
+};
+PixelReach reach_of(const RasterAxis& axis, int frame_px);
+
 // The lens as the frame has it [px of the frame]: its focal length along both axes, negative where the frame
 // is mirrored, and where the boresight meets it.
 struct FrameIntrinsics {

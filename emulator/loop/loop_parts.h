@@ -18,6 +18,7 @@ struct CameraModel;
 class ExposureRenderer;
 class FaultBoard;
 class FrameSink;
+class LightPartOrders;
 class LiveSettings;
 class SensorChain;
 class SimulatedClock;
@@ -34,10 +35,11 @@ struct LoopLimits {
 
 // Each may be null. They change no frame.
 struct LoopObservers {
-    FrameWatcher* watcher = nullptr;    // is told what each frame has seen of the world
-    TruthSink* truth = nullptr;         // one of the sinks, which is told what frames show
-    FrameRecorder* recorder = nullptr;  // keeps what each frame was made with
-    std::uint16_t recorded_camera = 0;  // the camera's number in the recording, from 1
+    FrameWatcher* watcher = nullptr;         // is told what each frame has seen of the world
+    TruthSink* truth = nullptr;              // one of the sinks, which is told what frames show
+    LightPartOrders* light_parts = nullptr;  // says which frames are taken apart for somebody
+    FrameRecorder* recorder = nullptr;       // keeps what each frame was made with
+    std::uint16_t recorded_camera = 0;       // the camera's number in the recording, from 1
 };
 
 struct LoopParts {

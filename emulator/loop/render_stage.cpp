@@ -43,6 +43,11 @@ bool RenderStage::run(FrameSlot& slot, const std::atomic<bool>& stopping) {
     return true;
 }
 
+void RenderStage::close() {
+    settings_.close();
+    if (observers_.light_parts) observers_.light_parts->close();
+}
+
 // Waits for the next frame's begin and says what it depends on; false when there is none.
 bool RenderStage::begin(FrameSlot& slot, const std::atomic<bool>& stopping) {
     const bool begun = script_ ? script_->next(stopping, slot.use, slot.not_before_ns)
@@ -100,16 +105,26 @@ void RenderStage::latch(FrameSlot& slot) {
 }
 
 void RenderStage::render(FrameSlot& slot) {
-    const std::int64_t begun_ns = monotonic_ns();
-    FrameRecord& record = slot.record;
+    LightPartOrders::Order* const order = observers_.light_parts ? observers_.light_parts->begin() : nullptr;
     if (slot.use.shutter_closed) {
+        // An order's buffer is new, and stays without light.
         exposures_.keep_dark(slot.radiance, slot.points, slot.exposure);
         slot.beside.clear();
         slot.render_ns = 0;  // says nothing of what frames cost
-        return;
+    } else {
+        if (order) exposures_.keep_parts(order->buffer.get());
+        render_light(slot, order);
+        if (order) exposures_.keep_parts(nullptr);
     }
+    if (order) observers_.light_parts->done(slot.record);
+}
+
+void RenderStage::render_light(FrameSlot& slot, const LightPartOrders::Order* order) {
+    const std::int64_t begun_ns = monotonic_ns();
+    FrameRecord& record = slot.record;
     tell_pose_tags(slot);
-    FrameTruth* const truth = observers_.truth ? observers_.truth->begin(record) : nullptr;
+    const bool with_truth = order && order->with_truth;
+    FrameTruth* const truth = observers_.truth ? observers_.truth->begin(record, with_truth) : nullptr;
     record.has_truth = truth != nullptr;
     const ExposureRenderer::Result result =
         exposures_.render(world_, {slot.use.shown_at, slot.use.moving}, {seed_, record.id}, slot.radiance,

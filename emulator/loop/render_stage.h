@@ -14,6 +14,7 @@
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/frame_planner.h"
 #include "emulator/loop/frame_slot.h"
+#include "emulator/loop/light_part_orders.h"
 #include "emulator/loop/loop_figures.h"
 #include "emulator/loop/loop_parts.h"
 
@@ -31,7 +32,7 @@ class RenderStage {
     // thread.
     bool run(FrameSlot& slot, const std::atomic<bool>& stopping);
     // No frame comes any more: what waits for one is answered. Loop.
-    void close() { settings_.close(); }
+    void close();
 
     // False: there is none that was not taken yet. One thread.
     bool take_level_change(LevelChange& change) noexcept { return planner_.take_level_change(change); }
@@ -44,6 +45,7 @@ class RenderStage {
     void take_light(FrameUse& use);
     void latch(FrameSlot& slot);
     void render(FrameSlot& slot);
+    void render_light(FrameSlot& slot, const LightPartOrders::Order* order);
     void tell_pose_tags(FrameSlot& slot);
     void tell_impossible(FrameSlot& slot);
     void tell_commands(const ShownCommand& shown, FrameSlot& slot);

@@ -9,9 +9,11 @@
 #include "emulator/run/picture_fault.h"
 #include "emulator/run/picture_run.h"
 #include "emulator/run/truth_source.h"
+#include "emulator/scenario/apart_refusal.h"
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
+#include "sensor/ideal_sensor.h"
 
 namespace hilcam {
 namespace {
@@ -28,6 +30,21 @@ bool begins_without_light(const ScenarioConfig& scenario, const RunLimits& limit
            limits.record.empty() && limits.replay.empty();
 }
 
+// The frame's numbers of one part of its light.
+DnImage numbers_of(const RadianceImage& light, const FrameRecord& record, const IdealSensor& sensor) {
+    const Exposure exposure{
+        .exposure_s = record.exposure_s, .gain_db = record.gain_db, .black_level_dn = record.black_level_dn};
+    return sensor.take(light, exposure,
+                       {record.binning_x, record.binning_y, record.reverse_x, record.reverse_y});
+}
+
+// Governed, frames have any of these.
+std::vector<RenderQuality> all_levels(const ScenarioConfig& scenario) {
+    std::vector<RenderQuality> levels = lower_levels(scenario);
+    levels.insert(levels.begin(), render_quality_of(scenario));
+    return levels;
+}
+
 }  // namespace
 
 CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number, const RunLimits& limits)
@@ -36,6 +53,7 @@ CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number,
       limits_(limits),
       settings_(scenario_.camera, mode_of(scenario_)),
       faults_(seed_of_camera(scenario_, number - 1)),
+      light_parts_(apart_refusal(scenario_, all_levels(scenario_))),
       timed_faults_(scenario_.faults) {
     settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
         for (const auto& sink : sinks_) sink->happened({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
@@ -100,7 +118,20 @@ void CameraStation::load(const SpectralGrid& grid) {
         truth_ = truth.get();
         sinks_.push_back(std::move(truth));
     }
+    serve_light_parts();
     find_level_costs();
+}
+
+void CameraStation::serve_light_parts() {
+    const auto sensor = std::make_shared<const IdealSensor>(scenario_.camera, sampling_of(scenario_));
+    LightPartOrders::Maker maker;
+    maker.make_buffer = [this](LightPart part) {
+        return std::make_unique<PartsBuffer>(exposures_->make_parts_buffer(part));
+    };
+    maker.numbers_of = [sensor](const RadianceImage& light, const FrameRecord& record) {
+        return numbers_of(light, record, *sensor);
+    };
+    light_parts_.serve(std::move(maker));
 }
 
 void CameraStation::prepare(const StationLinks& links) {
@@ -122,6 +153,7 @@ void CameraStation::prepare(const StationLinks& links) {
         .script = links.script,
         .observers = {.watcher = links.watcher,
                       .truth = truth_,
+                      .light_parts = &light_parts_,
                       .recorder = links.recorder,
                       .recorded_camera = static_cast<std::uint16_t>(number_)},
     });
@@ -144,9 +176,8 @@ GovernorSettings CameraStation::governor() const {
 
 // A replay has its frames' levels from its recording.
 void CameraStation::find_level_costs() {
-    std::vector<RenderQuality> levels = lower_levels(scenario_);
-    if (levels.empty() || !limits_.paced || !limits_.replay.empty()) return;
-    levels.insert(levels.begin(), render_quality_of(scenario_));
+    const std::vector<RenderQuality> levels = all_levels(scenario_);
+    if (levels.size() == 1 || !limits_.paced || !limits_.replay.empty()) return;
     std::vector<double> rays;
     for (const RenderQuality& level : levels) rays.push_back(primary_rays(scenario_, level));
     const LoopConfig& loop = scenario_.loop;

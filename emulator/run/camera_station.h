@@ -12,6 +12,7 @@
 
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/frame_loop.h"
+#include "emulator/loop/light_part_orders.h"
 #include "emulator/run/level_costs.h"
 #include "emulator/run/status.h"
 #include "emulator/scenario/app_config.h"
@@ -107,11 +108,12 @@ class CameraStation {
     std::vector<std::string> new_faults();
     // An output that others feed too (telemetry); before prepare().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
-    SinkContext sink_context() { return {settings_, faults_, &delivery_, &fates_}; }
+    SinkContext sink_context() { return {settings_, faults_, &delivery_, &fates_, &light_parts_}; }
 
   private:
     void make_sinks();
     void find_level_costs();
+    void serve_light_parts();
     GovernorSettings governor() const;
     void record_changes(Recorder& recorder);
     std::string status() const;
@@ -125,6 +127,7 @@ class CameraStation {
     FaultBoard faults_;
     DeliveryMeter delivery_;
     FrameFates fates_;
+    LightPartOrders light_parts_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
     bool told_render_fault_ = false;

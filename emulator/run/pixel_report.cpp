@@ -30,16 +30,30 @@ Reach reach_of(const RasterAxis& axis, int frame_px, int guard_px) {
             static_cast<int>(std::lround(std::max(a, b))) + guard_px};
 }
 
-// Electrons per radiance of a pixel's light in this exposure; of a detector with filters, by that over the pixel.
+std::string option(FramePixel pixel) {
+    return "--pixel " + std::to_string(pixel.x) + ' ' + std::to_string(pixel.y);
+}
+
+// Returns the number of the filter over a pixel. InputError where pixels under several filters are binned into one.
+int channel_of(const CameraModel& model, const FrameRaster& lies, int oversampling, FramePixel pixel) {
+    const Mosaic mosaic(model);
+    const Reach x = reach_of(lies.x, pixel.x, 0), y = reach_of(lies.y, pixel.y, 0);
+    const int channel = mosaic.channel(x.first / oversampling, y.first / oversampling);
+    for (int row = y.first / oversampling; row < y.last / oversampling; ++row)
+        for (int column = x.first / oversampling; column < x.last / oversampling; ++column)
+            if (mosaic.channel(column, row) != channel)
+                throw InputError(option(pixel) +
+                                 ": is binned of pixels under several filters; accepted: --set "
+                                 "camera.binning_x=1 --set camera.binning_y=1");
+    return channel;
+}
+
+// Returns the electrons per radiance of a pixel's light in this exposure, by the filter over the pixel.
 Spectrum electrons_per_radiance(const StillCamera& camera, FramePixel pixel) {
     const CameraModel& model = camera.scenario().camera;
-    const FrameRaster lies = raster(camera.scenario());
-    const double oversampling = static_cast<double>(camera.scenario().quality.oversampling);
-    const auto on_array = [&](const RasterAxis& axis, int at) {
-        return static_cast<int>(std::floor(axis.image_px(at + 0.5) / oversampling));
-    };
-    const int channel = Mosaic(model).channel(on_array(lies.x, pixel.x), on_array(lies.y, pixel.y));
-    return static_cast<float>(camera.exposure().exposure_s / (oversampling * oversampling)) *
+    const auto oversampling = static_cast<int>(camera.scenario().quality.oversampling);
+    const int channel = channel_of(model, raster(camera.scenario()), oversampling, pixel);
+    return static_cast<float>(camera.exposure().exposure_s / (1.0 * oversampling * oversampling)) *
            channel_responses(model, camera.grid())[static_cast<std::size_t>(channel)];
 }
 
@@ -49,7 +63,31 @@ std::string number(double value, const char* format = "%.4g") {
     return text;
 }
 
-// What one surface adds to the pixel, part by part.
+// An object of the renderer by its name.
+struct Thing {
+    std::string name;
+    const LoadedObject* loaded;  // the object with its turning parts; null: it is the terrain
+};
+// The renderer has the scenario's objects, then all their turning parts, then the terrain (scene_loader.cpp).
+Thing thing_of(const StillCamera& camera, std::size_t number) {
+    const std::vector<ObjectConfig>& objects = camera.scenario().objects;
+    if (number < objects.size()) return {"object '" + objects[number].name + "'", &camera.objects()[number]};
+    std::size_t part = number - objects.size();
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const std::vector<JointConfig>& joints = objects[i].joints;
+        if (part < joints.size())
+            return {"object '" + objects[i].name + '/' + joints[part].node + "'", &camera.objects()[i]};
+        part -= joints.size();
+    }
+    return {"the ground", nullptr};
+}
+
+// The Sun lights surfaces alone: without one it is ground that is alone in the scene (ground_light.h).
+bool is_ground(const PixelRecord::Entry& entry) {
+    return entry.object == PixelRecord::kNoObject && entry.part == LightPart::kSun;
+}
+
+// The light that one surface adds to the pixel, part by part.
 struct Group {
     PixelRecord::Entry surface;  // the first of its entries
     struct Share {
@@ -61,16 +99,19 @@ struct Group {
 
     bool is_of(const PixelRecord::Entry& entry) const {
         return surface.depth == entry.depth && surface.object == entry.object &&
-               surface.triangle == entry.triangle && surface.is_shared == entry.is_shared;
+               surface.triangle == entry.triangle && surface.is_shared == entry.is_shared &&
+               is_ground(surface) == is_ground(entry);
     }
 };
 
 class Report {
   public:
-    Report(const StillCamera& camera, FramePixel pixel, const PixelRecord& record) : camera_(camera) {
+    Report(const StillCamera& camera, FramePixel pixel, const PixelRecord& record)
+        : camera_(camera), is_one_(record.box.x1 - record.box.x0 == 1 && record.box.y1 - record.box.y0 == 1) {
         const Spectrum response = electrons_per_radiance(camera, pixel);
         for (const PixelRecord::Entry& entry : record.entries)
-            take(entry, static_cast<double>(sum_of_products(response, entry.light)));
+            if (entry.light.bin != Spectrum{}.bin)
+                take(entry, static_cast<double>(sum_of_products(response, entry.light)));
         std::stable_sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) {
             return rank(a) != rank(b) ? rank(a) < rank(b) : a.electrons > b.electrons;
         });
@@ -89,12 +130,14 @@ class Report {
 
   private:
     const StillCamera& camera_;
+    bool is_one_;  // the pixel is one of the image
     std::vector<Group> groups_;
     std::array<double, kLightParts> of_part_{};
     double all_ = 0;
     std::ostringstream out_;
 
     static int rank(const Group& group) {
+        if (is_ground(group.surface)) return 1;
         return group.surface.is_shared ? 3 : std::min(group.surface.depth, 2);
     }
 
@@ -142,18 +185,18 @@ class Report {
         for (std::size_t i = 0; i < group.shares.size(); ++i)
             out_ << (i > 0 ? ", " : "") << name_of(group.shares[i].part) << ' '
                  << number(group.shares[i].electrons, "%.1f") << " e-";
+        if (is_ground(group.surface)) out_ << "\n      the ground";
         if (group.surface.object != PixelRecord::kNoObject) out_ << "\n      " << surface_text(group.surface);
         out_ << '\n';
     }
 
     std::string surface_text(const PixelRecord::Entry& entry) const {
-        const std::vector<LoadedObject>& objects = camera_.objects();
-        const bool is_loaded = entry.object < objects.size();
+        const Thing thing = thing_of(camera_, entry.object);
         std::ostringstream text;
-        text << (is_loaded ? "object '" + objects[entry.object].name + "'" : std::string("the ground"));
+        text << thing.name;
         if (entry.depth == 0) return text.str() + ", drawn as points";
-        if (is_loaded && entry.surface < objects[entry.object].surfaces.size())
-            text << ", surface '" << objects[entry.object].surfaces[entry.surface].name << "'"
+        if (thing.loaded && entry.surface < thing.loaded->surfaces.size())
+            text << ", surface '" << thing.loaded->surfaces[entry.surface].name << "'"
                  << (entry.back ? " (back)" : "");
         const RecordedSurface surface = camera_.renderer().surface_of(entry);
         text << ", triangle " << entry.triangle << " of " << surface.triangles << " at level of detail "
@@ -161,7 +204,7 @@ class Report {
         if (surface.level_error_m > 0)
             text << " (off by up to " << number(1e3 * surface.level_error_m) << " mm)";
         text << ", " << number(surface.distance_m, "%.6g") << " m from the camera";
-        if (entry.depth == 1)
+        if (entry.depth == 1 && entry.samples > 0 && is_one_)
             text << ", fills "
                  << number(100.0 * static_cast<double>(entry.samples) / kVisibilitySamples, "%.0f")
                  << " % of the pixel";
@@ -179,12 +222,21 @@ class Report {
 PixelBox radiance_pixels(const StillCamera& camera, FramePixel pixel) {
     const FrameRaster lies = raster(camera.scenario());
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= lies.width_px || pixel.y >= lies.height_px)
-        throw InputError("--pixel " + std::to_string(pixel.x) + ' ' + std::to_string(pixel.y) +
-                         ": the frame has no such pixel; accepted: 0 to " +
+        throw InputError(option(pixel) + ": the frame has no such pixel; accepted: 0 to " +
                          std::to_string(lies.width_px - 1) + " and 0 to " +
                          std::to_string(lies.height_px - 1));
-    const int guard_px = camera.renderer().geometry().guard_px;
-    const Reach x = reach_of(lies.x, pixel.x, guard_px), y = reach_of(lies.y, pixel.y, guard_px);
+    const ImageGeometry& image = camera.renderer().geometry();
+    const auto lit = [&](const Reach& all, int size_px) {
+        return Reach{std::max(all.first, image.guard_px), std::min(all.last, image.guard_px + size_px)};
+    };
+    channel_of(camera.scenario().camera, lies, static_cast<int>(camera.scenario().quality.oversampling),
+               pixel);
+    const Reach x = lit(reach_of(lies.x, pixel.x, image.guard_px), image.width_px),
+                y = lit(reach_of(lies.y, pixel.y, image.guard_px), image.height_px);
+    if (x.first >= x.last || y.first >= y.last)
+        throw InputError(option(pixel) + ": is a black pixel, which no light reaches; accepted: one beyond " +
+                         std::to_string(camera.scenario().camera.black_columns) + " black columns and " +
+                         std::to_string(camera.scenario().camera.black_rows) + " black rows");
     return {x.first, y.first, x.last, y.last};
 }
 

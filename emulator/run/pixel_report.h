@@ -15,7 +15,8 @@ struct FramePixel {
     int x = 0, y = 0;
 };
 
-// Returns the pixels of the padded radiance image that a pixel of the frame is made of. InputError where the frame has no such pixel.
+// Returns the pixels of the padded radiance image that a pixel of the frame is made of. InputError where the frame has no such pixel, where
+// no light reaches it, and where it is binned of pixels under several filters.
 PixelBox radiance_pixels(const StillCamera& camera, FramePixel pixel);
 
 // Says what the light of the picture that was rendered last is made of: parts with their sums, then entry by entry the surface that sends

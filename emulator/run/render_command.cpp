@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
+#include "emulator/scenario/apart_refusal.h"
 #include "io/pictures/image_file.h"
 #include "sensor/published_frame.h"
 
@@ -81,6 +83,16 @@ void require_unused(const RenderFiles& files) {
             refuse(file, "the truth of a picture that is there already");
 }
 
+// Refuses to say what a pixel is made of and to write nothing of what else is asked for.
+void require_no_file(const RenderFiles& files) {
+    const auto refuse = [](const std::string& option) {
+        throw InputError(option + ": goes with a picture, and there is none; accepted: --out FILE beside it");
+    };
+    if (files.parts) refuse("--parts");
+    if (!files.view.empty()) refuse("--view " + files.view.string());
+    if (!files.truth.empty()) refuse("--truth " + files.truth.string());
+}
+
 // Refuses names that cannot be, before minutes of rendering.
 void check_names(PictureStage stage, const RenderFiles& files) {
     const auto is_one_of = [&](std::initializer_list<const char*> endings) {
@@ -93,7 +105,7 @@ void check_names(PictureStage stage, const RenderFiles& files) {
                           : is_one_of({".png", ".tiff", ".tif", ".fits", ".fit", ".raw"});
     if (files.parts && stage != PictureStage::kRadiance)
         throw InputError("--parts: they are parts of the light at the lens; accepted with --stage radiance");
-    if (files.out.empty() && files.pixel) return;
+    if (files.out.empty() && files.pixel) return require_no_file(files);
     if (!fits)
         throw InputError(files.out.string() +
                          ": accepted: .exr for radiance, .exr or .fits for electrons, .png, .tiff, .fits or "
@@ -107,29 +119,28 @@ void check_names(PictureStage stage, const RenderFiles& files) {
         throw InputError("--view " + files.view.string() + ": is the file of --out; accepted: another one");
 }
 
-// Parts are those of one rendering in which each pixel is sampled as often as every other.
-void require_parts(const ScenarioConfig& s) {
-    if (s.quality.motion == MotionQuality::kExact)
+// What a pixel is made of is known where it is worked out itself.
+void require_parts(const ScenarioConfig& s, bool pixel) {
+    const std::array quality{render_quality_of(s)};
+    if (const std::string why = apart_refusal(s, quality); !why.empty())
+        throw InputError("--parts and --pixel: " + why);
+    if (pixel && s.quality.render.sees_ground() && s.quality.render.ground_step_px > 1)
         throw InputError(
-            "--parts and --pixel: take one instant apart; found quality.motion: exact; accepted: "
-            "--set quality.motion=off");
-    if (s.quality.render.noise_budget > 0)
-        throw InputError(
-            "--parts and --pixel: found quality.noise_budget above 0; accepted: --set "
-            "quality.noise_budget=0");
+            "--pixel: three of four pixels of the ground are made of their neighbours; found "
+            "quality.ground_step_px: 2; accepted: --set quality.ground_step_px=1");
 }
 
-// What is asked about the light of a picture, beside the picture.
+// The parts of a picture's light, and the record of a pixel, where they are asked for.
 struct AskedLight {
-    std::optional<LightParts> parts;
+    std::optional<PartsBuffer> buffer;
     std::optional<PixelRecord> record;
 
     AskedLight(const RenderFiles& files, StillCamera& camera) {
         if (!files.parts && !files.pixel) return;
-        require_parts(camera.scenario());
-        parts.emplace(camera.radiance());
+        require_parts(camera.scenario(), files.pixel.has_value());
+        buffer.emplace(camera.renderer().make_parts_buffer(camera.radiance()));
         if (files.pixel) record.emplace().box = radiance_pixels(camera, *files.pixel);
-        camera.renderer().keep_parts(&*parts, record ? &*record : nullptr);
+        camera.renderer().keep_parts(&*buffer, record ? &*record : nullptr);
     }
 };
 
@@ -168,8 +179,8 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
     if (stage == PictureStage::kRadiance) {
         const PixelRectangle frame = frame_in_radiance(scenario.camera, renderer.geometry(), oversampling);
         if (files.parts)
-            return writer.write_radiance(files.out, asked.parts->sum(), frame, oversampling, record,
-                                         &*asked.parts);
+            return writer.write_radiance(files.out, asked.buffer->parts.sum(), frame, oversampling, record,
+                                         &asked.buffer->parts);
         return writer.write_radiance(files.out, radiance, frame, oversampling, record);
     }
     const ElectronImage& electrons = camera.expose();

@@ -21,7 +21,7 @@ struct RenderFiles {
     // A folder for what the picture shows, in files that are named after it, with all layers unless
     // outputs.truth says which; empty: none.
     std::filesystem::path truth{};
-    bool parts = false;  // with the parts of the light as layers; radiance alone
+    bool parts = false;  // layers of the parts of the light are written, too; radiance alone
     std::optional<FramePixel>
         pixel{};             // say on the standard output what it is made of; `out` may then be empty
     bool overwrite = false;  // a run's frame, or the truth of another picture

@@ -12,6 +12,7 @@
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
+#include "io/system/text_number.h"
 #include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
@@ -61,13 +62,18 @@ void add_prepare_command(CLI::App& app, Action& action) {
         "prepare", "make what a run needs and keeps on disk, so that its first frame has the best light");
     add_config(prepare, o->config);
     prepare
-        ->add_option_function<std::pair<std::string, std::uint32_t>>(
+        ->add_option_function<std::vector<std::string>>(
             "--probe",
-            [o](const std::pair<std::string, std::uint32_t>& of) {
-                o->probe = {of.first, of.second};
+            [o](const std::vector<std::string>& of) {
+                const auto number = parsed_as<std::uint32_t>(of[1]);
+                if (!number)
+                    throw InputError("--probe " + of[0] + ' ' + of[1] +
+                                     ": accepted: an object's name and a probe's number");
+                o->probe = {of[0], *number};
             },
             "OBJECT N: print what this probe of an object sees, as JSON; render --pixel names a pixel's "
             "probe")
+        ->expected(2)
         ->type_name("OBJECT N");
     set_examples(prepare,
                  {"hilcam prepare geo_inspection", "hilcam prepare geo_inspection --probe target 100"});

@@ -74,7 +74,7 @@ void add_render_command(CLI::App& app, Action& action) {
         "frame");
     render->add_flag(
         "--parts", o->files.parts,
-        "with --stage radiance: the parts of the light as layers of the file (docs/rendering.md)");
+        "with --stage radiance: the parts of the light as layers of the file (docs/pictures.md)");
     render
         ->add_option_function<std::vector<int>>(
             "--pixel",

@@ -99,13 +99,15 @@ class DeliveryListener {
 class CameraControl;
 class FaultBoard;
 class FrameFates;
+class LightPartSource;
 
 // The surroundings of a sink; all of it outlives the sink.
 struct SinkContext {
     CameraControl& camera;
     FaultBoard& faults;
-    DeliveryListener* listener = nullptr;  // may be null
-    FrameFates* fates = nullptr;           // gets what becomes of frames' files; may be null
+    DeliveryListener* listener = nullptr;    // may be null
+    FrameFates* fates = nullptr;             // gets what becomes of frames' files; may be null
+    LightPartSource* light_parts = nullptr;  // takes frames apart for who asks; may be null
 };
 
 }  // namespace hilcam

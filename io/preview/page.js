@@ -42,6 +42,7 @@ const picture = new Picture($("picture"), {
   },
   online: showProfile,
   onlink: text => { link = text; showChips(); },
+  onrefused: why => { showLight(why); keepView(picture, histogram); },
 });
 window.preview = picture;  // for the console and for tests
 
@@ -80,6 +81,8 @@ function showFrame(f) {
     ["Least, most", `${s.least}, ${s.most} DN`],
     ["At full scale", `${number(100 * s.saturated / f.samples.length)} %`],
   ]);
+  // What is saved are numbers of frames, not of a part of their light.
+  for (const format of ["png", "tiff"]) $("save-" + format).disabled = !!f.light;
   if (f.poseSequence) latest = f.poseSequence;
   showTruthNote();
   showHistogram();
@@ -143,6 +146,7 @@ function showChips() {
   $("chips").replaceChildren(
     ...(link ? [chip("link", link, "bad")] : []),
     ...(picture.frozen ? [chip("picture", "frozen", "warn")] : []),
+    ...(picture.frame?.light ? [chip("light", picture.frame.light, "warn")] : []),
     chip("mode", ...mode),
     ...(status.clock.stands ? [chip("time", "stands", "warn")] : status.clock.scale !== 1 ? [chip("time", number(status.clock.scale) + " times", "warn")] : []),
     chip("camera", number(rate) + " frames/s"),
@@ -306,8 +310,13 @@ function one() { picture.zoom(window.devicePixelRatio || 1); }
 $("freeze").addEventListener("click", freeze);
 $("fit").addEventListener("click", () => picture.fit());
 $("one").addEventListener("click", one);
+function showLight(why) {
+  $("light").value = picture.light;
+  $("light-answer").textContent = why;
+}
 // --- How the picture is looked at.
 function showView() {
+  showLight("");
   $("stretch").value = picture.stretch;
   $("auto").value = picture.auto;
   for (const layer of LAYERS) $("show-" + layer).checked = picture.layers.has(layer);
@@ -321,6 +330,11 @@ for (const layer of LAYERS)
     picture.draw();
     showTruthNote();
   });
+$("light").addEventListener("change", () => {
+  picture.light = $("light").value;
+  showLight(picture.frozen ? "the frame that is frozen stays as it is" : "");
+  keepView(picture, histogram);
+});
 $("histogram-log").addEventListener("change", () => {
   histogram.logarithmic = $("histogram-log").checked;
   if (picture.frame) showHistogram();
@@ -342,6 +356,7 @@ for (const format of ["png", "tiff"])
   });
 function takeAddress() {
   readView(picture, histogram);
+  if (![...$("light").options].some(option => option.value === picture.light)) picture.light = "";
   picture.drawing = !!picture.line;
   $("profile-tool").setAttribute("aria-pressed", picture.drawing);
   showView();

@@ -31,8 +31,8 @@ function decode(buffer) {
 }
 
 export class Picture {
-  constructor(canvas, { onframe, onpixel, onview, onlink, online }) {
-    Object.assign(this, { canvas, onframe, onpixel, onview, onlink, online });
+  constructor(canvas, { onframe, onpixel, onview, onlink, online, onrefused }) {
+    Object.assign(this, { canvas, onframe, onpixel, onview, onlink, online, onrefused });
     this.viewer = crypto.getRandomValues(new Uint32Array(1))[0];
     this.frame = null;
     this.frozen = false;
@@ -43,6 +43,7 @@ export class Picture {
     this.scale = 0;  // device pixels per frame pixel; 0: fit
     this.centre = null;
     this.cursor = null;
+    this.light = "";          // the part of the light that is shown; empty: the picture
     this.layers = new Set();  // of truth, that are drawn
     this.drawn = null;        // how many of each
     this.line = null;         // of the profile, in the frame's pixels
@@ -61,16 +62,19 @@ export class Picture {
     this.asked = "";
     for (;;) {
       if (this.frozen || this.freezing || document.hidden) { await new Promise(r => setTimeout(r, 100)); continue; }
-      const part = this.part();
+      const part = this.part(), light = this.light;
       if (part !== this.asked) after = 0n;  // another part of the same frame is news too
       this.asked = part;
       this.patience = new AbortController();
       try {
         const answer = await fetch(`frame?viewer=${this.viewer}&after=${after}${part}`, { signal: this.patience.signal });
-        this.onlink(answer.ok ? "" : (await answer.text()).trim());
+        const why = answer.ok ? "" : (await answer.text()).trim();
+        if (light && (answer.status === 400 || answer.status === 409)) { this.refuseLight(why); continue; }
+        this.onlink(why);
         if (answer.status === 200) {
           const frame = await this.withTruth(decode(await answer.arrayBuffer()));
           after = frame.id;
+          frame.light = light;
           if (!this.frozen && !this.freezing) this.take(frame);
         } else if (answer.status !== 204) await new Promise(r => setTimeout(r, 500));
       } catch (error) {
@@ -92,27 +96,37 @@ export class Picture {
     if (this.freezing) return;
     this.freezing = true;
     this.patience?.abort();
+    const light = this.light;
     try {
       for (let i = 0; i < 5; i++) {
         const answer = await fetch(`frame?viewer=${this.viewer}&hold=1${this.part()}`);
-        if (answer.status === 200) { this.take(await this.withTruth(decode(await answer.arrayBuffer()))); break; }
+        if (answer.status === 200) {
+          this.take(Object.assign(await this.withTruth(decode(await answer.arrayBuffer())), { light }));
+          break;
+        }
         await new Promise(r => setTimeout(r, 100));  // too many at once
       }
     } catch { this.onlink("no answer"); }
     this.frozen = true;
     this.freezing = false;
   }
+  // This camera's frames are not taken apart: the picture is shown as before.
+  refuseLight(why) {
+    this.light = "";
+    this.onlink("");
+    this.onrefused(why);
+  }
   // The view has moved on while a frame is waited for: ask for the new part.
   hurry() { if (this.asked !== this.part()) this.patience?.abort(); }
   part() {
-    const f = this.frame, truth = this.layers.size ? "&truth=1" : "";
-    if (!f || f.frameWidth * f.frameHeight <= WHOLE_SAMPLES) return truth;
+    const f = this.frame, wishes = (this.light ? `&light=${this.light}` : "") + (this.layers.size ? "&truth=1" : "");
+    if (!f || f.frameWidth * f.frameHeight <= WHOLE_SAMPLES) return wishes;
     const s = this.shownScale(), c = this.shownCentre();
     const w = this.canvas.width / s, h = this.canvas.height / s;
     const clamp = (value, most) => Math.max(0, Math.min(most, Math.floor(value)));
     const x = clamp(c.x - w / 2, f.frameWidth - 1), y = clamp(c.y - h / 2, f.frameHeight - 1);
     const step = Math.min(256, Math.max(1, Math.floor(1 / s)));
-    return `&x=${x}&y=${y}&width=${Math.ceil(Math.min(f.frameWidth, w + 1))}&height=${Math.ceil(Math.min(f.frameHeight, h + 1))}&step=${step}${truth}`;
+    return `&x=${x}&y=${y}&width=${Math.ceil(Math.min(f.frameWidth, w + 1))}&height=${Math.ceil(Math.min(f.frameHeight, h + 1))}&step=${step}${wishes}`;
   }
   take(frame) {
     const now = performance.now();

@@ -133,8 +133,10 @@ PictureRequest parse_picture_request(std::string_view query) {
             r.hold = parse_flag(key, text);
         else if (key == "truth")
             r.truth = parse_flag(key, text);
+        else if (key == "light")
+            r.light = parse_word<LightPart>(key, text, kLightPartNames);
         else
-            refuse_key(key, "viewer, after, x, y, width, height, step, hold, truth");
+            refuse_key(key, "viewer, after, x, y, width, height, step, hold, truth, light");
     }
     return r;
 }

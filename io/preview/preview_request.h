@@ -4,6 +4,7 @@
 // that names the key, what was found and what is accepted.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "io/contract/camera_control.h"
 #include "io/contract/fault.h"
+#include "render/vocabulary/light_part.h"
 
 namespace hilcam {
 
@@ -24,8 +26,9 @@ struct PictureRequest {
     std::uint64_t after = 0;   // wait for a frame with another id than this; 0: the newest there is
     int x = 0, y = 0, width = 0, height = 0;
     int step = 1;
-    bool hold = false;   // keep the frame, so that its numbers can be saved later
-    bool truth = false;  // one whose truth is told, if it comes in time
+    bool hold = false;                 // keep the frame, so that its numbers can be saved later
+    bool truth = false;                // one whose truth is told, if it comes in time
+    std::optional<LightPart> light{};  // one part of the frame's light alone; none: the picture
 };
 PictureRequest parse_picture_request(std::string_view query);
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "io/contract/light_part_source.h"
 #include "io/contract/refused_settings.h"
 #include "io/pictures/image_file.h"
 #include "io/preview/preview_assets.h"
@@ -135,6 +136,8 @@ struct PreviewSink::Implementation {
     void add_routes();
     bool refuse_stranger(const httplib::Request& request, httplib::Response& response);
     void send_picture(const httplib::Request& request, httplib::Response& response);
+    void send_light(const PictureRequest& wanted, httplib::Response& response);
+    void answer(std::string picture, httplib::Response& response);
     void send_numbers(const httplib::Request& request, httplib::Response& response);
     void send_truth(const httplib::Request& request, httplib::Response& response);
     void change_settings(const httplib::Request& request, httplib::Response& response);
@@ -170,14 +173,32 @@ bool PreviewSink::Implementation::refuse_stranger(const httplib::Request& reques
 void PreviewSink::Implementation::send_picture(const httplib::Request& request, httplib::Response& response) {
     const PictureRequest wanted = parse_picture_request(query_of(request));
     if (!viewers.admit(wanted.viewer)) return refuse_crowd(response);
+    if (wanted.light) return send_light(wanted, response);
     std::string picture;
     const auto read = [&](const PreviewSlot::Frame& f) {
         const PictureSource source{f.samples, f.width, f.height, f.record};
         picture = encode_picture(source, fit_to_frame(wanted, f.width, f.height), color_pattern);
         if (wanted.hold) shelf.keep(f);
     };
-    const bool there = slot.wait_for(wanted.after, kLongestPoll, wanted.truth, read);
-    if (!there) {
+    slot.wait_for(wanted.after, kLongestPoll, wanted.truth, read);
+    answer(std::move(picture), response);
+}
+
+// One part of the light of a frame, in the picture's form. It is not held.
+void PreviewSink::Implementation::send_light(const PictureRequest& wanted, httplib::Response& response) {
+    if (!context.light_parts) return refuse(response, 409, "light: nobody takes this camera's frames apart");
+    if (const std::string why = context.light_parts->refusal(); !why.empty())
+        return refuse(response, 409, why);
+    const auto shown =
+        context.light_parts->wait_for({*wanted.light, wanted.after, wanted.truth}, kLongestPoll);
+    if (!shown) return answer({}, response);
+    const int width = shown->numbers.width(), height = shown->numbers.height();
+    const PictureSource source{shown->numbers.all(), width, height, shown->record};
+    answer(encode_picture(source, fit_to_frame(wanted, width, height), color_pattern), response);
+}
+
+void PreviewSink::Implementation::answer(std::string picture, httplib::Response& response) {
+    if (picture.empty()) {
         response.status = 204;  // no frame in time: ask again
         return;
     }

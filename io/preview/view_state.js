@@ -17,6 +17,7 @@ export function readView(picture, histogram) {
   const scale = finite("zoom"), x = finite("x"), y = finite("y");
   picture.scale = scale !== null && scale > 0 ? Math.min(128, scale) : 0;
   picture.centre = picture.scale && x !== null && y !== null ? { x, y } : null;
+  picture.light = words.get("light") ?? "";
   picture.layers = new Set((words.get("show") ?? "").split(",").filter(layer => LAYERS.includes(layer)));
   const line = (words.get("profile") ?? "").split(",").map(Number);
   picture.line = line.length === 4 && line.every(Number.isFinite) ? { x0: line[0], y0: line[1], x1: line[2], y1: line[3] } : null;
@@ -32,6 +33,7 @@ export function viewWords(picture, histogram) {
     words.set("zoom", tidy(picture.scale));
     if (picture.centre) { words.set("x", tidy(picture.centre.x)); words.set("y", tidy(picture.centre.y)); }
   }
+  if (picture.light) words.set("light", picture.light);
   if (picture.layers.size) words.set("show", [...picture.layers].join(","));
   if (picture.line) words.set("profile", ["x0", "y0", "x1", "y1"].map(key => tidy(picture.line[key])).join(","));
   if (!histogram.logarithmic) words.set("histogram", "linear");

@@ -62,10 +62,10 @@ void TruthSink::start() {
     nice_.acquire();  // whoever raises threads later leaves this one as it is
 }
 
-FrameTruth* TruthSink::begin(const FrameRecord& record) noexcept {
+FrameTruth* TruthSink::begin(const FrameRecord& record, bool wanted) noexcept {
     if (!open_.load(std::memory_order_relaxed)) return nullptr;
     const bool for_outputs = has_outputs() && offered_++ % static_cast<std::uint64_t>(config_.every_nth) == 0;
-    const bool for_listener = listener_ && listener_->wants_truth();
+    const bool for_listener = listener_ && (wanted || listener_->wants_truth());
     if (!for_outputs && !for_listener) return nullptr;
     const std::size_t taken = taken_.load(std::memory_order_relaxed);
     if (taken - done_.load(std::memory_order_acquire) == slots_.size()) {

@@ -55,8 +55,8 @@ class TruthSink : public FrameSink {
 
     void start() override;
     // The record for this frame, its raster set, to be filled before the frame is published; null: its truth
-    // is not asked for, or dropped. Loop, the thread that renders.
-    FrameTruth* begin(const FrameRecord& record) noexcept;
+    // is not asked for, or dropped. wanted: the listener wants this one. Loop, the thread that renders.
+    FrameTruth* begin(const FrameRecord& record, bool wanted = false) noexcept;
     // Hands over what was begun for the frame. Loop, the thread that publishes.
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     bool has_room() const noexcept override;

@@ -1,5 +1,5 @@
 #pragma once
-// What the bodies leave of the Sun at a place: eclipses, by discs that have limbs, and by the Earth's air.
+// Eclipses: the share of the Sun that bodies leave at a place, by discs that have limbs, and by the Earth's air.
 
 #include "render/background/scene_bodies.h"
 #include "render/sky/bodies.h"

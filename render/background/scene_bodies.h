@@ -8,11 +8,11 @@
 
 namespace hilcam {
 
-// What it points to outlives it.
+// All that it points to outlives it.
 struct SceneBodies {
     const std::array<SceneBody, kMaxBodies>* all;
     const Atmosphere* air;    // the Earth's; null: none
-    const EarthModel* earth;  // what the Earth looks like (render/earth); null: its look as a body's
+    const EarthModel* earth;  // the Earth's look by its model (render/earth); null: by its law as a body
 
     const SceneBody& operator[](BodyId id) const { return (*all)[index_of(id)]; }
     bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*this)[id].rings; }

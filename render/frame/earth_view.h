@@ -1,5 +1,5 @@
 #pragma once
-// How a frame sees the Earth by its model: by a picture of it that is kept from frame to frame, by finer levels of its map that are read as
+// The way in which a frame sees the Earth by its model: by a picture of it that is kept from frame to frame, by finer levels of its map that are read as
 // they are needed, or ray by ray.
 
 #include <memory>

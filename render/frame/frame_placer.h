@@ -120,7 +120,7 @@ class FramePlacer {
     EmbreeScene embree_;
     std::vector<ShownObject> objects_;  // the last one is the terrain, if there is any
     PossibleWorld possible_;
-    WorldSnapshot& world_;                      // of that
+    WorldSnapshot& world_;                      // that of possible_
     std::vector<std::size_t> levels_;           // level of detail at which each object is shown
     std::vector<const ObjectSurfaces*> shown_;  // at that level
     std::vector<double> radii_m_;

@@ -69,7 +69,14 @@ bool write(const Tile& tile, float share, bool may_leave, HalfLight& halves) {
     return true;
 }
 
-std::size_t slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
+std::size_t pool_slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
+
+// A pixel whose light is no number is dark, and so are all of its parts.
+void leave_out_not_finite(std::span<const Spectrum> pixels, const TileParts& parts) {
+    for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
+        for (std::size_t i = 0; i < kImageParts && !is_finite(pixels[pixel]); ++i)
+            parts.of(static_cast<LightPart>(i))[pixel] = {};
+}
 
 }  // namespace
 
@@ -92,19 +99,19 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
         budget = budget || quality.noise_budget > 0;
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
-    tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
+    tile_pixels_.resize(pool_slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
     if (buffer)
-        seen_.resize(slots()), edges_.resize(slots()), tile_halves_.resize(slots()),
-            tile_kinds_.resize(slots());
-    if (ground) ground_seen_.resize(slots());
-    facets_.resize(slots());
-    for (std::size_t i = 0; budget && i < slots(); ++i)
+        seen_.resize(pool_slots()), edges_.resize(pool_slots()), tile_halves_.resize(pool_slots()),
+            tile_kinds_.resize(pool_slots());
+    if (ground) ground_seen_.resize(pool_slots());
+    facets_.resize(pool_slots());
+    for (std::size_t i = 0; budget && i < pool_slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
 }
 
 FrameTracer::Paths FrameTracer::make_paths(const Modules& modules, const std::string& name) {
     Paths paths;
-    for (std::size_t i = 0; i < slots(); ++i) paths.push_back(make_path_model(modules, name));
+    for (std::size_t i = 0; i < pool_slots(); ++i) paths.push_back(make_path_model(modules, name));
     return paths;
 }
 
@@ -121,10 +128,9 @@ void FrameTracer::use_level(std::size_t level) {
     level_ = level;
 }
 
-void FrameTracer::keep_parts(LightParts* parts, PixelRecord* record) {
-    parts_ = parts, record_ = record;
-    tile_parts_.resize(parts ? slots() : 0);
-    for (std::vector<Spectrum>& of_tile : tile_parts_) of_tile.resize(PathModel::kMaxSamples * kImageParts);
+void FrameTracer::keep_parts(PartsBuffer* buffer, PixelRecord* record) {
+    HILCAM_CHECK(!buffer || buffer->tile_sums.size() == slots());
+    parts_ = buffer, record_ = record;
 }
 
 double FrameTracer::share_done() const {
@@ -138,7 +144,8 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
     if (!marks) radiance.clear_marks();
     find_halves(placer, marks, radiance);
     for (GroundSeen& seen : ground_seen_) seen.x_px = seen.y_px = -1;
-    if (parts_) parts_->clear();
+    if (parts_) parts_->parts.clear();
+    if (record_) record_->entries.clear();
     TileStats sum = trace_places(placer.frame(), radiance);
     const int all = levels_[level_].tiles.size();
     tiles_done_.store(0, std::memory_order_relaxed);
@@ -181,7 +188,8 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
                              TileStats& stats, RadianceImage& radiance) {
     if (placer.frame().ground && placer.frame().ground_step_px > 1 && places_->give(box, radiance)) {
         stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
-        if (parts_) copy(radiance, box, parts_->of(LightPart::kSun));
+        if (parts_ && parts_->parts.has(LightPart::kSun))
+            copy(radiance, box, parts_->parts.of(LightPart::kSun));
         return;
     }
     int n = placer.samples_in(box);
@@ -258,12 +266,12 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     const float share = 1 / static_cast<float>(n * n);
     TileParts parts{box, {}, record_, share};
     if (parts_) {
-        parts.sums = std::span(tile_parts_[slot]).first(count * kImageParts);
+        parts.sums = std::span(parts_->tile_sums[slot]).first(count * kImageParts);
         std::fill(parts.sums.begin(), parts.sums.end(), Spectrum{});
         tile.parts = &parts;
     }
     if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
-    if (parts_) write_parts(parts, share);
+    if (parts_) leave_out_not_finite(pixels, parts), write_parts(parts, share);
     if (const std::uint64_t left_out = leave_out_not_finite(pixels); left_out > 0) {
         stats.not_finite += left_out;
         std::replace_if(
@@ -278,8 +286,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
 void FrameTracer::write_parts(const TileParts& tile, float share) const {
     for (std::size_t i = 0; i < kImageParts; ++i) {
         const auto part = static_cast<LightPart>(i);
-        leave_out_not_finite(tile.of(part));
-        write(tile.of(part), share, tile.box, parts_->of(part));
+        if (parts_->parts.has(part)) write(tile.of(part), share, tile.box, parts_->parts.of(part));
     }
 }
 

@@ -19,10 +19,10 @@
 
 #include "render/frame/adaptive_sampler.h"
 #include "render/frame/frame_placer.h"
+#include "render/frame/parts_buffer.h"
 #include "render/frame/render_quality.h"
 #include "render/ground_shading/ground_places.h"
 #include "render/sunlight/sun_edges.h"
-#include "render/vocabulary/light_parts.h"
 #include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/tile_grid.h"
 
@@ -43,8 +43,10 @@ class FrameTracer {
     // Sets the sensor's noise, against which the noise budget is weighed from the next frame on. Loop.
     void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
     // From the next frame on takes pictures apart, too, and notes what recorded pixels are made of; null: no more. Not with a noise
-    // budget. Between two frames.
-    void keep_parts(LightParts* parts, PixelRecord* record);
+    // budget. buffer: has the tracer's slots(). Loop, between two frames: nothing is allocated.
+    void keep_parts(PartsBuffer* buffer, PixelRecord* record);
+    // Any thread.
+    std::size_t slots() const { return tile_pixels_.size(); }
     // slot: of the thread pool.
     PathModel& paths(std::size_t slot) const { return *paths()[slot]; }
     static Paths make_paths(const Modules& modules, const std::string& name);
@@ -83,10 +85,8 @@ class FrameTracer {
     std::vector<std::vector<Spectrum>> tile_pixels_;
     std::vector<std::vector<HalfKind>> tile_kinds_;  // likewise
     std::vector<std::vector<float>> tile_halves_;    // likewise; none where rays see
-    LightParts* parts_ = nullptr;                    // null: nobody asks for them
+    PartsBuffer* parts_ = nullptr;                   // null: nobody asks for them
     PixelRecord* record_ = nullptr;                  // likewise
-    std::vector<std::vector<Spectrum>>
-        tile_parts_;  // sums of the tile in work, one list per slot, where somebody asks
     std::vector<FacetList> facets_;
     // A tile of the frame's buffer of the ground, of which several of the picture's are parts.
     struct GroundSeen {

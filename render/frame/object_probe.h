@@ -1,6 +1,7 @@
 #pragma once
 // The little picture of an object that is a few pixels wide or less, by rays of its own: a grid of them, of which each has the light
-// of what it meets. Where objects are few, object_picture.h sees more of them.
+// of what it meets. It serves rays as a visibility, terrain, and scenes of more objects than have pictures (object_picture.h), which
+// see more of them.
 
 #include <memory>
 #include <vector>

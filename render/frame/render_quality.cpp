@@ -53,7 +53,7 @@ Fields fields(RenderQuality& q) {
                          "for masts, rings and other shapes; 0: never a coarser level")),
         integer("rays_across", q.rays_across, {0, 4096},
                 "number of rays across a small object: it gets more rays per pixel, up to 16 x 16, until so "
-                "many go across it; with visibility: buffer, up to eight objects of less than 64 pixels have "
+                "many go across it; with visibility: buffer, up to 32 objects of less than 64 pixels have "
                 "pictures of their own instead, of 128 x 128 pixels with 64 samples each; 0: none of it"),
         integer("point_samples", q.point_samples, {16, 512},
                 "rays in each direction of the grid by which an object of 8 pixels or less is measured"),

@@ -34,7 +34,7 @@ std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<co
 struct Renderer::Implementation {
     FramePlacer placer;
     FrameTracer tracer;
-    LightParts* parts = nullptr;               // for the parts of the light; null: nobody asks
+    PartsBuffer* parts = nullptr;              // for the parts of the light; null: nobody asks
     PixelRecord* record = nullptr;             // likewise
     ObjectProbes probes;                       // for objects of a few pixels
     std::atomic<std::uint64_t> not_finite{0};  // pixels and points of all frames whose light was no number
@@ -93,9 +93,12 @@ Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& g
                                                        all_levels(quality, lower), models, modules)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::keep_parts(LightParts* parts, PixelRecord* record) {
-    implementation_->parts = parts, implementation_->record = record;
-    implementation_->tracer.keep_parts(parts, record);
+void Renderer::keep_parts(PartsBuffer* buffer, PixelRecord* record) {
+    implementation_->parts = buffer, implementation_->record = record;
+    implementation_->tracer.keep_parts(buffer, record);
+}
+PartsBuffer Renderer::make_parts_buffer(const RadianceImage& like, std::optional<LightPart> only) const {
+    return {like, implementation_->tracer.slots(), only};
 }
 RecordedSurface Renderer::surface_of(const PixelRecord::Entry& entry) const {
     return recorded_surface(implementation_->placer, entry);
@@ -140,7 +143,8 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     const Stopwatch adding;
     points.clear();
     sum += my.add_points(points);
-    if (my.parts) add_points_part(g, points, *my.parts, my.record);
+    if (my.parts && my.parts->parts.has(LightPart::kPoints))
+        add_points_part(g, points, my.parts->parts, my.record);
     stats.points_ms = adding.ms();
 
     static_cast<RayCounts&>(stats) = sum;

@@ -8,12 +8,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/frame/frame_truth.h"
 #include "render/frame/image_motion.h"
+#include "render/frame/parts_buffer.h"
 #include "render/frame/plan.h"
 #include "render/frame/recorded_surface.h"
 #include "render/frame/render_quality.h"
@@ -21,7 +23,6 @@
 #include "render/scene/scene.h"
 #include "render/shading/pixel_record.h"
 #include "render/vocabulary/image_geometry.h"
-#include "render/vocabulary/light_parts.h"
 #include "render/vocabulary/pixel_noise.h"
 #include "render/vocabulary/point_source.h"
 #include "render/vocabulary/radiance_image.h"
@@ -71,10 +72,14 @@ class Renderer {
     // pixels are sampled once. Loop.
     void set_pixel_noise(const PixelNoise& noise);
 
-    // From the next frame on also takes pictures apart: parts gets what each part of the light has in them, and record what lies in
-    // its pixels; null: no more. Pictures are the same to the last bit. parts: like the images that render() fills. Not with a noise
-    // budget. Owner thread, between frames.
-    void keep_parts(LightParts* parts, PixelRecord* record = nullptr);
+    // From the next frame on also takes pictures apart: buffer gets what each part of the light has in them, and record what lies in
+    // its pixels; null: no more. Pictures are the same to the last bit. buffer: make_parts_buffer()'s. Not with a noise budget. Loop,
+    // between frames: nothing is allocated.
+    void keep_parts(PartsBuffer* buffer, PixelRecord* record = nullptr);
+    // Returns memory for that. like: an image like those that render() fills. only: the one part that is wanted; none: all are. Any
+    // thread.
+    PartsBuffer make_parts_buffer(const RadianceImage& like,
+                                  std::optional<LightPart> only = std::nullopt) const;
     // Says what surface sends the light of a record's entry, one with a surface, in the frame that was rendered last. Not for the
     // loop.
     RecordedSurface surface_of(const PixelRecord::Entry& entry) const;

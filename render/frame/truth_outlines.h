@@ -1,5 +1,5 @@
 #pragma once
-// What a thing would cover if it were alone: its silhouette, within the frame and up to a frame's size beside it.
+// The silhouette of a thing: all that it would cover if it were alone, within the frame and up to a frame's size beside it.
 //
 // In the frame nearly all of it is known from the pixels' own rays: where they see the thing it is there, and
 // where they see the sky it is not, as nothing stands before it. Rays of its own go only where something else

@@ -11,8 +11,9 @@ namespace {
 // Frames that show more triangles than this are left to rays, which hardly cost more for more.
 constexpr std::size_t kMostTriangles = 8'000'000;
 
-// So many objects may have pictures of their own, by levels of so many triangles: one takes some milliseconds of the processor.
-constexpr std::size_t kMostPictured = 8, kMostInPicture = 1'000'000;
+// So many objects may have pictures of their own, by levels of so many triangles: one takes 0.15 ms of the processor where twenty
+// are a few pixels wide, and some milliseconds where it is 64.
+constexpr std::size_t kMostPictured = 32, kMostInPicture = 1'000'000;
 
 // Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
 // seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.

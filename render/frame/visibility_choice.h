@@ -19,11 +19,11 @@ namespace hilcam {
 
 class VisibilityChoice {
   public:
-    // What the frame's set-up has of the objects; all outlives this.
+    // The objects as the frame's set-up has them; all outlives this.
     struct Objects {
         const EmbreeScene& scene;
         const std::vector<ShownObject>& all;
-        const std::vector<std::size_t>& levels;              // of detail, at which each is shown
+        const std::vector<std::size_t>& levels;              // level of detail at which each is shown
         const std::vector<const ObjectSurfaces*>& surfaces;  // at that level
         const std::vector<double>& radii_m;
         std::vector<ObjectPlan>& plans;

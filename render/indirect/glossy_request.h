@@ -1,5 +1,5 @@
 #pragma once
-// What the lookup of cached light leaves to rays, for each shading point: which part of its facet lobe is still to be found.
+// The work that the lookup of cached light leaves to rays, for each shading point: which part of its facet lobe is still to be found.
 
 #include <cstdint>
 

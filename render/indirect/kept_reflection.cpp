@@ -218,7 +218,7 @@ Spectrum KeptScene::reflect_bodies(const Place& place) const {
     return radiance_of(place, all);
 }
 
-// What a surface of the material's own colour reflects of an irradiance without its facets.
+// Returns the radiance that a surface of the material's own colour makes of an irradiance without its facets.
 Spectrum KeptScene::radiance_of(const Place& place, const Spectrum& irradiance) const {
     const Vertex& at = *place.at;
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);

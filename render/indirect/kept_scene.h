@@ -137,7 +137,7 @@ class KeptScene {
         Spectrum diffuse, met;
         SentOfBodies bodies;
         float directions;   // that bring what is met (KeptLight::Lobe)
-        bool mirrors_near;  // as GlossyRequest has it
+        bool mirrors_near;  // see GlossyRequest
         bool has_bodies;    // likewise
         std::uint32_t
             follower;  // number of the first whose lobe is left to rays, which are those of all of them; kNobody: none

@@ -38,7 +38,7 @@ class KeptRays {
         std::array<const Vertex*, KeptScene::kMostTogether> vertex;
         std::size_t count = 0;
         float samples = 0;             // that see them
-        FollowedLobe* lobe = nullptr;  // what the rays find
+        FollowedLobe* lobe = nullptr;  // gets the light that the rays find
     };
     Followers share_rays(const Tile& tile, const Asking& asking, std::size_t first);
     void follow_lobe(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays);

@@ -49,7 +49,7 @@ struct NextRays {
 
 // Adds the background that a ray sees to what its vertex sends. Loop, any thread.
 void add_background(Tile& tile, const NextRay& ray);
-// Adds the share of that light which next-event estimation has not counted. Loop, any thread.
-void add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light);
+// Adds the share of that light which next-event estimation has not counted. True: a body has been met. Loop, any thread.
+bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light);
 
 }  // namespace hilcam

@@ -46,7 +46,7 @@ class TracedPaths final : public PathModel {
     static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
     std::array<Vertex, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
-    std::array<GlossyRequest, kMostRays> requests_;  // of the vertices in work that keep light
+    std::array<GlossyRequest, kMostRays> requests_;  // one for each vertex in work that keeps light
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
     KeptRays kept_rays_;

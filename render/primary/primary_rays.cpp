@@ -185,7 +185,13 @@ class PrimaryRays {
 
     void add_picture_block(int x, int y) {
         earth_.add_block(x, y, picture_weight_, tile_.pixels);
-        if (tile_.parts) earth_.add_block(x, y, picture_weight_, tile_.parts->of(LightPart::kBackground));
+        if (!tile_.parts) return;
+        // Nothing else is in these pixels.
+        const int width = tile_.box.x1 - tile_.box.x0, first = (y - tile_.box.y0) * width + x - tile_.box.x0;
+        for (int i = 0; i < 16; ++i) {
+            const auto pixel = static_cast<std::uint32_t>(first + i / 4 * width + i % 4);
+            tile_.note(pixel, LightPart::kBackground, tile_.pixels[pixel]);
+        }
     }
 
     // The packet's samples, each of which stands for a part of its pixel's width.

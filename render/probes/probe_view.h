@@ -1,5 +1,5 @@
 #pragma once
-// What one probe sees, direction by direction, as its transfer table has it: for people and tools. The frame loop reads the table
+// The view of one probe, direction by direction, as its transfer table has it: for people and tools. The frame loop reads the table
 // itself.
 
 #include <cstdint>

@@ -210,7 +210,7 @@ class KeptLight {
         std::uint32_t normal;              // packed
         std::array<std::int16_t, 2> turn;  // the turn in units of 1 / 32767
         std::uint32_t first_entry;
-        std::uint32_t first_along;  // as first_along() gives it
+        std::uint32_t first_along;  // see first_along()
         std::uint64_t free;         // the first 64 directions
         std::uint16_t entries, counted;
         std::uint8_t live;  // bits by point

@@ -1,5 +1,5 @@
 #pragma once
-// What the nodes of an object send of a source's own light: the first step of a solution. No ray is traced but those that ask which
+// The light that nodes of an object send of a source's own: the first step of a solution. No ray is traced but those that ask which
 // nodes the source shines on.
 
 #include <algorithm>
@@ -45,7 +45,7 @@ struct alignas(64) NodeSender {
     float alpha;          // 0: no facets that shine
     LitPoints lit;        // where there are facets
 };
-// Of all nodes of all objects, which are numbered through.
+// The senders of all nodes of all objects, which are numbered through.
 class NodeSenders {
   public:
     // lights: of all objects, by number; null where none is kept; they outlive this. Owner thread.

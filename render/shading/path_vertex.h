@@ -44,7 +44,7 @@ struct VertexGeometry {
     }
 };
 
-// How light scatters there.
+// The way in which light scatters there.
 struct VertexSurface {
     Scatterer surface;
     KnownSun known_sun;   // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
@@ -53,7 +53,7 @@ struct VertexSurface {
     const Facet* facets;  // the vertex's own among them; null: it is one
 };
 
-// What of the light that it sends reaches which pixel, or which lobe whose rays have met it.
+// The share of the light that it sends which reaches its pixel, or the lobe whose rays have met it.
 struct VertexThroughput {
     Spectrum weight;
     float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
@@ -77,7 +77,7 @@ struct VertexCoverage {
     HalfShares halves;     // where in the pixel they are
 };
 
-// What one stage of its light finds for a later one is a value of that stage's, not a member here.
+// A stage of its light that finds something for a later one returns it as a value: it is no member here.
 struct Vertex : VertexGeometry, VertexSurface, VertexThroughput, VertexCoverage {};
 
 // The orientation of the surface where a ray meets it.

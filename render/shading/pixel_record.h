@@ -1,5 +1,5 @@
 #pragma once
-// What a pixel is made of, entry by entry: which light reached it from which surface. Filled while a picture is traced.
+// A record says what a pixel is made of, entry by entry: which light reached it from which surface. It is filled while a picture is traced.
 
 #include <algorithm>
 #include <cstdint>
@@ -23,13 +23,13 @@ struct PixelRecord {
             false;  // found by rays that several pixels share, before it is known how much each has of it
         std::uint32_t object = kNoObject;  // number in the scene
         std::uint32_t triangle = 0;        // in the level of detail that the frame shows
-        std::uint16_t surface = 0;         // of the object's mesh
+        std::uint16_t surface = 0;         // number in the object's mesh
         bool back = false;                 // the side that its triangle's own normal points away from
         Vec3f point_m, geometric_normal;   // ray space, world axes; of the first of them
         float alpha = 0;                   // width of the facet lobe
         float samples =
-            0;  // of sixteen a pixel that see it; where a ray has met it, those that see where that came from
-        std::uint32_t count = 1;  // how many times light was added
+            0;  // number of sixteen a pixel that see it, or see where the ray that met it began; 0: not known
+        std::uint32_t count = 1;  // times that light was added
         Spectrum light;           // radiance [W m^-2 sr^-1 um^-1], summed over the pixels that are recorded
 
         bool is_like(const Entry& other) const {

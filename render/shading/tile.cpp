@@ -3,12 +3,18 @@
 namespace hilcam {
 namespace {
 
-PixelRecord::Entry entry_of(const Vertex& at, LightPart part, const Spectrum& light) {
+// Returns how many of sixteen samples of its pixel see a vertex. One of several rays does not tell what others of its pixel meet.
+float samples_of(const Tile& tile, const Vertex& at) {
+    if (at.samples != 0) return at.weight_samples;
+    return tile.samples_per_axis == 1 ? kVisibilitySamples : 0.0f;
+}
+
+PixelRecord::Entry entry_of(const Tile& tile, const Vertex& at, LightPart part, const Spectrum& light) {
     PixelRecord::Entry entry;
     entry.part = part, entry.depth = at.depth, entry.light = light;
     entry.object = at.object, entry.triangle = at.triangle, entry.surface = at.surface_number;
     entry.back = at.back, entry.point_m = at.point_m, entry.geometric_normal = at.geometric_normal;
-    entry.alpha = at.surface.alpha, entry.samples = at.weight_samples;
+    entry.alpha = at.surface.alpha, entry.samples = samples_of(tile, at);
     return entry;
 }
 
@@ -20,13 +26,13 @@ void Tile::note(const Vertex& at, LightPart of_source, const Spectrum& light) co
     const LightPart part = part_of(at, of_source);
     if (!at.lobe) {
         parts->add(at.pixel, part, light);
-        if (parts->is_recorded(at.pixel)) parts->record->add(entry_of(at, part, parts->share * light));
+        if (parts->is_recorded(at.pixel)) parts->record->add(entry_of(*this, at, part, parts->share * light));
         return;
     }
     // How much of it each pixel gets is known when all rays have come back.
     for (const PixelShare& share : at.lobe->pixels) {
         if (!parts->is_recorded(share.pixel)) continue;
-        PixelRecord::Entry entry = entry_of(at, part, parts->share * (share.share * light));
+        PixelRecord::Entry entry = entry_of(*this, at, part, parts->share * (share.share * light));
         entry.is_shared = true;
         parts->record->add(entry);
     }
@@ -41,11 +47,11 @@ void Tile::note(std::uint32_t pixel, LightPart part, const Spectrum& light) cons
 }
 
 void Tile::note_move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const {
-    if (at.lobe || at.depth > 1) return;  // of the ray's part as a whole
+    if (at.lobe || at.depth > 1) return;  // light of a ray is all of the ray's part
     parts->move(at.pixel, from, to, light);
     if (!parts->is_recorded(at.pixel)) return;
-    parts->record->add(entry_of(at, from, -parts->share * light));
-    parts->record->add(entry_of(at, to, parts->share * light));
+    parts->record->add(entry_of(*this, at, from, -parts->share * light));
+    parts->record->add(entry_of(*this, at, to, parts->share * light));
 }
 
 }  // namespace hilcam

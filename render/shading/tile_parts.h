@@ -1,5 +1,5 @@
 #pragma once
-// What of the light in a tile's pixels is which part: for those who ask what a picture is made of. Frames of the loop have none.
+// The light in a tile's pixels by its parts, for those who ask what a picture is made of. Frames of the loop have none.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +13,9 @@
 namespace hilcam {
 
 struct TileParts {
-    PixelBox box;                   // of the tile
+    PixelBox box;                   // the tile's place
     std::span<Spectrum> sums;       // by part, then by pixel; of kImageParts
-    PixelRecord* record = nullptr;  // of some pixels, which may lie elsewhere; null: none
+    PixelRecord* record = nullptr;  // record of some pixels, which may lie elsewhere; null: none
     float share = 1;                // factor on sums that makes them radiance
 
     std::size_t pixels() const { return sums.size() / kImageParts; }

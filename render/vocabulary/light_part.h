@@ -1,5 +1,5 @@
 #pragma once
-// The parts of the light in a pixel, by the way it came: a picture can be taken apart into them (docs/rendering.md). Light that a ray
+// The parts of the light in a pixel, by the way it came: a picture can be taken apart into them (docs/pictures.md). Light that a ray
 // finds behind the first surface belongs to the part of that ray, whatever lights what it meets.
 
 #include <array>
@@ -16,12 +16,12 @@ enum class LightPart : std::uint8_t {
     kLamps,         // lamps on it
     kPlanetshine,   // Earth, Moon and planets on it, without a detour
     kMirroredSun,   // the Sun by way of flat mirrors
-    kDiffuse,       // light by way of other surfaces, from the cache, by all but facets
+    kDiffuse,       // light by way of other surfaces, from the cache, to all sides
     kGlossy,        // the same by facets
-    kGlossyRays,    // what rays along a glossy lobe meet
-    kMirrorRays,    // what a mirror shows
-    kTransmission,  // what is seen through glass
-    kPath,          // what random paths, or the directions of a hemisphere, find
+    kGlossyRays,    // light that rays along a glossy lobe meet
+    kMirrorRays,    // light that a mirror shows
+    kTransmission,  // light that is seen through glass
+    kPath,          // light that random paths, or the directions of a hemisphere, find
     kBackground,    // bodies and the Sun's disk, where no object stands before them
     kAir,           // air between the camera and what it sees
     kPoints,  // stars, lamps and small things that are drawn as points: the sensor adds them to the picture

@@ -15,9 +15,10 @@ RadianceImage image_like(const RadianceImage& like) {
 
 }  // namespace
 
-LightParts::LightParts(const RadianceImage& like) {
-    images_.reserve(kLightParts);
-    for (std::size_t i = 0; i < kLightParts; ++i) images_.push_back(image_like(like));
+LightParts::LightParts(const RadianceImage& like, std::optional<LightPart> only) {
+    images_.resize(kLightParts);
+    for (std::size_t i = 0; i < kLightParts; ++i)
+        if (!only || *only == static_cast<LightPart>(i)) images_[i] = image_like(like);
 }
 
 void LightParts::clear() {

@@ -25,6 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     refuse_or([&] {
         const PictureRequest asked = parse_picture_request(text);
+        HILCAM_CHECK(!asked.light || text.find(name_of(*asked.light)) != std::string_view::npos);
         for (const auto& [width, height] : {std::pair{1, 1}, {640, 480}, {100'000, 100'000}}) {
             const PictureRequest r = fit_to_frame(asked, width, height);
             HILCAM_CHECK(r.x >= 0 && r.y >= 0 && r.width > 0 && r.height > 0);

@@ -125,7 +125,7 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
     const auto lit = [&](const FromBody& from, const Spectrum* glass) {
         Spectrum weight = glass ? from.weight * *glass : from.weight, light;
         frame.background->add_bodies(from.at->start(), to_double(from.dir), weight, light);
-        tile.add(*from.at, light);
+        tile.add(*from.at, LightPart::kPlanetshine, light);
     };
     ShadowRays<FromBody, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     for (const BodyLight& body : frame.background->body_lights()) {
@@ -168,6 +168,7 @@ class HemispherePaths final : public PathModel {
         Spectrum weight;
         bool exact;     // sees bodies, which are lamps for the others
         bool sees_sun;  // exact by itself: no highlight has counted the Sun
+        LightPart part;
     };
     struct Level {
         std::array<Vertex, kMaxRays> vertices;
@@ -182,11 +183,13 @@ class HemispherePaths final : public PathModel {
         add_body_light(tile, vertices);
         // Light that comes by way of each vertex is summed by itself: a pixel gets 60^depth contributions,
         // and single precision loses the small ones when each is added to all that came before.
+        Spectrum nobodys;
         for (const Vertex& at : vertices) {
             Spectrum& pixel = tile.pixels[at.pixel];
-            const Spectrum before = std::exchange(pixel, {});
+            Spectrum& part = tile.parts ? tile.parts->of(LightPart::kPath)[at.pixel] : nobodys;
+            const Spectrum before = std::exchange(pixel, {}), part_before = std::exchange(part, {});
             follow(tile, children(tile, at));
-            pixel += before;
+            pixel += before, part += part_before;
         }
     }
 
@@ -205,8 +208,9 @@ class HemispherePaths final : public PathModel {
             const BrdfSample sample = brdf_exact(surface, at.normal, at.view_dir, part);
             if (!sample.valid || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
             const Spectrum weight = share * (at.weight * sample.weight);
+            const LightPart of = sample.transmits ? LightPart::kTransmission : LightPart::kMirrorRays;
             if (at.importance(weight) >= least)
-                rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true, !narrow};
+                rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true, !narrow, of};
         }
         // At the last surface only exact directions go on, to the background.
         if (!surface.has_lobes() || at.depth >= frame.max_depth) return count;
@@ -217,9 +221,8 @@ class HemispherePaths final : public PathModel {
             const Cosines c{no, direction.z, dot(at.view_dir, dir)};
             const Spectrum weight = (kSolidAngle * direction.z) * (at.weight * brdf_value(surface, c));
             // All directions together against the threshold.
-            if (static_cast<float>(kDirections) * at.importance(weight) >= least &&
-                largest(weight) > 0)
-                rays_[count++] = {at.start(), dir, weight, false, false};
+            if (static_cast<float>(kDirections) * at.importance(weight) >= least && largest(weight) > 0)
+                rays_[count++] = {at.start(), dir, weight, false, false, LightPart::kPath};
         }
         return count;
     }
@@ -254,7 +257,7 @@ class HemispherePaths final : public PathModel {
                 vertex.pixel = at.pixel, vertex.sample = at.sample, vertex.halves = at.halves;
                 vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
                 vertex.weight = ray.weight;
-                vertex.ray_part = at.depth > 1 ? at.ray_part : LightPart::kPath;
+                vertex.ray_part = at.depth > 1 ? at.ray_part : ray.part;
                 vertex.weight_samples = at.weight_samples;
                 ++found;
             }
@@ -270,7 +273,8 @@ class HemispherePaths final : public PathModel {
         Spectrum light;
         if (!background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light) && ray.sees_sun)
             background.add_sun_disk(to_double(ray.dir), weight, light);
-        tile.add(at, LightPart::kPath, light);
+        // The sky is the Earth's own light.
+        tile.add(at, ray.exact ? ray.part : LightPart::kPlanetshine, light);
     }
 };
 

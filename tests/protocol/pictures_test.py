@@ -163,6 +163,33 @@ class Pictures(unittest.TestCase):
         self.assertTrue((mask == numpy.where(bodies, ids - 1000000 + 60000, ids)).all())
         self.assertIn(1, mask)
 
+    def layers(self, *arguments):
+        """The channels of a picture with the parts of its light, by name."""
+        oiio = reader("OpenImageIO")
+        file, _ = self.render("parts.exr", "--stage", "radiance", "--parts", *arguments)
+        image = oiio.ImageInput.open(str(file))
+        pixels, names = image.read_image(), list(image.spec().channelnames)
+        image.close()
+        return {name: pixels[..., i] for i, name in enumerate(names)}
+
+    def test_parts_are_layers_that_add_up_to_the_picture(self):
+        # The manual's rows are the layers, in their order.
+        manual = (SOURCE / "docs/pictures.md").read_text().split("| Layer |")[1].split("\n\n")[0]
+        parts = [line.split("`")[1] for line in manual.splitlines()[2:]]
+        for edges, bins in (([0.4, 0.7], {"Y": "Y"}), ([0.4, 0.55, 0.6255, 0.7], {
+                "L_0.400_0.550um": "L_400_550nm", "L_0.550_0.625um": "L_550_625p5nm", "L_0.625_0.700um": "L_625p5_700nm"})):
+            channels = self.layers("--set", f"spectrum_edges_um={edges}")
+            names = ("Y",) if len(edges) == 2 else (*bins.values(), "R", "G", "B")
+            self.assertEqual({name for name in channels if "." in name and not name.startswith("L_")},
+                             {f"{part}.{name}" for part in parts for name in names})
+            for picture_bin, layer_bin in bins.items():
+                total = numpy.zeros_like(channels[picture_bin])
+                for part in parts[:-1]:
+                    total += channels[f"{part}.{layer_bin}"]
+                self.assertTrue((total == channels[picture_bin]).all())
+                self.assertGreater(channels[f"direct.sun.{layer_bin}"].max(), 0)
+                self.assertGreater(channels[f"rays.path.{layer_bin}"].max(), 0)
+
     def test_names_of_a_runs_files(self):
         result = subprocess.run([HILCAM, "run", SCENARIO, "--frames", "2", "--set", "mode=free_run", "--set",
                                  "outputs={files: {folder: '%s', name: 'cam{camera}_%%03d.png', view: true}}" % (self.folder / "run")],

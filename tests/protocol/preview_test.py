@@ -111,6 +111,17 @@ def fetch_picture(query=""):
     return frame, x, y, width, height, step, data[begin:]
 
 
+LIGHTS = ("emission", "direct.sun", "direct.lamps", "direct.planetshine", "indirect.mirrored_sun", "indirect.diffuse",
+          "indirect.glossy", "rays.glossy", "rays.mirror", "rays.transmission", "rays.path", "background", "air", "points")
+BLACK_DN = 64  # of the scenario's camera
+
+
+def light_of(data):
+    """Sum of a picture's DN above black."""
+    numbers = struct.unpack(f"<{len(data) // 2}H", data)
+    return sum(numbers) - BLACK_DN * len(numbers)
+
+
 def picture_of(data):
     """Size, 16-bit samples and texts of a PNG's or TIFF's bytes."""
     from PIL import Image
@@ -203,6 +214,41 @@ class Requests(unittest.TestCase):
         wait_for(lambda: status()["frames"] > frames + 20)
         self.assertEqual(told(), before)
 
+    def test_parts_of_the_light_add_up_to_the_picture(self):
+        light, least = {}, 65535
+        for name in LIGHTS:
+            frame, x, y, width, height, step, data = fetch_picture(f"?viewer=31&light={name}")
+            self.assertEqual((x, y, width, height, step), (0, 0, 256, 192, 1))
+            light[name] = light_of(data)
+            least = min(least, *struct.unpack(f"<{256 * 192}H", data))
+        self.assertEqual(least, BLACK_DN, "without noise")
+        self.assertGreater(light["direct.sun"], 0)
+        # The lens' falloff, and light that it spreads over the edge, are the picture's alone.
+        picture = light_of(read_png(self.emulator.file_of(frame))[1])
+        self.assertLess(abs(sum(light.values()) / picture - 1), 0.1, (light, picture))
+
+    def test_a_part_is_of_another_frame_each_time_and_cut_as_the_picture(self):
+        first = fetch_picture("?viewer=32&light=direct.sun")
+        second = fetch_picture(f"?viewer=32&light=direct.sun&after={first[0]}&x=100&y=90&width=40&height=30")
+        self.assertNotEqual(second[0], first[0])
+        self.assertEqual(second[1:6], (100, 90, 40, 30, 1))
+        self.assertEqual(second[6][:80], first[6][2 * (256 * 90 + 100):][:80], "nothing moves")
+        data = get("/frame?viewer=32&light=air&truth=1")
+        frame, = struct.unpack_from("<Q", data, 8)
+        self.assertEqual(struct.unpack_from("<I", data, 136)[0], 1)
+        self.assertEqual(json.loads(get(f"/truth?frame={frame}"))["frame"], frame)
+
+    def test_who_asks_for_a_part_and_leaves_stands_in_nobodys_way(self):
+        post("/settings", "triggered=1&trigger_source=software")
+        try:
+            for name in LIGHTS:
+                with socket.create_connection(("127.0.0.1", PORT), timeout=10) as s:
+                    s.sendall(b"GET /frame?viewer=33&light=%s&after=1 HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" % (name.encode(), PORT))
+                    time.sleep(0.2)
+        finally:
+            post("/settings", "triggered=0")
+        wait_for(lambda: get("/frame?viewer=34&light=direct.lamps&after=1")[:4] == b"HCP1")
+
     def test_times_are_utc_by_the_servers_leap_seconds(self):
         data = get("/frame?viewer=9")
         tai_ns, = struct.unpack_from("<q", data, 48)
@@ -216,6 +262,7 @@ class Requests(unittest.TestCase):
                 (400, "'step' is '0'", lambda: get("/frame?step=0")),
                 (400, "unknown key 'colour'", lambda: get("/frame?colour=1")),
                 (400, "character 37", lambda: get("/frame?x=%20")),
+                (400, "'light' is 'sun'; accepted: emission, direct.sun, ", lambda: get("/frame?light=sun")),
                 (404, "no such page", lambda: get("/secret")),
                 (400, "'format' is 'gif'; accepted: png, tiff", lambda: get("/numbers?format=gif")),
                 (400, "missing key 'frame'", lambda: get("/truth")),
@@ -720,6 +767,36 @@ class PageInBrowser(unittest.TestCase):
         self.assertFalse(page.run(yellow))
         page.key(" ")
 
+    def choose_light(self, page, light):
+        page.run(f"{{ const i = document.getElementById('light'); i.value = {json.dumps(light)}; i.dispatchEvent(new Event('change')); }}")
+        page.wait(f"preview.frame.light === {json.dumps(light)}")
+
+    def test_one_part_of_the_light_is_shown_as_the_picture_is(self):
+        page, answer = self.page, "document.getElementById('light-answer').textContent"
+        self.choose_light(page, "direct.sun")
+        self.assertEqual(page.run("preview.statistics.least"), BLACK_DN, "without noise")
+        self.assertGreater(page.run("preview.statistics.most"), 500)
+        page.wait("location.hash.includes('light=direct.sun')")
+        self.assertIn("light direct.sun", page.run("document.getElementById('chips').textContent"))
+        self.assertEqual(page.run("[document.getElementById('save-png').disabled, document.getElementById('save-view').disabled]"), [True, False])
+        first = page.run("Number(preview.frame.id)")
+        page.wait(f"Number(preview.frame.id) > {first} && preview.frame.light === 'direct.sun'")
+        # With what is drawn over it.
+        self.switch("show-boxes")
+        page.wait("preview.drawn?.boxes > 0 && preview.frame.light === 'direct.sun'")
+        self.switch("show-boxes", False)
+        # What is frozen stays.
+        frame = self.freeze(page)
+        page.run("{ const i = document.getElementById('light'); i.value = 'air'; i.dispatchEvent(new Event('change')); }")
+        self.assertIn("stays as it is", page.run(answer))
+        self.assertEqual(page.run("[Number(preview.frame.id), preview.frame.light]"), [frame, "direct.sun"])
+        page.key(" ")
+        page.wait("preview.frame.light === 'air'")
+        self.choose_light(page, "")
+        self.assertEqual(page.run(f"[{answer}, document.getElementById('save-png').disabled]"), ["", False])
+        page.run("location.hash = '#light=evil'")
+        page.wait("preview.light === ''")
+
     def test_a_profile_is_drawn_along_a_line(self):
         page = self.page
         frame = self.freeze(page)
@@ -829,6 +906,20 @@ class PageInBrowser(unittest.TestCase):
         for width in (360, 390, 700, 1280, 1440, 1800):
             self.page.resize(width, 800)
             self.page.wait(f"document.documentElement.scrollWidth <= {width}")
+
+
+class FramesThatAreNotTakenApart(unittest.TestCase):
+    def test_the_page_says_why_and_shows_the_picture(self):
+        if not browser.PROGRAM:
+            self.skipTest("Chromium is missing: the page is not looked at")
+        with Running("--set", "quality.motion=exact", files=False) as emulator, Browser() as b:
+            code, text = refusal(get, "/frame?viewer=1&light=air")
+            self.assertEqual(code, 409)
+            self.assertIn("quality.motion: found exact", text)
+            page = Page(b, URL + "/#light=direct.sun")
+            page.wait("document.getElementById('light-answer').textContent.includes('quality.motion: found exact')", 60)
+            page.wait("preview.frame?.light === '' && document.getElementById('light').value === ''")
+            emulator.stop()
 
 
 class LargeFrames(unittest.TestCase):

@@ -116,6 +116,10 @@ class ExitCodes(unittest.TestCase):
         self.refused("interface 'nowhere0' does not exist; accepted: lo", "run", SCENARIO, "--set",
                      "outputs.gige.interface=nowhere0")
         self.refused("accepted: .exr", "render", SCENARIO, "--out", "x.png", "--stage", "radiance")
+        self.refused("--out is missing; accepted: --out FILE, --pixel X Y, or both", "render", SCENARIO)
+        self.refused("--parts: they are parts of the light at the lens", "render", SCENARIO, "--out", "x.png", "--parts")
+        self.refused("--pixel 256 0: the frame has no such pixel; accepted: 0 to 255 and 0 to 191", "render", SCENARIO, "--pixel", 256, 0)
+        self.refused("--pixel 0 -1: the frame has no such pixel", "render", SCENARIO, "--pixel", 0, -1)
         self.assertEqual(hilcam("fly").returncode, 2)
 
     def test_numbers_are_what_they_look_like_or_refused(self):
@@ -426,6 +430,17 @@ class Pictures(unittest.TestCase):
             again, log = picture("--set", seed)
             self.assertEqual(again, one)
             self.assertEqual(log, "")
+
+    def test_a_pixel_is_told_with_a_picture_or_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = pathlib.Path(folder) / "frame.png"
+            alone, beside = (hilcam("render", SCENARIO, "--pixel", 128, 96, *more) for more in ((), ("--out", picture)))
+            for result in (alone, beside):
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertRegex(result.stdout, r"^pixel 128 96 of protocol_test: .*\n(  [a-z._]+ +[0-9.]+ e- +[0-9.]+ %\n)+  sum +[0-9.]+ e-\n")
+                self.assertIn("object 'target', surface '", result.stdout)
+            self.assertEqual(alone.stdout, beside.stdout)
+            self.assertTrue(picture.exists())
 
     def test_every_stage_writes_its_file(self):
         with tempfile.TemporaryDirectory() as folder:

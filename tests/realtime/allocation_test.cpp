@@ -163,12 +163,15 @@ TEST_F(Allocation, NorWhileTheTruthOfItsFramesIsTold) {
     std::filesystem::remove_all(folder);
 }
 
-TEST_F(Allocation, NorWhileSomebodyLooksAtPicturesWithTheirTruth) {
-    EXPECT_EQ(
-        allocations({"outputs.preview.port=" + std::to_string(PreviewReader::kPort),
-                     std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv"},
-                    Loop::kLookedAt),
-        0);
+// Frames that are taken apart for somebody as little as others.
+TEST_F(Allocation, NorWhileSomebodyLooksAtPicturesWithTheirTruthAndPartsOfTheirLight) {
+    for (const char* quality : {"quality.visibility=rays", "quality.visibility=buffer"})
+        EXPECT_EQ(allocations(
+                      {quality, "outputs.preview.port=" + std::to_string(PreviewReader::kPort),
+                       std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv"},
+                      Loop::kLookedAt),
+                  0)
+            << quality;
 }
 
 TEST_F(Allocation, NorWhileFramesGoToASharedMemory) {

@@ -62,7 +62,7 @@ class StreamReader {
     std::uint16_t id_ = 0;
 };
 
-// Somebody who looks at the preview's page with truth drawn over the picture.
+// Somebody who looks at the preview's page with truth drawn over the picture, and in turn at one part of the frame's light.
 class PreviewReader {
   public:
     static constexpr std::uint16_t kPort = 15263;
@@ -74,20 +74,28 @@ class PreviewReader {
     }
     int pictures() const { return pictures_; }
     int with_truth() const { return with_truth_; }
+    int of_light() const { return of_light_; }
 
   private:
     void look() {
-        while (!over_) {
+        for (bool light = false; !over_; light = !light) {
             const Fd connection(socket(AF_INET, SOCK_STREAM, 0));
             const sockaddr_in to = socket_address(INADDR_LOOPBACK, kPort);
             if (connect(connection.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0)
-                ask(connection.get());
+                ask(connection.get(), light);
         }
     }
-    void ask(int connection) {
-        constexpr std::string_view kQuestion =
+    void ask(int connection, bool light) {
+        constexpr std::string_view kPicture =
             "GET /frame?viewer=1&truth=1&hold=1 HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n";
-        send(connection, kQuestion.data(), kQuestion.size(), 0);
+        // Another part than before is another frame.
+        constexpr std::string_view kLights[] = {
+            "GET /frame?viewer=1&truth=1&light=direct.sun HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: "
+            "close\r\n\r\n",
+            "GET /frame?viewer=1&truth=1&light=points HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: "
+            "close\r\n\r\n"};
+        const std::string_view question = light ? kLights[of_light_ % 2] : kPicture;
+        send(connection, question.data(), question.size(), 0);
         std::size_t size = 0;
         for (ssize_t got = 1; got > 0 && size < bytes_.size();
              size += static_cast<std::size_t>(std::max<ssize_t>(got, 0)))
@@ -96,11 +104,12 @@ class PreviewReader {
         const std::size_t picture = answer.find("HCP1");
         if (picture == std::string_view::npos || picture + 140 > size) return;
         ++pictures_;
+        if (light) ++of_light_;
         if (answer[picture + 136] == 1) ++with_truth_;
     }
     std::array<char, 200'000> bytes_{};  // 256 x 192 px of two bytes, and headers
     std::atomic<bool> over_{false};
-    std::atomic<int> pictures_{0}, with_truth_{0};
+    std::atomic<int> pictures_{0}, with_truth_{0}, of_light_{0};
     std::thread thread_;
 };
 

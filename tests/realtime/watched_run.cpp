@@ -63,9 +63,11 @@ class Readers {
         }
         if (loop == Loop::kLookedAt) {
             viewer_.emplace();
-            while (viewer_->with_truth() < 2 && !watched.finished()) std::this_thread::yield();
-            seen_ = viewer_->with_truth();
+            while ((viewer_->with_truth() < 2 || viewer_->of_light() < 2) && !watched.finished())
+                std::this_thread::yield();
+            seen_ = viewer_->with_truth(), of_light_ = viewer_->of_light();
             EXPECT_GE(seen_, 2);
+            EXPECT_GE(of_light_, 2);
         }
     }
     bool any() const { return stream_ || viewer_; }
@@ -80,6 +82,7 @@ class Readers {
         }
         if (viewer_) {
             EXPECT_GT(viewer_->with_truth(), seen_);
+            EXPECT_GT(viewer_->of_light(), of_light_ + 1);  // one of them began before the watch
         }
         viewer_.reset();
     }
@@ -87,7 +90,7 @@ class Readers {
   private:
     std::optional<StreamReader> stream_;
     std::optional<PreviewReader> viewer_;
-    int packets_ = 0, seen_ = 0;
+    int packets_ = 0, seen_ = 0, of_light_ = 0;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ enum class Loop {
     kPaced,      // at the camera's rate
     kGoverned,   // the same, and the governor holds a rate that becomes another one every few frames
     kStreaming,  // the same, with a GigE Vision camera whose frames an application takes
-    kLookedAt,   // with a preview whose pictures and their truth somebody looks at
+    kLookedAt,   // with a preview whose pictures, their truth and parts of their light somebody looks at
 };
 
 struct Seen {

@@ -16,6 +16,7 @@ namespace hilcam {
 namespace {
 
 using testing::HasSubstr;
+using Overrides = std::vector<std::string>;
 
 // A picture as OpenEXR's readers have it.
 struct Picture {
@@ -51,6 +52,19 @@ class RenderToFile : public PlateTest {
         in.readPixels(out.data.min.y, out.data.max.y);
         return out;
     }
+    static std::vector<std::string> channels_of(const std::filesystem::path& file) {
+        const Imf::InputFile in(file.c_str());
+        std::vector<std::string> out;
+        for (auto channel = in.header().channels().begin(); channel != in.header().channels().end();
+             ++channel)
+            out.emplace_back(channel.name());
+        return out;
+    }
+    // A plate in the Sun and a lamp's light.
+    ScenarioConfig lit_plate(const std::string& edges_um) {
+        return load_scenario(scenario("", "lamps: [{name: flood, intensity_w_sr_um: 100}]\n"),
+                             Overrides{"spectrum_edges_um=" + edges_um});
+    }
 };
 
 // Black columns are left of what is exposed, black rows above it; the guard band is about that.
@@ -81,6 +95,101 @@ TEST_F(RenderToFile, EveryStageAndTheTruthPutTheFrameAtTheSamePlace) {
             EXPECT_NEAR(centre.y, truth.y, 0.3);
         }
     }
+}
+
+// Each bin of the picture is the sum of the layers' bins, one by one in their order, to the last bit.
+TEST_F(RenderToFile, LayersOfPartsAddUpToThePicture) {
+    const ScenarioConfig s = lit_plate("[0.5, 0.6055, 0.7]");
+    const auto file = folder_ / "parts.exr", plain_file = folder_ / "plain.exr";
+    render_to_files(s, PictureStage::kRadiance, 0, {.out = file, .parts = true});
+    render_to_files(s, PictureStage::kRadiance, 0, {.out = plain_file});
+    const std::vector<std::string> names = channels_of(file);
+    EXPECT_EQ(names.size(), (kLightParts + 1) * 3);
+    // The colour blue has no bin.
+    for (const std::string_view part : kLightPartNames)
+        for (const char* const channel : {".L_500_605p5nm", ".L_605p5_700nm", ".Y"})
+            EXPECT_EQ(std::count(names.begin(), names.end(), std::string(part) + channel), 1)
+                << part << channel;
+    for (const auto& [bin, layer_bin] :
+         {std::pair{"L_0.500_0.606um", ".L_500_605p5nm"}, std::pair{"L_0.606_0.700um", ".L_605p5_700nm"}}) {
+        const Picture picture = read(file, bin), plain = read(plain_file, bin);
+        std::vector<float> sum(picture.values.size());
+        for (std::size_t part = 0; part < kImageParts; ++part) {
+            const Picture layer = read(file, (std::string(kLightPartNames[part]) + layer_bin).c_str());
+            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += layer.values[i];
+        }
+        EXPECT_EQ(sum, picture.values) << bin;
+        EXPECT_GT(*std::max_element(sum.begin(), sum.end()), 0) << bin;
+        // A pixel adds up two parts of 256 rays in another order: 512 times half a unit in the last place at most.
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            ASSERT_NEAR(sum[i], plain.values[i], 512 * 6e-8f * plain.values[i]) << bin;
+        for (const char* const part : {"direct.sun", "direct.lamps"}) {
+            const Picture layer = read(file, (std::string(part) + layer_bin).c_str());
+            EXPECT_GT(*std::max_element(layer.values.begin(), layer.values.end()), 0) << part;
+        }
+    }
+}
+TEST_F(RenderToFile, LayersOfOneBinAreGrey) {
+    const auto file = folder_ / "parts.exr";
+    render_to_files(lit_plate("[0.5, 0.7]"), PictureStage::kRadiance, 0, {.out = file, .parts = true});
+    std::vector<std::string> expected = {"Y"};
+    for (const std::string_view part : kLightPartNames) expected.push_back(std::string(part) + ".Y");
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(channels_of(file), expected);
+}
+
+// What cannot be is refused before anything is rendered, and nothing is written.
+TEST_F(RenderToFile, PartsAndPixelsThatCannotBeAreRefused) {
+    const auto file = scenario();
+    const auto refused = [&](PictureStage stage, const RenderFiles& files,
+                             const std::string& override = "seed=1") {
+        const ScenarioConfig s = load_scenario(file, Overrides{override});
+        const std::string error = error_of([&] { render_to_files(s, stage, 0, files); });
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "p.exr"));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "p.png"));
+        return error;
+    };
+    const auto exr = folder_ / "p.exr", png = folder_ / "p.png";
+    EXPECT_EQ(refused(PictureStage::kFrame, {.out = png, .parts = true}),
+              "--parts: they are parts of the light at the lens; accepted with --stage radiance");
+    EXPECT_EQ(refused(PictureStage::kRadiance, {.out = exr, .parts = true}, "quality.motion=exact"),
+              "--parts and --pixel: take one instant apart; found quality.motion: exact; accepted: --set "
+              "quality.motion=off");
+    EXPECT_EQ(
+        refused(PictureStage::kFrame, {.out = png, .pixel = FramePixel{1, 1}}, "quality.noise_budget=0.5"),
+        "--parts and --pixel: found quality.noise_budget above 0; accepted: --set quality.noise_budget=0");
+    EXPECT_EQ(refused(PictureStage::kFrame, {.out = png, .pixel = FramePixel{64, 0}}),
+              "--pixel 64 0: the frame has no such pixel; accepted: 0 to 63 and 0 to 63");
+    for (const auto& [files, option] :
+         {std::pair{RenderFiles{.out = {}, .parts = true, .pixel = FramePixel{1, 1}}, std::string("--parts")},
+          std::pair{RenderFiles{.out = {}, .view = png, .pixel = FramePixel{1, 1}}, "--view " + png.string()},
+          std::pair{RenderFiles{.out = {}, .truth = folder_ / "truth", .pixel = FramePixel{1, 1}},
+                    "--truth " + (folder_ / "truth").string()}})
+        EXPECT_EQ(refused(option == "--parts" ? PictureStage::kRadiance : PictureStage::kFrame, files),
+                  option + ": goes with a picture, and there is none; accepted: --out FILE beside it");
+    const ScenarioConfig ground =
+        load_scenario(HILCAM_SOURCE_DIR "/configs/scenarios/lunar_landing.yaml",
+                      Overrides{"quality.ground_step_px=2", "camera.width_px=64", "camera.height_px=48"});
+    EXPECT_EQ(error_of([&] {
+                  render_to_files(ground, PictureStage::kFrame, 0, {.out = {}, .pixel = FramePixel{1, 1}});
+              }),
+              "--pixel: three of four pixels of the ground are made of their neighbours; found "
+              "quality.ground_step_px: 2; accepted: --set quality.ground_step_px=1");
+}
+
+// The report goes to the standard output, beside a picture or alone.
+TEST_F(RenderToFile, APixelIsToldWithAndWithoutAPicture) {
+    const ScenarioConfig s = load_scenario(scenario(), {});
+    const auto told = [&](const std::filesystem::path& out) {
+        testing::internal::CaptureStdout();
+        render_to_files(s, PictureStage::kFrame, 0, {.out = out, .pixel = FramePixel{31, 31}});
+        return testing::internal::GetCapturedStdout();
+    };
+    const std::string alone = told({}), beside = told(folder_ / "p.png");
+    EXPECT_THAT(alone, HasSubstr("pixel 31 31 of "));
+    EXPECT_THAT(alone, HasSubstr("  direct.sun "));
+    EXPECT_EQ(alone, beside);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "p.png"));
 }
 
 // A run's frames and another picture's labels stay; the same picture may be rendered again.

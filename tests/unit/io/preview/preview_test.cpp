@@ -2,10 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cstring>
 #include <thread>
 
+#include "io/preview/preview_assets.h"
 #include "io/preview/preview_picture.h"
 #include "io/preview/preview_request.h"
 #include "io/preview/preview_shelf.h"
@@ -37,6 +40,38 @@ TEST(PreviewRequest, PictureTakesItsNumbers) {
     EXPECT_FALSE(parse_picture_request("").hold);
     EXPECT_TRUE(parse_picture_request("hold=1").hold);
     EXPECT_TRUE(parse_picture_request("truth=1").truth);
+}
+
+TEST(PreviewRequest, APictureMayBeOfOnePartOfTheLight) {
+    EXPECT_FALSE(parse_picture_request("").light.has_value());
+    for (std::size_t i = 0; i < kLightParts; ++i)
+        EXPECT_EQ(parse_picture_request("light=" + std::string(kLightPartNames[i])).light,
+                  static_cast<LightPart>(i));
+    for (const char* bad : {"", "picture", "sun", "direct.sun.", "Direct.Sun", "0"})
+        EXPECT_THAT(
+            message_of([&] { parse_picture_request("light=" + std::string(bad)); }),
+            HasSubstr("'light' is '" + std::string(bad) + "'; accepted: emission, direct.sun, direct.lamps"));
+}
+
+// In their order, and nothing else but the picture.
+TEST(PreviewPage, OffersEachPartOfTheLight) {
+    const auto assets = preview_assets();
+    const auto page = std::find_if(assets.begin(), assets.end(), [](const PreviewAsset& asset) {
+        return asset.text.find("<select id=\"light\">") != std::string_view::npos;
+    });
+    ASSERT_NE(page, assets.end());
+    std::string_view list = page->text.substr(page->text.find("<select id=\"light\">"));
+    list = list.substr(0, list.find("</select>"));
+    std::vector<std::string> offered, expected{"picture"};
+    for (std::size_t at = list.find("<option"); at != std::string_view::npos;
+         at = list.find("<option", at + 1)) {
+        const std::size_t begin = list.find('>', at) + 1;
+        std::string_view word = list.substr(begin, list.find('<', begin) - begin);
+        while (!word.empty() && std::isspace(static_cast<unsigned char>(word.back()))) word.remove_suffix(1);
+        offered.emplace_back(word);
+    }
+    expected.insert(expected.end(), kLightPartNames.begin(), kLightPartNames.end());
+    EXPECT_EQ(offered, expected);
 }
 
 TEST(PreviewRequest, NumbersAndTruthNameTheirFrame) {

@@ -40,6 +40,22 @@ TEST(ObjectPicture, HasTheLightOfWhatIsThinnerThanThePixelsSamples) {
     }
 }
 
+// It is one of many in the scene: the others are behind the camera, beside its sunlight.
+TEST(ObjectPicture, IsMadeInScenesOfManyObjects) {
+    constexpr double kDistance_m = 30;
+    Stage s;
+    s.camera(64, 64 / 2 * 0.1 / kDistance_m);
+    use_buffer(s);
+    s.add(dark_plate_with_strip(s), {0, 0, kDistance_m});
+    for (int i = 0; i < 20; ++i) s.add(plate(lambert(0.5), s.grid), {10 + 3.0 * i, 0, -kDistance_m});
+    const double truth = static_cast<double>(kSun_w_m2_um) / kPi * (2 * 0.0056) / (kDistance_m * kDistance_m);
+    for (const double row : {0.0, 0.02, 0.05, 0.09}) {
+        s.world.objects[0].position_world_m.y = 0.1 * row;
+        s.render();
+        EXPECT_NEAR(s.light().irradiance / truth, 1, 0.05) << row;
+    }
+}
+
 // What it hides is hidden, as where the camera's pixels find its light.
 TEST(ObjectPicture, HidesWhatIsBehind) {
     Stage s;
