@@ -917,8 +917,8 @@ class FramesThatAreNotTakenApart(unittest.TestCase):
             self.assertEqual(code, 409)
             self.assertIn("quality.motion: found exact", text)
             page = Page(b, URL + "/#light=direct.sun")
-            page.wait("document.getElementById('light-answer').textContent.includes('quality.motion: found exact')", 60)
-            page.wait("preview.frame?.light === '' && document.getElementById('light').value === ''")
+            page.wait("document.getElementById('light-answer')?.textContent.includes('quality.motion: found exact')", 60)
+            page.wait("window.preview?.frame?.light === '' && document.getElementById('light').value === ''")
             emulator.stop()
 
 
