@@ -119,7 +119,7 @@ void check_names(PictureStage stage, const RenderFiles& files) {
         throw InputError("--view " + files.view.string() + ": is the file of --out; accepted: another one");
 }
 
-// What a pixel is made of is known where it is worked out itself.
+// Refuses what cannot be taken apart. A pixel tells of itself where it is worked out itself.
 void require_parts(const ScenarioConfig& s, bool pixel) {
     const std::array quality{render_quality_of(s)};
     if (const std::string why = apart_refusal(s, quality); !why.empty())
