@@ -10,7 +10,7 @@ namespace hilcam {
 
 struct ProbeChoice {
     std::string object;        // its name in the scenario
-    std::uint32_t number = 0;  // `hilcam render --pixel` prints it
+    std::uint32_t number = 0;  // number of the probe, as `hilcam render --pixel` prints it
 };
 
 // Loads the scene of the scenario's first camera, making the object's table if it is not on disk, and returns the report.

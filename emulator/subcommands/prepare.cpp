@@ -3,9 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <optional>
+#include <charconv>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "emulator/run/camera_station.h"
 #include "emulator/run/probe_report.h"
@@ -20,8 +20,18 @@ namespace {
 
 struct PrepareArguments {
     ConfigArguments config;
-    std::optional<ProbeChoice> probe;
+    std::vector<std::string> probe;  // an object's name and a number; empty: not asked
 };
+
+ProbeChoice probe_of(const std::vector<std::string>& words) {
+    ProbeChoice choice{words[0]};
+    const char* const end = words[1].data() + words[1].size();
+    const auto [rest, error] = std::from_chars(words[1].data(), end, choice.number);
+    if (error != std::errc() || rest != end)
+        throw InputError("--probe " + words[0] + ": found '" + words[1] +
+                         "'; accepted: an object's name and a whole number");
+    return choice;
+}
 
 // Loads what a camera loads for a run, and makes what of it is not on disk.
 LightLoading prepare_camera(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid) {
@@ -37,8 +47,9 @@ LightLoading prepare_camera(const ScenarioConfig& bench, std::size_t index, cons
 int carry_out(const PrepareArguments& o) {
     const ScenarioConfig scenario = load_and_warn(o.config);
     const auto threads = limit_threads(scenario);
-    if (o.probe) {
-        fmt::print("{}", in_memory(scenario, [&] { return probe_report(scenario, *o.probe); }));
+    if (!o.probe.empty()) {
+        const ProbeChoice probe = probe_of(o.probe);
+        fmt::print("{}", in_memory(scenario, [&] { return probe_report(scenario, probe); }));
         return 0;
     }
     const SpectralGrid grid(scenario.spectrum_edges_um);
@@ -62,21 +73,13 @@ void add_prepare_command(CLI::App& app, Action& action) {
         "prepare", "make what a run needs and keeps on disk, so that its first frame has the best light");
     add_config(prepare, o->config);
     prepare
-        ->add_option_function<std::vector<std::string>>(
-            "--probe",
-            [o](const std::vector<std::string>& of) {
-                const auto number = parsed_as<std::uint32_t>(of[1]);
-                if (!number)
-                    throw InputError("--probe " + of[0] + ' ' + of[1] +
-                                     ": accepted: an object's name and a probe's number");
-                o->probe = {of[0], *number};
-            },
-            "OBJECT N: print what this probe of an object sees, as JSON; render --pixel names a pixel's "
-            "probe")
+        ->add_option("--probe", o->probe,
+                     "OBJECT N: print what this probe of an object sees, as JSON; render --pixel names a "
+                     "pixel's probe")
         ->expected(2)
         ->type_name("OBJECT N");
     set_examples(prepare,
-                 {"hilcam prepare geo_inspection", "hilcam prepare geo_inspection --probe target 100"});
+                 {"hilcam prepare geo_inspection", "hilcam prepare leo_inspection --probe target 4523"});
     when_named(prepare, action, o, carry_out);
 }
 

@@ -62,7 +62,8 @@ struct DetailNeed::Sight {
           half_field_rad(view.half_field_rad + 0.003 + view.pixel_rad),
           pixel_rad(view.pixel_rad),
           // Clouds stand out beyond the ground's horizon.
-          horizon_rad(angle_rad(kEquatorialRadius_m / distance_m) + angle_rad(kEquatorialRadius_m / (kEquatorialRadius_m + kCloudLevel_m))),
+          horizon_rad(angle_rad(kEquatorialRadius_m / distance_m) +
+                      angle_rad(kEquatorialRadius_m / (kEquatorialRadius_m + kCloudLevel_m))),
           coarser_by(0) {}
 
     // The ground, or a cloud whose shadow falls on it, may be in the field.
@@ -71,7 +72,8 @@ struct DetailNeed::Sight {
         const double shadow_m = mu0 > 0 ? kCloudLevel_m / std::max(0.05, mu0) : kCloudLevel_m;
         const Vec3d to_middle = kEquatorialRadius_m * cap.middle - camera_m;
         const double far_m = length(to_middle),
-                     reach_m = 2 * kEquatorialRadius_m * std::sin(std::min(kPi, cap.radius_rad) / 2) + shadow_m;
+                     reach_m =
+                         2 * kEquatorialRadius_m * std::sin(std::min(kPi, cap.radius_rad) / 2) + shadow_m;
         if (far_m <= reach_m) return true;
         return angle_rad(dot(to_middle, boresight) / far_m) <= half_field_rad + std::asin(reach_m / far_m);
     }

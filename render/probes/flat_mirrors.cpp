@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr double kSamePlane = 0.999986;  // cosine of 0.3 degrees
+constexpr double kSamePlane = 0.999986;    // cosine of 0.3 degrees
 constexpr float kMirrorCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
 // Mirrors that are smaller than this share of the object's radius, squared, throw too little; so do those
 // that fill less than this of their rectangle, as bars do.
@@ -51,9 +51,9 @@ bool is_curved(const PackedTriangle& triangle, Vec3d normal) {
 // The rectangle lies along that edge of the largest triangle with which it is smallest.
 void lay_out(std::span<const MirrorTriangle> triangles, Vec3d normal, Vec3d middle, FlatMirror& out) {
     const MirrorTriangle& largest = *std::max_element(triangles.begin(), triangles.end(),
-                                                    [](const MirrorTriangle& a, const MirrorTriangle& b) {
-                                                        return dot(a.area, a.area) < dot(b.area, b.area);
-                                                    });
+                                                      [](const MirrorTriangle& a, const MirrorTriangle& b) {
+                                                          return dot(a.area, a.area) < dot(b.area, b.area);
+                                                      });
     const auto edge = [](Vec3f from, Vec3f to) { return to_double(to) - to_double(from); };
     const std::array<Vec3d, 3> edges{edge(largest.a, largest.b), edge(largest.b, largest.c),
                                      edge(largest.a, largest.c)};

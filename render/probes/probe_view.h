@@ -1,6 +1,6 @@
 #pragma once
-// The view of one probe, direction by direction, as its transfer table has it: for people and tools. The frame loop reads the table
-// itself.
+// This is the view of one probe, direction by direction, as its transfer table has it: for people and tools. The frame loop reads the
+// table itself.
 
 #include <cstdint>
 #include <vector>
