@@ -24,9 +24,9 @@ Fields fields(RenderQuality& q) {
         per_frame(text("path_model", q.path_model, "path model: kept | direct | path, or a plug-in's")),
         per_frame(integer("max_depth", q.max_depth, {1, 64},
                           "number of surfaces that a light path may meet; 1: direct sunlight only")),
-        per_frame(
-            number("contribution_threshold", q.contribution_threshold, 1, {0, 1},
-                   "a path whose largest weight falls below this ends (kept), or lives on by chance (path)")),
+        per_frame(number(
+            "contribution_threshold", q.contribution_threshold, 1, {0, 1},
+            "a path whose largest throughput falls below this ends (kept), or lives on by chance (path)")),
         per_frame(
             flag("sun_disk", q.sun_disk,
                  "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights")),

@@ -127,7 +127,7 @@ void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> req
         if (request.follows_lobe) {
             room -= at.weight_samples, follow_together(use.number, place, requests);
             const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
-            request.kept_lobe = largest(at.weight * plain);
+            request.kept_lobe = largest(at.throughput * plain);
             request.kept_lobe_directions = place.directions;
             met = {};
         } else {
@@ -135,12 +135,12 @@ void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> req
             reflected += met + bodies;
         }
     }
-    tile.add(at, LightPart::kDiffuse, at.weight * reflected);
+    tile.add(at, LightPart::kDiffuse, at.throughput * reflected);
     if (!tile.parts) return;
     Spectrum planetshine = reflect_bodies(place);
     if (is_tinted(surface)) planetshine = base_tint(surface) * planetshine;
-    tile.move(at, LightPart::kDiffuse, LightPart::kPlanetshine, at.weight * (planetshine + bodies));
-    tile.move(at, LightPart::kDiffuse, LightPart::kGlossy, at.weight * met);
+    tile.move(at, LightPart::kDiffuse, LightPart::kPlanetshine, at.throughput * (planetshine + bodies));
+    tile.move(at, LightPart::kDiffuse, LightPart::kGlossy, at.throughput * met);
 }
 
 void KeptScene::follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests) {
@@ -386,7 +386,7 @@ void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec
     bool meets = false;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
         meets = meets || sky_.is_met(b, mirror);
-        radiance += at.weight * colored(at.surface, sent_of_body(b, at, at.normal, largest(weight)));
+        radiance += at.throughput * colored(at.surface, sent_of_body(b, at, at.normal, largest(weight)));
     }
     // Small bodies, and air.
     if (!meets && frame.background->may_meet_body(mirror))

@@ -65,7 +65,7 @@ Scattered scatter(const FrameView& frame, const Vertex& at, Vec3f dir, float alp
     const float ni = dot(at.normal, dir);
     if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) return {};
     const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
-    const Spectrum light = ni * (at.weight * brdf_value(surface, c));
+    const Spectrum light = ni * (at.throughput * brdf_value(surface, c));
     return {light, at.start(), !(largest(light) > 0)};
 }
 

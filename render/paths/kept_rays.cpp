@@ -16,7 +16,7 @@ constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first sur
 constexpr float kBright = 0.1f;
 
 void add(const Tile& tile, const NextRay& ray, NextRays& rays) {
-    if (!(ray.from->importance(ray.weight) >= tile.frame.contribution_threshold)) return;
+    if (!(ray.from->importance(ray.throughput) >= tile.frame.contribution_threshold)) return;
     const bool leaves = dot(ray.from->geometric_normal, ray.dir) > 0;
     const bool through = ray.from->surface.is_glass();
     if (leaves || through) rays.add(ray);
@@ -26,7 +26,7 @@ void add_through_glass(const Tile& tile, const Vertex& at, NextRays& rays) {
     for (const int part : {0, 1}) {
         const BrdfSample exact = brdf_exact(at.surface, at.normal, at.view_dir, part);
         if (!exact.valid) continue;
-        NextRay ray{&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight};
+        NextRay ray{&at, at.start(part == 0), exact.dir, 0, 0, true, at.throughput * exact.weight};
         ray.part = part == 0 ? LightPart::kMirrorRays : LightPart::kTransmission;
         add(tile, ray, rays);
     }
@@ -68,7 +68,7 @@ void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, Next
     if (surface.is_glass()) return add_through_glass(tile, at, rays);
     if (request.follows_lobe) follow_lobe(tile, asking, number, rays);
     if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
-    const Spectrum weight = at.weight * tile.frame.kept->lobe_albedo(at);
+    const Spectrum weight = at.throughput * tile.frame.kept->lobe_albedo(at);
     // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
     const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
     if (request.has_bodies && surface.alpha > 0 && !is_bright) return;
@@ -140,12 +140,12 @@ void KeptRays::follow_lobe(Tile& tile, const Asking& asking, std::size_t number,
     }
     const std::span<NextRay> own = rays.room.subspan(first, rays.count - first);
     const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(own.size(), 1))) *
-                            (at.weight * tile.frame.kept->plain_lobe_albedo(at));
+                            (at.throughput * tile.frame.kept->plain_lobe_albedo(at));
     KeptScene::LobeRays bodies(*tile.frame.kept, at);
     for (const NextRay& ray : own) bodies.count(ray.dir);
     std::uint8_t of_lobe = 0;
     for (NextRay& ray : own) {
-        ray.weight = weight, ray.if_free = at.weight * bodies.share(ray.dir);
+        ray.throughput = weight, ray.if_free = at.throughput * bodies.share(ray.dir);
         ray.lobe = followers.lobe, ray.lobe_ray = of_lobe++;
     }
 }

@@ -16,13 +16,13 @@ void add_background(Tile& tile, const NextRay& ray) {
 bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light) {
     const Background& background = *frame.background;
     if (ray.whole_lobe) {
-        if (ray.sees_bodies) frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.weight, light);
-        if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.weight, light);
+        if (ray.sees_bodies) frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.throughput, light);
+        if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.throughput, light);
         return false;
     }
     const bool exact = ray.density == 0;
     const float lamps = exact ? 0 : body_light_density(frame, *ray.from, ray.dir);
-    Spectrum weight = exact ? ray.weight : (ray.density / (ray.density + lamps)) * ray.weight;
+    Spectrum weight = exact ? ray.throughput : (ray.density / (ray.density + lamps)) * ray.throughput;
     if (background.may_meet_body(ray.dir) &&
         background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light))
         return true;
@@ -33,7 +33,7 @@ bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& l
     }
     const float sun = sun_density(frame, ray.dir);
     if (sun > 0) {
-        weight = (ray.density / (ray.density + sun)) * ray.weight;
+        weight = (ray.density / (ray.density + sun)) * ray.throughput;
         background.add_sun_disk(to_double(ray.dir), weight, light);
     }
     return false;

@@ -19,7 +19,7 @@ struct NextRay {
     float density;      // density of the direction [sr^-1]; 0: exact
     float alpha_least;  // least alpha of the next vertex's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
-    Spectrum weight;
+    Spectrum throughput;
     bool whole_lobe = false;            // it stands for all of a narrow facet lobe about it
     bool sees_bodies = true;            // false: their light in its lobe has been counted
     Spectrum if_free{};                 // light that it adds where it meets nothing

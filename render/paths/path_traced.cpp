@@ -94,7 +94,7 @@ class TracedPaths final : public PathModel {
             if (!sample.valid || (last && !sample.exact) ||
                 (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0))
                 continue;
-            Spectrum weight = at.weight * sample.weight;
+            Spectrum weight = at.throughput * sample.weight;
             const float most = at.importance(weight);
             if (!(most > 0)) continue;
             if (most < least) {
@@ -129,7 +129,7 @@ class TracedPaths final : public PathModel {
         const std::size_t sent = many_.trace(tile, *middle.from, most);
         NextRay ray = middle;
         const float share = 1 / static_cast<float>(sent);
-        ray.weight = share * middle.weight;
+        ray.throughput = share * middle.throughput;
         Spectrum free;
         add_background_seen(tile.frame, middle, free);
         const std::size_t begin = found;
@@ -175,7 +175,7 @@ class TracedPaths final : public PathModel {
         vertex.lobe = ray.from->lobe ? ray.from->lobe : ray.lobe;
         vertex.lobe_ray = ray.from->lobe ? ray.from->lobe_ray : ray.lobe_ray;
         vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
-        vertex.weight = ray.weight;
+        vertex.throughput = ray.throughput;
         vertex.ray_part = ray.from->depth > 1 ? ray.from->ray_part : ray.part;
         vertex.weight_samples = ray.from->weight_samples;
         return true;
@@ -233,11 +233,11 @@ class TracedPaths final : public PathModel {
         for (std::size_t i = last; i-- > first;) {
             Vertex& other = found[i];
             if (other.object != at.object || other.surface_number != at.surface_number ||
-                largest(other.weight) > (kMost - 0.5f) * largest(ray.weight) || other.back != at.back ||
-                other.known_sun != at.known_sun || other.surface.base.bin != at.surface.base.bin ||
-                dot(other.normal, at.normal) < least)
+                largest(other.throughput) > (kMost - 0.5f) * largest(ray.throughput) ||
+                other.back != at.back || other.known_sun != at.known_sun ||
+                other.surface.base.bin != at.surface.base.bin || dot(other.normal, at.normal) < least)
                 continue;
-            other.weight += ray.weight;
+            other.throughput += ray.throughput;
             return true;
         }
         return false;

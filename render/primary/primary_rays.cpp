@@ -389,7 +389,7 @@ class PrimaryRays {
         vertex.pixel = pixel;
         vertex.sample = sample;
         vertex.depth = 1;
-        vertex.weight = weight_;
+        vertex.throughput = weight_;
         vertex.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         tile_.set_kind(pixel, HalfKind::kObject);
         tile_.facets.add(frame_, {vertex.geometric_normal, vertex.normal, vertex.start(), 1},
@@ -406,8 +406,8 @@ void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex) {
     if (!frame.background->camera_in_air()) return;
     const double distance_m = length(to_double(vertex.point_m) - frame.camera_m);
     const Atmosphere::Sight sight = frame.background->air_before(dir, distance_m);
-    tile.add(vertex, LightPart::kAir, vertex.weight * sight.radiance_sr);
-    vertex.weight = vertex.weight * sight.transmittance;
+    tile.add(vertex, LightPart::kAir, vertex.throughput * sight.radiance_sr);
+    vertex.throughput = vertex.throughput * sight.transmittance;
 }
 
 std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {

@@ -377,7 +377,7 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
     // Alike in all bins, but for the air before it.
     const float all = vertex.weight_samples + samples;
     mix_colors(k, samples / all, vertex);
-    vertex.weight = (all / vertex.weight_samples) * vertex.weight;
+    vertex.throughput = (all / vertex.weight_samples) * vertex.throughput;
     vertex.halves = (vertex.weight_samples / all) * vertex.halves;
     vertex.halves += (samples / all) * frame.samples.halves(seen_by);
     vertex.weight_samples = all;
@@ -393,8 +393,8 @@ void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Ve
     vertex.samples = fragment.samples;
     vertex.place_px = place_px;
     vertex.lift_m = 0;
-    vertex.weight = {};
-    std::fill_n(vertex.weight.bin.begin(), tile_.frame.bins, samples);
+    vertex.throughput = {};
+    std::fill_n(vertex.throughput.bin.begin(), tile_.frame.bins, samples);
     vertex.weight_samples = samples;
     vertex.halves = halves;
     add_air_before(tile_, dirs_[k], vertex);

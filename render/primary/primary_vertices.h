@@ -1,7 +1,7 @@
 #pragma once
 // Finds what the camera sees of a tile, as vertices: by rays (primary_rays.cpp), or out of the frame's
 // visibility buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the
-// weight of so many samples.
+// throughput of so many samples.
 
 #include <array>
 #include <cstdint>

@@ -123,7 +123,7 @@ class Reflection {
     void finish(std::uint16_t v) {
         const Vertex& at = *vertices_[v].at;
         const Sum& sum = sums_[v];
-        out_[v].reflected = (1 / sum.samples) * (at.weight * out_[v].reflected);
+        out_[v].reflected = (1 / sum.samples) * (at.throughput * out_[v].reflected);
         out_[v].halves = sum.light > 0 ? (1 / sum.light) * sum.halves : at.halves;
     }
 };

@@ -34,7 +34,7 @@ class FacetList {
     void push(const Facet& part, Vertex& vertex);
 };
 
-// The light that the facets of a vertex reflect from a source of irradiance 1, with the vertex's weight.
+// The light that the facets of a vertex reflect from a source of irradiance 1, with the vertex's throughput.
 struct FacetLight {
     static constexpr std::size_t kStarts = 4;
     Spectrum reflected;

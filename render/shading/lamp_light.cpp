@@ -83,7 +83,7 @@ void add_lamps_reflected(Tile& tile, std::span<const Vertex> vertices) {
             if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
             const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
             const Spectrum weight =
-                (ni * ray.per_m2) * (at.weight * lamp.intensity_w_sr_um * brdf_value(at.surface, c));
+                (ni * ray.per_m2) * (at.throughput * lamp.intensity_w_sr_um * brdf_value(at.surface, c));
             if (largest(weight) > 0)
                 shadow.add(start_m, dir, {&at, weight}, static_cast<float>(free_length_m(ray.distance_m)));
         }

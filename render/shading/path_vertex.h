@@ -55,14 +55,14 @@ struct VertexSurface {
 
 // The share of the light that it sends which reaches its pixel, or the lobe whose rays have met it.
 struct VertexThroughput {
-    Spectrum weight;
+    Spectrum throughput;
     float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
     std::uint16_t depth;    // 1: seen by the camera
     LightPart ray_part;     // where a ray has met it: the part of its light
     std::uint8_t lobe_ray;  // which of a lobe's rays that is
     FollowedLobe* lobe;     // the lobe whose rays have met it; null: its light is its pixel's
 
-    // Returns the figure that thresholds are held against: the largest weight of one of the samples for which
+    // Returns the figure that thresholds are held against: the largest throughput of one of the samples for which
     // a ray stands.
     float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
 };
@@ -93,7 +93,7 @@ bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir
 // the coordinates it was made of: 16 half-ulps of the greatest (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
 float rounding_m(Vec3f point_m, Vec3f origin_m);
 
-// Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's.
+// Point, normals and material of a lane that met an object; pixel, sample, depth and throughput are the caller's.
 // The facet lobe is at least `alpha_least` wide. False where there is nothing to see. Loop, any thread.
 // footprint_m: width of the ray where it began, spread_rad: by how much it widens.
 struct RayWidth {

@@ -21,7 +21,7 @@ class RadianceModel {
   public:
     virtual ~RadianceModel() = default;
 
-    // Adds to the tile's pixels, vertex by vertex, weight times radiance towards the viewer. All vertices are
+    // Adds to the tile's pixels, vertex by vertex, throughput times radiance towards the viewer. All vertices are
     // of one depth. Loop, any thread.
     virtual void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const = 0;
     // The materials' own emission counts.

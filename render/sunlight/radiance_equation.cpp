@@ -32,7 +32,8 @@ bool is_weighed(const FrameView& frame, const Vertex& at) {
 // stands over the surface's horizon.
 bool body_light_counts(const FrameView& frame, const Vertex& at, const BodyLight& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
-    if (at.importance(at.weight) * largest(lamp.max_over_sun) * solid_angle < frame.contribution_threshold)
+    if (at.importance(at.throughput) * largest(lamp.max_over_sun) * solid_angle <
+        frame.contribution_threshold)
         return false;
     return dot(at.geometric_normal, to_float(lamp.world_dir)) >= -std::sqrt(lamp.cone_sine_squared);
 }
@@ -125,7 +126,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
         Scatterer surface = at.surface;
         if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
-        const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));
+        const Spectrum weight = (ni * share) * (at.throughput * light * brdf_value(surface, c));
         if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;
         if (!frame.sun_is_disk && at.known_sun == KnownSun::kLit)
             tile.add(at, LightPart::kSun, weight);
@@ -163,7 +164,7 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
             // Rounding may put what is drawn at a cone's edge outside of it.
             const float density = cone_density(lamp) + density_of_others(frame, at, dir, &lamp) +
                                   (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
-            const Spectrum weight = (ni / density) * (at.weight * brdf_value(at.surface, c));
+            const Spectrum weight = (ni / density) * (at.throughput * brdf_value(at.surface, c));
             if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
         }
     }
@@ -176,7 +177,7 @@ class RadianceEquation final : public RadianceModel {
     void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const override {
         if (tile.frame.has_emission)
             for (const Vertex& at : vertices)
-                tile.add(at, LightPart::kEmission, at.weight * at.surface.material->emission);
+                tile.add(at, LightPart::kEmission, at.throughput * at.surface.material->emission);
         add_sunlight(tile, vertices);
         add_lamps_reflected(tile, vertices);
         if (lamps == BodySampling::kSampled) add_body_light(tile, vertices);

@@ -18,7 +18,7 @@ class DistancePaths final : public hilcam::PathModel {
             for (const hilcam::Vertex& at : std::span(vertices_.data(), count)) {
                 const auto distance_m =
                     static_cast<float>(length(hilcam::to_double(at.point_m) - tile.frame.camera_m));
-                tile.add(at, hilcam::LightPart::kPath, distance_m * at.weight);
+                tile.add(at, hilcam::LightPart::kPath, distance_m * at.throughput);
             }
     }
 

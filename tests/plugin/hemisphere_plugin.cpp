@@ -91,7 +91,7 @@ float lobe_share(const Scatterer& at, float no) {
 // stands over the surface's horizon.
 bool counts(const FrameView& frame, const Vertex& at, const BodyLight& body) {
     const float solid_angle = 2 * kPiF * body.one_minus_cosine;
-    return at.importance(at.weight) * largest(body.max_over_sun) * solid_angle >=
+    return at.importance(at.throughput) * largest(body.max_over_sun) * solid_angle >=
                frame.contribution_threshold &&
            dot(at.geometric_normal, to_float(body.world_dir)) >= -std::sqrt(body.cone_sine_squared);
 }
@@ -140,7 +140,7 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
                 const float ni = dot(at.normal, dir);
                 if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
                 const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
-                const Spectrum weight = (ni / density) * (at.weight * brdf_value(surface, c));
+                const Spectrum weight = (ni / density) * (at.throughput * brdf_value(surface, c));
                 if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
             }
         }
@@ -165,7 +165,7 @@ class HemispherePaths final : public PathModel {
   private:
     struct Ray {
         Vec3f origin_m, dir;
-        Spectrum weight;
+        Spectrum throughput;
         bool exact;     // sees bodies, which are lamps for the others
         bool sees_sun;  // exact by itself: no highlight has counted the Sun
         LightPart part;
@@ -207,7 +207,7 @@ class HemispherePaths final : public PathModel {
         for (int part = 0; part < 2; ++part) {
             const BrdfSample sample = brdf_exact(surface, at.normal, at.view_dir, part);
             if (!sample.valid || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
-            const Spectrum weight = share * (at.weight * sample.weight);
+            const Spectrum weight = share * (at.throughput * sample.weight);
             const LightPart of = sample.transmits ? LightPart::kTransmission : LightPart::kMirrorRays;
             if (at.importance(weight) >= least)
                 rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true, !narrow, of};
@@ -219,7 +219,7 @@ class HemispherePaths final : public PathModel {
             const Vec3f dir = local.to_world(direction);
             if (dot(at.geometric_normal, dir) <= 0) continue;
             const Cosines c{no, direction.z, dot(at.view_dir, dir)};
-            const Spectrum weight = (kSolidAngle * direction.z) * (at.weight * brdf_value(surface, c));
+            const Spectrum weight = (kSolidAngle * direction.z) * (at.throughput * brdf_value(surface, c));
             // All directions together against the threshold.
             if (static_cast<float>(kDirections) * at.importance(weight) >= least && largest(weight) > 0)
                 rays_[count++] = {at.start(), dir, weight, false, false, LightPart::kPath};
@@ -256,7 +256,7 @@ class HemispherePaths final : public PathModel {
                     continue;
                 vertex.pixel = at.pixel, vertex.sample = at.sample, vertex.halves = at.halves;
                 vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
-                vertex.weight = ray.weight;
+                vertex.throughput = ray.throughput;
                 vertex.ray_part = at.depth > 1 ? at.ray_part : ray.part;
                 vertex.weight_samples = at.weight_samples;
                 ++found;
@@ -268,7 +268,7 @@ class HemispherePaths final : public PathModel {
     // Bodies are lamps for the 60 directions; only in air is there a sky between them.
     static void add_background(Tile& tile, const Vertex& at, const Ray& ray) {
         const Background& background = *tile.frame.background;
-        Spectrum weight = ray.weight;
+        Spectrum weight = ray.throughput;
         if (!ray.exact && !(background.camera_in_air() && !is_in_a_body(tile.frame, at, ray.dir))) return;
         Spectrum light;
         if (!background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light) && ray.sees_sun)

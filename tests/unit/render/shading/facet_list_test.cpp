@@ -54,7 +54,7 @@ struct Foil {
             at.back = v % 3 == 0;
             const Material& material = materials[v % 4];
             at.surface = {&material, material.has_facets() ? kAlpha : 0, material.base, material.highlight};
-            at.view_dir = about(0.7f), at.weight.bin.fill(0.5f);
+            at.view_dir = about(0.7f), at.throughput.bin.fill(0.5f);
             for (std::size_t k = 0; k <= v % kFacets; ++k) {
                 Facet facet;
                 facet.geometric_normal = about(1.0f), facet.normal = about(1.0f);
@@ -164,7 +164,7 @@ TEST(FacetList, LightComesFromTheFacetThatReflectsIt) {
     const Facet left{up, aside, {}, 8, kLeft}, right{up, up, {}, 8, kRight, nullptr, false, &left};
     Vertex at{};
     at.view_dir = normalized(Vec3f{0.4f, 0, 1});
-    at.weight.bin.fill(1);
+    at.throughput.bin.fill(1);
     at.surface = {&metal, 0.04f, metal.base, metal.highlight};
     at.facets = &right;
     const SunnyVertex sunny{&at, dir, 0.04f};
