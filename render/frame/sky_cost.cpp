@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "render/earth/earth_model.h"
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 #include "render/shading/tile.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/stopwatch.h"

@@ -1,7 +1,7 @@
 #include <array>
 
 #include "render/paths/path_models.h"
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 #include "render/shading/radiance_model.h"
 
 namespace hilcam {
@@ -10,7 +10,7 @@ namespace {
 class DirectPaths final : public PathModel {
   public:
     void trace(Tile& tile) override {
-        PrimaryVertices seen(tile);
+        PrimaryHits seen(tile);
         while (const std::size_t count = seen.next(vertices_))
             tile.frame.radiance->add_light(tile, {vertices_.data(), count}, BodySampling::kNone);
     }

@@ -19,7 +19,7 @@
 #include "render/paths/kept_rays.h"
 #include "render/paths/mirror_rays.h"
 #include "render/paths/next_ray.h"
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 #include "render/shading/radiance_model.h"
 
 namespace hilcam {
@@ -30,7 +30,7 @@ class TracedPaths final : public PathModel {
     explicit TracedPaths(bool kept) : kept_(kept) {}
 
     void trace(Tile& tile) override {
-        PrimaryVertices seen(tile);
+        PrimaryHits seen(tile);
         while (const std::size_t count = seen.next({current_, kMax})) trace_on(tile, count);
     }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 #include "render/shading/way_to_sample.h"
 
 namespace hilcam {
@@ -22,13 +22,13 @@ HalfShares moved(const HalfShares& from, Vec2f off_px) {
 }  // namespace
 
 // Returns how far rays go along the sides while they rise by one.
-Vec2f PrimaryVertices::ShownMosaic::slopes(Vec3f dir) const {
+Vec2f PrimaryHits::ShownMosaic::slopes(Vec3f dir) const {
     const float per_rise = 1 / std::max(dot(dir, normal), 1e-3f);
     return {per_rise * dot(dir, across), per_rise * dot(dir, down)};
 }
 
 // Returns a mosaic of the packet's object as the frame shows it.
-const PrimaryVertices::ShownMosaic& PrimaryVertices::shown(const Mosaic& mosaic) {
+const PrimaryHits::ShownMosaic& PrimaryHits::shown(const Mosaic& mosaic) {
     const std::uint32_t object = hits_.object[0];
     if (mosaic_.is == &mosaic && mosaic_.object == object) return mosaic_;
     const Mat3f& axes = tile_.frame.world_from_body[object];
@@ -44,7 +44,7 @@ const PrimaryVertices::ShownMosaic& PrimaryVertices::shown(const Mosaic& mosaic)
 }
 
 // Returns what is seen of the mosaic through the pixel of fragment k.
-PrimaryVertices::MosaicPixel PrimaryVertices::look_at_mosaic(std::size_t k, Vec3f view_dir) const {
+PrimaryHits::MosaicPixel PrimaryHits::look_at_mosaic(std::size_t k, Vec3f view_dir) const {
     const PixelRays pixel = rays_of(fragments_[k]);
     const Vec3d up = to_double(mosaic_.normal);
     const Vec3d corner_m =
@@ -67,8 +67,8 @@ PrimaryVertices::MosaicPixel PrimaryVertices::look_at_mosaic(std::size_t k, Vec3
 
 // One vertex for each surface of the mosaic that is in a pixel, with its part of what the samples see. Returns how
 // many vertices there are then.
-std::size_t PrimaryVertices::make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices,
-                                         std::size_t count) {
+std::size_t PrimaryHits::make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices,
+                                     std::size_t count) {
     const FrameView& frame = tile_.frame;
     const Mosaic& mosaic = *mosaic_.is;
     const MosaicPixel pixel = look_at_mosaic(k, lie.view_dir);
@@ -113,7 +113,7 @@ std::size_t PrimaryVertices::make_mosaic(std::size_t k, const Lie& lie, std::spa
 }
 
 // The directions through a fragment's pixel: its middle, and a step to the right and down.
-PrimaryVertices::PixelRays PrimaryVertices::rays_of(const Fragment& fragment) const {
+PrimaryHits::PixelRays PrimaryHits::rays_of(const Fragment& fragment) const {
     const FrameView& frame = tile_.frame;
     const int x = tile_.box.x0 + fragment.x, y = tile_.box.y0 + fragment.y;
     if (const LinearRays* rays = frame.rays->linear())

@@ -1,4 +1,4 @@
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 
 #include <algorithm>
 #include <cmath>

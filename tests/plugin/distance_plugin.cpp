@@ -6,14 +6,14 @@
 #include <array>
 
 #include "render/frame/plugin.h"
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 
 namespace {
 
 class DistancePaths final : public hilcam::PathModel {
   public:
     void trace(hilcam::Tile& tile) override {
-        hilcam::PrimaryVertices seen(tile);
+        hilcam::PrimaryHits seen(tile);
         while (const std::size_t count = seen.next(vertices_))
             for (const hilcam::Vertex& at : std::span(vertices_.data(), count)) {
                 const auto distance_m =

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "render/frame/plugin.h"
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 #include "render/shading/shadow_rays.h"
 
 namespace {
@@ -153,7 +153,7 @@ class HemispherePaths final : public PathModel {
   public:
     void trace(Tile& tile) override {
         reserve_depth(tile.frame.max_depth);
-        PrimaryVertices seen(tile);
+        PrimaryHits seen(tile);
         while (const std::size_t count = seen.next(first_)) follow(tile, {first_.data(), count});
     }
     // A level of children per depth.

@@ -1,4 +1,4 @@
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ std::array<double, 10> light_of_tube(const std::string& visibility, int samples_
 }
 
 // Its normals turn by thirty degrees in each of its sides, which a few samples see, and its highlight is twelve wide.
-TEST(PrimaryVertices, AGlintOnAThinTubeStaysAsItMoves) {
+TEST(PrimaryHits, AGlintOnAThinTubeStaysAsItMoves) {
     const std::array<double, 10> by_rays = light_of_tube("rays", 16), seen = light_of_tube("buffer", 1);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_NEAR(seen[i] / by_rays[i], 1, 0.02) << i;
 }
@@ -105,7 +105,7 @@ std::vector<double> light_of_wall(const std::string& visibility, int samples_per
 }
 
 // Bars three pixels apart: a pixel's width leaves 0.83 of them, and one look as wide left half of that.
-TEST(PrimaryVertices, ATextureIsAsSharpAsAPixel) {
+TEST(PrimaryHits, ATextureIsAsSharpAsAPixel) {
     const auto bars = [](double across) { return 0.5 + 0.5 * std::sin(2 * kPi * 8 * across); };
     const auto swing = [](const std::vector<double>& light) {
         double sum = 0, squares = 0;
@@ -119,7 +119,7 @@ TEST(PrimaryVertices, ATextureIsAsSharpAsAPixel) {
 }
 
 // Eight triangles in a pixel, of which a vertex is that which most samples see.
-TEST(PrimaryVertices, ATextureIsThatOfAllThatAPixelSees) {
+TEST(PrimaryHits, ATextureIsThatOfAllThatAPixelSees) {
     const auto quarter = [](double across) { return std::fmod(96 * across, 4) < 1 ? 1.0 : 0.0; };
     const std::vector<double> by_rays = light_of_wall("rays", 16, 96, 4608, quarter),
                               seen = light_of_wall("buffer", 1, 96, 4608, quarter);

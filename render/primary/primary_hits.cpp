@@ -1,4 +1,4 @@
-#include "render/primary/primary_vertices.h"
+#include "render/primary/primary_hits.h"
 
 #include <algorithm>
 #include <bit>
@@ -35,13 +35,13 @@ bool has_narrow_lobe(const Scatterer& surface) {
 
 }  // namespace
 
-std::size_t PrimaryVertices::next(std::span<Vertex> vertices) {
+std::size_t PrimaryHits::next(std::span<Vertex> vertices) {
     if (tile_.seen) return next_fragments(vertices);
     if (std::exchange(begun_, true)) return 0;
     return trace_primary_rays(tile_, vertices);
 }
 
-std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
+std::size_t PrimaryHits::next_fragments(std::span<Vertex> vertices) {
     const PixelBox& box = tile_.box;
     if (!std::exchange(begun_, true)) {
         HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMaxSamples &&
@@ -70,7 +70,7 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
 }
 
 // The next part of the tile in which anything is seen.
-bool PrimaryVertices::open_next_part() {
+bool PrimaryHits::open_next_part() {
     const PixelBox& box = tile_.box;
     const int buffer_px = tile_.frame.samples.buffer_px();
     int x = part_.x0 + part_px_, y = part_.y0;
@@ -85,7 +85,7 @@ bool PrimaryVertices::open_next_part() {
 }
 
 // Four neighbours after each other: they may share what changes slowly (KeptScene::add_reflected()).
-void PrimaryVertices::take_next_pixel() {
+void PrimaryHits::take_next_pixel() {
     // 16 or 8 pixels: a power of two, as divisions would take a third of the time.
     const auto pairs = static_cast<unsigned>(part_px_ / 2), i = static_cast<unsigned>(next_pixel_++),
                pair = i / 4;
@@ -94,7 +94,7 @@ void PrimaryVertices::take_next_pixel() {
     if (x < part_.x1 && y < part_.y1) take_pixel(x, y);
 }
 
-void PrimaryVertices::take_pixel(int x, int y) {
+void PrimaryHits::take_pixel(int x, int y) {
     const PixelSamples& grid = tile_.frame.samples;
     const auto left = static_cast<std::uint8_t>(x - tile_.box.x0),
                top = static_cast<std::uint8_t>(y - tile_.box.y0);
@@ -114,13 +114,13 @@ void PrimaryVertices::take_pixel(int x, int y) {
         static_cast<double>(grid.weight(grid.all() & ~seen.nothing)) * (1.0 / kVisibilitySamples);
 }
 
-bool PrimaryVertices::is_lit_apart(std::uint32_t id) const {
+bool PrimaryHits::is_lit_apart(std::uint32_t id) const {
     const FrameView& frame = tile_.frame;
     return frame.lit_apart[frame.visibility->seen(id).shown->object] != 0;
 }
 
 // True when a body stands before what the samples see: they see the body then.
-bool PrimaryVertices::leave_to_body(std::size_t k) {
+bool PrimaryHits::leave_to_body(std::size_t k) {
     const FrameView& frame = tile_.frame;
     const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];
     if (!frame.background->hides_seen(normalized(dirs_[k]), length(point - frame.camera_m))) return false;
@@ -129,8 +129,8 @@ bool PrimaryVertices::leave_to_body(std::size_t k) {
 }
 
 // The vertex among those of the same pixel that a fragment is part of; null: none.
-Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
-                              std::uint16_t surface, const Lie& lie) {
+Vertex* PrimaryHits::join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
+                          std::uint16_t surface, const Lie& lie) {
     for (auto vertex = so_far.rbegin(); vertex != so_far.rend() && vertex->pixel == pixel; ++vertex) {
         if (vertex->object != object || vertex->surface_number != surface || vertex->back != lie.back)
             continue;
@@ -141,7 +141,7 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
 }
 
 // The ray through a place in a fragment's pixel.
-PrimaryVertices::Aim PrimaryVertices::aim_at(const Fragment& fragment, Vec2f place_px) const {
+PrimaryHits::Aim PrimaryHits::aim_at(const Fragment& fragment, Vec2f place_px) const {
     const FrameView& frame = tile_.frame;
     const Vec3d dir =
         direction_through(frame, tile_.box.x0 + fragment.x, tile_.box.y0 + fragment.y, place_px);
@@ -149,7 +149,7 @@ PrimaryVertices::Aim PrimaryVertices::aim_at(const Fragment& fragment, Vec2f pla
 }
 
 // The first fragments, as many as are of one object.
-std::size_t PrimaryVertices::look_at_fragments() {
+std::size_t PrimaryHits::look_at_fragments() {
     const FrameView& frame = tile_.frame;
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
     const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
@@ -188,7 +188,7 @@ std::size_t PrimaryVertices::look_at_fragments() {
 }
 
 // True where normals turn so far within a fragment that one of them does not tell what its lobe reflects of the Sun.
-bool PrimaryVertices::turns_much(std::size_t k) const {
+bool PrimaryHits::turns_much(std::size_t k) const {
     const float turn = packet_.turn[k];  // within the triangle, squared
     if (turn == 0) return false;
     const FrameView& frame = tile_.frame;
@@ -207,19 +207,19 @@ bool PrimaryVertices::turns_much(std::size_t k) const {
 }
 
 // The width of fragment k's pixel there, across its ray.
-float PrimaryVertices::pixel_m(std::size_t k) const {
+float PrimaryHits::pixel_m(std::size_t k) const {
     const auto from_m = static_cast<float>(tile_.frame.way_to_start_m());
     return (from_m + packet_.distance[k] * length(packet_.dir.at(k))) /
            static_cast<float>(tile_.frame.geometry.focal_length_px);
 }
 
-bool PrimaryVertices::is_textured(std::size_t k) const {
+bool PrimaryHits::is_textured(std::size_t k) const {
     const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
     return object.materials[object.triangles[hits_.triangle[k]].surface].texture >= 0;
 }
 
 // Returns how many looks the colours of fragment k want.
-std::size_t PrimaryVertices::looks_at_texture(std::size_t k, float samples) const {
+std::size_t PrimaryHits::looks_at_texture(std::size_t k, float samples) const {
     constexpr float kPerLook = kVisibilitySamples / 4;  // samples for which a look stands
     if (samples <= kPerLook || !is_textured(k)) return 1;
     const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
@@ -233,7 +233,7 @@ std::size_t PrimaryVertices::looks_at_texture(std::size_t k, float samples) cons
 
 // Puts a fragment among those that are looked at from several of their samples, as far from each other as may be. Returns how many;
 // none where one look is enough.
-std::size_t PrimaryVertices::add_looks(std::size_t k) {
+std::size_t PrimaryHits::add_looks(std::size_t k) {
     const Fragment& fragment = fragments_[k];
     const PixelSamples& grid = tile_.frame.samples;
     const float samples = grid.weight(fragment.samples);
@@ -257,7 +257,7 @@ std::size_t PrimaryVertices::add_looks(std::size_t k) {
 }
 
 // Finds what the looks that were asked for meet; the first of them has this place among all.
-void PrimaryVertices::find_looks(std::size_t first) {
+void PrimaryHits::find_looks(std::size_t first) {
     if (looked_at_.count == 0) return;
     for (std::size_t i = looked_at_.count; i < kPacketSize; ++i)
         looked_at_.triangle[i] = looked_at_.triangle[0];
@@ -270,7 +270,7 @@ void PrimaryVertices::find_looks(std::size_t first) {
 }
 
 // Looks at the packet's fragments that need it, many at a time: each by itself would fill a quarter of the vectors.
-void PrimaryVertices::look_at_samples() {
+void PrimaryHits::look_at_samples() {
     first_look_[0] = 0;
     for (std::size_t k = 0; k < packet_.count; ++k) first_look_[k + 1] = first_look_[k] + add_looks(k);
     find_looks(first_look_[packet_.count] - looked_at_.count);
@@ -278,7 +278,7 @@ void PrimaryVertices::look_at_samples() {
 
 // Returns the colours of a texture in fragment k. One look as wide as the pixel would blur it: of the contrast at Nyquist's frequency
 // a pixel leaves sinc(1/2) = 0.64, and texels of its width, linear between two, sinc(1/2)^3 = 0.26 (sinc x = sin(pi x) / (pi x)).
-Spectrum PrimaryVertices::texture_of(std::size_t k, const Vertex& vertex) const {
+Spectrum PrimaryHits::texture_of(std::size_t k, const Vertex& vertex) const {
     const auto looks = looks_of(k, look_places_);
     const std::uint32_t triangle = hits_.triangle[k];
     const float of_pixel = tile_.frame.samples.weight(fragments_[k].samples) / kVisibilitySamples;
@@ -291,7 +291,7 @@ Spectrum PrimaryVertices::texture_of(std::size_t k, const Vertex& vertex) const 
 }
 
 // Gives a vertex a share of the colours of fragment k, which it has taken in.
-void PrimaryVertices::mix_colors(std::size_t k, float share, Vertex& vertex) const {
+void PrimaryHits::mix_colors(std::size_t k, float share, Vertex& vertex) const {
     const bool textured = is_textured(k);
     const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
     if (!textured && object.corner_colors.empty()) return;
@@ -306,7 +306,7 @@ void PrimaryVertices::mix_colors(std::size_t k, float share, Vertex& vertex) con
     surface.highlight = (1 - share) * highlight + share * surface.highlight;
 }
 
-std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {
+std::size_t PrimaryHits::make_vertices(std::span<Vertex> vertices, std::size_t count) {
     const FrameView& frame = tile_.frame;
     const std::size_t n = look_at_fragments();
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
@@ -354,7 +354,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
 }
 
 // Makes fragment k, which is alike, a part of a vertex.
-void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
+void PrimaryHits::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
     const FrameView& frame = tile_.frame;
     const SampleMask seen_by = fragments_[k].samples;
     const float samples = frame.samples.weight(seen_by);
@@ -384,8 +384,7 @@ void PrimaryVertices::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
 }
 
 // The pixel of fragment k, for a vertex that is part of what is seen in it.
-void PrimaryVertices::finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px,
-                             Vertex& vertex) {
+void PrimaryHits::finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, Vertex& vertex) {
     const Fragment& fragment = fragments_[k];
     vertex.pixel = fragment.pixel;
     vertex.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));

@@ -13,9 +13,9 @@
 
 namespace hilcam {
 
-class PrimaryVertices {
+class PrimaryHits {
   public:
-    explicit PrimaryVertices(Tile& tile) : tile_(tile) {}
+    explicit PrimaryHits(Tile& tile) : tile_(tile) {}
 
     // Writes the next vertices, PathModel::kMostVertices at a time at most, and adds the background to the
     // tile's pixels. Returns how many; 0: that was all. vertices: room for kMostVertices. Loop, any thread.
