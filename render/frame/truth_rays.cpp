@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/shading/path_vertex.h"
+#include "render/shading/shading_point.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -57,10 +57,10 @@ void TruthRays::trace(std::span<const Vec2d> points_px, bool normals, std::span<
                 out.kind = RayMet::Kind::kObject;
                 out.index = hits.object[k];
                 out.range_m = length(out.from_camera_m - rays[k].from_camera_m);
-                Vertex vertex;
-                if (normals && make_vertex(frame_, hits, static_cast<int>(k), starts[k], dirs[k], 0,
-                                           {0, pixel_rad_}, vertex))
-                    out.normal_dir = to_double(vertex.normal);
+                ShadingPoint point;
+                if (normals && make_shading_point(frame_, hits, static_cast<int>(k), starts[k], dirs[k], 0,
+                                                  {0, pixel_rad_}, point))
+                    out.normal_dir = to_double(point.normal);
                 continue;
             }
             out.from_camera_m = {};

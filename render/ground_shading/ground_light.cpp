@@ -140,7 +140,7 @@ class GroundTileLight {
         return light;
     }
 
-    // From where a ray begins that leaves the ground, as Vertex::start() has it.
+    // From where a ray begins that leaves the ground, as ShadingPoint::start() has it.
     void ask(std::size_t i, std::uint32_t pixel) {
         const AskedPoint asked{pixel, light_of(i)};
         const auto& corners = frame_.mesh.triangles[packet_.triangle[i]];

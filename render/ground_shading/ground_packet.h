@@ -1,6 +1,6 @@
 #pragma once
 // Sixteen places of sunlit ground at a time: where a camera's rays meet their triangles, how the ground lies there, and what
-// of the Sun's light it sends back. It is that which make_vertex() and add_sunlight() find of one, to single precision.
+// of the Sun's light it sends back. It is that which make_shading_point() and add_sunlight() find of one, to single precision.
 // Compiled for several widths of vectors that give the same results. Loop, any thread.
 
 #include <array>

@@ -8,24 +8,24 @@
 #include <new>
 #include <type_traits>
 
-#include "render/shading/path_vertex.h"
+#include "render/shading/shading_point.h"
 
 namespace hilcam {
 
 // Directions that differ by no more are one to a lobe: a degree, of lobes that are seven wide at least.
 inline constexpr float kSameLobe = 0.9998f;  // cosine
 
-// True when two vertices lie the same way, and are of one surface. A texture may give their facets colours of their own.
-inline bool lies_alike(const Vertex& a, const Vertex& b) {
+// True when two shading points lie the same way, and are of one surface. A texture may give their facets colours of their own.
+inline bool lies_alike(const ShadingPoint& a, const ShadingPoint& b) {
     return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
            dot(a.normal, b.normal) > kSameLobe;
 }
 // True when they send lobes of one kind the same way besides.
-inline bool sends_alike(const Vertex& a, const Vertex& b) {
+inline bool sends_alike(const ShadingPoint& a, const ShadingPoint& b) {
     return lies_alike(a, b) && a.surface.alpha == b.surface.alpha && dot(a.view_dir, b.view_dir) > kSameLobe;
 }
 
-// Keeps a value for each kind of lobe at each node; of those that share a slot, the last. Vertices outlive this. One
+// Keeps a value for each kind of lobe at each node; of those that share a slot, the last. Shading points outlive this. One
 // thread at a time.
 template <class Value>
 class AlikeLobes {
@@ -34,13 +34,13 @@ class AlikeLobes {
   public:
     // node: 0 where the value belongs to none.
     // Returns the value of a lobe that is alike; null: there is none.
-    const Value* find(const Vertex& at, std::uint32_t node) const {
+    const Value* find(const ShadingPoint& at, std::uint32_t node) const {
         const std::uint16_t place = places_[number(at, node)];
         if (place == 0) return nullptr;
         const Entry& entry = *std::launder(reinterpret_cast<const Entry*>(&memory_[place - 1]));
         return entry.node == node && sends_alike(*entry.at, at) ? &entry.value : nullptr;
     }
-    const Value& keep(const Vertex& at, std::uint32_t node, const Value& value) {
+    const Value& keep(const ShadingPoint& at, std::uint32_t node, const Value& value) {
         std::uint16_t& place = places_[number(at, node)];
         if (place == 0) place = ++count_;
         return (new (&memory_[place - 1]) Entry{&at, node, value})->value;
@@ -50,7 +50,7 @@ class AlikeLobes {
     static constexpr unsigned kSlotBits = 8;
     static constexpr std::size_t kSlots = std::size_t{1} << kSlotBits;
     struct Entry {
-        const Vertex* at;
+        const ShadingPoint* at;
         std::uint32_t node;
         Value value;
     };
@@ -64,7 +64,7 @@ class AlikeLobes {
     std::array<EntryMemory, kSlots> memory_;
 
     // Normals that lean differently mostly have different slots.
-    static std::size_t number(const Vertex& at, std::uint32_t node) {
+    static std::size_t number(const ShadingPoint& at, std::uint32_t node) {
         constexpr float kSteps = 8;
         const auto lean = static_cast<std::uint32_t>(static_cast<int>(kSteps * (at.normal.x + 1)) +
                                                      17 * static_cast<int>(kSteps * (at.normal.y + 1)) +

@@ -1,4 +1,5 @@
-// Looks up what vertices reflect of the light that is kept (kept_scene.h), and of the light of bodies that comes without a way.
+// Looks up what shading points reflect of the light that is kept (kept_scene.h), and of the light of bodies that comes without a
+// way.
 
 #include "render/indirect/kept_scene.h"
 
@@ -25,13 +26,13 @@ bool has_own_colors(const Scatterer& at) { return at.material->varies() && at.ma
 bool is_tinted(const Scatterer& at) { return at.base.bin != at.material->base.bin; }
 Spectrum base_tint(const Scatterer& at) { return ratio(at.base, at.material->base); }
 
-// Numbers the square of four pixels that a vertex is seen in: kept light is too smooth to differ there.
-std::uint32_t quad_of(const Tile& tile, const Vertex& at) {
+// Numbers the square of four pixels that a shading point is seen in: kept light is too smooth to differ there.
+std::uint32_t quad_of(const Tile& tile, const ShadingPoint& at) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     return at.pixel / width / 2 * width + at.pixel % width / 2;
 }
 // near_m: what lies so close together is lit alike. Mirrors that do not lie in one plane show different things.
-bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
+bool is_alike(const ShadingPoint& a, const ShadingPoint& b, float near_m) {
     constexpr float kPlane = 0.999998f;  // cosine
     const bool mirror = a.surface.material->has_facets() && a.surface.alpha < kNarrowestLobe;
     const Vec3f apart_m = a.point_m - b.point_m;
@@ -44,13 +45,13 @@ bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
 // Something may stand in the mirror's direction.
 bool KeptScene::is_near(const FrameView& frame, const Place& place) const {
     if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
-    const Vertex& at = *place.at;
+    const ShadingPoint& at = *place.at;
     return objects_[at.object].light->is_near(
         place.nearest, to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal)));
 }
 
-// The place whose light a vertex shares; null: it needs its own. What mirrors show may be seen from anywhere.
-KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const Vertex& at,
+// The place whose light a shading point shares; null: it needs its own. What mirrors show may be seen from anywhere.
+KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const ShadingPoint& at,
                                           std::uint32_t quad) const {
     const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
     for (auto place = places.rbegin(); place != places.rend(); ++place) {
@@ -61,14 +62,14 @@ KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const Vertex&
     return nullptr;
 }
 
-void KeptScene::add_reflected(Tile& tile, std::span<const Vertex> vertices,
+void KeptScene::add_reflected(Tile& tile, std::span<const ShadingPoint> points,
                               std::span<GlossyRequest> requests) const {
-    if (vertices.empty()) return;
+    if (points.empty()) return;
     Together block;
     Lobes lobes;
     float room = kMostFollowed;
-    for (std::size_t first = 0; first < vertices.size();) {
-        const std::size_t end = gather(tile, vertices, first, block);
+    for (std::size_t first = 0; first < points.size();) {
+        const std::size_t end = gather(tile, points, first, block);
         std::fill(requests.begin() + static_cast<std::ptrdiff_t>(first),
                   requests.begin() + static_cast<std::ptrdiff_t>(end), GlossyRequest{});
         first = end;
@@ -82,13 +83,13 @@ void KeptScene::add_reflected(Tile& tile, std::span<const Vertex> vertices,
     }
 }
 
-// Takes vertices from the first on, as many as there is room for. Returns the number of the one after them.
-std::size_t KeptScene::gather(const Tile& tile, std::span<const Vertex> vertices, std::size_t first,
+// Takes shading points from the first on, as many as there is room for. Returns the number of the one after them.
+std::size_t KeptScene::gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
                               Together& block) const {
     std::size_t next = first, &count = block.place_count, &used = block.use_count;
     count = used = 0;
-    for (; next < vertices.size() && count < block.places.size() && used < block.uses.size(); ++next) {
-        const Vertex& at = vertices[next];
+    for (; next < points.size() && count < block.places.size() && used < block.uses.size(); ++next) {
+        const ShadingPoint& at = points[next];
         if (at.surface.is_glass()) continue;
         const std::uint32_t quad = quad_of(tile, at);
         Place* place = tile.seen ? shared_place({block.places.data(), count}, at, quad) : nullptr;
@@ -99,7 +100,7 @@ std::size_t KeptScene::gather(const Tile& tile, std::span<const Vertex> vertices
 }
 
 void KeptScene::reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const {
-    const Vertex& at = *place.at;
+    const ShadingPoint& at = *place.at;
     place.met = {}, place.bodies = {}, place.directions = 0;
     place.mirrors_near = true, place.has_bodies = false;
     place.follower = GlossyRequest::kNobody;
@@ -109,9 +110,9 @@ void KeptScene::reflect_facets(const FrameView& frame, Lobes& lobes, Place& plac
     if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
 }
 
-// Adds what a vertex has of its place's light to its pixel, or leaves its lobe to rays. room: for so many more samples.
+// Adds what a shading point has of its place's light to its pixel, or leaves its lobe to rays. room: for so many more samples.
 void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const {
-    const Vertex& at = *use.at;
+    const ShadingPoint& at = *use.at;
     Place& place = *use.place;
     GlossyRequest& request = requests[use.number];
     request.mirrors_near = place.mirrors_near;
@@ -155,7 +156,7 @@ void KeptScene::follow_together(std::uint32_t number, Place& place, std::span<Gl
 
 void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
     for (Place& place : places) {
-        const Vertex& at = *place.at;
+        const ShadingPoint& at = *place.at;
         const Mat3f& axes = frame.world_from_body[at.object];
         const Object& object = objects_[at.object];
         place.search = object.light->table().nodes().begin(
@@ -164,7 +165,7 @@ void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
     }
     for (Place& place : places) objects_[place.at->object].light->table().nodes().open(place.search);
     for (Place& place : places) {
-        const Vertex& at = *place.at;
+        const ShadingPoint& at = *place.at;
         const KeptLight& light = *objects_[at.object].light;
         place.found = light.table().nodes().finish(place.search, place.about);
         if (place.about.count == 0) continue;
@@ -189,7 +190,7 @@ Spectrum KeptScene::others(const FrameView& frame, const KeptLight& light, const
 
 // This is what a surface of the material's own colour reflects without its facets.
 Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) const {
-    const Vertex& at = *place.at;
+    const ShadingPoint& at = *place.at;
     const Object& object = objects_[at.object];
     const KeptLight& light = *object.light;
     const NodesAbout& about = place.about;
@@ -220,13 +221,13 @@ Spectrum KeptScene::reflect_bodies(const Place& place) const {
 
 // Returns the radiance that a surface of the material's own colour makes of an irradiance without its facets.
 Spectrum KeptScene::radiance_of(const Place& place, const Spectrum& irradiance) const {
-    const Vertex& at = *place.at;
+    const ShadingPoint& at = *place.at;
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     return (1 / kPiF) * (objects_[at.object].light->albedo(at.surface_number).base(no) * irradiance);
 }
 
 void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
-    const Vertex& at = *place.at;
+    const ShadingPoint& at = *place.at;
     // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
     // does, it has all of them.
     const bool narrow = at.surface.alpha < kNarrowestKept, whole = narrow && !place.mirrors_near;
@@ -235,7 +236,7 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
     const MetByLobe* met = lobes.met.find(at, node);
     if (!met || met->whole != whole) met = &lobes.met.keep(at, node, met_by_lobe(frame, place, whole));
     place.met = met->radiance, place.directions = met->directions;
-    // Two vertices of several parts are not alike: what one sends is not kept for others.
+    // Two shading points of several parts are not alike: what one sends is not kept for others.
     SentOfBodies by_parts;
     const SentOfBodies* sent = &by_parts;
     if (at.facets)
@@ -248,7 +249,7 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
 void KeptScene::reflect_far_bodies(Place& place) const {
-    const Vertex& at = *place.at;
+    const ShadingPoint& at = *place.at;
     const Vec3f mirror = reflect(at.view_dir, at.normal);
     place.has_bodies = !place.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
                        sky_.is_clear_of_bodies(mirror);
@@ -269,7 +270,7 @@ std::optional<std::uint32_t> KeptScene::nearest_node(const FrameView& frame, std
 }
 
 KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place& place, bool whole) const {
-    const Vertex& at = *place.at;
+    const ShadingPoint& at = *place.at;
     const KeptLight& light = *objects_[at.object].light;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
     const bool sunlit = largest(sun) > 0;
@@ -291,30 +292,30 @@ KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place&
     return {radiance, lobe.free, lobe.directions, whole};
 }
 
-Spectrum KeptScene::lobe_albedo(const Vertex& at) const {
+Spectrum KeptScene::lobe_albedo(const ShadingPoint& at) const {
     const Spectrum plain = plain_lobe_albedo(at);
     return has_own_colors(at.surface) ? facet_tint(at.surface) * plain : plain;
 }
 
-Spectrum KeptScene::plain_lobe_albedo(const Vertex& at) const {
+Spectrum KeptScene::plain_lobe_albedo(const ShadingPoint& at) const {
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     return objects_[at.object].light->albedo(at.surface_number).lobe(no);
 }
 
-Spectrum KeptScene::lobe_tint(const Vertex& at) const {
+Spectrum KeptScene::lobe_tint(const ShadingPoint& at) const {
     Spectrum none;
     none.bin.fill(1);
     return has_own_colors(at.surface) ? facet_tint(at.surface) : none;
 }
 
-KeptScene::LobeRays::LobeRays(const KeptScene& scene, const Vertex& at) : scene_(scene) {
+KeptScene::LobeRays::LobeRays(const KeptScene& scene, const ShadingPoint& at) : scene_(scene) {
     const SentOfBodies sent = scene.sent_of_bodies(at);
     Scatterer plain = at.surface;
     plain.highlight = plain.material->highlight;
     for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
 }
 
-KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
+KeptScene::SentOfBodies KeptScene::sent_of_bodies(const ShadingPoint& at) const {
     SentOfBodies sent;
     // Brighter texels may share it.
     const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
@@ -327,7 +328,8 @@ KeptScene::SentOfBodies KeptScene::sent_of_bodies(const Vertex& at) const {
 // that those meet. Light that hangs on a few may be the light of what is beside: of a bar that one direction meets, of
 // the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
 // than half the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
-bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions) {
+bool KeptScene::hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met,
+                             float directions) {
     constexpr float kFew = 8, kBeside = 2, kOfThreshold = 0.5f;
     if (at.depth != 1 || at.surface.alpha < kNarrowestKept) return false;
     if (tile.frame.max_depth < 2 || !(directions > 0 && directions < kFew)) return false;
@@ -339,7 +341,7 @@ bool KeptScene::hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum&
 }
 
 // Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
-SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec3f normal,
+SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
                                          float reflectance) const {
     SkyLight::Glossy sent = sky_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
     if (!has_own_colors(at.surface))
@@ -347,8 +349,9 @@ SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const Vertex& at, Vec
     return sent;
 }
 
-// The same of a vertex of several parts, each as it leans: of two that lean apart one may show the body, and their mean none of it.
-SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const {
+// The same of a shading point of several parts, each as it leans: of two that lean apart one may show the body, and their mean
+// none of it.
+SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const {
     const bool own_colors = has_own_colors(at.surface);
     Spectrum sum;
     float samples = 0, cosines = 0;
@@ -375,14 +378,14 @@ Spectrum KeptScene::colored(const Scatterer& at, const SkyLight::Glossy& sent) {
     return has_own_colors(at) ? brdf_mirrored(at, sent.facet_cosine) * sent.radiance : sent.radiance;
 }
 
-Spectrum KeptScene::sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const {
+Spectrum KeptScene::sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const {
     Spectrum sum;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sum += colored(at.surface, sent[b]);
     return sum;
 }
 
-void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
-                                   Spectrum& radiance) const {
+void KeptScene::add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror,
+                                   Spectrum weight, Spectrum& radiance) const {
     bool meets = false;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
         meets = meets || sky_.is_met(b, mirror);

@@ -56,21 +56,22 @@ class KeptScene {
 
     // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
     static constexpr std::size_t kMostFollowed = 4096;
-    // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart. requests: gets what is left to rays, by
-    // the vertex' number. Loop, any thread.
-    void add_reflected(Tile& tile, std::span<const Vertex> vertices, std::span<GlossyRequest> requests) const;
+    // Adds to the tile's pixels what shading points that keep light reflect of it, narrow lobes apart. requests: gets what is
+    // left to rays, by the shading point's number. Loop, any thread.
+    void add_reflected(Tile& tile, std::span<const ShadingPoint> points,
+                       std::span<GlossyRequest> requests) const;
     // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
-    void add_mirrored_suns(Tile& tile, std::span<const Vertex> vertices) const {
-        mirrored_suns_.add_light(tile, vertices);
+    void add_mirrored_suns(Tile& tile, std::span<const ShadingPoint> points) const {
+        mirrored_suns_.add_light(tile, points);
     }
-    // The most vertices whose lobes the same rays follow.
+    // The most shading points whose lobes the same rays follow.
     static constexpr std::size_t kMostTogether = 16;
     // The bodies' light that a lobe sends, if nothing is in the way, to rays that are drawn as it sends: an equal share
     // to each that is towards the body, or to all where none is. Loop, any thread.
     class LobeRays {
       public:
         // Their light has the material's own colour: lobe_tint() is not in it.
-        LobeRays(const KeptScene& scene, const Vertex& at);
+        LobeRays(const KeptScene& scene, const ShadingPoint& at);
         void count(Vec3f dir) {
             ++all_;
             for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
@@ -90,13 +91,13 @@ class KeptScene {
         std::array<int, SkyLight::kMaxBodies> rays_{};  // towards each
         int all_ = 0;
     };
-    // Returns what the facets of a vertex that keeps light reflect of light from everywhere. Loop, any thread.
-    Spectrum lobe_albedo(const Vertex& at) const;
+    // Returns what the facets of a shading point that keeps light reflect of light from everywhere. Loop, any thread.
+    Spectrum lobe_albedo(const ShadingPoint& at) const;
     // Returns the two parts of it: that of the material, and the ratio of a texture's colour to it.
-    Spectrum plain_lobe_albedo(const Vertex& at) const;
-    Spectrum lobe_tint(const Vertex& at) const;
+    Spectrum plain_lobe_albedo(const ShadingPoint& at) const;
+    Spectrum lobe_tint(const ShadingPoint& at) const;
     // Adds what a lobe too narrow to be kept reflects of the bodies; mirror: its middle. Loop, any thread.
-    void add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
+    void add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
 
   private:
@@ -124,9 +125,9 @@ class KeptScene {
     // The radiance that a lobe sends of each body, if nothing is in the way; where a texture colours facets
     // (has_own_colors()) white, with the cosine that Fresnel's term has.
     using SentOfBodies = std::array<SkyLight::Glossy, SkyLight::kMaxBodies>;
-    // A vertex on its way through the lookup: many go together, so that none waits for memory.
+    // A shading point on its way through the lookup: many go together, so that none waits for memory.
     struct Place {
-        const Vertex* at;
+        const ShadingPoint* at;
         std::uint32_t quad;  // square of four pixels in which it is seen
         LightNodes::Search search;
         NodesAbout about;
@@ -143,13 +144,13 @@ class KeptScene {
             follower;  // number of the first whose lobe is left to rays, which are those of all of them; kNobody: none
         std::size_t followers;
     };
-    // A vertex, its number, and the place whose light it has.
+    // A shading point, its number, and the place whose light it has.
     struct Use {
-        const Vertex* at;
+        const ShadingPoint* at;
         std::uint32_t number;
         Place* place;
     };
-    // Vertices that go together, and where they are.
+    // Shading points that go together, and where they are.
     struct Together {
         std::array<Place, 32> places;
         std::array<Use, 128> uses;
@@ -166,9 +167,9 @@ class KeptScene {
         AlikeLobes<MetByLobe> met;
         AlikeLobes<SentOfBodies> bodies;
     };
-    std::size_t gather(const Tile& tile, std::span<const Vertex> vertices, std::size_t first,
+    std::size_t gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
                        Together& block) const;
-    Place* shared_place(std::span<Place> places, const Vertex& at, std::uint32_t quad) const;
+    Place* shared_place(std::span<Place> places, const ShadingPoint& at, std::uint32_t quad) const;
     void find(const FrameView& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
     bool is_near(const FrameView& frame, const Place& place) const;
@@ -182,15 +183,16 @@ class KeptScene {
     void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
     void reflect_far_bodies(Place& place) const;
     MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
-    SentOfBodies sent_of_bodies(const Vertex& at) const;
+    SentOfBodies sent_of_bodies(const ShadingPoint& at) const;
     void add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const;
     static void follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests);
-    static bool hangs_on_few(const Tile& tile, const Vertex& at, const Spectrum& met, float directions);
-    SkyLight::Glossy sent_of_body(std::size_t body, const Vertex& at, Vec3f normal, float reflectance) const;
-    SkyLight::Glossy sent_by_parts(std::size_t body, const Vertex& at, float reflectance) const;
-    // Returns it in the colours that a vertex has.
+    static bool hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met, float directions);
+    SkyLight::Glossy sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
+                                  float reflectance) const;
+    SkyLight::Glossy sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const;
+    // Returns it in the colours that a shading point has.
     static Spectrum colored(const Scatterer& at, const SkyLight::Glossy& sent);
-    Spectrum sum_of_bodies(const Vertex& at, const SentOfBodies& sent) const;
+    Spectrum sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const;
 };
 
 }  // namespace hilcam

@@ -26,9 +26,9 @@ struct Rectangle {
 };
 constexpr std::array<Rectangle, 3> kRectangles{{{0.65f, 0.357f}, {1.55f, 0.437f}, {4.6f, 0.206f}}};
 
-// A vertex on its way to a mirror.
+// A shading point on its way to a mirror.
 struct MirrorRay {
-    const Vertex* at;
+    const ShadingPoint* at;
     Spectrum light;    // light that it sends towards the viewer if it sees all of the mirrored Sun
     Vec3f start_m;     // start of the ray
     Vec3f dir, sun;    // towards the mirrored Sun, and from the mirror to the Sun
@@ -38,25 +38,25 @@ struct MirrorRay {
     float even;        // 1: that share counts, 0: whether the ray meets the mirror
 };
 struct Reflected {
-    const Vertex* at;
+    const ShadingPoint* at;
     Spectrum light;
 };
 
-// The light from a direction that a vertex reflects to the viewer, per unit of irradiance across it, and the
+// The light from a direction that a shading point reflects to the viewer, per unit of irradiance across it, and the
 // start of a ray that asks for that light.
 struct Scattered {
     Spectrum light;
     Vec3f start_m;
     bool none = true;
 };
-Scattered scatter(const FrameView& frame, const Vertex& at, Vec3f dir, float alpha) {
+Scattered scatter(const FrameView& frame, const ShadingPoint& at, Vec3f dir, float alpha) {
     Scatterer surface = at.surface;
     const bool facets = surface.material->has_facets();
     // Slopes of independent causes add by their squares; rays follow narrow lobes to the mirror.
     if (facets)
         surface.alpha = surface.alpha < kNarrowestKept ? 0 : std::min(1.0f, std::hypot(surface.alpha, alpha));
     if (at.facets && !(facets && surface.alpha == 0)) {
-        const SunnyVertex sunny{&at, dir, facets ? std::min(1.0f, std::hypot(at.facet_alpha, alpha)) : 0.0f};
+        const SunlitPoint sunny{&at, dir, facets ? std::min(1.0f, std::hypot(at.facet_alpha, alpha)) : 0.0f};
         FacetLight sum;
         lit_facets(frame, {&sunny, 1}, {&sum, 1});
         if (sum.none()) return {};
@@ -69,7 +69,7 @@ Scattered scatter(const FrameView& frame, const Vertex& at, Vec3f dir, float alp
     return {light, at.start(), !(largest(light) > 0)};
 }
 
-// Asks for one mirror, sixteen vertices at a time.
+// Asks for one mirror, sixteen shading points at a time.
 template <class Lit>
 class Asker {
   public:
@@ -87,7 +87,7 @@ class Asker {
     Asker(const Asker&) = delete;
     Asker& operator=(const Asker&) = delete;
 
-    void ask(const Vertex& at) {
+    void ask(const ShadingPoint& at) {
         // Most that stand before a mirror face away from it; facets may lean otherwise, by half a right
         // angle.
         if (dot(at.normal, shown_.dir) <= (at.facets ? -0.7f : -0.01f)) return;
@@ -288,9 +288,9 @@ void MirroredSuns::place(const FrameView& frame, const WorldSnapshot& world) {
 
 namespace {
 
-PlaceBox box_of(std::span<const Vertex> vertices) {
-    Vec3f least = vertices.front().point_m, most = least;
-    for (const Vertex& at : vertices) {
+PlaceBox box_of(std::span<const ShadingPoint> points) {
+    Vec3f least = points.front().point_m, most = least;
+    for (const ShadingPoint& at : points) {
         least = {std::min(least.x, at.point_m.x), std::min(least.y, at.point_m.y),
                  std::min(least.z, at.point_m.z)};
         most = {std::max(most.x, at.point_m.x), std::max(most.y, at.point_m.y),
@@ -301,11 +301,11 @@ PlaceBox box_of(std::span<const Vertex> vertices) {
 
 }  // namespace
 
-void MirroredSuns::add_light(Tile& tile, std::span<const Vertex> vertices) const {
+void MirroredSuns::add_light(Tile& tile, std::span<const ShadingPoint> points) const {
     BeamPlaces places;
-    for (std::size_t first = 0; first < vertices.size() && !shown_.empty(); first += BeamPlaces::kMax) {
-        const std::span<const Vertex> some =
-            vertices.subspan(first, std::min(BeamPlaces::kMax, vertices.size() - first));
+    for (std::size_t first = 0; first < points.size() && !shown_.empty(); first += BeamPlaces::kMax) {
+        const std::span<const ShadingPoint> some =
+            points.subspan(first, std::min(BeamPlaces::kMax, points.size() - first));
         for (std::size_t i = 0; i < BeamPlaces::kMax; ++i) {
             const Vec3f point_m = some[std::min(i, some.size() - 1)].point_m;
             places.x[i] = point_m.x, places.y[i] = point_m.y, places.z[i] = point_m.z;
@@ -322,12 +322,12 @@ void MirroredSuns::add_light(Tile& tile, std::span<const Vertex> vertices) const
     }
 }
 
-// vertices: as many as places at most, and at those.
-void MirroredSuns::add_light_of(const Shown& shown, Tile& tile, std::span<const Vertex> vertices,
+// shading points: as many as places at most, and at those.
+void MirroredSuns::add_light_of(const Shown& shown, Tile& tile, std::span<const ShadingPoint> points,
                                 BeamPlaces& places) const {
     find_places_in_beam(shown.beam, places);
     const auto* const all = places.in_beam.data();
-    const auto* const end = all + vertices.size();
+    const auto* const end = all + points.size();
     const auto* seen = std::find(all, end, 1);
     if (seen == end) return;
     const auto lit = [&](const Reflected& by, const Spectrum* glass) {
@@ -335,7 +335,7 @@ void MirroredSuns::add_light_of(const Shown& shown, Tile& tile, std::span<const 
     };
     Asker<decltype(lit)> asker(tile, shown, lit);
     for (; seen != end; seen = std::find(seen + 1, end, 1))
-        asker.ask(vertices[static_cast<std::size_t>(seen - all)]);
+        asker.ask(points[static_cast<std::size_t>(seen - all)]);
 }
 
 }  // namespace hilcam

@@ -58,15 +58,15 @@ class MirroredSuns {
     // Takes the mirrors that the Sun shines on. The frame's objects and background are placed. Loop.
     void place(const FrameView& frame, const WorldSnapshot& world);
 
-    // Adds to the tile's pixels what vertices reflect of it. Loop, any thread.
-    void add_light(Tile& tile, std::span<const Vertex> vertices) const;
+    // Adds to the tile's pixels what shading points reflect of it. Loop, any thread.
+    void add_light(Tile& tile, std::span<const ShadingPoint> points) const;
 
   private:
     std::vector<Mirror> mirrors_;
     std::vector<Shown> shown_;
     MirrorBeams beams_;  // the beams of shown_
 
-    void add_light_of(const Shown& shown, Tile& tile, std::span<const Vertex> vertices,
+    void add_light_of(const Shown& shown, Tile& tile, std::span<const ShadingPoint> points,
                       BeamPlaces& places) const;
 };
 

@@ -22,7 +22,7 @@ void add(const Tile& tile, const NextRay& ray, NextRays& rays) {
     if (leaves || through) rays.add(ray);
 }
 
-void add_through_glass(const Tile& tile, const Vertex& at, NextRays& rays) {
+void add_through_glass(const Tile& tile, const ShadingPoint& at, NextRays& rays) {
     for (const int part : {0, 1}) {
         const BrdfSample exact = brdf_exact(at.surface, at.normal, at.view_dir, part);
         if (!exact.valid) continue;
@@ -33,7 +33,7 @@ void add_through_glass(const Tile& tile, const Vertex& at, NextRays& rays) {
 }
 
 // Adds the rays of a lobe that is too narrow to be kept, and none's tails; mirror: its middle.
-void add_in_narrow_lobe(const Tile& tile, const Vertex& at, Vec3f mirror, const Spectrum& weight,
+void add_in_narrow_lobe(const Tile& tile, const ShadingPoint& at, Vec3f mirror, const Spectrum& weight,
                         NextRays& rays) {
     const float alpha = at.surface.alpha;
     const float core = 1 - tail_share(alpha);
@@ -62,7 +62,7 @@ float rays_for(float samples) {
 }  // namespace
 
 void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
-    const Vertex& at = asking.vertices[number];
+    const ShadingPoint& at = asking.points[number];
     const GlossyRequest& request = asking.requests[number];
     const Scatterer& surface = at.surface;
     if (surface.is_glass()) return add_through_glass(tile, at, rays);
@@ -89,15 +89,15 @@ void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, Next
     if (request.mirrors_near) add_in_narrow_lobe(tile, at, mirror, weight, rays);
 }
 
-// Gives the pixels of vertices that the same rays serve, from the first on, their shares of what these find.
+// Gives the pixels of shading points that the same rays serve, from the first on, their shares of what these find.
 KeptRays::Followers KeptRays::share_rays(const Tile& tile, const Asking& asking, std::size_t number) {
-    const Vertex& first = asking.vertices[number];
+    const ShadingPoint& first = asking.points[number];
     const GlossyRequest& request = asking.requests[number];
     Followers out;
     const std::size_t begin = share_count_;
     for (std::size_t i = number; i != GlossyRequest::kNobody; i = asking.requests[i].next) {
-        const Vertex& at = asking.vertices[i];
-        out.vertex[out.count++] = &at;
+        const ShadingPoint& at = asking.points[i];
+        out.point[out.count++] = &at;
         out.samples += at.weight_samples;
         const float samples = at.weight_samples / first.weight_samples;
         shares_[share_count_++] = {at.pixel, at.halves, samples * tile.frame.kept->lobe_tint(at)};
@@ -110,7 +110,7 @@ KeptRays::Followers KeptRays::share_rays(const Tile& tile, const Asking& asking,
 
 // Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all.
 void KeptRays::follow_lobe(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
-    const Vertex& at = asking.vertices[number];
+    const ShadingPoint& at = asking.points[number];
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
     const Followers followers = share_rays(tile, asking, number);
@@ -119,7 +119,7 @@ void KeptRays::follow_lobe(Tile& tile, const Asking& asking, std::size_t number,
     const Frame local(at.normal);
     const std::size_t first = rays.count;
     for (std::size_t i = 0; i < count && !rays.full(); ++i) {
-        const Vertex& from = *followers.vertex[i % followers.count];
+        const ShadingPoint& from = *followers.point[i % followers.count];
         const auto sample = static_cast<float>(at.sample + i);
         const Vec3f facet = local.to_world(sample_visible_normal(
             at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kPlasticAlong * sample, 1.0f),

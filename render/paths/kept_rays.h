@@ -1,6 +1,6 @@
 #pragma once
-// Rays by which paths go on from vertices that keep light (kept_scene.h). Nothing is drawn: they go into fixed directions, by
-// mirrors, lobes too narrow to be kept, lobes whose kept light hangs on few directions, and glass. What can add less than
+// Rays by which paths go on from shading points that keep light (kept_scene.h). Nothing is drawn: they go into fixed directions,
+// by mirrors, lobes too narrow to be kept, lobes whose kept light hangs on few directions, and glass. What can add less than
 // contribution_threshold is left out.
 
 #include <array>
@@ -15,11 +15,11 @@ namespace hilcam {
 // Scratch memory for one thread.
 class KeptRays {
   public:
-    // Begins with other vertices: no lobe is followed.
+    // Begins with other shading points: no lobe is followed.
     void clear() { share_count_ = lobe_count_ = 0; }
-    // Vertices that keep light, and what each leaves to rays.
+    // Shading points that keep light, and what each leaves to rays.
     struct Asking {
-        std::span<const Vertex> vertices;
+        std::span<const ShadingPoint> points;
         std::span<const GlossyRequest> requests;
     };
     // Adds the rays of one of them: a mirror's one direction, which may be many, four of a narrow lobe, both of a sheet of glass. Loop.
@@ -28,14 +28,14 @@ class KeptRays {
     void add_found(Tile& tile) const;
 
   private:
-    static constexpr auto kMost = static_cast<std::size_t>(PathModel::kMostVertices);
+    static constexpr auto kMost = static_cast<std::size_t>(PathModel::kMaxShadingPoints);
     std::array<PixelShare, kMost> shares_;
     std::array<FollowedLobe, kMost> lobes_;
     std::size_t share_count_ = 0, lobe_count_ = 0;
 
-    // The vertices whose lobes the same rays follow.
+    // The shading points whose lobes the same rays follow.
     struct Followers {
-        std::array<const Vertex*, KeptScene::kMostTogether> vertex;
+        std::array<const ShadingPoint*, KeptScene::kMostTogether> point;
         std::size_t count = 0;
         float samples = 0;             // that see them
         FollowedLobe* lobe = nullptr;  // gets the light that the rays find

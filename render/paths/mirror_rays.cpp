@@ -38,8 +38,8 @@ struct Lanes {
     void set(std::size_t k, Vec3f v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
 };
 
-// Reflects the views of a lobe's points by a facet each, from place `first` on. to_viewer_m: from the vertex; ways_m: from it to
-// the points.
+// Reflects the views of a lobe's points by a facet each, from place `first` on. to_viewer_m: from the shading point; ways_m: from
+// it to the points.
 HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer_m, const Lanes& ways_m,
                                  std::size_t first, Lanes& dirs) {
     const Frame local = lobe;
@@ -52,7 +52,7 @@ HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer
 
 // Sends some of the rays, each from another of the samples that are left and by a facet of its own. first: how many there were
 // before, a multiple of kPacketSize.
-void send(Tile& tile, const Vertex& at, SampleMask& left, std::size_t first, std::size_t count,
+void send(Tile& tile, const ShadingPoint& at, SampleMask& left, std::size_t first, std::size_t count,
           MirrorRays::Packet& out) {
     const FrameView& frame = tile.frame;
     const float distance_m = at.footprint_m * static_cast<float>(frame.geometry.focal_length_px);
@@ -67,7 +67,7 @@ void send(Tile& tile, const Vertex& at, SampleMask& left, std::size_t first, std
             out.rays.set(out.rays.count++, at.start() + ways_m.at(k), dirs.at(k), 0,
                          std::numeric_limits<float>::infinity());
     frame.scene->intersect(out.rays, Coherence::kCoherent, out.hits);
-    prefetch_vertices(frame, out.hits, out.rays.count);
+    prefetch_shading_points(frame, out.hits, out.rays.count);
     tile.stats.secondary_rays += static_cast<std::uint64_t>(out.rays.count);
     out.met = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(out.rays.count); ++k)
@@ -106,7 +106,7 @@ bool meets_object(const FrameView& frame, const HitPacket& hits, std::size_t lan
              frame.background->hides(origin_m, to_double(dir), static_cast<double>(hits.distance[lane])));
 }
 
-std::size_t MirrorRays::trace(Tile& tile, const Vertex& at, std::size_t most) {
+std::size_t MirrorRays::trace(Tile& tile, const ShadingPoint& at, std::size_t most) {
     SampleMask left = at.samples;
     const std::size_t all = std::min(static_cast<std::size_t>(std::popcount(left)), most);
     std::size_t sent = 0;

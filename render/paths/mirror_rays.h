@@ -24,7 +24,7 @@ class MirrorRays {
     // Traces sixteen, far from each other, and where not all is dark that these meet, one from each sample, `most` at most.
     // at: what samples of the visibility buffer see. Returns how many stand for the mirror's lobe: a facet may lean so far that
     // its ray does not leave. Loop, any thread.
-    std::size_t trace(Tile& tile, const Vertex& at, std::size_t most);
+    std::size_t trace(Tile& tile, const ShadingPoint& at, std::size_t most);
     // Returns the packets of the last trace().
     std::span<const Packet> packets() const { return std::span(packets_).first(count_); }
 

@@ -13,11 +13,11 @@ namespace hilcam {
 
 // A ray that continues a path.
 struct NextRay {
-    const Vertex* from;
+    const ShadingPoint* from;
     Vec3f origin_m;
     Vec3f dir;
     float density;      // density of the direction [sr^-1]; 0: exact
-    float alpha_least;  // least alpha of the next vertex's facet lobe
+    float alpha_least;  // least alpha of the next shading point's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum throughput;
     bool whole_lobe = false;            // it stands for all of a narrow facet lobe about it
@@ -47,7 +47,7 @@ struct NextRays {
     }
 };
 
-// Adds the background that a ray sees to what its vertex sends. Loop, any thread.
+// Adds the background that a ray sees to what its shading point sends. Loop, any thread.
 void add_background(Tile& tile, const NextRay& ray);
 // Adds the share of that light which next-event estimation has not counted. True: a body has been met. Loop, any thread.
 bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light);

@@ -11,12 +11,12 @@ class DirectPaths final : public PathModel {
   public:
     void trace(Tile& tile) override {
         PrimaryHits seen(tile);
-        while (const std::size_t count = seen.next(vertices_))
-            tile.frame.radiance->add_light(tile, {vertices_.data(), count}, BodySampling::kNone);
+        while (const std::size_t count = seen.next(points_))
+            tile.frame.radiance->add_light(tile, {points_.data(), count}, BodySampling::kNone);
     }
 
   private:
-    std::array<Vertex, kMostVertices> vertices_;
+    std::array<ShadingPoint, kMaxShadingPoints> points_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One random path per sample, in waves of packets: at every vertex the lamps by next-event estimation and one
+// One random path per sample, in waves of packets: at every shading point the lamps by next-event estimation and one
 // direction drawn from the surface's own reflection. Where both can find the same light they are weighed by
 // the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
@@ -39,16 +39,16 @@ class TracedPaths final : public PathModel {
 
   private:
     bool kept_;
-    static constexpr auto kMax = static_cast<std::size_t>(kMostVertices);
+    static constexpr auto kMax = static_cast<std::size_t>(kMaxShadingPoints);
     // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
     // where others need fewer.
     static constexpr std::size_t kLeastOfMirror = 8;
     static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
-    std::array<Vertex, kMostRays> a_, b_;
+    std::array<ShadingPoint, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
-    std::array<GlossyRequest, kMostRays> requests_;  // one for each vertex in work that keeps light
-    Vertex* current_ = a_.data();
-    Vertex* following_ = b_.data();
+    std::array<GlossyRequest, kMostRays> requests_;  // one for each shading point in work that keeps light
+    ShadingPoint* current_ = a_.data();
+    ShadingPoint* following_ = b_.data();
     KeptRays kept_rays_;
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
@@ -61,9 +61,9 @@ class TracedPaths final : public PathModel {
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.kept) {
-                Vertex* const others = std::partition(current_, current_ + count, [&](const Vertex& v) {
-                    return frame.keeps_light[v.object] != 0;
-                });
+                ShadingPoint* const others =
+                    std::partition(current_, current_ + count,
+                                   [&](const ShadingPoint& v) { return frame.keeps_light[v.object] != 0; });
                 keep = static_cast<std::size_t>(others - current_);
                 frame.radiance->add_light(tile, {current_, keep}, BodySampling::kNone);
                 frame.kept->add_reflected(tile, {current_, keep}, requests_);
@@ -80,11 +80,11 @@ class TracedPaths final : public PathModel {
         kept_rays_.add_found(tile);
     }
 
-    // Draws a direction at each vertex. At the last surface only exact ones go on: no lamp has been counted in them.
-    static void choose(const Tile& tile, std::span<const Vertex> vertices, bool last, NextRays& rays) {
+    // Draws a direction at each shading point. At the last surface only exact ones go on: no lamp has been counted in them.
+    static void choose(const Tile& tile, std::span<const ShadingPoint> points, bool last, NextRays& rays) {
         const FrameView& frame = tile.frame;
         const float least = frame.contribution_threshold;
-        for (const Vertex& at : vertices) {
+        for (const ShadingPoint& at : points) {
             if (rays.full()) return;
             if (last && !at.surface.has_exact()) continue;
             const auto random = tile.random_of(at, 0);
@@ -158,26 +158,26 @@ class TracedPaths final : public PathModel {
             rays.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
         }
         tile.frame.scene->intersect(rays, coherence, hits);
-        prefetch_vertices(tile.frame, hits, rays.count);
+        prefetch_shading_points(tile.frame, hits, rays.count);
         tile.stats.secondary_rays += count;
         return hits;
     }
 
-    // Makes what a ray has met the vertex after those that are found. False where there is nothing to see.
+    // Makes what a ray has met the shading point after those that are found. False where there is nothing to see.
     bool add_met(const FrameView& frame, const HitPacket& hits, std::size_t k, const NextRay& ray,
                  std::size_t found) {
-        Vertex& vertex = following_[found];
-        if (!make_vertex(frame, hits, static_cast<int>(k), ray.origin_m, ray.dir, ray.alpha_least,
-                         ray.width(), vertex))
+        ShadingPoint& point = following_[found];
+        if (!make_shading_point(frame, hits, static_cast<int>(k), ray.origin_m, ray.dir, ray.alpha_least,
+                                ray.width(), point))
             return false;
-        vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
-        vertex.halves = ray.from->halves;
-        vertex.lobe = ray.from->lobe ? ray.from->lobe : ray.lobe;
-        vertex.lobe_ray = ray.from->lobe ? ray.from->lobe_ray : ray.lobe_ray;
-        vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
-        vertex.throughput = ray.throughput;
-        vertex.ray_part = ray.from->depth > 1 ? ray.from->ray_part : ray.part;
-        vertex.weight_samples = ray.from->weight_samples;
+        point.pixel = ray.from->pixel, point.sample = ray.from->sample;
+        point.halves = ray.from->halves;
+        point.lobe = ray.from->lobe ? ray.from->lobe : ray.lobe;
+        point.lobe_ray = ray.from->lobe ? ray.from->lobe_ray : ray.lobe_ray;
+        point.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
+        point.throughput = ray.throughput;
+        point.ray_part = ray.from->depth > 1 ? ray.from->ray_part : ray.part;
+        point.weight_samples = ray.from->weight_samples;
         return true;
     }
 
@@ -204,7 +204,7 @@ class TracedPaths final : public PathModel {
     }
 
     // Marks the pixels in whose lobes something is that a mirror shows at this distance.
-    void mark_about(const Tile& tile, const Vertex& mirror, float distance_m) {
+    void mark_about(const Tile& tile, const ShadingPoint& mirror, float distance_m) {
         // Four fifths of a lobe are within twice alpha of its facets' middle, which turns rays by twice that (Walter et al. 2007,
         // eq. 35).
         constexpr float kLobe = 4;
@@ -220,18 +220,18 @@ class TracedPaths final : public PathModel {
                 near_part_[static_cast<std::size_t>(row * width + column)] = true;
     }
 
-    // Makes what one of many rays has met, the last of these vertices, a part of what others of the same pixel have, where that is
-    // alike: it is shaded once. Few, as a shadow's edge may pass between them. False: nothing is.
-    static bool join(const NextRay& ray, Vertex* found, std::size_t first, std::size_t last) {
+    // Makes what one of many rays has met, the last of these shading points, a part of what others of the same pixel have, where
+    // that is alike: it is shaded once. Few, as a shadow's edge may pass between them. False: nothing is.
+    static bool join(const NextRay& ray, ShadingPoint* found, std::size_t first, std::size_t last) {
         constexpr float kMost = 8;
-        const Vertex& at = found[last];
+        const ShadingPoint& at = found[last];
         // A facet lobe turns by twice as much: half of alpha, as far as 10 degrees.
         constexpr float kLeansAlike = 0.985f, kOfAlpha = 0.5f;
         const float alpha = kOfAlpha * at.surface.alpha;
         const float least =
             at.surface.material->has_facets() ? std::max(kLeansAlike, 1 - 0.5f * alpha * alpha) : kLeansAlike;
         for (std::size_t i = last; i-- > first;) {
-            Vertex& other = found[i];
+            ShadingPoint& other = found[i];
             if (other.object != at.object || other.surface_number != at.surface_number ||
                 largest(other.throughput) > (kMost - 0.5f) * largest(ray.throughput) ||
                 other.back != at.back || other.known_sun != at.known_sun ||
@@ -243,7 +243,7 @@ class TracedPaths final : public PathModel {
         return false;
     }
 
-    // Follows the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
+    // Follows the chosen rays; what they meet becomes the next wave's shading points (none after the last), the rest
     // sees the background.
     std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
         const FrameView& frame = tile.frame;

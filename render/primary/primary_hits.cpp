@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// The greatest lean of two facets against each other that make one vertex: its kept light and its mirrored
+// The greatest lean of two facets against each other that make one shading point: its kept light and its mirrored
 // rays are those of one of them.
 constexpr float kNormalsAlike = 0.94f;        // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
@@ -26,8 +26,9 @@ constexpr float kLeastTurn = 0.5f;
 constexpr float kFarFromLobe = 2;
 // A look at a texture is so much narrower than what it stands for, as what lies between two texels blurs it again.
 constexpr float kTextureWidth = 0.5f;
-constexpr float kLeastFacing = 1e-4f;  // a vertex's normal against the viewer [cosine], as find_lie() has it
-constexpr float kFlattest = 1e-4f;     // a mosaic is seen as one from higher than this [sine]
+constexpr float kLeastFacing =
+    1e-4f;  // a shading point's normal against the viewer [cosine], as find_lie() has it
+constexpr float kFlattest = 1e-4f;  // a mosaic is seen as one from higher than this [sine]
 
 bool has_narrow_lobe(const Scatterer& surface) {
     return surface.material->has_facets() && surface.alpha < kNarrowestKept;
@@ -35,13 +36,13 @@ bool has_narrow_lobe(const Scatterer& surface) {
 
 }  // namespace
 
-std::size_t PrimaryHits::next(std::span<Vertex> vertices) {
-    if (tile_.seen) return next_fragments(vertices);
+std::size_t PrimaryHits::next(std::span<ShadingPoint> points) {
+    if (tile_.seen) return next_fragments(points);
     if (std::exchange(begun_, true)) return 0;
-    return trace_primary_rays(tile_, vertices);
+    return trace_primary_rays(tile_, points);
 }
 
-std::size_t PrimaryHits::next_fragments(std::span<Vertex> vertices) {
+std::size_t PrimaryHits::next_fragments(std::span<ShadingPoint> points) {
     const PixelBox& box = tile_.box;
     if (!std::exchange(begun_, true)) {
         HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMaxSamples &&
@@ -52,10 +53,10 @@ std::size_t PrimaryHits::next_fragments(std::span<Vertex> vertices) {
     }
     std::size_t count = 0;
     tile_.facets.clear();
-    // Rooms for a vertex of each surface of mosaics: kMostVertices leave those of kMaxSamples together.
+    // Rooms for a shading point of each surface of mosaics: kMaxShadingPoints leave those of kMaxSamples together.
     static_assert(Mosaic::kMaxLayers * kPacketSize <=
-                  PathModel::kMostVertices - PathModel::kMaxSamples + kPacketSize);
-    while (count + Mosaic::kMaxLayers * kPacketSize <= vertices.size() &&
+                  PathModel::kMaxShadingPoints - PathModel::kMaxSamples + kPacketSize);
+    while (count + Mosaic::kMaxLayers * kPacketSize <= points.size() &&
            tile_.facets.room() >= 2 * kPacketSize) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))
             take_next_pixel();
@@ -64,7 +65,7 @@ std::size_t PrimaryHits::next_fragments(std::span<Vertex> vertices) {
             if (!std::exchange(ended_, true)) add_backdrop(tile_, uncovered_.data());
             break;
         }
-        count = make_vertices(vertices, count);
+        count = make_shading_points(points, count);
     }
     return count;
 }
@@ -128,14 +129,13 @@ bool PrimaryHits::leave_to_body(std::size_t k) {
     return true;
 }
 
-// The vertex among those of the same pixel that a fragment is part of; null: none.
-Vertex* PrimaryHits::join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
-                          std::uint16_t surface, const Lie& lie) {
-    for (auto vertex = so_far.rbegin(); vertex != so_far.rend() && vertex->pixel == pixel; ++vertex) {
-        if (vertex->object != object || vertex->surface_number != surface || vertex->back != lie.back)
-            continue;
-        const float alike = has_narrow_lobe(vertex->surface) ? kLeansAlikeNarrow : kNormalsAlike;
-        if (dot(vertex->normal, lie.normal) > alike) return &*vertex;
+// The shading point among those of the same pixel that a fragment is part of; null: none.
+ShadingPoint* PrimaryHits::join(std::span<ShadingPoint> so_far, std::uint32_t pixel, std::uint32_t object,
+                                std::uint16_t surface, const Lie& lie) {
+    for (auto point = so_far.rbegin(); point != so_far.rend() && point->pixel == pixel; ++point) {
+        if (point->object != object || point->surface_number != surface || point->back != lie.back) continue;
+        const float alike = has_narrow_lobe(point->surface) ? kLeansAlikeNarrow : kNormalsAlike;
+        if (dot(point->normal, lie.normal) > alike) return &*point;
     }
     return nullptr;
 }
@@ -278,35 +278,34 @@ void PrimaryHits::look_at_samples() {
 
 // Returns the colours of a texture in fragment k. One look as wide as the pixel would blur it: of the contrast at Nyquist's frequency
 // a pixel leaves sinc(1/2) = 0.64, and texels of its width, linear between two, sinc(1/2)^3 = 0.26 (sinc x = sin(pi x) / (pi x)).
-Spectrum PrimaryHits::texture_of(std::size_t k, const Vertex& vertex) const {
+Spectrum PrimaryHits::texture_of(std::size_t k, const ShadingPoint& point) const {
     const auto looks = looks_of(k, look_places_);
     const std::uint32_t triangle = hits_.triangle[k];
     const float of_pixel = tile_.frame.samples.weight(fragments_[k].samples) / kVisibilitySamples;
     const float per_look = 1 / static_cast<float>(std::max<std::size_t>(looks.size(), 1));
     const float share = kTextureWidth * std::sqrt(per_look * of_pixel);
-    if (looks.empty()) return texture_at(tile_.frame, vertex, triangle, {hits_.u[k], hits_.v[k]}, share);
+    if (looks.empty()) return texture_at(tile_.frame, point, triangle, {hits_.u[k], hits_.v[k]}, share);
     Spectrum sum;
-    for (const Vec2f place : looks) sum += per_look * texture_at(tile_.frame, vertex, triangle, place, share);
+    for (const Vec2f place : looks) sum += per_look * texture_at(tile_.frame, point, triangle, place, share);
     return sum;
 }
 
-// Gives a vertex a share of the colours of fragment k, which it has taken in.
-void PrimaryHits::mix_colors(std::size_t k, float share, Vertex& vertex) const {
+// Gives a shading point a share of the colours of fragment k, which it has taken in.
+void PrimaryHits::mix_colors(std::size_t k, float share, ShadingPoint& point) const {
     const bool textured = is_textured(k);
-    const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[point.object];
     if (!textured && object.corner_colors.empty()) return;
-    Scatterer& surface = vertex.surface;
+    Scatterer& surface = point.surface;
     const Spectrum base = surface.base, highlight = surface.highlight;
     surface.base = surface.material->base, surface.highlight = surface.material->highlight;
     if (!object.corner_colors.empty())
-        paint(tile_.frame.bands->spectrum(object.color_at(hits_.triangle[k], hits_.u[k], hits_.v[k])),
-              vertex);
-    if (textured) paint(texture_of(k, vertex), vertex);
+        paint(tile_.frame.bands->spectrum(object.color_at(hits_.triangle[k], hits_.u[k], hits_.v[k])), point);
+    if (textured) paint(texture_of(k, point), point);
     surface.base = (1 - share) * base + share * surface.base;
     surface.highlight = (1 - share) * highlight + share * surface.highlight;
 }
 
-std::size_t PrimaryHits::make_vertices(std::span<Vertex> vertices, std::size_t count) {
+std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std::size_t count) {
     const FrameView& frame = tile_.frame;
     const std::size_t n = look_at_fragments();
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
@@ -327,25 +326,25 @@ std::size_t PrimaryHits::make_vertices(std::span<Vertex> vertices, std::size_t c
         const float facing = mosaic ? dot(shown(*mosaic).normal, lie.view_dir) : 0.0f;
         if (facing > kFlattest) {
             const std::size_t before = count;
-            count = make_mosaic(k, lie, vertices, count);
+            count = make_mosaic(k, lie, points, count);
             if (count > before) continue;
         }
-        Vertex* const joined = mosaic ? nullptr
-                                      : join(vertices.first(count), fragment.pixel, hits_.object[k],
-                                             triangles[hits_.triangle[k]].surface, lie);
+        ShadingPoint* const joined = mosaic ? nullptr
+                                            : join(points.first(count), fragment.pixel, hits_.object[k],
+                                                   triangles[hits_.triangle[k]].surface, lie);
         if (joined) {
             take_in(k, lie, *joined);
             continue;
         }
-        Vertex& vertex = vertices[count++];
-        make_vertex(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
-                    {pixel_rad * from_m, pixel_rad}, vertex);
+        ShadingPoint& point = points[count++];
+        make_shading_point(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
+                           {pixel_rad * from_m, pixel_rad}, point);
         // Seen from its edge, what lies on the ground hides it.
-        if (facing > 0) set_surface(frame, mosaic->surface[1], vertex);
-        if (is_textured(k)) paint(texture_of(k, vertex), vertex);
-        finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], vertex);
-        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples, fragment.samples},
-                         hits_.triangle[k], true, turns_of(k), vertex);
+        if (facing > 0) set_surface(frame, mosaic->surface[1], point);
+        if (is_textured(k)) paint(texture_of(k, point), point);
+        finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], point);
+        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, point.start(), samples, fragment.samples},
+                         hits_.triangle[k], true, turns_of(k), point);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
@@ -353,50 +352,51 @@ std::size_t PrimaryHits::make_vertices(std::span<Vertex> vertices, std::size_t c
     return count;
 }
 
-// Makes fragment k, which is alike, a part of a vertex.
-void PrimaryHits::take_in(std::size_t k, const Lie& lie, Vertex& vertex) {
+// Makes fragment k, which is alike, a part of a shading point.
+void PrimaryHits::take_in(std::size_t k, const Lie& lie, ShadingPoint& point) {
     const FrameView& frame = tile_.frame;
     const SampleMask seen_by = fragments_[k].samples;
     const float samples = frame.samples.weight(seen_by);
     const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);
-    tile_.facets.add(frame,
-                     {lie.geometric_normal, lie.normal, point_m + vertex.offset_m * lie.geometric_normal,
-                      samples, seen_by},
-                     hits_.triangle[k], false, turns_of(k), vertex);
-    // Rays begin at its samples, too, where it lies in the vertex' plane but for a little: at those twice as much above it.
-    // All others begin where they did, as what is higher misses the shadow of what is near.
-    const Vec3f way_m = point_m - vertex.point_m;
-    const float above_m = std::abs(dot(way_m, vertex.geometric_normal));
+    tile_.facets.add(
+        frame,
+        {lie.geometric_normal, lie.normal, point_m + point.offset_m * lie.geometric_normal, samples, seen_by},
+        hits_.triangle[k], false, turns_of(k), point);
+    // Rays begin at its samples, too, where it lies in the shading point's plane but for a little: at those twice as much above
+    // it. All others begin where they did, as what is higher misses the shadow of what is near.
+    const Vec3f way_m = point_m - point.point_m;
+    const float above_m = std::abs(dot(way_m, point.geometric_normal));
     if (above_m < kFlatTogether * length(way_m)) {
-        vertex.samples |= seen_by;
-        vertex.lift_m = std::max(vertex.lift_m, 2 * above_m);
+        point.samples |= seen_by;
+        point.lift_m = std::max(point.lift_m, 2 * above_m);
     }
     // Kept light and what lobes show is asked for once, as the parts lean in the mean; facets and mirrors lean by themselves.
-    const Vec3f mean = normalized(vertex.weight_samples * vertex.normal + samples * lie.normal);
-    if (!has_narrow_lobe(vertex.surface) && dot(mean, vertex.view_dir) > kLeastFacing) vertex.normal = mean;
+    const Vec3f mean = normalized(point.weight_samples * point.normal + samples * lie.normal);
+    if (!has_narrow_lobe(point.surface) && dot(mean, point.view_dir) > kLeastFacing) point.normal = mean;
     // Alike in all bins, but for the air before it.
-    const float all = vertex.weight_samples + samples;
-    mix_colors(k, samples / all, vertex);
-    vertex.throughput = (all / vertex.weight_samples) * vertex.throughput;
-    vertex.halves = (vertex.weight_samples / all) * vertex.halves;
-    vertex.halves += (samples / all) * frame.samples.halves(seen_by);
-    vertex.weight_samples = all;
+    const float all = point.weight_samples + samples;
+    mix_colors(k, samples / all, point);
+    point.throughput = (all / point.weight_samples) * point.throughput;
+    point.halves = (point.weight_samples / all) * point.halves;
+    point.halves += (samples / all) * frame.samples.halves(seen_by);
+    point.weight_samples = all;
 }
 
-// The pixel of fragment k, for a vertex that is part of what is seen in it.
-void PrimaryHits::finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, Vertex& vertex) {
+// The pixel of fragment k, for a shading point that is part of what is seen in it.
+void PrimaryHits::finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px,
+                         ShadingPoint& point) {
     const Fragment& fragment = fragments_[k];
-    vertex.pixel = fragment.pixel;
-    vertex.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));
-    vertex.depth = 1;
-    vertex.samples = fragment.samples;
-    vertex.place_px = place_px;
-    vertex.lift_m = 0;
-    vertex.throughput = {};
-    std::fill_n(vertex.throughput.bin.begin(), tile_.frame.bins, samples);
-    vertex.weight_samples = samples;
-    vertex.halves = halves;
-    add_air_before(tile_, dirs_[k], vertex);
+    point.pixel = fragment.pixel;
+    point.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));
+    point.depth = 1;
+    point.samples = fragment.samples;
+    point.place_px = place_px;
+    point.lift_m = 0;
+    point.throughput = {};
+    std::fill_n(point.throughput.bin.begin(), tile_.frame.bins, samples);
+    point.weight_samples = samples;
+    point.halves = halves;
+    add_air_before(tile_, dirs_[k], point);
 }
 
 }  // namespace hilcam

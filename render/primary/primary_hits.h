@@ -1,6 +1,6 @@
 #pragma once
-// Finds what the camera sees of a tile, as vertices: by rays (primary_rays.cpp), or out of the frame's
-// visibility buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the
+// Finds what the camera sees of a tile, as shading points: by rays (primary_rays.cpp), or out of the frame's
+// visibility buffer. There each triangle that a pixel's samples see is one shading point at their middle, with the
 // throughput of so many samples.
 
 #include <array>
@@ -17,9 +17,9 @@ class PrimaryHits {
   public:
     explicit PrimaryHits(Tile& tile) : tile_(tile) {}
 
-    // Writes the next vertices, PathModel::kMostVertices at a time at most, and adds the background to the
-    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMostVertices. Loop, any thread.
-    std::size_t next(std::span<Vertex> vertices);
+    // Writes the next shading points, PathModel::kMaxShadingPoints at a time at most, and adds the background to the
+    // tile's pixels. Returns how many; 0: that was all. shading points: room for kMaxShadingPoints. Loop, any thread.
+    std::size_t next(std::span<ShadingPoint> points);
 
   private:
     // A triangle in a pixel.
@@ -65,7 +65,7 @@ class PrimaryHits {
     };
     ShownMosaic mosaic_;
 
-    std::size_t next_fragments(std::span<Vertex> vertices);
+    std::size_t next_fragments(std::span<ShadingPoint> points);
     bool open_next_part();
     void take_next_pixel();
     void take_pixel(int x, int y);
@@ -91,9 +91,9 @@ class PrimaryHits {
     std::span<const Vec3f> turns_of(std::size_t k) const {
         return turns_[k] ? looks_of(k, look_normals_) : std::span<const Vec3f>{};
     }
-    Spectrum texture_of(std::size_t k, const Vertex& vertex) const;
-    void mix_colors(std::size_t k, float share, Vertex& vertex) const;
-    std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
+    Spectrum texture_of(std::size_t k, const ShadingPoint& point) const;
+    void mix_colors(std::size_t k, float share, ShadingPoint& point) const;
+    std::size_t make_shading_points(std::span<ShadingPoint> points, std::size_t count);
     struct PixelRays {
         Vec3d middle, right, down;
     };
@@ -105,20 +105,20 @@ class PrimaryHits {
         Mosaic::Look look;
     };
     MosaicPixel look_at_mosaic(std::size_t k, Vec3f view_dir) const;
-    std::size_t make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices, std::size_t count);
-    void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, Vertex& vertex);
-    void take_in(std::size_t k, const Lie& lie, Vertex& vertex);
-    static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
-                        std::uint16_t surface, const Lie& lie);
+    std::size_t make_mosaic(std::size_t k, const Lie& lie, std::span<ShadingPoint> points, std::size_t count);
+    void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, ShadingPoint& point);
+    void take_in(std::size_t k, const Lie& lie, ShadingPoint& point);
+    static ShadingPoint* join(std::span<ShadingPoint> so_far, std::uint32_t pixel, std::uint32_t object,
+                              std::uint16_t surface, const Lie& lie);
 };
 
-// The camera's rays through a tile, in packets of 4 x 4 pixels. Writes at most vertices.size() vertices
+// The camera's rays through a tile, in packets of 4 x 4 pixels. Writes at most shading points.size() shading points
 // (PathModel::kMaxSamples are enough) and adds the background to the tile's pixels. Returns how many. Loop, any
 // thread.
-std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices);
+std::size_t trace_primary_rays(Tile& tile, std::span<ShadingPoint> points);
 // Adds the background alone. uncovered: the samples that see no object, by pixel, row by row. Loop, any thread.
 void add_backdrop(Tile& tile, const SampleMask* uncovered);
-// Adds the air between the camera and a vertex that it sees along dir, and dims the vertex by it.
-void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex);
+// Adds the air between the camera and a shading point that it sees along dir, and dims the shading point by it.
+void add_air_before(Tile& tile, Vec3d dir, ShadingPoint& point);
 
 }  // namespace hilcam

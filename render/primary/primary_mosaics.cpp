@@ -1,4 +1,4 @@
-// Makes vertices of what a pixel sees of a mosaic (lod/mosaic.h): one for each surface in it.
+// Makes shading points of what a pixel sees of a mosaic (lod/mosaic.h): one for each surface in it.
 
 #include <algorithm>
 
@@ -65,9 +65,9 @@ PrimaryHits::MosaicPixel PrimaryHits::look_at_mosaic(std::size_t k, Vec3f view_d
     return out;
 }
 
-// One vertex for each surface of the mosaic that is in a pixel, with its part of what the samples see. Returns how
-// many vertices there are then.
-std::size_t PrimaryHits::make_mosaic(std::size_t k, const Lie& lie, std::span<Vertex> vertices,
+// One shading point for each surface of the mosaic that is in a pixel, with its part of what the samples see. Returns how
+// many shading points there are then.
+std::size_t PrimaryHits::make_mosaic(std::size_t k, const Lie& lie, std::span<ShadingPoint> points,
                                      std::size_t count) {
     const FrameView& frame = tile_.frame;
     const Mosaic& mosaic = *mosaic_.is;
@@ -88,26 +88,26 @@ std::size_t PrimaryHits::make_mosaic(std::size_t k, const Lie& lie, std::span<Ve
     const auto lane = static_cast<int>(k);
     for (std::size_t layer = 0; layer < mosaic.layers; ++layer) {
         if (look.share[layer] < kLeastShare) continue;
-        Vertex& vertex = vertices[count++];
+        ShadingPoint& point = points[count++];
         // The ground is what the fragment has met.
         if (layer == 0) {
-            make_vertex(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), 0, width, vertex);
-            vertex.sunlit = look.lit;
+            make_shading_point(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), 0, width, point);
+            point.sunlit = look.lit;
         } else {
-            place_vertex(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), width, vertex);
-            set_surface(frame, mosaic.surface[layer], vertex);
-            vertex.normal =
+            place_shading_point(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), width, point);
+            set_surface(frame, mosaic.surface[layer], point);
+            point.normal =
                 normalized(lie.geometric_normal + look.lean.x * mosaic_.across + look.lean.y * mosaic_.down);
         }
         // Parts of the mosaic may stand out of its plane by as much as it takes for rounding.
-        vertex.offset_m += Mosaic::kLoose * mosaic.texel_m;
+        point.offset_m += Mosaic::kLoose * mosaic.texel_m;
         const Vec2f place = look.place[layer];
         const Vec2f off{place.x - 0.5f, place.y - 0.5f};
-        vertex.point_m =
+        point.point_m =
             to_float(frame.camera_m + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
                      static_cast<double>(off.y) * pixel.per_y_m);
         finish(k, look.share[layer] / shown * samples,
-               moved(halves, {place.x - middle_px.x, place.y - middle_px.y}), place, vertex);
+               moved(halves, {place.x - middle_px.x, place.y - middle_px.y}), place, point);
     }
     return count;
 }

@@ -20,10 +20,10 @@ constexpr float kFarthestHit = std::numeric_limits<float>::infinity();
 // One tile's way through its packets.
 class PrimaryRays {
   public:
-    PrimaryRays(Tile& tile, std::span<Vertex> vertices)
+    PrimaryRays(Tile& tile, std::span<ShadingPoint> points)
         : tile_(tile),
           frame_(tile.frame),
-          vertices_(vertices),
+          points_(points),
           bodies_(frame_.may_see_body(tile.box)),
           sun_(tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
@@ -76,7 +76,7 @@ class PrimaryRays {
   private:
     Tile& tile_;
     const FrameView& frame_;
-    std::span<Vertex> vertices_;
+    std::span<ShadingPoint> points_;
     const SampleMask* uncovered_ = nullptr;
     bool even_ = false;  // one ray a pixel
     bool bodies_, sun_;
@@ -330,7 +330,7 @@ class PrimaryRays {
         if (objects) {
             frame_.scene->intersect(rays_, Coherence::kCoherent, hits_);
             tile_.stats.primary_rays += static_cast<std::uint64_t>(rays_.count);
-            prefetch_vertices(frame_, hits_, rays_.count);
+            prefetch_shading_points(frame_, hits_, rays_.count);
         } else {
             hits_.object.fill(HitPacket::kMiss);
         }
@@ -384,35 +384,35 @@ class PrimaryRays {
         const auto k = static_cast<std::size_t>(lane);
         const Vec3f origin{rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]};
         const Vec3f dir{rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]};
-        Vertex& vertex = vertices_[count_];
-        if (!make_vertex(frame_, hits_, lane, origin, dir, 0, width_, vertex)) return;
-        vertex.pixel = pixel;
-        vertex.sample = sample;
-        vertex.depth = 1;
-        vertex.throughput = weight_;
-        vertex.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
+        ShadingPoint& point = points_[count_];
+        if (!make_shading_point(frame_, hits_, lane, origin, dir, 0, width_, point)) return;
+        point.pixel = pixel;
+        point.sample = sample;
+        point.depth = 1;
+        point.throughput = weight_;
+        point.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         tile_.set_kind(pixel, HalfKind::kObject);
-        tile_.facets.add(frame_, {vertex.geometric_normal, vertex.normal, vertex.start(), 1},
-                         hits_.triangle[k], true, {}, vertex);
+        tile_.facets.add(frame_, {point.geometric_normal, point.normal, point.start(), 1}, hits_.triangle[k],
+                         true, {}, point);
         ++count_;
-        add_air_before(tile_, exact_dir(k), vertex);
+        add_air_before(tile_, exact_dir(k), point);
     }
 };
 
 }  // namespace
 
-void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex) {
+void add_air_before(Tile& tile, Vec3d dir, ShadingPoint& point) {
     const FrameView& frame = tile.frame;
     if (!frame.background->camera_in_air()) return;
-    const double distance_m = length(to_double(vertex.point_m) - frame.camera_m);
+    const double distance_m = length(to_double(point.point_m) - frame.camera_m);
     const Atmosphere::Sight sight = frame.background->air_before(dir, distance_m);
-    tile.add(vertex, LightPart::kAir, vertex.throughput * sight.radiance_sr);
-    vertex.throughput = vertex.throughput * sight.transmittance;
+    tile.add(point, LightPart::kAir, point.throughput * sight.radiance_sr);
+    point.throughput = point.throughput * sight.transmittance;
 }
 
-std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
+std::size_t trace_primary_rays(Tile& tile, std::span<ShadingPoint> points) {
     tile.facets.clear();
-    return PrimaryRays(tile, vertices).trace(nullptr);
+    return PrimaryRays(tile, points).trace(nullptr);
 }
 
 void add_backdrop(Tile& tile, const SampleMask* uncovered) { PrimaryRays(tile, {}).trace(uncovered); }

@@ -14,7 +14,7 @@
 
 namespace hilcam {
 
-// Returns how far above the surface points are [m]: as rays leave it in path_vertex.cpp, with room for the triangles' own
+// Returns how far above the surface points are [m]: as rays leave it in shading_point.cpp, with room for the triangles' own
 // rounding.
 float points_above_m(const Mesh& mesh);
 

@@ -121,7 +121,7 @@ class Tracer {
         const Vec3f point_m = ray.origin_m + hits.distance[k] * ray.dir;
         const std::uint16_t surface = mesh_.surface_of_triangle[hits.triangle[k]];
         if (glass_[surface]) {
-            // As rays leave surfaces in path_vertex.cpp.
+            // As rays leave surfaces in shading_point.cpp.
             const float greatest = std::max({std::abs(point_m.x), std::abs(point_m.y), std::abs(point_m.z)});
             constexpr int kMaxSheets = 16;
             out = kDarkNode;

@@ -16,7 +16,7 @@
 namespace hilcam {
 
 // The scatterer at one point: a material, and its look there (textures scale the spectra; the facet lobe is
-// at least as wide as the material's own, see path_vertex.h).
+// at least as wide as the material's own, see shading_point.h).
 struct Scatterer : SurfaceLook {
     const Material* material = nullptr;
 

@@ -15,18 +15,18 @@ constexpr float kSame = 0.999998f;  // cosine
 // The only part of a facet that stands for none.
 const LevelFacets kItself = LevelFacets::flat();
 
-// Facets of vertices on their way through packets, those of one material of an object at a time.
+// Facets of shading points on their way through packets, those of one material of an object at a time.
 class Reflection {
   public:
-    Reflection(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out)
-        : frame_(frame), vertices_(vertices), out_(out) {}
+    Reflection(const FrameView& frame, std::span<const SunlitPoint> points, std::span<FacetLight> out)
+        : frame_(frame), points_(points), out_(out) {}
 
     void of_all() {
-        std::array<std::uint16_t, SunnyVertex::kMost> order;
-        const std::span<std::uint16_t> in_order = std::span(order).first(vertices_.size());
+        std::array<std::uint16_t, SunlitPoint::kMost> order;
+        const std::span<std::uint16_t> in_order = std::span(order).first(points_.size());
         std::iota(in_order.begin(), in_order.end(), std::uint16_t{0});
         const auto key = [&](std::uint16_t v) {
-            const Vertex& at = *vertices_[v].at;
+            const ShadingPoint& at = *points_[v].at;
             return std::uint64_t{at.object} << 32 | std::uint64_t{at.surface_number} << 16 | v;
         };
         std::sort(in_order.begin(), in_order.end(),
@@ -38,12 +38,12 @@ class Reflection {
 
   private:
     const FrameView& frame_;
-    std::span<const SunnyVertex> vertices_;
+    std::span<const SunlitPoint> points_;
     std::span<FacetLight> out_;
     FacetPacket packet_;
     std::array<const Facet*, FacetPacket::kSize> facets_;
-    std::array<std::uint16_t, FacetPacket::kSize> owners_;  // vertices
-    const Vertex* kind_ = nullptr;                          // one of those in the packet
+    std::array<std::uint16_t, FacetPacket::kSize> owners_;  // shading points
+    const ShadingPoint* kind_ = nullptr;                    // one of those in the packet
     struct Sum {
         float samples;
         // By a facet's lobe alone: depends on the angle between viewer and light, and on nothing else.
@@ -52,10 +52,10 @@ class Reflection {
         float going_on;     // light of the facets so far that one triangle's normals make
         HalfShares halves;  // times the light
     };
-    std::array<Sum, SunnyVertex::kMost> sums_;
+    std::array<Sum, SunlitPoint::kMost> sums_;
 
     void put(std::uint16_t v) {
-        const auto& [at, dir, alpha] = vertices_[v];
+        const auto& [at, dir, alpha] = points_[v];
         if (kind_ && (kind_->object != at->object || kind_->surface.material != at->surface.material))
             reflect();
         kind_ = at;
@@ -88,8 +88,8 @@ class Reflection {
         const bool diffuse = std::holds_alternative<brdf::Lambert>(surface.material->brdf);
         for (std::size_t i = 0; i < packet_.count; ++i) {
             const std::uint16_t v = owners_[i];
-            const Spectrum& base = vertices_[v].at->surface.base;
-            const float lobe = vertices_[v].alpha > 0 ? packet_.lobe[i] : 0.0f;
+            const Spectrum& base = points_[v].at->surface.base;
+            const float lobe = points_[v].alpha > 0 ? packet_.lobe[i] : 0.0f;
             if (facets)
                 take(v, *facets_[i], packet_.below[i] * base + lobe * sums_[v].mirrored);
             else
@@ -101,7 +101,7 @@ class Reflection {
     void take(std::uint16_t v, const Facet& facet, const Spectrum& reflected) {
         const float light = lane_sum(reflected.bin);
         const HalfShares halves =
-            facet.seen_by != 0 ? frame_.samples.halves(facet.seen_by) : vertices_[v].at->halves;
+            facet.seen_by != 0 ? frame_.samples.halves(facet.seen_by) : points_[v].at->halves;
         out_[v].reflected += reflected;
         Sum& sum = sums_[v];
         sum.light += light, sum.going_on += light;
@@ -111,7 +111,7 @@ class Reflection {
     }
 
     Spectrum part_by_part(std::size_t i) const {
-        const SunnyVertex& from = vertices_[owners_[i]];
+        const SunlitPoint& from = points_[owners_[i]];
         const float io = dot(from.at->view_dir, from.dir);
         Spectrum sum;
         for (std::size_t j = 0; j < FacetPacket::kParts; ++j)
@@ -121,7 +121,7 @@ class Reflection {
     }
 
     void finish(std::uint16_t v) {
-        const Vertex& at = *vertices_[v].at;
+        const ShadingPoint& at = *points_[v].at;
         const Sum& sum = sums_[v];
         out_[v].reflected = (1 / sum.samples) * (at.throughput * out_[v].reflected);
         out_[v].halves = sum.light > 0 ? (1 / sum.light) * sum.halves : at.halves;
@@ -139,7 +139,7 @@ void FacetLight::add(const Facet& facet, float light) {
 }
 
 // Member by member: a Facet that is copied whole waits for its own stores.
-void FacetList::push(const Facet& part, Vertex& vertex) {
+void FacetList::push(const Facet& part, ShadingPoint& point) {
     Facet& added = facets_[count_++];
     added.geometric_normal = part.geometric_normal;
     added.normal = part.normal;
@@ -148,35 +148,35 @@ void FacetList::push(const Facet& part, Vertex& vertex) {
     added.seen_by = part.seen_by;
     added.flattened = part.flattened;
     added.goes_on = part.goes_on;
-    added.next = vertex.facets;
-    vertex.facets = &added;
+    added.next = point.facets;
+    point.facets = &added;
 }
 
 void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first,
-                    std::span<const Vec3f> turns, Vertex& vertex) {
-    const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
+                    std::span<const Vec3f> turns, ShadingPoint& point) {
+    const ObjectSurfaces& object = *(*frame.objects)[point.object];
     bool has_flattened = false;
     if (!object.facets.empty()) {
-        has_flattened = object.flattened_alpha[vertex.surface_number] > 0;
+        has_flattened = object.flattened_alpha[point.surface_number] > 0;
         if (!object.facets[triangle].is_flat()) part.flattened = &object.facets[triangle];
-        if (first) vertex.facet_alpha = object.unflattened(vertex.surface_number, vertex.surface.alpha);
+        if (first) point.facet_alpha = object.unflattened(point.surface_number, point.surface.alpha);
     }
-    const bool alike = turns.empty() && (first || dot(vertex.normal, part.normal) > kSame);
-    if (alike && !part.flattened && !has_flattened && !vertex.facets) return;
-    if (!first && !vertex.facets)
-        push({vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, vertex.samples},
-             vertex);
-    if (turns.empty()) return push(part, vertex);
+    const bool alike = turns.empty() && (first || dot(point.normal, part.normal) > kSame);
+    if (alike && !part.flattened && !has_flattened && !point.facets) return;
+    if (!first && !point.facets)
+        push({point.geometric_normal, point.normal, point.start(), point.weight_samples, point.samples},
+             point);
+    if (turns.empty()) return push(part, point);
     part.samples /= static_cast<float>(turns.size());
     for (const Vec3f normal : turns) {
         part.normal = normal;
-        push(part, vertex);
+        push(part, point);
         part.goes_on = true;
     }
 }
 
-void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out) {
-    if (!vertices.empty()) Reflection(frame, vertices, out).of_all();
+void lit_facets(const FrameView& frame, std::span<const SunlitPoint> points, std::span<FacetLight> out) {
+    if (!points.empty()) Reflection(frame, points, out).of_all();
 }
 
 }  // namespace hilcam

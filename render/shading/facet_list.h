@@ -1,40 +1,40 @@
 #pragma once
 // The parts of what the camera sees in a pixel that lean otherwise, for the Sun to be reflected by each of
-// them: what a vertex of many samples has joined, and what a level of detail has flattened
+// them: what a shading point of many samples has joined, and what a level of detail has flattened
 // (lod/level_facets.h). What is curved, a tube as wide as the pixel, has several normals in one triangle: facets that
 // share its samples, and of which shadows ask as of one.
 
 #include <span>
 
 #include "render/shading/frame_view.h"
-#include "render/shading/path_vertex.h"
+#include "render/shading/shading_point.h"
 
 namespace hilcam {
 
-// Memory for the facets of a tile's vertices. One thread at a time.
+// Memory for the facets of a tile's shading points. One thread at a time.
 class FacetList {
   public:
     static constexpr std::size_t kTurns = 4;  // normals of a part at most
 
     void clear() { count_ = 0; }
-    // Returns how many calls of add() have a place; a vertex's own part comes late.
+    // Returns how many calls of add() have a place; a shading point's own part comes late.
     std::size_t room() const { return (kMax - count_) / (1 + kTurns); }
 
-    // Adds a part to a vertex, whose own is the first. Facets are made where there is more than one, and of
+    // Adds a part to a shading point, whose own is the first. Facets are made where there is more than one, and of
     // what a level has flattened: its own lobe is wider than theirs. turns: normals of the part in place of
     // its one, each of as many of its samples; empty: that one. Loop, any thread.
     void add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first,
-             std::span<const Vec3f> turns, Vertex& vertex);
+             std::span<const Vec3f> turns, ShadingPoint& point);
 
   private:
     static constexpr std::size_t kMax = 4096;
     std::array<Facet, kMax> facets_;
     std::size_t count_ = 0;
 
-    void push(const Facet& part, Vertex& vertex);
+    void push(const Facet& part, ShadingPoint& point);
 };
 
-// The light that the facets of a vertex reflect from a source of irradiance 1, with the vertex's throughput.
+// The light that the facets of a shading point reflect from a source of irradiance 1, with the shading point's throughput.
 struct FacetLight {
     static constexpr std::size_t kStarts = 4;
     Spectrum reflected;
@@ -46,14 +46,15 @@ struct FacetLight {
     bool none() const { return !(share[0] > 0); }
     void add(const Facet& facet, float light);
 };
-// A vertex with facets, for light from one direction.
-struct SunnyVertex {
+// A shading point with facets, for light from one direction.
+struct SunlitPoint {
     static constexpr std::size_t kMost = 128;  // together
-    const Vertex* at;
+    const ShadingPoint* at;
     Vec3f dir;    // towards the light, unit
     float alpha;  // alpha of the facets' own lobes
 };
-// Finds what the facets of vertices reflect, SunnyVertex::kMost at most. out: one for each, as they are made. Loop, any thread.
-void lit_facets(const FrameView& frame, std::span<const SunnyVertex> vertices, std::span<FacetLight> out);
+// Finds what the facets of shading points reflect, SunlitPoint::kMost at most. out: one for each, as they are made. Loop, any
+// thread.
+void lit_facets(const FrameView& frame, std::span<const SunlitPoint> points, std::span<FacetLight> out);
 
 }  // namespace hilcam

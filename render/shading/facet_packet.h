@@ -1,7 +1,7 @@
 #pragma once
 // Sunlight on sixteen facets of one material side by side: how their parts lean, which share of the light falls on each, and how
-// much of it they reflect. The facets may be those of several vertices. Compiled for several widths of vectors that give the
-// same results.
+// much of it they reflect. The facets may be those of several shading points. Compiled for several widths of vectors that give
+// the same results.
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
-// The light that rays along one vertex's facet lobe find, where kept light hangs on few directions (kept_scene.h), and how far
-// that is believed.
+// The light that rays along one shading point's facet lobe find, where kept light hangs on few directions (kept_scene.h), and how
+// far that is believed.
 
 #include <array>
 #include <cstddef>
@@ -16,10 +16,10 @@ namespace hilcam {
 struct PixelShare {
     std::uint32_t pixel;  // in the tile
     HalfShares halves;    // where in the pixel it is
-    Spectrum share;       // part of the light as the vertex sends it, with the pixel's own colour
+    Spectrum share;       // part of the light as the shading point sends it, with the pixel's own colour
 };
 
-// The light that rays find which follow one vertex's lobe, until all have come back.
+// The light that rays find which follow one shading point's lobe, until all have come back.
 struct FollowedLobe {
     static constexpr std::size_t kMostRays = 32;
     std::span<const PixelShare> pixels;     // that have it
@@ -33,13 +33,13 @@ struct FollowedLobe {
         const float brightest = largest(more);
         light += more, by_ray[ray] += brightest, found += brightest;
     }
-    // Returns as much of what is found as is believed at this one vertex.
+    // Returns as much of what is found as is believed at this one shading point.
     float believed() const;
-    // Returns what the vertex sends where so much is believed.
+    // Returns what the shading point sends where so much is believed.
     Spectrum sum(float light_believed) const;
 };
-// Returns the factor on what is believed of each by which all together send what their rays have found: what one vertex does not
-// have, those about it have. At least 1.
+// Returns the factor on what is believed of each by which all together send what their rays have found: what one shading point
+// does not have, those about it have. At least 1.
 float found_over_believed(std::span<const FollowedLobe> lobes);
 
 }  // namespace hilcam

@@ -14,7 +14,7 @@ constexpr double kNearest_m = 1e-3;
 constexpr double kNoDistance_m = 1e-9;
 
 struct LitBy {
-    const Vertex* at;
+    const ShadingPoint* at;
     Spectrum weight;  // the light that comes if nothing is between
 };
 
@@ -65,7 +65,7 @@ void Lamps::place(const WorldSnapshot& world, Vec3d ray_space_world_m) {
     }
 }
 
-void add_lamps_reflected(Tile& tile, std::span<const Vertex> vertices) {
+void add_lamps_reflected(Tile& tile, std::span<const ShadingPoint> points) {
     const FrameView& frame = tile.frame;
     if (!frame.lamps || frame.lamps->lit().empty()) return;
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
@@ -73,7 +73,7 @@ void add_lamps_reflected(Tile& tile, std::span<const Vertex> vertices) {
     };
     ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     for (const PlacedLamp& lamp : frame.lamps->lit())
-        for (const Vertex& at : vertices) {
+        for (const ShadingPoint& at : points) {
             if (!at.surface.has_lobes()) continue;
             const Vec3f start_m = at.start();
             LampRay ray;

@@ -63,8 +63,8 @@ class Lamps {
     std::size_t lit_count_ = 0;
 };
 
-// Adds to the tile's pixels what vertices reflect of lamps. Loop, any thread.
-void add_lamps_reflected(Tile& tile, std::span<const Vertex> vertices);
+// Adds to the tile's pixels what shading points reflect of lamps. Loop, any thread.
+void add_lamps_reflected(Tile& tile, std::span<const ShadingPoint> points);
 // Lamps that shine into the camera: points. Loop.
 void add_lamps_seen(const FrameView& frame, const PointField& field, std::vector<PointSource>& points);
 

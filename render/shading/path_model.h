@@ -21,9 +21,9 @@ namespace hilcam {
 class PathModel {
   public:
     static constexpr int kMaxSamples = 1024;  // samples of a tile
-    // Vertices that are lit together: those of as many samples, and what the last packet of them has more where a pixel sees several
-    // surfaces of a mosaic.
-    static constexpr int kMostVertices = kMaxSamples + 2 * kPacketSize;
+    // Shading points that are lit together: those of as many samples, and what the last packet of them has more where a pixel
+    // sees several surfaces of a mosaic.
+    static constexpr int kMaxShadingPoints = kMaxSamples + 2 * kPacketSize;
 
     virtual ~PathModel() = default;
 

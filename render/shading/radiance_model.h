@@ -21,9 +21,9 @@ class RadianceModel {
   public:
     virtual ~RadianceModel() = default;
 
-    // Adds to the tile's pixels, vertex by vertex, throughput times radiance towards the viewer. All vertices are
-    // of one depth. Loop, any thread.
-    virtual void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const = 0;
+    // Adds to the tile's pixels, shading point by shading point, throughput times radiance towards the viewer. All shading points
+    // are of one depth. Loop, any thread.
+    virtual void add_light(Tile& tile, std::span<const ShadingPoint> points, BodySampling lamps) const = 0;
     // The materials' own emission counts.
     virtual bool emits() const = 0;
     // True where of a surface that the Sun alone shines on it has f L cos, and its emission, and nothing else: such ground is

@@ -23,11 +23,11 @@ inline Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec
         ray.set(0, origin_m, dir, 0, until_m);
         frame.scene->intersect(ray, Coherence::kIncoherent, hit);
         if (hit.object[0] == HitPacket::kMiss) return passed;
-        Vertex vertex;
-        if (!make_vertex(frame, hit, 0, origin_m, dir, 0, {}, vertex)) return {};
-        if (!vertex.surface.is_glass()) return {};
-        passed = passed * sheet_transmittance(vertex.surface, dot(vertex.normal, vertex.view_dir));
-        origin_m = vertex.start(false);
+        ShadingPoint point;
+        if (!make_shading_point(frame, hit, 0, origin_m, dir, 0, {}, point)) return {};
+        if (!point.surface.is_glass()) return {};
+        passed = passed * sheet_transmittance(point.surface, dot(point.normal, point.view_dir));
+        origin_m = point.start(false);
         until_m = std::max(0.0f, until_m - hit.distance[0]);
     }
     return {};

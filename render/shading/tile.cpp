@@ -3,13 +3,14 @@
 namespace hilcam {
 namespace {
 
-// Returns how many of sixteen samples of its pixel see a vertex. One of several rays does not tell what others of its pixel meet.
-float samples_of(const Tile& tile, const Vertex& at) {
+// Returns how many of sixteen samples of its pixel see a shading point. One of several rays does not tell what others of its
+// pixel meet.
+float samples_of(const Tile& tile, const ShadingPoint& at) {
     if (at.samples != 0) return at.weight_samples;
     return tile.samples_per_axis == 1 ? kVisibilitySamples : 0.0f;
 }
 
-PixelRecord::Entry entry_of(const Tile& tile, const Vertex& at, LightPart part, const Spectrum& light) {
+PixelRecord::Entry entry_of(const Tile& tile, const ShadingPoint& at, LightPart part, const Spectrum& light) {
     PixelRecord::Entry entry;
     entry.part = part, entry.depth = at.depth, entry.light = light;
     entry.object = at.object, entry.triangle = at.triangle, entry.surface = at.surface_number;
@@ -18,11 +19,11 @@ PixelRecord::Entry entry_of(const Tile& tile, const Vertex& at, LightPart part, 
     return entry;
 }
 
-LightPart part_of(const Vertex& at, LightPart part) { return at.depth > 1 ? at.ray_part : part; }
+LightPart part_of(const ShadingPoint& at, LightPart part) { return at.depth > 1 ? at.ray_part : part; }
 
 }  // namespace
 
-void Tile::note(const Vertex& at, LightPart of_source, const Spectrum& light) const {
+void Tile::note(const ShadingPoint& at, LightPart of_source, const Spectrum& light) const {
     const LightPart part = part_of(at, of_source);
     if (!at.lobe) {
         parts->add(at.pixel, part, light);
@@ -46,7 +47,7 @@ void Tile::note(std::uint32_t pixel, LightPart part, const Spectrum& light) cons
     parts->record->add(entry);
 }
 
-void Tile::note_move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const {
+void Tile::note_move(const ShadingPoint& at, LightPart from, LightPart to, const Spectrum& light) const {
     if (at.lobe || at.depth > 1) return;  // light of a ray is all of the ray's part
     parts->move(at.pixel, from, to, light);
     if (!parts->is_recorded(at.pixel)) return;

@@ -8,7 +8,7 @@
 
 #include "render/shading/facet_list.h"
 #include "render/shading/frame_view.h"
-#include "render/shading/path_vertex.h"
+#include "render/shading/shading_point.h"
 #include "render/shading/tile_parts.h"
 #include "render/visibility/visibility_tile.h"
 #include "render/vocabulary/half_light.h"
@@ -58,16 +58,18 @@ struct Tile {
 
     const TileParts* parts = nullptr;  // for the parts of the light; null: nobody asks
 
-    // Adds light that a vertex sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for which it
-    // stands. part: of light that the camera sees there; what a ray has met is of the ray's part.
-    void add(const Vertex& at, LightPart part, const Spectrum& light) { add(at, part, at.halves, light); }
-    void add(const Vertex& at, LightPart part, const HalfShares& shares, const Spectrum& light) {
+    // Adds light that a shading point sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for
+    // which it stands. part: of light that the camera sees there; what a ray has met is of the ray's part.
+    void add(const ShadingPoint& at, LightPart part, const Spectrum& light) {
+        add(at, part, at.halves, light);
+    }
+    void add(const ShadingPoint& at, LightPart part, const HalfShares& shares, const Spectrum& light) {
         if (parts) note(at, part, light);
         if (at.lobe) return at.lobe->add(at.lobe_ray, light);
         add(at.pixel, shares, light);
     }
     // Counts light that was added as one part as another.
-    void move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const {
+    void move(const ShadingPoint& at, LightPart from, LightPart to, const Spectrum& light) const {
         if (parts) note_move(at, from, to, light);
     }
     // Adds what all rays of a lobe have found to the pixels that have it, as far as it is believed.
@@ -78,7 +80,7 @@ struct Tile {
     }
     // Notes light that somebody adds to a pixel by himself, where parts are asked for.
     void note(std::uint32_t pixel, LightPart part, const Spectrum& light) const;
-    // Adds light that no vertex sends.
+    // Adds light that no shading point sends.
     void add(std::uint32_t pixel, LightPart part, const HalfShares& shares, const Spectrum& light) {
         if (parts) note(pixel, part, light);
         add(pixel, shares, light);
@@ -92,8 +94,8 @@ struct Tile {
     std::uint32_t frame_pixel(int x, int y) const {
         return static_cast<std::uint32_t>(y * frame.geometry.padded_width() + x);
     }
-    // Random words of a path's vertex; `use` (below 16) tells apart what they are for.
-    std::array<std::uint32_t, 4> random_of(const Vertex& at, std::uint32_t use) const {
+    // Random words of a shading point; `use` (below 16) tells apart what they are for.
+    std::array<std::uint32_t, 4> random_of(const ShadingPoint& at, std::uint32_t use) const {
         const int width = box.x1 - box.x0;
         const int px = box.x0 + static_cast<int>(at.pixel) % width;
         const int py = box.y0 + static_cast<int>(at.pixel) / width;
@@ -106,8 +108,8 @@ struct Tile {
         pixels[pixel] += light;
         if (!halves.empty()) add_halves(pixel, shares, light);
     }
-    void note(const Vertex& at, LightPart part, const Spectrum& light) const;
-    void note_move(const Vertex& at, LightPart from, LightPart to, const Spectrum& light) const;
+    void note(const ShadingPoint& at, LightPart part, const Spectrum& light) const;
+    void note_move(const ShadingPoint& at, LightPart from, LightPart to, const Spectrum& light) const;
     void add_halves(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
         float* at = halves.data() + pixel;
         for (const Spectrum& response : half_responses) {

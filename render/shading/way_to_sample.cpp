@@ -30,7 +30,7 @@ constexpr float kLeastFacingOfWay = 0.02f;
 
 }  // namespace
 
-WayToSample::WayToSample(const Tile& tile, const Vertex& at)
+WayToSample::WayToSample(const Tile& tile, const ShadingPoint& at)
     : frame_(tile.frame), at_(at), facing_(dot(at.geometric_normal, at.view_dir)) {
     const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
     x_px_ = tile.box.x0 + pixel % width, y_px_ = tile.box.y0 + pixel / width;

@@ -1,6 +1,6 @@
 #pragma once
 // From what a pixel sees to what one of its samples sees: the direction through a place in a pixel, and the way to it in the plane of
-// a vertex or of a facet.
+// a shading point or of a facet.
 
 #include "render/shading/tile.h"
 
@@ -11,23 +11,23 @@ Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px
 // The same by the camera's own rays, where these are linear.
 Vec3d direction_through(const FrameView& frame, int x_px, int y_px, Vec2f within_px);
 
-// The ways from a vertex that samples see to where each of them meets its plane, and up by Vertex::lift_m [m, ray space]; none
-// where the plane is seen from its edge. Loop, any thread.
+// The ways from a shading point that samples see to where each of them meets its plane, and up by ShadingPoint::lift_m [m, ray
+// space]; none where the plane is seen from its edge. Loop, any thread.
 class WayToSample {
   public:
-    WayToSample(const Tile& tile, const Vertex& at);
-    // sample: one of Vertex::samples.
+    WayToSample(const Tile& tile, const ShadingPoint& at);
+    // sample: one of ShadingPoint::samples.
     Vec3f to(int sample) const;
-    // Returns where a sample meets the plane in which rays from a facet of the vertex begin [ray space]; where that is seen
-    // from its edge, the facet's own start.
+    // Returns where a sample meets the plane in which rays from a facet of the shading point begin [ray space]; where that is
+    // seen from its edge, the facet's own start.
     Vec3f on(const Facet& facet, int sample) const;
 
   private:
     const FrameView& frame_;
-    const Vertex& at_;
+    const ShadingPoint& at_;
     int x_px_, y_px_;
     float facing_;  // cosine of the plane's normal to the viewer
-    Vec3d dir_;     // through the vertex
+    Vec3d dir_;     // through the shading point
     double per_dir_m_;
 };
 

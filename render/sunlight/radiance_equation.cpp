@@ -24,13 +24,13 @@ bool in_cone(const BodyLight& lamp, Vec3f dir) {
 float cone_density(const BodyLight& lamp) { return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine)); }
 
 // The path's own next direction may meet the lamp as well.
-bool is_weighed(const FrameView& frame, const Vertex& at) {
+bool is_weighed(const FrameView& frame, const ShadingPoint& at) {
     return frame.paths_sample_lobes && !frame.keeps_light[at.object] && at.depth < frame.max_depth;
 }
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool body_light_counts(const FrameView& frame, const Vertex& at, const BodyLight& lamp) {
+bool body_light_counts(const FrameView& frame, const ShadingPoint& at, const BodyLight& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
     if (at.importance(at.throughput) * largest(lamp.max_over_sun) * solid_angle <
         frame.contribution_threshold)
@@ -45,7 +45,7 @@ Vec3f in_cone_at(const Frame& axis, float one_minus_cosine, float u1, float u2) 
 }
 
 // Density of the directions that are drawn to all bodies but one [sr^-1].
-float density_of_others(const FrameView& frame, const Vertex& at, Vec3f dir, const BodyLight* one) {
+float density_of_others(const FrameView& frame, const ShadingPoint& at, Vec3f dir, const BodyLight* one) {
     float density = 0;
     for (const BodyLight& lamp : frame.background->body_lights())
         if (&lamp != one && in_cone(lamp, dir) && body_light_counts(frame, at, lamp))
@@ -54,20 +54,20 @@ float density_of_others(const FrameView& frame, const Vertex& at, Vec3f dir, con
 }
 
 struct SunlitBy {
-    const Vertex* at;
+    const ShadingPoint* at;
     Spectrum weight;  // on the light that comes along dir
     Vec3f dir;
 };
 
-// The light of vertices with facets among some, in their order.
+// The light of shading points with facets among some, in their order.
 class FacetLights {
   public:
-    static constexpr std::size_t kMost = SunnyVertex::kMost;
+    static constexpr std::size_t kMost = SunlitPoint::kMost;
 
-    // vertices: kMost at most.
-    void find(const FrameView& frame, const SunSampler& sun, std::span<const Vertex> vertices) {
+    // shading points: kMost at most.
+    void find(const FrameView& frame, const SunSampler& sun, std::span<const ShadingPoint> points) {
         std::size_t count = 0;
-        for (const Vertex& at : vertices) {
+        for (const ShadingPoint& at : points) {
             if (!at.facets || !at.surface.has_lobes()) continue;
             const bool widened = !frame.sun_is_disk && at.facet_alpha > 0;
             lights_[count] = {};
@@ -79,17 +79,17 @@ class FacetLights {
     const FacetLight& next() { return *next_++; }
 
   private:
-    std::array<SunnyVertex, kMost> sunny_;
+    std::array<SunlitPoint, kMost> sunny_;
     std::array<FacetLight, kMost> lights_;
     const FacetLight* next_ = nullptr;
 };
 
-void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
+void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
-    if (largest(background.sun_irradiance_w_m2_um()) <= 0 || vertices.empty()) return;
+    if (largest(background.sun_irradiance_w_m2_um()) <= 0 || points.empty()) return;
     const SunSampler sun(tile);
-    const bool primary = vertices.front().depth == 1;
+    const bool primary = points.front().depth == 1;
     const bool finds_edges = primary && tile.edges && !frame.sun_is_disk && !frame.has_glass;
 
     const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
@@ -99,11 +99,10 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
     ShadowRays<SunlitBy, decltype(lit)> shadow(frame, counter, lit);
     FacetLights of_facets;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
         if (i % FacetLights::kMost == 0)
-            of_facets.find(frame, sun,
-                           vertices.subspan(i, std::min(FacetLights::kMost, vertices.size() - i)));
-        const Vertex& at = vertices[i];
+            of_facets.find(frame, sun, points.subspan(i, std::min(FacetLights::kMost, points.size() - i)));
+        const ShadingPoint& at = points[i];
         if (!at.surface.has_lobes()) continue;
         const auto [dir, light] = sun.of(at);
         float share = at.sunlit;
@@ -139,7 +138,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
 }
 
 // A random direction to each of the bodies, over its cone.
-void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
+void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
     const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
@@ -153,7 +152,7 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
     for (const BodyLight& lamp : background.body_lights()) {
         const Frame axis(to_float(lamp.world_dir));
         ++use;
-        for (const Vertex& at : vertices) {
+        for (const ShadingPoint& at : points) {
             if (!at.surface.has_lobes() || !body_light_counts(frame, at, lamp)) continue;
             const auto random = tile.random_of(at, use);
             const Vec3f dir =
@@ -174,13 +173,13 @@ class RadianceEquation final : public RadianceModel {
   public:
     explicit RadianceEquation(bool emission) : emission_(emission) {}
 
-    void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const override {
+    void add_light(Tile& tile, std::span<const ShadingPoint> points, BodySampling lamps) const override {
         if (tile.frame.has_emission)
-            for (const Vertex& at : vertices)
+            for (const ShadingPoint& at : points)
                 tile.add(at, LightPart::kEmission, at.throughput * at.surface.material->emission);
-        add_sunlight(tile, vertices);
-        add_lamps_reflected(tile, vertices);
-        if (lamps == BodySampling::kSampled) add_body_light(tile, vertices);
+        add_sunlight(tile, points);
+        add_lamps_reflected(tile, points);
+        if (lamps == BodySampling::kSampled) add_body_light(tile, points);
     }
     bool emits() const override { return emission_; }
     bool reflects_plainly() const override { return true; }
@@ -195,7 +194,7 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission) {
     return std::make_unique<RadianceEquation>(emission);
 }
 
-float body_light_density(const FrameView& frame, const Vertex& at, Vec3f dir) {
+float body_light_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
     return density_of_others(frame, at, dir, nullptr);
 }
 

@@ -13,13 +13,13 @@ namespace hilcam {
 
 std::unique_ptr<RadianceModel> make_radiance_equation(bool emission);
 
-// Density [sr^-1] of the directions that kSampled draws to all bodies together, for a vertex; what a path's
+// Density [sr^-1] of the directions that kSampled draws to all bodies together, for a shading point; what a path's
 // own direction is weighed against.
-float body_light_density(const FrameView& frame, const Vertex& at, Vec3f dir);
+float body_light_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir);
 // The same for the Sun's disk; 0 where the Sun is a point or the direction is off its disk.
 float sun_density(const FrameView& frame, Vec3f dir);
 
-// Chooses where the Sun shines from on a vertex: from the middle of its disk, or from a place on it that is
+// Chooses where the Sun shines from on a shading point: from the middle of its disk, or from a place on it that is
 // drawn. Loop, any thread.
 class SunSampler {
   public:
@@ -38,7 +38,7 @@ class SunSampler {
         Vec3f dir;       // unit
         Spectrum light;  // irradiance, as if all came from there
     };
-    Sample of(const Vertex& at) const {
+    Sample of(const ShadingPoint& at) const {
         const Spectrum& irradiance = background_.sun_irradiance_w_m2_um();
         if (!tile_.frame.sun_is_disk) return {center_, irradiance};
         const auto random = tile_.random_of(at, 1);

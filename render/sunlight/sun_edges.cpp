@@ -34,12 +34,13 @@ void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
         if (a.like) a.lit = a.like->lit;
 }
 
-// The vertex before one whose first ray is this one's as well: that of a mosaic's layer in the same pixel, which the same samples
-// see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which Vertex::sunlit has.
+// The shading point before one whose first ray is this one's as well: that of a mosaic's layer in the same pixel, which the same
+// samples see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which
+// ShadingPoint::sunlit has.
 const SunEdges::Asked* SunEdges::layer_below(const Asked& a) const {
     if (count_ < 2) return nullptr;
     const Asked& before = asked_[count_ - 2];
-    const Vertex &here = *a.at, &there = *before.at;
+    const ShadingPoint &here = *a.at, &there = *before.at;
     const bool layers = here.pixel == there.pixel && here.samples == there.samples && here.samples != 0 &&
                         here.object == there.object && here.geometric_normal == there.geometric_normal;
     if (!layers) return nullptr;
@@ -69,11 +70,11 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
             ask(kMost, tile, sun, a, rays);
 }
 
-// Sends so many rays for a vertex, each for as much of its light, from places that its samples see (of facets by systematic
-// sampling: the ray's place in the sum of their light).
+// Sends so many rays for a shading point, each for as much of its light, from places that its samples see (of facets by
+// systematic sampling: the ray's place in the sum of their light).
 template <class Rays>
 void SunEdges::ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays) {
-    const Vertex& at = *a.at;
+    const ShadingPoint& at = *a.at;
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     // The four pixels of a square ask for other places of the disk.
     const std::uint32_t in_square = at.pixel % width % 2 + 2 * (at.pixel / width % 2);
@@ -101,7 +102,7 @@ void SunEdges::ask(float count, const Tile& tile, const SunSampler& sun, Asked& 
 }
 
 // An object's surface on one of its six sides, as one of kKinds.
-std::uint8_t SunEdges::kind_of(const Vertex& at) {
+std::uint8_t SunEdges::kind_of(const ShadingPoint& at) {
     const Vec3f size{std::abs(at.normal.x), std::abs(at.normal.y), std::abs(at.normal.z)};
     std::uint32_t side = at.normal.z > 0 ? 0 : 1;
     if (size.x > size.y && size.x > size.z)

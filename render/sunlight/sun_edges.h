@@ -1,13 +1,13 @@
 #pragma once
 // Shadows' edges on what the camera sees by the visibility buffer, as wide as the Sun's disk makes them.
 //
-// One ray to the middle of the Sun tells which vertices are lit, and one for all layers of a mosaic in a pixel. Where
-// vertices of one kind that differ lie in pixels within kReach_px of each other, an edge passes: each of them asks again by
-// four rays, and by sixteen where these differ, from places that its samples see to places of the disk. Of a vertex with facets
-// each ray stands for as much of its light, and begins at what its samples see of the facet. A kind is a surface of an object, or more than one, where it faces the same way by and large:
-// what lies in shadow behind an edge of the body is no edge of a shadow on what stands before it. The
-// approximation: a vertex further off has its one ray, so penumbras wider than twice the reach keep a hard edge
-// inside; and what fills no more than a 64th of a pixel has one, a 16th four.
+// One ray to the middle of the Sun tells which shading points are lit, and one for all layers of a mosaic in a pixel. Where
+// shading points of one kind that differ lie in pixels within kReach_px of each other, an edge passes: each of them asks again by
+// four rays, and by sixteen where these differ, from places that its samples see to places of the disk. Of a shading point with
+// facets each ray stands for as much of its light, and begins at what its samples see of the facet. A kind is a surface of an
+// object, or more than one, where it faces the same way by and large: what lies in shadow behind an edge of the body is no edge
+// of a shadow on what stands before it. The approximation: a shading point further off has its one ray, so penumbras wider than
+// twice the reach keep a hard edge inside; and what fills no more than a 64th of a pixel has one, a 16th four.
 
 #include <array>
 #include <cstdint>
@@ -19,19 +19,19 @@ namespace hilcam {
 
 class SunSampler;
 
-// Memory for the vertices of a tile. One thread at a time.
+// Memory for the shading points of a tile. One thread at a time.
 class SunEdges {
   public:
-    // light: what the vertex sends to the viewer, to its pixel, if all of it is in the Sun. At most
-    // PathModel::kMostVertices. Loop, any thread.
-    void add(const Vertex& at, const Spectrum& light) {
+    // light: what the shading point sends to the viewer, to its pixel, if all of it is in the Sun. At most
+    // PathModel::kMaxShadingPoints. Loop, any thread.
+    void add(const ShadingPoint& at, const Spectrum& light) {
         Asked& asked = next(at, light);
         asked.facets[0] = nullptr, asked.shares = {1};
         asked.halves_of_all = at.halves;
         asked.first_m = at.start();
     }
-    // The same of a vertex with facets: its rays begin at these.
-    void add(const Vertex& at, const Spectrum& light, const FacetLight& facets) {
+    // The same of a shading point with facets: its rays begin at these.
+    void add(const ShadingPoint& at, const Spectrum& light, const FacetLight& facets) {
         Asked& asked = next(at, light);
         asked.facets = facets.brightest, asked.shares = facets.share;
         asked.halves_of_all = facets.halves;
@@ -47,10 +47,10 @@ class SunEdges {
     // Rays of who asks again, and of those whose rays differ.
     static constexpr float kAgain = 4, kMost = 16;
     // Less of a pixel [samples of sixteen] has no more rays: half of it at most is in the wrong light, a 128th of the pixel, which
-    // is a noise of a full well of 15,000 electrons; of small objects with many parts most vertices are such.
+    // is a noise of a full well of 15,000 electrons; of small objects with many parts most shading points are such.
     static constexpr float kLeastAgain = 0.25f, kLeastMost = 1;
     struct Asked {
-        const Vertex* at;
+        const ShadingPoint* at;
         const Asked* like;  // the one whose first ray tells for it, too; null: it has its own
         Spectrum light;
         Vec3f first_m;  // start of the first ray
@@ -63,16 +63,16 @@ class SunEdges {
         std::uint8_t kind;         // below kKinds
     };
     using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
-    // Pixels with a vertex of a kind that is lit, or dark.
+    // Pixels with a shading point of a kind that is lit, or dark.
     struct Answers {
         std::array<Rows, kKinds> lit{}, dark{};
     };
-    std::array<Asked, PathModel::kMostVertices> asked_;
+    std::array<Asked, PathModel::kMaxShadingPoints> asked_;
     std::size_t count_ = 0;
 
-    // Begins with a vertex; where its rays begin is the caller's. Member by member: what is made first and copied then
+    // Begins with a shading point; where its rays begin is the caller's. Member by member: what is made first and copied then
     // waits for its own stores.
-    Asked& next(const Vertex& at, const Spectrum& light) {
+    Asked& next(const ShadingPoint& at, const Spectrum& light) {
         Asked& a = asked_[count_++];
         a.at = &at, a.light = light, a.like = layer_below(a);
         a.lit = 0, a.of = 1, a.halves = {}, a.kind = 0;
@@ -88,7 +88,7 @@ class SunEdges {
     };
     template <class Rays>
     static void ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays);
-    static std::uint8_t kind_of(const Vertex& at);
+    static std::uint8_t kind_of(const ShadingPoint& at);
     Answers within_reach(std::uint32_t width);
     static Rows widened(const Rows& rows);
 };

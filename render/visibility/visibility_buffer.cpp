@@ -328,7 +328,7 @@ void VisibilityBuffer::prefetch_corners(std::uint32_t block) const {
     }
 }
 
-void VisibilityBuffer::prefetch_vertices(std::uint32_t block) const {
+void VisibilityBuffer::prefetch_shading_points(std::uint32_t block) const {
     const Placed& placed = placed_[heads_[block].placed];
     for (const std::uint32_t triangle : std::span(blocks_[block].triangles).first(heads_[block].count))
         for (const std::uint32_t corner : placed.drawn.triangles[triangle])
@@ -347,7 +347,7 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
         if (i < blocks.size()) prefetch_corners(blocks[i].block);
     };
     const auto ask_for_vertices = [&](std::size_t i) {
-        if (i < blocks.size()) prefetch_vertices(blocks[i].block);
+        if (i < blocks.size()) prefetch_shading_points(blocks[i].block);
     };
     for (std::size_t i = 0; i < kCornersAhead; ++i) ask_for_corners(i);
     for (std::size_t i = 0; i < kVerticesAhead; ++i) ask_for_vertices(i);

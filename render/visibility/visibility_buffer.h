@@ -147,7 +147,7 @@ class VisibilityBuffer {
                     TriangleSetup& setup) const;
     // They ask for memory that a block of triangles needs soon: first where its corners are, then those.
     void prefetch_corners(std::uint32_t block) const;
-    void prefetch_vertices(std::uint32_t block) const;
+    void prefetch_shading_points(std::uint32_t block) const;
     void fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px, VisibilityTile& tile) const;
     std::size_t tile_index(int x_px, int y_px) const {
         return static_cast<std::size_t>(y_px / kVisibilityTile_px * tiles_across_ +

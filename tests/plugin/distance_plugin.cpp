@@ -14,8 +14,8 @@ class DistancePaths final : public hilcam::PathModel {
   public:
     void trace(hilcam::Tile& tile) override {
         hilcam::PrimaryHits seen(tile);
-        while (const std::size_t count = seen.next(vertices_))
-            for (const hilcam::Vertex& at : std::span(vertices_.data(), count)) {
+        while (const std::size_t count = seen.next(points_))
+            for (const hilcam::ShadingPoint& at : std::span(points_.data(), count)) {
                 const auto distance_m =
                     static_cast<float>(length(hilcam::to_double(at.point_m) - tile.frame.camera_m));
                 tile.add(at, hilcam::LightPart::kPath, distance_m * at.throughput);
@@ -23,7 +23,7 @@ class DistancePaths final : public hilcam::PathModel {
     }
 
   private:
-    std::array<hilcam::Vertex, kMostVertices> vertices_;
+    std::array<hilcam::ShadingPoint, kMaxShadingPoints> points_;
 };
 
 void add(hilcam::Modules& modules) {

@@ -89,14 +89,14 @@ float lobe_share(const Scatterer& at, float no) {
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool counts(const FrameView& frame, const Vertex& at, const BodyLight& body) {
+bool counts(const FrameView& frame, const ShadingPoint& at, const BodyLight& body) {
     const float solid_angle = 2 * kPiF * body.one_minus_cosine;
     return at.importance(at.throughput) * largest(body.max_over_sun) * solid_angle >=
                frame.contribution_threshold &&
            dot(at.geometric_normal, to_float(body.world_dir)) >= -std::sqrt(body.cone_sine_squared);
 }
 
-bool is_in_a_body(const FrameView& frame, const Vertex& at, Vec3f dir) {
+bool is_in_a_body(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
     const auto bodies = frame.background->body_lights();
     return std::any_of(bodies.begin(), bodies.end(), [&](const BodyLight& body) {
         const Vec3f axis = to_float(body.world_dir), across = cross(axis, dir);
@@ -113,14 +113,14 @@ Vec3f on_body(const BodyLight& body, const Frame& axis, int i) {
     return axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
-// Light of a body's place that is on its way to a vertex.
+// Light of a body's place that is on its way to a shading point.
 struct FromBody {
-    const Vertex* at;
+    const ShadingPoint* at;
     Spectrum weight;  // on the light that comes along dir
     Vec3f dir;
 };
 
-void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
+void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
     const FrameView& frame = tile.frame;
     const auto lit = [&](const FromBody& from, const Spectrum* glass) {
         Spectrum weight = glass ? from.weight * *glass : from.weight, light;
@@ -131,7 +131,7 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices) {
     for (const BodyLight& body : frame.background->body_lights()) {
         const Frame axis(to_float(body.world_dir));
         const float density = 1 / (2 * kPiF * std::max(1e-20f, body.one_minus_cosine)) * kOnBody;
-        for (const Vertex& at : vertices) {
+        for (const ShadingPoint& at : points) {
             if (!at.surface.has_lobes() || !counts(frame, at, body)) continue;
             Scatterer surface = at.surface;
             if (surface.alpha < kNarrowAlpha) surface.alpha = 0;
@@ -171,20 +171,20 @@ class HemispherePaths final : public PathModel {
         LightPart part;
     };
     struct Level {
-        std::array<Vertex, kMaxRays> vertices;
+        std::array<ShadingPoint, kMaxRays> points;
     };
-    std::array<Vertex, kMostVertices> first_;
+    std::array<ShadingPoint, kMaxShadingPoints> first_;
     std::array<Ray, kMaxRays> rays_;
     std::vector<Level> levels_;
 
-    void follow(Tile& tile, std::span<const Vertex> vertices) {
-        if (vertices.empty()) return;
-        tile.frame.radiance->add_light(tile, vertices, BodySampling::kNone);
-        add_body_light(tile, vertices);
-        // Light that comes by way of each vertex is summed by itself: a pixel gets 60^depth contributions,
+    void follow(Tile& tile, std::span<const ShadingPoint> points) {
+        if (points.empty()) return;
+        tile.frame.radiance->add_light(tile, points, BodySampling::kNone);
+        add_body_light(tile, points);
+        // Light that comes by way of each shading point is summed by itself: a pixel gets 60^depth contributions,
         // and single precision loses the small ones when each is added to all that came before.
         Spectrum nobodys;
-        for (const Vertex& at : vertices) {
+        for (const ShadingPoint& at : points) {
             Spectrum& pixel = tile.pixels[at.pixel];
             Spectrum& part = tile.parts ? tile.parts->of(LightPart::kPath)[at.pixel] : nobodys;
             const Spectrum before = std::exchange(pixel, {}), part_before = std::exchange(part, {});
@@ -193,7 +193,7 @@ class HemispherePaths final : public PathModel {
         }
     }
 
-    std::size_t choose(const FrameView& frame, const Vertex& at) {
+    std::size_t choose(const FrameView& frame, const ShadingPoint& at) {
         const float least = frame.contribution_threshold;
         std::size_t count = 0;
         const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
@@ -227,7 +227,7 @@ class HemispherePaths final : public PathModel {
         return count;
     }
 
-    std::span<const Vertex> children(Tile& tile, const Vertex& at) {
+    std::span<const ShadingPoint> children(Tile& tile, const ShadingPoint& at) {
         const FrameView& frame = tile.frame;
         const std::size_t ray_count = choose(frame, at);
         const bool last = at.depth >= frame.max_depth;
@@ -250,23 +250,23 @@ class HemispherePaths final : public PathModel {
                     continue;
                 }
                 if (last) continue;
-                Vertex& vertex = level.vertices[found];
-                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, 0,
-                                 {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, vertex))
+                ShadingPoint& point = level.points[found];
+                if (!make_shading_point(frame, hits, i, ray.origin_m, ray.dir, 0,
+                                        {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, point))
                     continue;
-                vertex.pixel = at.pixel, vertex.sample = at.sample, vertex.halves = at.halves;
-                vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
-                vertex.throughput = ray.throughput;
-                vertex.ray_part = at.depth > 1 ? at.ray_part : ray.part;
-                vertex.weight_samples = at.weight_samples;
+                point.pixel = at.pixel, point.sample = at.sample, point.halves = at.halves;
+                point.depth = static_cast<std::uint16_t>(at.depth + 1);
+                point.throughput = ray.throughput;
+                point.ray_part = at.depth > 1 ? at.ray_part : ray.part;
+                point.weight_samples = at.weight_samples;
                 ++found;
             }
         }
-        return {level.vertices.data(), found};
+        return {level.points.data(), found};
     }
 
     // Bodies are lamps for the 60 directions; only in air is there a sky between them.
-    static void add_background(Tile& tile, const Vertex& at, const Ray& ray) {
+    static void add_background(Tile& tile, const ShadingPoint& at, const Ray& ray) {
         const Background& background = *tile.frame.background;
         Spectrum weight = ray.throughput;
         if (!ray.exact && !(background.camera_in_air() && !is_in_a_body(tile.frame, at, ray.dir))) return;

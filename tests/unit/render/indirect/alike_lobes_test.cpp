@@ -9,8 +9,8 @@ namespace {
 
 Vec3f leaning(float rad) { return {std::sin(rad), 0, std::cos(rad)}; }
 
-Vertex vertex_of(const Material& material) {
-    Vertex at{};
+ShadingPoint vertex_of(const Material& material) {
+    ShadingPoint at{};
     at.object = 2, at.surface_number = 3;
     at.normal = at.geometric_normal = leaning(0);
     at.view_dir = leaning(0.5f);
@@ -20,11 +20,11 @@ Vertex vertex_of(const Material& material) {
 
 TEST(AlikeLobes, AreFoundAgainWithinADegree) {
     const Material material{};
-    const Vertex at = vertex_of(material);
+    const ShadingPoint at = vertex_of(material);
     AlikeLobes<int> lobes;
     EXPECT_EQ(lobes.find(at, 7), nullptr);
     EXPECT_EQ(lobes.keep(at, 7, 42), 42);
-    Vertex near = at;
+    ShadingPoint near = at;
     near.view_dir = leaning(0.51f);  // 0.6 degrees
     ASSERT_NE(lobes.find(near, 7), nullptr);
     EXPECT_EQ(*lobes.find(near, 7), 42);
@@ -34,27 +34,27 @@ TEST(AlikeLobes, AreFoundAgainWithinADegree) {
 
 TEST(AlikeLobes, DifferByWhatTheyAreOf) {
     const Material material{};
-    const Vertex at = vertex_of(material);
+    const ShadingPoint at = vertex_of(material);
     AlikeLobes<int> lobes;
     lobes.keep(at, 7, 42);
     EXPECT_EQ(lobes.find(at, 8), nullptr);
     const auto differs = [&](auto&& change) {
-        Vertex other = at;
+        ShadingPoint other = at;
         change(other);
         return lobes.find(other, 7) == nullptr;
     };
-    EXPECT_FALSE(differs([](Vertex&) {}));
-    EXPECT_TRUE(differs([](Vertex& v) { v.object = 1; }));
-    EXPECT_TRUE(differs([](Vertex& v) { v.surface_number = 1; }));
-    EXPECT_TRUE(differs([](Vertex& v) { v.back = true; }));
-    EXPECT_TRUE(differs([](Vertex& v) { v.normal = leaning(0.03f); }));
-    EXPECT_TRUE(differs([](Vertex& v) { v.surface.alpha = 0.4f; }));
+    EXPECT_FALSE(differs([](ShadingPoint&) {}));
+    EXPECT_TRUE(differs([](ShadingPoint& v) { v.object = 1; }));
+    EXPECT_TRUE(differs([](ShadingPoint& v) { v.surface_number = 1; }));
+    EXPECT_TRUE(differs([](ShadingPoint& v) { v.back = true; }));
+    EXPECT_TRUE(differs([](ShadingPoint& v) { v.normal = leaning(0.03f); }));
+    EXPECT_TRUE(differs([](ShadingPoint& v) { v.surface.alpha = 0.4f; }));
 }
 
 // More than there are slots: each takes the place of one before.
 TEST(AlikeLobes, KeepTheLastOfAnyNumber) {
     const Material material{};
-    const Vertex at = vertex_of(material);
+    const ShadingPoint at = vertex_of(material);
     AlikeLobes<int> lobes;
     for (std::uint32_t node = 1; node <= 3000; ++node) {
         EXPECT_EQ(lobes.keep(at, node, static_cast<int>(node)), static_cast<int>(node));

@@ -28,20 +28,20 @@ std::array<double, 10> light_of_tube(const std::string& visibility, int samples_
     metal.model = kModel<brdf::Metal>;
     metal.reflectance = Curve::constant(0.9);
     metal.roughness = 0.45;
-    std::vector<Vec3f> normals, vertices;
+    std::vector<Vec3f> normals, points;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::uint32_t i = 0; i < kSides; ++i) {
         const double around = 2 * kPi * i / kSides;
         const Vec3d out{std::cos(around), 0, std::sin(around)};
         for (const double y : {-1.0, 1.0}) {
             normals.push_back(to_float(out));
-            vertices.push_back(to_float(0.75 * kPixel_m * out + Vec3d{0, y, 0}));
+            points.push_back(to_float(0.75 * kPixel_m * out + Vec3d{0, y, 0}));
         }
         const std::uint32_t here = 2 * i, next = 2 * ((i + 1) % kSides);
         triangles.push_back({here, here + 1, next});
         triangles.push_back({next, here + 1, next + 1});
     }
-    SceneObject tube = object_of(vertices, triangles, metal, s.grid);
+    SceneObject tube = object_of(points, triangles, metal, s.grid);
     tube.mesh.normals = normals;
     s.add(std::move(tube), {0, 0, 5}, {0, 0, 0});
     s.build();
@@ -73,22 +73,22 @@ std::vector<double> light_of_wall(const std::string& visibility, int samples_per
     s.quality.max_depth = 1;
     s.quality.rays_across = 0;
     s.camera(kWidth_px, kHalf_rad);
-    std::vector<Vec3f> vertices;
+    std::vector<Vec3f> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<Vec2f> uvs;
     const auto half_m = static_cast<float>(kDistance_m * kHalf_rad);
     for (int i = 0; i < strips; ++i) {
-        const auto first = static_cast<std::uint32_t>(vertices.size());
+        const auto first = static_cast<std::uint32_t>(points.size());
         for (const int side : {i, i + 1})
             for (const float y : {-2 * half_m, 2 * half_m}) {
                 const float across = static_cast<float>(side) / static_cast<float>(strips);
-                vertices.push_back({(2 * across - 1) * half_m, y, 0});
+                points.push_back({(2 * across - 1) * half_m, y, 0});
                 uvs.push_back({across, y / (2 * half_m)});  // as dense down as across
             }
         triangles.push_back({first, first + 1, first + 2});
         triangles.push_back({first + 2, first + 1, first + 3});
     }
-    SceneObject wall = object_of(vertices, triangles, lambert(1), s.grid);
+    SceneObject wall = object_of(points, triangles, lambert(1), s.grid);
     Texture texture;
     texture.width = columns, texture.height = 1;
     for (int x = 0; x < columns; ++x) {
@@ -118,7 +118,7 @@ TEST(PrimaryHits, ATextureIsAsSharpAsAPixel) {
     EXPECT_NEAR(swing(light_of_wall("buffer", 1, 1, 1024, bars)) / by_rays, 1, 0.08);
 }
 
-// Eight triangles in a pixel, of which a vertex is that which most samples see.
+// Eight triangles in a pixel, of which a shading point is that which most samples see.
 TEST(PrimaryHits, ATextureIsThatOfAllThatAPixelSees) {
     const auto quarter = [](double across) { return std::fmod(96 * across, 4) < 1 ? 1.0 : 0.0; };
     const std::vector<double> by_rays = light_of_wall("rays", 16, 96, 4608, quarter),

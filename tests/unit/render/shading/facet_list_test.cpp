@@ -24,7 +24,7 @@ Material material_of(std::size_t model) {
     return make_material(config, SpectralGrid({0.5, 0.6, 0.7}));
 }
 
-// Vertices of several materials and of two objects, each with some facets, of which half stand for others.
+// Shading points of several materials and of two objects, each with some facets, of which half stand for others.
 struct Foil {
     static constexpr std::size_t kVertices = 60, kFacets = 7;
     std::vector<Material> materials = {material_of(kModel<brdf::Metal>), material_of(kModel<brdf::Lambert>),
@@ -33,8 +33,8 @@ struct Foil {
     FrameView frame;
     std::vector<LevelFacets> flattened;
     std::vector<Facet> facets;
-    std::vector<Vertex> vertices;
-    std::vector<SunnyVertex> sunny;
+    std::vector<ShadingPoint> points;
+    std::vector<SunlitPoint> sunny;
 
     Foil() {
         std::mt19937 engine(7);
@@ -45,10 +45,9 @@ struct Foil {
         const Mat3f plain{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
             turned{{0, -0.6f, 0.8f}, {1, 0, 0}, {0, 0.8f, 0.6f}};
         frame.world_from_body = {plain, turned};
-        flattened.reserve(kVertices * kFacets), facets.reserve(kVertices * kFacets),
-            vertices.resize(kVertices);
+        flattened.reserve(kVertices * kFacets), facets.reserve(kVertices * kFacets), points.resize(kVertices);
         for (std::size_t v = 0; v < kVertices; ++v) {
-            Vertex& at = vertices[v];
+            ShadingPoint& at = points[v];
             at.object = static_cast<std::uint32_t>(v % 2),
             at.surface_number = static_cast<std::uint16_t>(v % 4);
             at.back = v % 3 == 0;
@@ -79,8 +78,8 @@ struct Foil {
         return out;
     }
     // What one facet reflects, part by part, times its samples.
-    Spectrum reflected(const SunnyVertex& from, const Facet& facet) const {
-        const Vertex& at = *from.at;
+    Spectrum reflected(const SunlitPoint& from, const Facet& facet) const {
+        const ShadingPoint& at = *from.at;
         LevelFacets::Leans lean{};
         LevelFacets::Floats share{1}, seen{}, no{}, ni{};
         if (facet.flattened) lean = facet.flattened->leans(), share = facet.flattened->shares();
@@ -108,7 +107,7 @@ struct Foil {
         }
         return sum;
     }
-    static float widened(const SunnyVertex& from, const Facet& facet, float no, float ni) {
+    static float widened(const SunlitPoint& from, const Facet& facet, float no, float ni) {
         if (!(from.alpha > 0) || !facet.flattened) return from.alpha;
         const float own = from.alpha * from.alpha,
                     rougher = facet.flattened->alpha() * facet.flattened->alpha();
@@ -122,7 +121,7 @@ TEST(FacetList, PacketsReflectWhatTheirFacetsDoOneByOne) {
     const Foil foil;
     const std::vector<FacetLight> lit = foil.lit();
     for (std::size_t v = 0; v < Foil::kVertices; ++v) {
-        const Vertex& at = foil.vertices[v];
+        const ShadingPoint& at = foil.points[v];
         Spectrum sum;
         float samples = 0, brightest = 0;
         for (const Facet* facet = at.facets; facet; facet = facet->next) {
@@ -162,12 +161,12 @@ TEST(FacetList, LightComesFromTheFacetThatReflectsIt) {
     // It leans aside, by as much to the light.
     const Vec3f aside = normalized(Vec3f{-0.19f, 0.6f, 1});
     const Facet left{up, aside, {}, 8, kLeft}, right{up, up, {}, 8, kRight, nullptr, false, &left};
-    Vertex at{};
+    ShadingPoint at{};
     at.view_dir = normalized(Vec3f{0.4f, 0, 1});
     at.throughput.bin.fill(1);
     at.surface = {&metal, 0.04f, metal.base, metal.highlight};
     at.facets = &right;
-    const SunnyVertex sunny{&at, dir, 0.04f};
+    const SunlitPoint sunny{&at, dir, 0.04f};
     FacetLight light;
     lit_facets(frame, {&sunny, 1}, {&light, 1});
     EXPECT_EQ(light.brightest[0], &right);

@@ -26,7 +26,7 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     Tile tile{frame, {0, 0, 2, 2}, 1, pixels, stats, facets};
     tile.halves = halves, tile.half_responses = responses;
     const std::array<PixelShare, 2> parts{PixelShare{1, {1, 0, 0}, of(1)}, {2, {0, -1, 0}, of(0.25f)}};
-    Vertex at{};
+    ShadingPoint at{};
     at.pixel = 3;
     at.halves = {1, 1, 1};
     tile.add(at, LightPart::kSun, of(2));

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "render/shading/frame_view.h"
-#include "render/shading/path_vertex.h"
+#include "render/shading/shading_point.h"
 
 namespace hilcam {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// A path at one of its vertices: where a ray has met an object, and how light scatters there.
+// A shading point: where a ray has met an object, and how light scatters there.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,9 +15,9 @@
 
 namespace hilcam {
 
-// A vertex that many samples of a pixel see may be a crumpled thing: a part of it, which leans otherwise.
+// A shading point that many samples of a pixel see may be a crumpled thing: a part of it, which leans otherwise.
 struct Facet {
-    Vec3f geometric_normal, normal;          // the two normals of a vertex
+    Vec3f geometric_normal, normal;          // the two normals of a shading point
     Vec3f start_m;                           // where rays that leave it begin, ray space
     float samples = 0;                       // samples of sixteen a pixel that see it
     SampleMask seen_by = 0;                  // those of the visibility buffer; 0: it is not of that
@@ -27,7 +27,7 @@ struct Facet {
 };
 
 // Where a ray has met an object, and how the surface lies there.
-struct VertexGeometry {
+struct ShadingGeometry {
     Vec3f point_m;           // ray space
     float offset_m;          // distance above the surface at which a ray must start
     Vec3f geometric_normal;  // towards the viewer's side, unit
@@ -45,16 +45,16 @@ struct VertexGeometry {
 };
 
 // The way in which light scatters there.
-struct VertexSurface {
+struct ShadingSurface {
     Scatterer surface;
     KnownSun known_sun;   // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
     float sunlit;         // share of it that what lies on it leaves in the Sun (mosaic.h)
     float facet_alpha;    // alpha of the lobes of its facets
-    const Facet* facets;  // the vertex's own among them; null: it is one
+    const Facet* facets;  // the shading point's own among them; null: it is one
 };
 
 // The share of the light that it sends which reaches its pixel, or the lobe whose rays have met it.
-struct VertexThroughput {
+struct PathThroughput {
     Spectrum throughput;
     float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
     std::uint16_t depth;    // 1: seen by the camera
@@ -67,8 +67,8 @@ struct VertexThroughput {
     float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
 };
 
-// Where in the picture it is seen, or the first vertex of its path.
-struct VertexCoverage {
+// Where in the picture it is seen, or the first shading point of its path.
+struct PixelCoverage {
     std::uint32_t pixel;   // in the tile
     std::uint16_t sample;  // in the pixel
     SampleMask samples;    // those of the pixel that see its plane; 0: one of a ray
@@ -78,11 +78,11 @@ struct VertexCoverage {
 };
 
 // A stage of its light that finds something for a later one returns it as a value: it is no member here.
-struct Vertex : VertexGeometry, VertexSurface, VertexThroughput, VertexCoverage {};
+struct ShadingPoint : ShadingGeometry, ShadingSurface, PathThroughput, PixelCoverage {};
 
 // The orientation of the surface where a ray meets it.
 struct Lie {
-    Vec3f geometric_normal, normal, view_dir;  // those of a vertex
+    Vec3f geometric_normal, normal, view_dir;  // those of a shading point
     bool back;
 };
 // Finds it for a lane that met an object. False where there is nothing to see: a triangle without an area.
@@ -100,24 +100,24 @@ struct RayWidth {
     float footprint_m = 0;
     float spread_rad = 0;
 };
-bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
-                 float alpha_least, RayWidth width, Vertex& vertex);
+bool make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                        float alpha_least, RayWidth width, ShadingPoint& point);
 // The same where it is known how the surface lies, but for textures (texture_at()).
-void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
-                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex);
+void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
+                        Vec3f origin_m, Vec3f dir, float alpha_least, RayWidth width, ShadingPoint& point);
 // The same but for the surface, for set_surface().
-void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
-                  Vec3f dir, RayWidth width, Vertex& vertex);
-// Gives a vertex one of its object's surfaces, without colours or textures of its own.
-void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex);
-// Returns the colours that a texture has about a place of a vertex' triangle, as a factor on those of its material. Loop, any
-// thread. share: how much of the vertex' width is looked at, 0..1.
-Spectrum texture_at(const FrameView& frame, const Vertex& vertex, std::uint32_t triangle, Vec2f uv,
+void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
+                         Vec3f origin_m, Vec3f dir, RayWidth width, ShadingPoint& point);
+// Gives a shading point one of its object's surfaces, without colours or textures of its own.
+void set_surface(const FrameView& frame, std::uint16_t surface_number, ShadingPoint& point);
+// Returns the colours that a texture has about a place of a shading point's triangle, as a factor on those of its material. Loop,
+// any thread. share: how much of the shading point's width is looked at, 0..1.
+Spectrum texture_at(const FrameView& frame, const ShadingPoint& point, std::uint32_t triangle, Vec2f uv,
                     float share);
-inline bool is_textured(const Vertex& vertex) { return vertex.surface.material->texture >= 0; }
-// Gives a vertex such colours.
-void paint(const Spectrum& colors, Vertex& vertex);
-// Asks for the memory that make_vertex() reads, of all lanes that met an object.
-void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count);
+inline bool is_textured(const ShadingPoint& point) { return point.surface.material->texture >= 0; }
+// Gives a shading point such colours.
+void paint(const Spectrum& colors, ShadingPoint& point);
+// Asks for the memory that make_shading_point() reads, of all lanes that met an object.
+void prefetch_shading_points(const FrameView& frame, const HitPacket& hits, int count);
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-#include "render/shading/path_vertex.h"
+#include "render/shading/shading_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace hilcam {
 
-void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count) {
+void prefetch_shading_points(const FrameView& frame, const HitPacket& hits, int count) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
         if (hits.object[k] == HitPacket::kMiss) continue;
         const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
@@ -20,21 +20,21 @@ void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count)
 namespace {
 
 // Member by member: a Scatterer that is made first and copied then waits for its own stores.
-void set_material(const Material& material, float alpha_least, Vertex& vertex) {
+void set_material(const Material& material, float alpha_least, ShadingPoint& point) {
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
-    vertex.surface.material = &material;
-    vertex.surface.alpha = alpha;
-    vertex.surface.base = material.base;
-    vertex.surface.highlight = material.highlight;
-    vertex.surface.hapke.reset();
-    vertex.facet_alpha = alpha;
+    point.surface.material = &material;
+    point.surface.alpha = alpha;
+    point.surface.base = material.base;
+    point.surface.highlight = material.highlight;
+    point.surface.hapke.reset();
+    point.facet_alpha = alpha;
 }
 
 }  // namespace
 
-void set_surface(const FrameView& frame, std::uint16_t surface_number, Vertex& vertex) {
-    vertex.surface_number = surface_number;
-    set_material((*frame.objects)[vertex.object]->materials[surface_number], 0, vertex);
+void set_surface(const FrameView& frame, std::uint16_t surface_number, ShadingPoint& point) {
+    point.surface_number = surface_number;
+    set_material((*frame.objects)[point.object]->materials[surface_number], 0, point);
 }
 
 bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie) {
@@ -78,67 +78,66 @@ float rounding_m(Vec3f p, Vec3f o) {
     return 16 * std::numeric_limits<float>::epsilon() * greatest;
 }
 
-bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
-                 float alpha_least, RayWidth width, Vertex& vertex) {
+bool make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                        float alpha_least, RayWidth width, ShadingPoint& point) {
     Lie lie;
     if (!find_lie(frame, hits, lane, dir, lie)) return false;
-    make_vertex(frame, hits, lane, lie, origin_m, dir, alpha_least, width, vertex);
+    make_shading_point(frame, hits, lane, lie, origin_m, dir, alpha_least, width, point);
     const auto k = static_cast<std::size_t>(lane);
-    if (is_textured(vertex))
-        paint(texture_at(frame, vertex, hits.triangle[k], {hits.u[k], hits.v[k]}, 1), vertex);
+    if (is_textured(point))
+        paint(texture_at(frame, point, hits.triangle[k], {hits.u[k], hits.v[k]}, 1), point);
     return true;
 }
 
-void place_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
-                  Vec3f dir, RayWidth width, Vertex& vertex) {
+void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
+                         Vec3f origin_m, Vec3f dir, RayWidth width, ShadingPoint& point) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
-    vertex.view_dir = lie.view_dir;
-    vertex.geometric_normal = lie.geometric_normal;
-    vertex.normal = lie.normal;
-    vertex.back = lie.back;
-    vertex.sunlit = 1;
-    vertex.weight_samples = 1;
-    vertex.samples = 0;
-    vertex.facets = nullptr;
+    point.view_dir = lie.view_dir;
+    point.geometric_normal = lie.geometric_normal;
+    point.normal = lie.normal;
+    point.back = lie.back;
+    point.sunlit = 1;
+    point.weight_samples = 1;
+    point.samples = 0;
+    point.facets = nullptr;
 
-    vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
-    vertex.point_m = origin_m + hits.distance[k] * dir;
-    vertex.offset_m = rounding_m(vertex.point_m, origin_m);
+    point.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
+    point.point_m = origin_m + hits.distance[k] * dir;
+    point.offset_m = rounding_m(point.point_m, origin_m);
 
-    vertex.object = hits.object[k], vertex.triangle = hits.triangle[k];
-    vertex.lobe = nullptr;
-    vertex.known_sun = object.known_sun.empty() || frame.objects->size() > 1
-                           ? KnownSun::kAsk
-                           : object.known_sun[hits.triangle[k]];
+    point.object = hits.object[k], point.triangle = hits.triangle[k];
+    point.lobe = nullptr;
+    point.known_sun = object.known_sun.empty() || frame.objects->size() > 1
+                          ? KnownSun::kAsk
+                          : object.known_sun[hits.triangle[k]];
 }
 
-void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
-                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex) {
+void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
+                        Vec3f origin_m, Vec3f dir, float alpha_least, RayWidth width, ShadingPoint& point) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
     const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
     const Material& material = object.materials[triangle.surface];
     const float u = hits.u[k];
     const float v = hits.v[k];
-    place_vertex(frame, hits, lane, lie, origin_m, dir, width, vertex);
-    vertex.surface_number = triangle.surface;
-    set_material(material, alpha_least, vertex);
+    place_shading_point(frame, hits, lane, lie, origin_m, dir, width, point);
+    point.surface_number = triangle.surface;
+    set_material(material, alpha_least, point);
     if (!object.corner_colors.empty())
-        paint(frame.bands->spectrum(object.color_at(hits.triangle[k], u, v)), vertex);
-    if (!object.corner_hapke.empty()) vertex.surface.hapke = object.hapke_at(hits.triangle[k], u, v);
+        paint(frame.bands->spectrum(object.color_at(hits.triangle[k], u, v)), point);
+    if (!object.corner_hapke.empty()) point.surface.hapke = object.hapke_at(hits.triangle[k], u, v);
 }
 
-Spectrum texture_at(const FrameView& frame, const Vertex& vertex, std::uint32_t triangle, Vec2f at,
+Spectrum texture_at(const FrameView& frame, const ShadingPoint& point, std::uint32_t triangle, Vec2f at,
                     float share) {
-    const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
+    const ObjectSurfaces& object = *(*frame.objects)[point.object];
     const auto& corner = object.corner_uvs[triangle];
-    const MipTexture& texture =
-        (*object.textures)[static_cast<std::size_t>(vertex.surface.material->texture)];
+    const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(point.surface.material->texture)];
     // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
     // of four.
-    const float slant = 1 / std::max(0.25f, dot(vertex.geometric_normal, vertex.view_dir));
-    const float footprint = share * vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[triangle];
+    const float slant = 1 / std::max(0.25f, dot(point.geometric_normal, point.view_dir));
+    const float footprint = share * point.footprint_m * std::sqrt(slant) * object.uv_per_m[triangle];
     const float first = 1 - at.x - at.y;
     return frame.bands->spectrum(texture.sample(first * corner[0].x + at.x * corner[1].x + at.y * corner[2].x,
                                                 first * corner[0].y + at.x * corner[1].y + at.y * corner[2].y,
@@ -146,9 +145,9 @@ Spectrum texture_at(const FrameView& frame, const Vertex& vertex, std::uint32_t 
 }
 
 // The one colour of a file scales what the material mostly is.
-void paint(const Spectrum& colors, Vertex& vertex) {
-    vertex.surface.base = vertex.surface.base * colors;
-    if (vertex.surface.material->is_bare()) vertex.surface.highlight = vertex.surface.highlight * colors;
+void paint(const Spectrum& colors, ShadingPoint& point) {
+    point.surface.base = point.surface.base * colors;
+    if (point.surface.material->is_bare()) point.surface.highlight = point.surface.highlight * colors;
 }
 
 }  // namespace hilcam
