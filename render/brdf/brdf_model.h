@@ -48,7 +48,7 @@ inline float mean(const Spectrum& s, int bins) {
 }
 
 // The look of a surface: all that its textures and its level of detail change of a model at a point.
-struct SurfaceLook {
+struct BsdfInputs {
     float alpha = 0;     // alpha of the facet lobe; 0: an exact mirror on top
     Spectrum base;       // the model's `reflectance`, unless it says otherwise
     Spectrum highlight;  // zero, unless the model says otherwise; what facets reflect at normal incidence
@@ -75,7 +75,7 @@ struct BrdfMaking {
     const MaterialKeys& keys;
     const SpectralGrid& grid;
     std::shared_ptr<const BrdfTable> table;  // the table of keys.table; null where that is empty
-    SurfaceLook look;                        // base: the averages of keys.reflectance
+    BsdfInputs look;                         // base: the averages of keys.reflectance
 
     // Throws InputError where the curve does not cover the grid.
     Spectrum average(const Curve& curve, const std::string& key) const {
@@ -101,18 +101,18 @@ struct BrdfModel {
     static void check(const MaterialKeys&, const auto&) {}
 
     // The chance that a sample is of the highlight; the others go by the cosine.
-    float highlight_chance(const SurfaceLook&, float) const { return 0; }
+    float highlight_chance(const BsdfInputs&, float) const { return 0; }
     // The highlight's own density, and a direction towards the light by it, world. local: about the normal.
-    float highlight_density(const SurfaceLook&, Cosines) const { return 0; }
-    Vec3f sample_highlight(const SurfaceLook&, const Frame& local, Vec3f, float, float) const {
+    float highlight_density(const BsdfInputs&, Cosines) const { return 0; }
+    Vec3f sample_highlight(const BsdfInputs&, const Frame& local, Vec3f, float, float) const {
         return local.n;
     }
     // Returns what is reflected in the mirror's direction, by a facet or a sheet that is met at this cosine.
-    Spectrum mirrored(const SurfaceLook&, float) const { return {}; }
+    Spectrum mirrored(const BsdfInputs&, float) const { return {}; }
     // Returns what goes through a sheet.
-    Spectrum passed(const SurfaceLook&, float) const { return {}; }
+    Spectrum passed(const BsdfInputs&, float) const { return {}; }
     // The share of light that comes back in all directions, about: chooses a sample's part, ends paths.
-    float albedo(const SurfaceLook& at, float, int bins) const { return mean(at.base, bins); }
+    float albedo(const BsdfInputs& at, float, int bins) const { return mean(at.base, bins); }
 };
 
 }  // namespace hilcam

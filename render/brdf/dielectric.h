@@ -30,16 +30,16 @@ struct Dielectric : FacetModel<Dielectric> {
         return out;
     }
 
-    Spectrum mirrored(const SurfaceLook&, float cosine) const {
+    Spectrum mirrored(const BsdfInputs&, float cosine) const {
         Spectrum out;
         out.bin.fill(fresnel_dielectric(refractive_index, cosine));
         return out;
     }
-    float highlight_chance(const SurfaceLook& at, float no) const {
+    float highlight_chance(const BsdfInputs& at, float no) const {
         const float top = 1.0f * facets(no), below = largest(at.base) * (1 - facets(no));
         return top + below > 0 ? top / (top + below) : 1.0f;
     }
-    float albedo(const SurfaceLook& at, float no, int bins) const {
+    float albedo(const BsdfInputs& at, float no, int bins) const {
         return facets(no) + mean(at.base, bins) * (1 - facets(no));
     }
 };

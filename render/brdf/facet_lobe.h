@@ -52,7 +52,7 @@ struct FacetModel : BrdfModel<Model> {
 
     LobeAlbedo facets;
 
-    Spectrum value(const SurfaceLook& at, Cosines c) const {
+    Spectrum value(const BsdfInputs& at, Cosines c) const {
         Spectrum f = below_facets(facets, c.no, c.ni) * at.base;
         if (at.alpha > 0) {
             const HalfVector h = half_vector(c);
@@ -61,10 +61,10 @@ struct FacetModel : BrdfModel<Model> {
         }
         return f;
     }
-    float highlight_density(const SurfaceLook& at, Cosines c) const {
+    float highlight_density(const BsdfInputs& at, Cosines c) const {
         return at.alpha > 0 ? ggx_density(at.alpha, c.no, half_vector(c).nh) : 0.0f;
     }
-    Vec3f sample_highlight(const SurfaceLook& at, const Frame& local, Vec3f view_dir, float u1,
+    Vec3f sample_highlight(const BsdfInputs& at, const Frame& local, Vec3f view_dir, float u1,
                            float u2) const {
         return sample_facets(at.alpha, local, view_dir, u1, u2);
     }

@@ -27,8 +27,8 @@ struct Glass : BrdfModel<Glass> {
         m.look = {0, {}, m.average(k.transmittance, "transmittance")};
     }
 
-    Spectrum value(const SurfaceLook&, Cosines) const { return {}; }
-    Spectrum mirrored(const SurfaceLook& at, float cosine) const {
+    Spectrum value(const BsdfInputs&, Cosines) const { return {}; }
+    Spectrum mirrored(const BsdfInputs& at, float cosine) const {
         const float f = fresnel_dielectric(refractive_index, cosine);
         Spectrum out;
         for (int b = 0; b < kMaxBins; ++b) {
@@ -37,7 +37,7 @@ struct Glass : BrdfModel<Glass> {
         }
         return out;
     }
-    Spectrum passed(const SurfaceLook& at, float cosine) const {
+    Spectrum passed(const BsdfInputs& at, float cosine) const {
         const float f = fresnel_dielectric(refractive_index, cosine);
         Spectrum out;
         for (int b = 0; b < kMaxBins; ++b) {
@@ -46,11 +46,11 @@ struct Glass : BrdfModel<Glass> {
         }
         return out;
     }
-    float albedo(const SurfaceLook&, float, int) const { return 1; }
+    float albedo(const BsdfInputs&, float, int) const { return 1; }
 
   private:
     // The transmittance of one passage: the path inside is longer by the refracted angle (Snell).
-    float inside(const SurfaceLook& at, int bin, float cosine) const {
+    float inside(const BsdfInputs& at, int bin, float cosine) const {
         const float n = refractive_index;
         const float slant = std::sqrt(std::max(1e-6f, 1 - (1 - cosine * cosine) / (n * n)));
         return at.highlight[bin] > 0 ? std::pow(at.highlight[bin], 1 / slant) : 0.0f;

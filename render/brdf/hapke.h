@@ -118,7 +118,7 @@ struct Hapke : BrdfModel<Hapke> {
                      static_cast<float>(k.surge_amplitude), static_cast<float>(k.surge_width),
                      static_cast<float>(std::tan(k.slope_rad))} {}
 
-    Spectrum value(const SurfaceLook& at, Cosines c) const {
+    Spectrum value(const BsdfInputs& at, Cosines c) const {
         const HapkeGeometry g = hapke_geometry(at.hapke.value_or(parameters), c.no, c.ni, c.io);
         Spectrum f;
         for (int b = 0; b < kMaxBins; ++b) f[b] = hapke(g, at.base[b]);

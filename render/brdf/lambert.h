@@ -12,7 +12,7 @@ struct Lambert : BrdfModel<Lambert> {
     Lambert() = default;
     Lambert(const Keys&, BrdfMaking&) {}
 
-    Spectrum value(const SurfaceLook& at, Cosines) const { return (1 / kPiF) * at.base; }
+    Spectrum value(const BsdfInputs& at, Cosines) const { return (1 / kPiF) * at.base; }
 };
 
 }  // namespace hilcam::brdf

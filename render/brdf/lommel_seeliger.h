@@ -23,9 +23,7 @@ struct LommelSeeliger : BrdfModel<LommelSeeliger> {
         for (float& w : m.look.base.bin) w *= 8;
     }
 
-    Spectrum value(const SurfaceLook& at, Cosines c) const {
-        return 1 / (4 * kPiF * (c.no + c.ni)) * at.base;
-    }
+    Spectrum value(const BsdfInputs& at, Cosines c) const { return 1 / (4 * kPiF * (c.no + c.ni)) * at.base; }
 };
 
 }  // namespace hilcam::brdf

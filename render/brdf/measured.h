@@ -16,15 +16,13 @@ struct Measured : BrdfModel<Measured> {
 
     Measured(const Keys&, BrdfMaking& m) : table(m.table) { HILCAM_CHECK(table != nullptr); }
 
-    Spectrum value(const SurfaceLook& at, Cosines c) const {
-        return at.base * table->value(c.no, c.ni, c.io);
-    }
-    float highlight_chance(const SurfaceLook&, float) const { return table->lobe_share(); }
-    float highlight_density(const SurfaceLook&, Cosines c) const {
+    Spectrum value(const BsdfInputs& at, Cosines c) const { return at.base * table->value(c.no, c.ni, c.io); }
+    float highlight_chance(const BsdfInputs&, float) const { return table->lobe_share(); }
+    float highlight_density(const BsdfInputs&, Cosines c) const {
         const float alpha = table->lobe_alpha();
         return alpha > 0 ? ggx_density(alpha, c.no, half_vector(c).nh) : 0.0f;
     }
-    Vec3f sample_highlight(const SurfaceLook&, const Frame& local, Vec3f view_dir, float u1, float u2) const {
+    Vec3f sample_highlight(const BsdfInputs&, const Frame& local, Vec3f view_dir, float u1, float u2) const {
         return sample_facets(table->lobe_alpha(), local, view_dir, u1, u2);
     }
 };

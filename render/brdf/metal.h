@@ -28,12 +28,12 @@ struct Metal : FacetModel<Metal> {
         return out;
     }
 
-    Spectrum mirrored(const SurfaceLook& at, float cosine) const { return schlick(at.highlight, cosine); }
-    float highlight_chance(const SurfaceLook& at, float no) const {
+    Spectrum mirrored(const BsdfInputs& at, float cosine) const { return schlick(at.highlight, cosine); }
+    float highlight_chance(const BsdfInputs& at, float no) const {
         const float top = largest(at.highlight) * facets(no), below = largest(at.base) * (1 - facets(no));
         return top + below > 0 ? top / (top + below) : 1.0f;
     }
-    float albedo(const SurfaceLook& at, float no, int bins) const {
+    float albedo(const BsdfInputs& at, float no, int bins) const {
         return mean(at.highlight, bins) * facets(no) + mean(at.base, bins) * (1 - facets(no));
     }
 };

@@ -12,9 +12,9 @@ struct Mirror : FacetModel<Mirror> {
 
     Mirror(const Keys&, BrdfMaking& m) { m.look = {0, {}, m.look.base}; }
 
-    Spectrum mirrored(const SurfaceLook& at, float cosine) const { return schlick(at.highlight, cosine); }
-    float highlight_chance(const SurfaceLook&, float) const { return 1; }
-    float albedo(const SurfaceLook& at, float, int bins) const { return mean(at.highlight, bins); }
+    Spectrum mirrored(const BsdfInputs& at, float cosine) const { return schlick(at.highlight, cosine); }
+    float highlight_chance(const BsdfInputs&, float) const { return 1; }
+    float albedo(const BsdfInputs& at, float, int bins) const { return mean(at.highlight, bins); }
 };
 
 }  // namespace hilcam::brdf

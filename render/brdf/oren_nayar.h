@@ -21,7 +21,7 @@ struct OrenNayar : BrdfModel<OrenNayar> {
           a(1 / (1 + (0.5f - 2 / (3 * kPiF)) * roughness)),
           average(a * (1 + (2.0f / 3 - 28 / (15 * kPiF)) * roughness)) {}
 
-    Spectrum value(const SurfaceLook& at, Cosines c) const {
+    Spectrum value(const BsdfInputs& at, Cosines c) const {
         const float once = single(c.no, c.ni, c.io), often = multiple(c.no, c.ni);
         Spectrum f;
         for (int b = 0; b < kMaxBins; ++b) f[b] = once * at.base[b] + often * multiple_color(at.base[b]);

@@ -32,22 +32,22 @@ struct Phong : BrdfModel<Phong> {
         m.look.highlight = m.average(k.specular, "specular");
     }
 
-    Spectrum value(const SurfaceLook& at, Cosines c) const {
+    Spectrum value(const BsdfInputs& at, Cosines c) const {
         return lobe(exponent + 2, c) * at.highlight + (1 / kPiF) * at.base;
     }
-    float highlight_chance(const SurfaceLook& at, float) const {
+    float highlight_chance(const BsdfInputs& at, float) const {
         const float top = largest(at.highlight), below = largest(at.base);
         return top + below > 0 ? top / (top + below) : 0.0f;
     }
-    float highlight_density(const SurfaceLook&, Cosines c) const { return lobe(exponent + 1, c); }
+    float highlight_density(const BsdfInputs&, Cosines c) const { return lobe(exponent + 1, c); }
     // About the mirror direction: cos^n (Lafortune & Willems 1994, eq. 10).
-    Vec3f sample_highlight(const SurfaceLook&, const Frame& local, Vec3f view_dir, float u1, float u2) const {
+    Vec3f sample_highlight(const BsdfInputs&, const Frame& local, Vec3f view_dir, float u1, float u2) const {
         const float z = std::pow(u1, 1 / (exponent + 1));
         const float r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPiF * u2;
         return Frame(normalized(reflect(view_dir, local.n)))
             .to_world({r * std::cos(phi), r * std::sin(phi), z});
     }
-    float albedo(const SurfaceLook& at, float, int bins) const {
+    float albedo(const BsdfInputs& at, float, int bins) const {
         return mean(at.base, bins) + mean(at.highlight, bins);
     }
 

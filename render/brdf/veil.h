@@ -24,8 +24,8 @@ struct Veil : BrdfModel<Veil> {
         m.look.base = cover * m.look.base;
     }
 
-    Spectrum value(const SurfaceLook& at, Cosines) const { return (1 / kPiF) * at.base; }
-    Spectrum passed(const SurfaceLook&, float) const {
+    Spectrum value(const BsdfInputs& at, Cosines) const { return (1 / kPiF) * at.base; }
+    Spectrum passed(const BsdfInputs&, float) const {
         Spectrum out;
         out.bin.fill(1 - cover);
         return out;

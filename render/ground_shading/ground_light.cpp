@@ -101,7 +101,7 @@ class GroundTileLight {
 
     void reflect_one_by_one() {
         const Spectrum& sun = view_.background->sun_irradiance_w_m2_um();
-        Scatterer surface(&material_, 0, material_.base, material_.highlight);
+        Bsdf surface(&material_, 0, material_.base, material_.highlight);
         for (std::size_t i = 0; i < kPacketSize; ++i) {
             Spectrum light;
             if (packet_.ni[i] > 0 && packet_.sun[i] != KnownSun::kDark) {

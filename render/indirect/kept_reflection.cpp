@@ -21,10 +21,10 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own) {
 }
 // Returns the ratio of the place's spectrum to the material's own there: of its facets, where they have colours of their
 // own, and of all the rest.
-Spectrum facet_tint(const Scatterer& at) { return ratio(at.highlight, at.material->highlight); }
-bool has_own_colors(const Scatterer& at) { return at.material->varies() && at.material->is_bare(); }
-bool is_tinted(const Scatterer& at) { return at.base.bin != at.material->base.bin; }
-Spectrum base_tint(const Scatterer& at) { return ratio(at.base, at.material->base); }
+Spectrum facet_tint(const Bsdf& at) { return ratio(at.highlight, at.material->highlight); }
+bool has_own_colors(const Bsdf& at) { return at.material->varies() && at.material->is_bare(); }
+bool is_tinted(const Bsdf& at) { return at.base.bin != at.material->base.bin; }
+Spectrum base_tint(const Bsdf& at) { return ratio(at.base, at.material->base); }
 
 // Numbers the square of four pixels that a shading point is seen in: kept light is too smooth to differ there.
 std::uint32_t quad_of(const Tile& tile, const ShadingPoint& at) {
@@ -118,7 +118,7 @@ void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> req
     request.mirrors_near = place.mirrors_near;
     request.has_bodies = place.has_bodies;
     if (!is_lit(place)) return;
-    const Scatterer& surface = at.surface;
+    const Bsdf& surface = at.surface;
     Spectrum reflected = place.diffuse;
     if (is_tinted(surface)) reflected = base_tint(surface) * reflected;
     Spectrum met, bodies;  // light of other surfaces and of bodies in the lobe
@@ -310,7 +310,7 @@ Spectrum KeptScene::lobe_tint(const ShadingPoint& at) const {
 
 KeptScene::LobeRays::LobeRays(const KeptScene& scene, const ShadingPoint& at) : scene_(scene) {
     const SentOfBodies sent = scene.sent_of_bodies(at);
-    Scatterer plain = at.surface;
+    Bsdf plain = at.surface;
     plain.highlight = plain.material->highlight;
     for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
 }
@@ -374,7 +374,7 @@ SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const ShadingPoint& 
     return {(1 / samples) * sum, own_colors && all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
 }
 
-Spectrum KeptScene::colored(const Scatterer& at, const SkyLight::Glossy& sent) {
+Spectrum KeptScene::colored(const Bsdf& at, const SkyLight::Glossy& sent) {
     return has_own_colors(at) ? brdf_mirrored(at, sent.facet_cosine) * sent.radiance : sent.radiance;
 }
 

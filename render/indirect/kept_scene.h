@@ -191,7 +191,7 @@ class KeptScene {
                                   float reflectance) const;
     SkyLight::Glossy sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const;
     // Returns it in the colours that a shading point has.
-    static Spectrum colored(const Scatterer& at, const SkyLight::Glossy& sent);
+    static Spectrum colored(const Bsdf& at, const SkyLight::Glossy& sent);
     Spectrum sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const;
 };
 

@@ -50,7 +50,7 @@ struct Scattered {
     bool none = true;
 };
 Scattered scatter(const FrameView& frame, const ShadingPoint& at, Vec3f dir, float alpha) {
-    Scatterer surface = at.surface;
+    Bsdf surface = at.surface;
     const bool facets = surface.material->has_facets();
     // Slopes of independent causes add by their squares; rays follow narrow lobes to the mirror.
     if (facets)

@@ -64,7 +64,7 @@ float rays_for(float samples) {
 void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
     const ShadingPoint& at = asking.points[number];
     const GlossyRequest& request = asking.requests[number];
-    const Scatterer& surface = at.surface;
+    const Bsdf& surface = at.surface;
     if (surface.is_glass()) return add_through_glass(tile, at, rays);
     if (request.follows_lobe) follow_lobe(tile, asking, number, rays);
     if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;

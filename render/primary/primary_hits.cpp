@@ -30,7 +30,7 @@ constexpr float kLeastFacing =
     1e-4f;  // a shading point's normal against the viewer [cosine], as find_lie() has it
 constexpr float kFlattest = 1e-4f;  // a mosaic is seen as one from higher than this [sine]
 
-bool has_narrow_lobe(const Scatterer& surface) {
+bool has_narrow_lobe(const Bsdf& surface) {
     return surface.material->has_facets() && surface.alpha < kNarrowestKept;
 }
 
@@ -295,7 +295,7 @@ void PrimaryHits::mix_colors(std::size_t k, float share, ShadingPoint& point) co
     const bool textured = is_textured(k);
     const ObjectSurfaces& object = *(*tile_.frame.objects)[point.object];
     if (!textured && object.corner_colors.empty()) return;
-    Scatterer& surface = point.surface;
+    Bsdf& surface = point.surface;
     const Spectrum base = surface.base, highlight = surface.highlight;
     surface.base = surface.material->base, surface.highlight = surface.material->highlight;
     if (!object.corner_colors.empty())

@@ -7,7 +7,7 @@
 
 namespace hilcam {
 
-Spectrum brdf_value(const Scatterer& at, Cosines c) {
+Spectrum brdf_value(const Bsdf& at, Cosines c) {
     if (!(c.no > 0 && c.ni > 0)) return {};
     return std::visit([&](const auto& model) { return model.value(at, c); }, at.material->brdf);
 }
@@ -27,14 +27,14 @@ namespace {
 
 // top: the model's chance of a highlight.
 template <class Model>
-float density_of(const Model& model, const Scatterer& at, Cosines c, float top) {
+float density_of(const Model& model, const Bsdf& at, Cosines c, float top) {
     const float diffuse = (1 - top) * c.ni / kPiF;
     return top > 0 ? diffuse + top * model.highlight_density(at, c) : diffuse;
 }
 
 }  // namespace
 
-float brdf_density(const Scatterer& at, Cosines c) {
+float brdf_density(const Bsdf& at, Cosines c) {
     if (!(c.no > 0 && c.ni > 0) || !at.has_lobes()) return 0;
     if (at.is_glass()) return 0;
     return std::visit(
@@ -42,7 +42,7 @@ float brdf_density(const Scatterer& at, Cosines c) {
         at.material->brdf);
 }
 
-BrdfSample brdf_exact(const Scatterer& at, Vec3f normal, Vec3f view_dir, int part) {
+BrdfSample brdf_exact(const Bsdf& at, Vec3f normal, Vec3f view_dir, int part) {
     BrdfSample out;
     const float no = std::clamp(dot(normal, view_dir), 1e-4f, 1.0f);
     if (part == 0 && at.has_exact()) {
@@ -60,7 +60,7 @@ BrdfSample brdf_exact(const Scatterer& at, Vec3f normal, Vec3f view_dir, int par
 
 namespace {
 
-BrdfSample sample_sheet(const Scatterer& at, Vec3f normal, Vec3f view_dir, float u) {
+BrdfSample sample_sheet(const Bsdf& at, Vec3f normal, Vec3f view_dir, float u) {
     const float no = std::max(dot(normal, view_dir), 1e-4f);
     const float chance = std::visit(
         [&](const auto& model) {
@@ -76,7 +76,7 @@ BrdfSample sample_sheet(const Scatterer& at, Vec3f normal, Vec3f view_dir, float
 
 }  // namespace
 
-BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u) {
+BrdfSample brdf_sample(const Bsdf& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u) {
     if (at.is_glass()) return sample_sheet(at, normal, view_dir, u[1]);
     const float no = std::max(dot(normal, view_dir), 1e-4f);
     return std::visit(
@@ -105,16 +105,16 @@ BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::a
         at.material->brdf);
 }
 
-Spectrum sheet_transmittance(const Scatterer& at, float cosine) {
+Spectrum sheet_transmittance(const Bsdf& at, float cosine) {
     const float c = std::clamp(cosine, 1e-4f, 1.0f);
     return std::visit([&](const auto& model) { return model.passed(at, c); }, at.material->brdf);
 }
 
-float brdf_albedo(const Scatterer& at, float no, int bins) {
+float brdf_albedo(const Bsdf& at, float no, int bins) {
     return std::visit([&](const auto& model) { return model.albedo(at, no, bins); }, at.material->brdf);
 }
 
-Spectrum brdf_mirrored(const Scatterer& at, float cosine) {
+Spectrum brdf_mirrored(const Bsdf& at, float cosine) {
     return std::visit([&](const auto& model) { return model.mirrored(at, cosine); }, at.material->brdf);
 }
 
@@ -127,7 +127,7 @@ namespace {
 
 // The share of sunlight from 45 degrees that comes back in all directions: the midpoint rule over the
 // hemisphere, for models without narrow lobes.
-double hemispherical_reflectance(const Scatterer& at, const SpectralGrid& grid) {
+double hemispherical_reflectance(const Bsdf& at, const SpectralGrid& grid) {
     constexpr int kCosines = 32, kAzimuths = 64;
     constexpr float in = 0.70710678f;
     double sum = 0;
@@ -146,7 +146,7 @@ double hemispherical_reflectance(const Scatterer& at, const SpectralGrid& grid) 
 
 // The albedo that brdf_albedo() has for a path's sake is far above what these models reflect.
 double reflectance_of(const Material& material, const SpectralGrid& grid) {
-    const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
+    const Bsdf at{&material, material.ggx_alpha, material.base, material.highlight};
     constexpr float kCosine = 0.7f;
     return std::min(1.0, material.traits().albedo_is_bound
                              ? hemispherical_reflectance(at, grid)

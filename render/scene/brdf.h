@@ -15,14 +15,14 @@
 
 namespace hilcam {
 
-// The scatterer at one point: a material, and its look there (textures scale the spectra; the facet lobe is
+// The BSDF at one point: a material, and what it takes there (textures scale the spectra; the facet lobe is
 // at least as wide as the material's own, see shading_point.h).
-struct Scatterer : SurfaceLook {
+struct Bsdf : BsdfInputs {
     const Material* material = nullptr;
 
-    Scatterer() = default;
-    Scatterer(const Material* of, float lobe_alpha, const Spectrum& own_base, const Spectrum& own_highlight)
-        : SurfaceLook{lobe_alpha, own_base, own_highlight}, material(of) {}
+    Bsdf() = default;
+    Bsdf(const Material* of, float lobe_alpha, const Spectrum& own_base, const Spectrum& own_highlight)
+        : BsdfInputs{lobe_alpha, own_base, own_highlight}, material(of) {}
 
     bool is_glass() const { return material->transmits(); }
     // Some light goes in exactly one direction, which no lamp is met in by chance.
@@ -44,27 +44,27 @@ struct BrdfSample {
 };
 
 // f for light from above the surface (no, ni > 0); zero otherwise.
-Spectrum brdf_value(const Scatterer& at, Cosines c);
+Spectrum brdf_value(const Bsdf& at, Cosines c);
 // Returns how much a material's facets reflect; null: it has none.
 const LobeAlbedo* facets_of(const Material& material);
 
 // Density of sample() for a direction, exact parts left out. None is drawn in a veil's body, so that what lies behind is seen without noise.
-float brdf_density(const Scatterer& at, Cosines c);
+float brdf_density(const Bsdf& at, Cosines c);
 // A direction in proportion to f cos, about. u: three uniform numbers.
-BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u);
+BrdfSample brdf_sample(const Bsdf& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u);
 // The exact parts alone, one after the other: 0 reflection, 1 transmission; the weight is the whole
 // reflectance or transmittance in that direction.
-BrdfSample brdf_exact(const Scatterer& at, Vec3f normal, Vec3f view_dir, int part);
+BrdfSample brdf_exact(const Bsdf& at, Vec3f normal, Vec3f view_dir, int part);
 // Transmittance of a sheet for a ray at this cosine; zero for all that is not glass.
-Spectrum sheet_transmittance(const Scatterer& at, float cosine);
+Spectrum sheet_transmittance(const Bsdf& at, float cosine);
 // The share of light that comes back in all directions for light from the viewer's side, about: what chooses
 // a sample's part and ends a path.
-float brdf_albedo(const Scatterer& at, float no, int bins);
+float brdf_albedo(const Bsdf& at, float no, int bins);
 // Returns the share of light from 45 degrees that a material sends back in all directions, 1 at most, as a mean over
 // the bins and without textures' colours. Not for the loop.
 double reflectance_of(const Material& material, const SpectralGrid& grid);
 // Returns what a facet reflects that is met at this cosine; zero of models without facets.
-Spectrum brdf_mirrored(const Scatterer& at, float cosine);
+Spectrum brdf_mirrored(const Bsdf& at, float cosine);
 // Returns what facets leave to several reflections or the body below them, 1 - E(no); 1 without facets.
 float brdf_below_facets(const Material& material, float no);
 

@@ -32,7 +32,7 @@ Fields fields(SurfaceConfig& config);
 // A material on the run's spectral grid. For rays.
 struct Material {
     Brdf brdf;
-    Spectrum base, highlight;  // spectra as SurfaceLook has them
+    Spectrum base, highlight;  // spectra as BsdfInputs has them
     float ggx_alpha = 0;       // 0: an exact mirror on top
     Spectrum emission;         // radiance of its own [W m^-2 sr^-1 um^-1]
     int texture = -1;  // into the object's textures; scales base, and the highlight where there is no body

@@ -9,7 +9,7 @@ namespace hilcam {
 namespace {
 
 // The mean weight of samples on a grid of places: the directional albedo.
-Spectrum total(const Scatterer& at, float cosine) {
+Spectrum total(const Bsdf& at, float cosine) {
     constexpr int kChoices = 8, kGrid = 16;
     const Vec3f normal{0, 0, 1}, view{std::sqrt(std::max(0.0f, 1 - cosine * cosine)), 0, cosine};
     Spectrum sum;
@@ -28,8 +28,8 @@ Spectrum total(const Scatterer& at, float cosine) {
 }  // namespace
 
 MaterialAlbedo::MaterialAlbedo(const Material& material) {
-    const Scatterer at{&material, material.has_facets() ? material.ggx_alpha : 0.0f, material.base,
-                       material.highlight};
+    const Bsdf at{&material, material.has_facets() ? material.ggx_alpha : 0.0f, material.base,
+                  material.highlight};
     for (int i = 0; i <= kSteps; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const float cosine = std::max(1e-3f, static_cast<float>(i) / kSteps);

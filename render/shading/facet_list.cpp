@@ -82,7 +82,7 @@ class Reflection {
 
     void reflect() {
         if (packet_.count == 0) return;
-        const Scatterer& surface = kind_->surface;
+        const Bsdf& surface = kind_->surface;
         const LobeAlbedo* const facets = facets_of(*surface.material);
         reflect_facets(frame_.world_from_body[kind_->object], facets, packet_);
         const bool diffuse = std::holds_alternative<brdf::Lambert>(surface.material->brdf);

@@ -19,7 +19,7 @@ void prefetch_shading_points(const FrameView& frame, const HitPacket& hits, int 
 
 namespace {
 
-// Member by member: a Scatterer that is made first and copied then waits for its own stores.
+// Member by member: a Bsdf that is made first and copied then waits for its own stores.
 void set_material(const Material& material, float alpha_least, ShadingPoint& point) {
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     point.surface.material = &material;

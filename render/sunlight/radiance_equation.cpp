@@ -123,7 +123,7 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
             continue;
         }
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
-        Scatterer surface = at.surface;
+        Bsdf surface = at.surface;
         if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
         const Spectrum weight = (ni * share) * (at.throughput * light * brdf_value(surface, c));
         if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;

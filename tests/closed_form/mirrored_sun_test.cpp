@@ -142,7 +142,7 @@ TEST(MirroredSun, TheDiskMakesAPenumbra) {
 
 // What a rough mirror throws, summed over its area with its reflection law.
 double thrown_irradiance(const Material& material, Vec3f place) {
-    const Scatterer silver{&material, material.ggx_alpha, material.base, material.highlight};
+    const Bsdf silver{&material, material.ggx_alpha, material.base, material.highlight};
     const Vec3f normal{kSlant, 0, kSlant}, sun = normalized(Vec3f{1, 0, 0.02f});
     constexpr int kParts = 60;
     double sum = 0;

@@ -78,7 +78,7 @@ const float kSolidAngle = [] {
 }();
 
 // Returns the albedo of a facet lobe over what a mirror in its place reflects at this cosine.
-float lobe_share(const Scatterer& at, float no) {
+float lobe_share(const Bsdf& at, float no) {
     const LobeAlbedo* const facets = facets_of(*at.material);
     if (!facets) return 1;
     const auto* const dielectric = std::get_if<brdf::Dielectric>(&at.material->brdf);
@@ -133,7 +133,7 @@ void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
         const float density = 1 / (2 * kPiF * std::max(1e-20f, body.one_minus_cosine)) * kOnBody;
         for (const ShadingPoint& at : points) {
             if (!at.surface.has_lobes() || !counts(frame, at, body)) continue;
-            Scatterer surface = at.surface;
+            Bsdf surface = at.surface;
             if (surface.alpha < kNarrowAlpha) surface.alpha = 0;
             for (int i = 0; i < kOnBody; ++i) {
                 const Vec3f dir = on_body(body, axis, i);
@@ -197,7 +197,7 @@ class HemispherePaths final : public PathModel {
         const float least = frame.contribution_threshold;
         std::size_t count = 0;
         const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-        Scatterer surface = at.surface;
+        Bsdf surface = at.surface;
         const bool narrow = surface.alpha > 0 && surface.alpha < kNarrowAlpha;
         float share = 1;  // share of the lobe for which the one direction stands
         if (narrow) {

@@ -81,7 +81,7 @@ TEST_F(MaterialFiles, MerlsLayoutIsReadAsItIsMeant) {
     config.model = kModel<brdf::Metal>;
     config.roughness = 0.7;
     const Material m = make_material(config, kGrid);
-    const Scatterer at{&m, m.ggx_alpha, m.base, m.highlight};
+    const Bsdf at{&m, m.ggx_alpha, m.base, m.highlight};
     std::vector<double> values;
     for (int th = 0; th < 90; ++th)
         for (int td = 0; td < 90; ++td)
@@ -125,7 +125,7 @@ TEST(MaterialLibrary, EveryFileLoadsAndKeepsEnergy) {
         read_config(entry.path(), section_of(config), {});
         EXPECT_GT(config.source.size(), 30u) << entry.path();
         const Material m = make_material(config, grid);
-        const Scatterer at{&m, m.ggx_alpha, m.base, m.highlight};
+        const Bsdf at{&m, m.ggx_alpha, m.base, m.highlight};
         for (int b = 0; b < grid.size(); ++b) {
             const float largest_part = std::max(m.base[b], m.highlight[b]);
             EXPECT_GE(largest_part, 0) << entry.path();

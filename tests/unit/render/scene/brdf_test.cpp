@@ -67,7 +67,7 @@ TEST(Brdf, EveryModelIsHeldToTheseTests) {
         EXPECT_EQ(tested.count(i), 1u) << BrdfModels::kNames[i];
 }
 
-Scatterer scatterer(const Material& m) { return {&m, m.ggx_alpha, m.base, m.highlight}; }
+Bsdf bsdf(const Material& m) { return {&m, m.ggx_alpha, m.base, m.highlight}; }
 
 Vec3f direction(double cosine, double azimuth) {
     const double s = std::sqrt(1 - cosine * cosine);
@@ -76,7 +76,7 @@ Vec3f direction(double cosine, double azimuth) {
 const Vec3f kUp{0, 0, 1};
 
 // Integral of f cos over the half sphere.
-double albedo_by_directions(const Scatterer& at, Vec3f view) {
+double albedo_by_directions(const Bsdf& at, Vec3f view) {
     double sum = 0;
     constexpr int kRings = 1000, kSpokes = 720;
     for (int i = 0; i < kRings; ++i)
@@ -91,7 +91,7 @@ TEST(Brdf, WhiteFurnaceStaysWhiteAndNothingGains) {
     for (const NamedMaterial& named : white_materials()) {
         const Material m = make_material(named.config, kGrid);
         for (const double cosine : {0.95, 0.5, 0.2}) {
-            const double albedo = albedo_by_directions(scatterer(m), direction(cosine, 0.3));
+            const double albedo = albedo_by_directions(bsdf(m), direction(cosine, 0.3));
             EXPECT_LT(albedo, named.most) << named.name << " at " << cosine;
             if (named.keeps_all) {
                 EXPECT_GT(albedo, 0.998) << named.name << " at " << cosine;
@@ -123,8 +123,8 @@ TEST(Brdf, LightMayGoBothWays) {
         for (int i = 0; i < 500; ++i) {
             const Vec3f a = direction(uniform(engine), 7 * uniform(engine));
             const Vec3f b = direction(uniform(engine), 7 * uniform(engine));
-            const float there = brdf_value(scatterer(m), {a.z, b.z, dot(a, b)})[0];
-            const float back = brdf_value(scatterer(m), {b.z, a.z, dot(a, b)})[0];
+            const float there = brdf_value(bsdf(m), {a.z, b.z, dot(a, b)})[0];
+            const float back = brdf_value(bsdf(m), {b.z, a.z, dot(a, b)})[0];
             ASSERT_TRUE(std::isfinite(there)) << named.name;
             ASSERT_NEAR(there, back, 1e-4 * (there + back) + 1e-6) << named.name;
         }
@@ -144,7 +144,7 @@ double chi_square_per_degree(const Material& m, double cosine, float wrong) {
             const Vec3f light =
                 direction((i + 0.5) / (kRings * kFine), 2 * kPi * (j + 0.5) / (kSpokes * kFine));
             const double density =
-                static_cast<double>(brdf_density(scatterer(m), {view.z, light.z, dot(view, light)}));
+                static_cast<double>(brdf_density(bsdf(m), {view.z, light.z, dot(view, light)}));
             const double share = density * 2 * kPi / (kRings * kFine * kSpokes * kFine);
             expected[static_cast<std::size_t>(i / kFine * kSpokes + j / kFine)] += share * kSamples;
             valid_share += share;
@@ -154,7 +154,7 @@ double chi_square_per_degree(const Material& m, double cosine, float wrong) {
     std::uniform_real_distribution<float> uniform(0, 1);
     for (int i = 0; i < kSamples; ++i) {
         const BrdfSample s =
-            brdf_sample(scatterer(m), kUp, view, {uniform(engine), uniform(engine), uniform(engine)});
+            brdf_sample(bsdf(m), kUp, view, {uniform(engine), uniform(engine), uniform(engine)});
         if (!s.valid) continue;
         double azimuth = std::atan2(s.dir.y, s.dir.x);
         if (azimuth < 0) azimuth += 2 * kPi;
@@ -199,10 +199,10 @@ TEST(Brdf, SampleWeightsAverageToTheAlbedo) {
         constexpr int kSamples = 200000;
         for (int i = 0; i < kSamples; ++i) {
             const BrdfSample s =
-                brdf_sample(scatterer(m), kUp, view, {uniform(engine), uniform(engine), uniform(engine)});
+                brdf_sample(bsdf(m), kUp, view, {uniform(engine), uniform(engine), uniform(engine)});
             if (s.valid) sum += static_cast<double>(s.weight[0]);
         }
-        EXPECT_NEAR(sum / kSamples / albedo_by_directions(scatterer(m), view), 1, 0.01) << named.name;
+        EXPECT_NEAR(sum / kSamples / albedo_by_directions(bsdf(m), view), 1, 0.01) << named.name;
     }
 }
 
@@ -222,14 +222,14 @@ TEST(Brdf, GlassKeepsWhatItDoesNotAbsorb) {
     const Material grey = make_material(glass, kGrid);
     for (const double cosine : {1.0, 0.5, 0.1}) {
         const Vec3f view = direction(cosine, 0);
-        const BrdfSample back = brdf_exact(scatterer(clear), kUp, view, 0),
-                         through = brdf_exact(scatterer(clear), kUp, view, 1);
+        const BrdfSample back = brdf_exact(bsdf(clear), kUp, view, 0),
+                         through = brdf_exact(bsdf(clear), kUp, view, 1);
         EXPECT_NEAR(back.weight[0] + through.weight[0], 1, 1e-5);
         EXPECT_NEAR(dot(through.dir, view), -1, 1e-6);
-        EXPECT_LT(brdf_exact(scatterer(grey), kUp, view, 1).weight[0], 0.5);
+        EXPECT_LT(brdf_exact(bsdf(grey), kUp, view, 1).weight[0], 0.5);
     }
     // Two surfaces of 4 %, inner reflections added: T = (1-R)/(1+R).
-    EXPECT_NEAR(brdf_exact(scatterer(clear), kUp, kUp, 1).weight[0], 0.96 / 1.04, 1e-5);
+    EXPECT_NEAR(brdf_exact(bsdf(clear), kUp, kUp, 1).weight[0], 0.96 / 1.04, 1e-5);
 }
 
 // What a veil covers scatters as Lambert's law has it; what it leaves open goes on, and that alone is drawn.
@@ -237,7 +237,7 @@ TEST(Brdf, AVeilScattersWhatItCovers) {
     MaterialConfig veil = model(kModel<brdf::Veil>, 0.8);
     veil.cover = 0.2;
     const Material net = make_material(veil, kGrid);
-    const Scatterer at = scatterer(net);
+    const Bsdf at = bsdf(net);
     EXPECT_TRUE(at.is_glass() && at.has_lobes());
     EXPECT_NEAR(brdf_exact(at, kUp, direction(0.3, 0), 1).weight[0], 0.8, 1e-6);
     EXPECT_EQ(largest(brdf_exact(at, kUp, direction(0.3, 0), 0).weight), 0);
@@ -271,8 +271,8 @@ TEST(BrdfTable, GivesBackTheModelItWasFilledFrom) {
         for (const float phi : axes[1])
             for (const float to : axes[2]) {
                 const float io = std::sin(ti) * std::sin(to) * std::cos(phi) + std::cos(ti) * std::cos(to);
-                values.push_back(brdf_value(
-                    scatterer(m), {std::max(std::cos(to), 1e-3f), std::max(std::cos(ti), 1e-3f), io}));
+                values.push_back(
+                    brdf_value(bsdf(m), {std::max(std::cos(to), 1e-3f), std::max(std::cos(ti), 1e-3f), io}));
             }
     MaterialConfig config = model(kModel<brdf::Measured>, 1);
     config.table = "a.csv";
@@ -285,7 +285,7 @@ TEST(BrdfTable, GivesBackTheModelItWasFilledFrom) {
         const Vec3f a = direction(uniform(engine), 7 * uniform(engine)),
                     b = direction(uniform(engine), 7 * uniform(engine));
         const Cosines c{a.z, b.z, dot(a, b)};
-        ASSERT_NEAR(brdf_value(scatterer(table), c)[0] / brdf_value(scatterer(m), c)[0], 1, 0.02);
+        ASSERT_NEAR(brdf_value(bsdf(table), c)[0] / brdf_value(bsdf(m), c)[0], 1, 0.02);
     }
     EXPECT_LT(chi_square_per_degree(table, 0.8, 1), 1.5);
 }
@@ -314,11 +314,11 @@ TEST(Brdf, APlacesHapkeParametersCount) {
     there.slope_rad = 12 * kDegree_rad;
     const Material own = make_material(model(kModel<brdf::Hapke>, 0.4), kGrid),
                    other = make_material(there, kGrid);
-    Scatterer placed = scatterer(own);
+    Bsdf placed = bsdf(own);
     placed.hapke = std::get<brdf::Hapke>(other.brdf).parameters;
     for (const Cosines c : {Cosines{0.9f, 0.8f, 0.7f}, {0.3f, 0.6f, 0.1f}, {0.5f, 0.5f, 1}}) {
-        EXPECT_EQ(brdf_value(placed, c)[0], brdf_value(scatterer(other), c)[0]);
-        EXPECT_NE(brdf_value(placed, c)[0], brdf_value(scatterer(own), c)[0]);
+        EXPECT_EQ(brdf_value(placed, c)[0], brdf_value(bsdf(other), c)[0]);
+        EXPECT_NE(brdf_value(placed, c)[0], brdf_value(bsdf(own), c)[0]);
     }
 }
 

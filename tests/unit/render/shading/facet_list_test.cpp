@@ -101,7 +101,7 @@ struct Foil {
         Spectrum sum;
         for (std::size_t j = 0; j < LevelFacets::kMax; ++j) {
             const float weight = each * (all_seen > 0 ? seen[j] / all_seen : share[j]) * ni[j];
-            Scatterer surface = at.surface;
+            Bsdf surface = at.surface;
             surface.alpha = widened(from, facet, no[j], ni[j]);
             sum += weight * brdf_value(surface, {no[j], ni[j], dot(at.view_dir, from.dir)});
         }
