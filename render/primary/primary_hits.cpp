@@ -27,7 +27,7 @@ constexpr float kFarFromLobe = 2;
 // A look at a texture is so much narrower than what it stands for, as what lies between two texels blurs it again.
 constexpr float kTextureWidth = 0.5f;
 constexpr float kLeastFacing =
-    1e-4f;  // a shading point's normal against the viewer [cosine], as find_lie() has it
+    1e-4f;  // a shading point's normal against the viewer [cosine], as find_surface_frame() has it
 constexpr float kFlattest = 1e-4f;  // a mosaic is seen as one from higher than this [sine]
 
 bool has_narrow_lobe(const Bsdf& surface) {
@@ -131,11 +131,12 @@ bool PrimaryHits::leave_to_body(std::size_t k) {
 
 // The shading point among those of the same pixel that a fragment is part of; null: none.
 ShadingPoint* PrimaryHits::join(std::span<ShadingPoint> so_far, std::uint32_t pixel, std::uint32_t object,
-                                std::uint16_t surface, const Lie& lie) {
+                                std::uint16_t surface, const SurfaceFrame& surface_frame) {
     for (auto point = so_far.rbegin(); point != so_far.rend() && point->pixel == pixel; ++point) {
-        if (point->object != object || point->surface_number != surface || point->back != lie.back) continue;
+        if (point->object != object || point->surface_number != surface || point->back != surface_frame.back)
+            continue;
         const float alike = has_narrow_lobe(point->surface) ? kLeansAlikeNarrow : kNormalsAlike;
-        if (dot(point->normal, lie.normal) > alike) return &*point;
+        if (dot(point->normal, surface_frame.normal) > alike) return &*point;
     }
     return nullptr;
 }
@@ -177,7 +178,7 @@ std::size_t PrimaryHits::look_at_fragments() {
     }
     for (std::size_t k = n; k < kPacketSize; ++k) packet_.triangle[k] = packet_.triangle[0];
     packet_.count = n;
-    find_lies(mesh_, packet_);
+    find_surface_frames(mesh_, packet_);
     hits_.object.fill(shown.object);
     hits_.triangle = packet_.triangle;
     hits_.distance = packet_.distance, hits_.u = packet_.u, hits_.v = packet_.v;
@@ -261,7 +262,7 @@ void PrimaryHits::find_looks(std::size_t first) {
     if (looked_at_.count == 0) return;
     for (std::size_t i = looked_at_.count; i < kPacketSize; ++i)
         looked_at_.triangle[i] = looked_at_.triangle[0];
-    find_lies(mesh_, looked_at_);
+    find_surface_frames(mesh_, looked_at_);
     for (std::size_t i = 0; i < looked_at_.count; ++i) {
         look_normals_[first + i] = looked_at_.normal.at(i);
         look_places_[first + i] = {looked_at_.u[i], looked_at_.v[i]};
@@ -316,35 +317,39 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
         const Fragment& fragment = fragments_[k];
         const float samples = frame.samples.weight(fragment.samples);
         const Vec3f dir = packet_.dir.at(k);
-        Lie lie{packet_.geometric.at(k), packet_.normal.at(k), packet_.view_dir.at(k), packet_.back[k] != 0};
+        SurfaceFrame surface_frame{packet_.geometric.at(k), packet_.normal.at(k), packet_.view_dir.at(k),
+                                   packet_.back[k] != 0};
         // Too small for its square: by itself.
-        if (lie.geometric_normal == Vec3f{} && !find_lie(frame, hits_, static_cast<int>(k), dir, lie))
+        if (surface_frame.geometric_normal == Vec3f{} &&
+            !find_surface_frame(frame, hits_, static_cast<int>(k), dir, surface_frame))
             continue;
         const ObjectSurfaces& surfaces = *(*frame.objects)[hits_.object[k]];
         const std::uint8_t patch = surfaces.triangles[hits_.triangle[k]].patch;
         const Mosaic* mosaic = patch > 1 ? &(*surfaces.mosaics)[patch - 2u] : nullptr;
-        const float facing = mosaic ? dot(shown(*mosaic).normal, lie.view_dir) : 0.0f;
+        const float facing = mosaic ? dot(shown(*mosaic).normal, surface_frame.view_dir) : 0.0f;
         if (facing > kFlattest) {
             const std::size_t before = count;
-            count = make_mosaic(k, lie, points, count);
+            count = make_mosaic(k, surface_frame, points, count);
             if (count > before) continue;
         }
         ShadingPoint* const joined = mosaic ? nullptr
                                             : join(points.first(count), fragment.pixel, hits_.object[k],
-                                                   triangles[hits_.triangle[k]].surface, lie);
+                                                   triangles[hits_.triangle[k]].surface, surface_frame);
         if (joined) {
-            take_in(k, lie, *joined);
+            take_in(k, surface_frame, *joined);
             continue;
         }
         ShadingPoint& point = points[count++];
-        make_shading_point(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
+        make_shading_point(frame, hits_, static_cast<int>(k), surface_frame, origins_[k], dir, 0,
                            {pixel_rad * from_m, pixel_rad}, point);
         // Seen from its edge, what lies on the ground hides it.
         if (facing > 0) set_surface(frame, mosaic->surface[1], point);
         if (is_textured(k)) paint(texture_of(k, point), point);
         finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], point);
-        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, point.start(), samples, fragment.samples},
-                         hits_.triangle[k], true, turns_of(k), point);
+        tile_.facets.add(
+            frame,
+            {surface_frame.geometric_normal, surface_frame.normal, point.start(), samples, fragment.samples},
+            hits_.triangle[k], true, turns_of(k), point);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
@@ -353,15 +358,15 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
 }
 
 // Makes fragment k, which is alike, a part of a shading point.
-void PrimaryHits::take_in(std::size_t k, const Lie& lie, ShadingPoint& point) {
+void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, ShadingPoint& point) {
     const FrameView& frame = tile_.frame;
     const SampleMask seen_by = fragments_[k].samples;
     const float samples = frame.samples.weight(seen_by);
     const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);
-    tile_.facets.add(
-        frame,
-        {lie.geometric_normal, lie.normal, point_m + point.offset_m * lie.geometric_normal, samples, seen_by},
-        hits_.triangle[k], false, turns_of(k), point);
+    tile_.facets.add(frame,
+                     {surface_frame.geometric_normal, surface_frame.normal,
+                      point_m + point.offset_m * surface_frame.geometric_normal, samples, seen_by},
+                     hits_.triangle[k], false, turns_of(k), point);
     // Rays begin at its samples, too, where it lies in the shading point's plane but for a little: at those twice as much above
     // it. All others begin where they did, as what is higher misses the shadow of what is near.
     const Vec3f way_m = point_m - point.point_m;
@@ -371,7 +376,7 @@ void PrimaryHits::take_in(std::size_t k, const Lie& lie, ShadingPoint& point) {
         point.lift_m = std::max(point.lift_m, 2 * above_m);
     }
     // Kept light and what lobes show is asked for once, as the parts lean in the mean; facets and mirrors lean by themselves.
-    const Vec3f mean = normalized(point.weight_samples * point.normal + samples * lie.normal);
+    const Vec3f mean = normalized(point.weight_samples * point.normal + samples * surface_frame.normal);
     if (!has_narrow_lobe(point.surface) && dot(mean, point.view_dir) > kLeastFacing) point.normal = mean;
     // Alike in all bins, but for the air before it.
     const float all = point.weight_samples + samples;

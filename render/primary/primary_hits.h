@@ -37,7 +37,7 @@ class PrimaryHits {
     std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
     std::array<Fragment, kPacketSize + kMostSamples> fragments_;
     std::size_t fragment_count_ = 0;
-    // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.
+    // The packet of fragments that is looked at: what find_surface_frames() takes and gives, and its rays.
     FragmentPacket packet_;
     HitPacket hits_;
     FragmentMesh mesh_{};  // the packet's object, and its place [ray space]
@@ -105,11 +105,12 @@ class PrimaryHits {
         Mosaic::Look look;
     };
     MosaicPixel look_at_mosaic(std::size_t k, Vec3f view_dir) const;
-    std::size_t make_mosaic(std::size_t k, const Lie& lie, std::span<ShadingPoint> points, std::size_t count);
+    std::size_t make_mosaic(std::size_t k, const SurfaceFrame& surface_frame, std::span<ShadingPoint> points,
+                            std::size_t count);
     void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, ShadingPoint& point);
-    void take_in(std::size_t k, const Lie& lie, ShadingPoint& point);
+    void take_in(std::size_t k, const SurfaceFrame& surface_frame, ShadingPoint& point);
     static ShadingPoint* join(std::span<ShadingPoint> so_far, std::uint32_t pixel, std::uint32_t object,
-                              std::uint16_t surface, const Lie& lie);
+                              std::uint16_t surface, const SurfaceFrame& surface_frame);
 };
 
 // The camera's rays through a tile, in packets of 4 x 4 pixels. Writes at most shading points.size() shading points

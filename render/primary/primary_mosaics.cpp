@@ -67,11 +67,11 @@ PrimaryHits::MosaicPixel PrimaryHits::look_at_mosaic(std::size_t k, Vec3f view_d
 
 // One shading point for each surface of the mosaic that is in a pixel, with its part of what the samples see. Returns how
 // many shading points there are then.
-std::size_t PrimaryHits::make_mosaic(std::size_t k, const Lie& lie, std::span<ShadingPoint> points,
-                                     std::size_t count) {
+std::size_t PrimaryHits::make_mosaic(std::size_t k, const SurfaceFrame& surface_frame,
+                                     std::span<ShadingPoint> points, std::size_t count) {
     const FrameView& frame = tile_.frame;
     const Mosaic& mosaic = *mosaic_.is;
-    const MosaicPixel pixel = look_at_mosaic(k, lie.view_dir);
+    const MosaicPixel pixel = look_at_mosaic(k, surface_frame.view_dir);
     const Mosaic::Look& look = pixel.look;
     float shown = 0;
     Vec2f middle_px{};
@@ -91,13 +91,15 @@ std::size_t PrimaryHits::make_mosaic(std::size_t k, const Lie& lie, std::span<Sh
         ShadingPoint& point = points[count++];
         // The ground is what the fragment has met.
         if (layer == 0) {
-            make_shading_point(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), 0, width, point);
+            make_shading_point(frame, hits_, lane, surface_frame, origins_[k], packet_.dir.at(k), 0, width,
+                               point);
             point.sunlit = look.lit;
         } else {
-            place_shading_point(frame, hits_, lane, lie, origins_[k], packet_.dir.at(k), width, point);
+            place_shading_point(frame, hits_, lane, surface_frame, origins_[k], packet_.dir.at(k), width,
+                                point);
             set_surface(frame, mosaic.surface[layer], point);
-            point.normal =
-                normalized(lie.geometric_normal + look.lean.x * mosaic_.across + look.lean.y * mosaic_.down);
+            point.normal = normalized(surface_frame.geometric_normal + look.lean.x * mosaic_.across +
+                                      look.lean.y * mosaic_.down);
         }
         // Parts of the mosaic may stand out of its plane by as much as it takes for rounding.
         point.offset_m += Mosaic::kLoose * mosaic.texel_m;

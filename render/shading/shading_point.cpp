@@ -37,7 +37,8 @@ void set_surface(const FrameView& frame, std::uint16_t surface_number, ShadingPo
     set_material((*frame.objects)[point.object]->materials[surface_number], 0, point);
 }
 
-bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie) {
+bool find_surface_frame(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir,
+                        SurfaceFrame& surface_frame) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
     const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
@@ -55,20 +56,20 @@ bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir
     }
     const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
 
-    lie.view_dir = -normalized(dir);
+    surface_frame.view_dir = -normalized(dir);
     Vec3f geometric = world_from_body * geometric_body;
     Vec3f normal_body;
     if (!object.ground_normals ||
         !object.ground_normals->find(hits.triangle[k], hits.u[k], hits.v[k], normal_body))
         normal_body = ObjectSurfaces::normal_at(triangle, hits.u[k], hits.v[k], geometric_body);
     Vec3f normal = world_from_body * normal_body;
-    lie.back = dot(geometric, lie.view_dir) < 0;
-    if (lie.back) geometric = -geometric;
+    surface_frame.back = dot(geometric, surface_frame.view_dir) < 0;
+    if (surface_frame.back) geometric = -geometric;
     if (dot(normal, geometric) < 0) normal = -normal;
     // A smoothed normal that leans away from the viewer would make the surface vanish.
-    if (dot(normal, lie.view_dir) <= 1e-4f) normal = geometric;
-    lie.geometric_normal = geometric;
-    lie.normal = normal;
+    if (dot(normal, surface_frame.view_dir) <= 1e-4f) normal = geometric;
+    surface_frame.geometric_normal = geometric;
+    surface_frame.normal = normal;
     return true;
 }
 
@@ -80,23 +81,24 @@ float rounding_m(Vec3f p, Vec3f o) {
 
 bool make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                         float alpha_least, RayWidth width, ShadingPoint& point) {
-    Lie lie;
-    if (!find_lie(frame, hits, lane, dir, lie)) return false;
-    make_shading_point(frame, hits, lane, lie, origin_m, dir, alpha_least, width, point);
+    SurfaceFrame surface_frame;
+    if (!find_surface_frame(frame, hits, lane, dir, surface_frame)) return false;
+    make_shading_point(frame, hits, lane, surface_frame, origin_m, dir, alpha_least, width, point);
     const auto k = static_cast<std::size_t>(lane);
     if (is_textured(point))
         paint(texture_at(frame, point, hits.triangle[k], {hits.u[k], hits.v[k]}, 1), point);
     return true;
 }
 
-void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
-                         Vec3f origin_m, Vec3f dir, RayWidth width, ShadingPoint& point) {
+void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+                         const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, RayWidth width,
+                         ShadingPoint& point) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
-    point.view_dir = lie.view_dir;
-    point.geometric_normal = lie.geometric_normal;
-    point.normal = lie.normal;
-    point.back = lie.back;
+    point.view_dir = surface_frame.view_dir;
+    point.geometric_normal = surface_frame.geometric_normal;
+    point.normal = surface_frame.normal;
+    point.back = surface_frame.back;
     point.sunlit = 1;
     point.weight_samples = 1;
     point.samples = 0;
@@ -113,15 +115,16 @@ void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane
                           : object.known_sun[hits.triangle[k]];
 }
 
-void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
-                        Vec3f origin_m, Vec3f dir, float alpha_least, RayWidth width, ShadingPoint& point) {
+void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+                        const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, float alpha_least,
+                        RayWidth width, ShadingPoint& point) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
     const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
     const Material& material = object.materials[triangle.surface];
     const float u = hits.u[k];
     const float v = hits.v[k];
-    place_shading_point(frame, hits, lane, lie, origin_m, dir, width, point);
+    place_shading_point(frame, hits, lane, surface_frame, origin_m, dir, width, point);
     point.surface_number = triangle.surface;
     set_material(material, alpha_least, point);
     if (!object.corner_colors.empty())

@@ -81,13 +81,14 @@ struct PixelCoverage {
 struct ShadingPoint : ShadingGeometry, ShadingSurface, PathThroughput, PixelCoverage {};
 
 // The orientation of the surface where a ray meets it.
-struct Lie {
+struct SurfaceFrame {
     Vec3f geometric_normal, normal, view_dir;  // those of a shading point
     bool back;
 };
 // Finds it for a lane that met an object. False where there is nothing to see: a triangle without an area.
 // Loop, any thread.
-bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie);
+bool find_surface_frame(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir,
+                        SurfaceFrame& surface_frame);
 
 // Returns how far above a surface a ray must start that was met at a point by a ray from another. The point's rounding grows with
 // the coordinates it was made of: 16 half-ulps of the greatest (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
@@ -103,11 +104,13 @@ struct RayWidth {
 bool make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                         float alpha_least, RayWidth width, ShadingPoint& point);
 // The same where it is known how the surface lies, but for textures (texture_at()).
-void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
-                        Vec3f origin_m, Vec3f dir, float alpha_least, RayWidth width, ShadingPoint& point);
+void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+                        const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, float alpha_least,
+                        RayWidth width, ShadingPoint& point);
 // The same but for the surface, for set_surface().
-void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie,
-                         Vec3f origin_m, Vec3f dir, RayWidth width, ShadingPoint& point);
+void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+                         const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, RayWidth width,
+                         ShadingPoint& point);
 // Gives a shading point one of its object's surfaces, without colours or textures of its own.
 void set_surface(const FrameView& frame, std::uint16_t surface_number, ShadingPoint& point);
 // Returns the colours that a texture has about a place of a shading point's triangle, as a factor on those of its material. Loop,

@@ -112,7 +112,9 @@ namespace hilcam {
 
 HWY_EXPORT(lies);
 
-void find_lies(const FragmentMesh& mesh, FragmentPacket& packet) { HWY_DYNAMIC_DISPATCH(lies)(mesh, packet); }
+void find_surface_frames(const FragmentMesh& mesh, FragmentPacket& packet) {
+    HWY_DYNAMIC_DISPATCH(lies)(mesh, packet);
+}
 
 }  // namespace hilcam
 #endif

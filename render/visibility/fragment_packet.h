@@ -1,6 +1,6 @@
 #pragma once
 // Finds where rays through sixteen fragments of one object meet their triangles, and how the surface lies
-// there: that which find_lie() and a ray's hit tell of one, for all at once and to the same precision.
+// there: that which find_surface_frame() and a ray's hit tell of one, for all at once and to the same precision.
 // Compiled for several widths of vectors that give the same results. Loop, any thread.
 
 #include <array>
@@ -40,6 +40,6 @@ struct FragmentMesh {
     const PackedTriangle* surfaces;
     Mat3f world_from_body;
 };
-void find_lies(const FragmentMesh& mesh, FragmentPacket& packet);
+void find_surface_frames(const FragmentMesh& mesh, FragmentPacket& packet);
 
 }  // namespace hilcam

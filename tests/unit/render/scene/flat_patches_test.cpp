@@ -117,8 +117,10 @@ TEST(FlatPatches, AreMetWhereTheirTrianglesAre) {
             own.triangle[k] = first + k, all.triangle[k] = surfaces.patches[first + k];
         }
         const Mat3f still{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        find_lies({mesh.vertices_m.data(), mesh.triangles.data(), alone.triangles.data(), still}, own);
-        find_lies({mesh.vertices_m.data(), mesh.triangles.data(), surfaces.triangles.data(), still}, all);
+        find_surface_frames({mesh.vertices_m.data(), mesh.triangles.data(), alone.triangles.data(), still},
+                            own);
+        find_surface_frames({mesh.vertices_m.data(), mesh.triangles.data(), surfaces.triangles.data(), still},
+                            all);
         for (std::size_t k = 0; k < FragmentPacket::kSize; ++k) {
             EXPECT_LT(length(all.geometric.at(k) - own.geometric.at(k)), 1e-5f);
             EXPECT_EQ(all.back[k], own.back[k]);

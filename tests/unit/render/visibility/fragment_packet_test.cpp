@@ -66,13 +66,13 @@ TEST(FragmentPacket, FindsWhatRaysFindOneByOne) {
         embree.intersect(rays, Coherence::kIncoherent, hits);
         packet.triangle = hits.triangle;
         packet.count = FragmentPacket::kSize;
-        find_lies({debris.mesh.vertices_m.data(), debris.mesh.triangles.data(), surfaces.triangles.data(),
-                   frame.world_from_body[0]},
-                  packet);
+        find_surface_frames({debris.mesh.vertices_m.data(), debris.mesh.triangles.data(),
+                             surfaces.triangles.data(), frame.world_from_body[0]},
+                            packet);
         for (std::size_t k = 0; k < FragmentPacket::kSize; ++k) {
             ASSERT_NE(hits.object[k], HitPacket::kMiss);
-            Lie lie;
-            ASSERT_TRUE(find_lie(frame, hits, static_cast<int>(k), packet.dir.at(k), lie));
+            SurfaceFrame lie;
+            ASSERT_TRUE(find_surface_frame(frame, hits, static_cast<int>(k), packet.dir.at(k), lie));
             EXPECT_NEAR(packet.distance[k], hits.distance[k], 2e-5f);
             EXPECT_NEAR(packet.u[k], hits.u[k], 2e-4f);
             EXPECT_NEAR(packet.v[k], hits.v[k], 2e-4f);
