@@ -8,7 +8,7 @@
 
 #include "render/brdf/microfacet.h"
 #include "render/shading/lamp_light.h"
-#include "render/shading/way_to_sample.h"
+#include "render/shading/sample_offsets.h"
 #include "render/visibility/place_sequence.h"
 #include "render/vocabulary/clones.h"
 
@@ -56,7 +56,7 @@ void send(Tile& tile, const ShadingPoint& at, SampleMask& left, std::size_t firs
           MirrorRays::Packet& out) {
     const FrameView& frame = tile.frame;
     const float distance_m = at.footprint_m * static_cast<float>(frame.geometry.focal_length_px);
-    const WayToSample way(tile, at);
+    const SampleOffsets way(tile, at);
     Lanes ways_m, dirs;
     for (std::size_t k = 0; k < count; ++k)
         ways_m.set(k, way.to(next_sample(frame.samples, left, at.samples)));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/radiosity/kept_light.h"
-#include "render/shading/way_to_sample.h"
+#include "render/shading/sample_offsets.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 

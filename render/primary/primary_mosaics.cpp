@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/primary/primary_hits.h"
-#include "render/shading/way_to_sample.h"
+#include "render/shading/sample_offsets.h"
 
 namespace hilcam {
 namespace {

@@ -8,7 +8,7 @@
 #include "render/earth/earth_patch.h"
 #include "render/earth/pictured_earth.h"
 #include "render/primary/earth_limbs.h"
-#include "render/shading/way_to_sample.h"
+#include "render/shading/sample_offsets.h"
 #include "render/visibility/place_sequence.h"
 #include "render/visibility/visibility_buffer.h"
 

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "render/shading/sample_offsets.h"
 #include "render/shading/shadow_rays.h"
-#include "render/shading/way_to_sample.h"
 #include "render/sunlight/radiance_equation.h"
 #include "render/vocabulary/mixed_bits.h"
 
@@ -78,7 +78,7 @@ void SunEdges::ask(float count, const Tile& tile, const SunSampler& sun, Asked& 
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     // The four pixels of a square ask for other places of the disk.
     const std::uint32_t in_square = at.pixel % width % 2 + 2 * (at.pixel / width % 2);
-    const WayToSample way(tile, at);
+    const SampleOffsets way(tile, at);
     std::array<SampleMask, FacetLight::kStarts> left{};  // samples that no ray has begun from
     const float light = std::accumulate(a.shares.begin(), a.shares.end(), 0.0f);
     std::size_t k = 0;

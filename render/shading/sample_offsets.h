@@ -13,9 +13,9 @@ Vec3d direction_through(const FrameView& frame, int x_px, int y_px, Vec2f within
 
 // The ways from a shading point that samples see to where each of them meets its plane, and up by ShadingPoint::lift_m [m, ray
 // space]; none where the plane is seen from its edge. Loop, any thread.
-class WayToSample {
+class SampleOffsets {
   public:
-    WayToSample(const Tile& tile, const ShadingPoint& at);
+    SampleOffsets(const Tile& tile, const ShadingPoint& at);
     // sample: one of ShadingPoint::samples.
     Vec3f to(int sample) const;
     // Returns where a sample meets the plane in which rays from a facet of the shading point begin [ray space]; where that is

@@ -1,4 +1,4 @@
-#include "render/shading/way_to_sample.h"
+#include "render/shading/sample_offsets.h"
 
 #include <cmath>
 
@@ -30,7 +30,7 @@ constexpr float kLeastFacingOfWay = 0.02f;
 
 }  // namespace
 
-WayToSample::WayToSample(const Tile& tile, const ShadingPoint& at)
+SampleOffsets::SampleOffsets(const Tile& tile, const ShadingPoint& at)
     : frame_(tile.frame), at_(at), facing_(dot(at.geometric_normal, at.view_dir)) {
     const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
     x_px_ = tile.box.x0 + pixel % width, y_px_ = tile.box.y0 + pixel / width;
@@ -38,7 +38,7 @@ WayToSample::WayToSample(const Tile& tile, const ShadingPoint& at)
     per_dir_m_ = static_cast<double>(at.footprint_m) * frame_.geometry.focal_length_px / length(dir_);
 }
 
-Vec3f WayToSample::on(const Facet& facet, int sample) const {
+Vec3f SampleOffsets::on(const Facet& facet, int sample) const {
     const Vec3d dir = direction_through(frame_, x_px_, y_px_, frame_.samples.place(sample)),
                 normal = to_double(facet.geometric_normal);
     const double along = dot(dir, normal);
@@ -47,7 +47,7 @@ Vec3f WayToSample::on(const Facet& facet, int sample) const {
     return to_float(frame_.camera_m + way * dir);
 }
 
-Vec3f WayToSample::to(int sample) const {
+Vec3f SampleOffsets::to(int sample) const {
     if (facing_ < kLeastFacingOfWay) return {};
     const Vec3f across =
         to_float(per_dir_m_ * (direction_through(frame_, x_px_, y_px_, frame_.samples.place(sample)) - dir_));
