@@ -104,7 +104,7 @@ class GroundTileLight {
         Bsdf surface(&material_, 0, material_.base, material_.highlight);
         for (std::size_t i = 0; i < kPacketSize; ++i) {
             Spectrum light;
-            if (packet_.ni[i] > 0 && packet_.sun[i] != KnownSun::kDark) {
+            if (packet_.ni[i] > 0 && packet_.sun[i] != SunVisibility::kDark) {
                 if (!frame_.surfaces->corner_colors.empty())
                     surface.base =
                         material_.base * view_.bands->spectrum(
@@ -123,11 +123,11 @@ class GroundTileLight {
     void give(int x, int y) {
         const int width = tile_.box.x1 - tile_.box.x0;
         for (std::size_t i = 0; i < kPacketSize; ++i) {
-            if (!(packet_.ni[i] > 0) || packet_.sun[i] == KnownSun::kDark) continue;
+            if (!(packet_.ni[i] > 0) || packet_.sun[i] == SunVisibility::kDark) continue;
             const int px = x + static_cast<int>(i) % 4, py = y + static_cast<int>(i) / 4;
             if (px >= tile_.box.x1 || py >= tile_.box.y1) continue;
             const auto pixel = static_cast<std::uint32_t>((py - tile_.box.y0) * width + px - tile_.box.x0);
-            if (packet_.sun[i] == KnownSun::kAsk)
+            if (packet_.sun[i] == SunVisibility::kAsk)
                 ask(i, pixel);
             else
                 tile_.add(pixel, LightPart::kSun, {}, light_of(i));

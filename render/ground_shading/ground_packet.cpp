@@ -79,12 +79,13 @@ struct alignas(64) Lookups {
 void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
     constexpr int kQuads = GroundNormals::kQuads, kTexels = GroundNormals::kTexels;
     const GroundNormals* const normals = surfaces.ground_normals.get();
-    const KnownSun* const known = surfaces.known_sun.empty() ? nullptr : surfaces.known_sun.data();
+    const SunVisibility* const known =
+        surfaces.sun_visibility.empty() ? nullptr : surfaces.sun_visibility.data();
     std::uint32_t first = 1, end = 0;  // triangles of the tile below
     const GroundNormals::Tile* tile = nullptr;
     for (std::size_t i = 0; i < GroundPacket::kSize; ++i) {
         const std::uint32_t triangle = p.triangle[i];
-        p.sun[i] = known ? known[triangle] : KnownSun::kAsk;
+        p.sun[i] = known ? known[triangle] : SunVisibility::kAsk;
         if (normals && !(triangle >= first && triangle < end)) {
             const std::uint32_t number = triangle / normals->triangles_per_tile;
             first = number * normals->triangles_per_tile, end = first + normals->triangles_per_tile;

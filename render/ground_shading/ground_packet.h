@@ -26,7 +26,7 @@ struct alignas(64) GroundPacket {
     Vectors geometric;  // normals towards the viewer, of any length
     Floats no, ni, io;  // the cosines that a BRDF asks for; ni is 0 where the Sun is below the ground
     std::array<Floats, 3> color;  // factors on the base, linear red, green, blue; 1 where the mesh has none
-    std::array<KnownSun, kSize> sun;  // the mesh's own knowledge
+    std::array<SunVisibility, kSize> sun;  // the mesh's own knowledge
 };
 
 // This is what all packets of a frame share.

@@ -234,7 +234,7 @@ class TracedPaths final : public PathModel {
             ShadingPoint& other = found[i];
             if (other.object != at.object || other.surface_number != at.surface_number ||
                 largest(other.throughput) > (kMost - 0.5f) * largest(ray.throughput) ||
-                other.back != at.back || other.known_sun != at.known_sun ||
+                other.back != at.back || other.sun_visibility != at.sun_visibility ||
                 other.surface.base.bin != at.surface.base.bin || dot(other.normal, at.normal) < least)
                 continue;
             other.throughput += ray.throughput;

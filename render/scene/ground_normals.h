@@ -17,7 +17,7 @@
 namespace hilcam {
 
 // A triangle's sunlight is known in one of these ways before a ray asks.
-enum class KnownSun : std::uint8_t { kAsk, kLit, kDark };
+enum class SunVisibility : std::uint8_t { kAsk, kLit, kDark };
 
 class GroundNormals {
   public:

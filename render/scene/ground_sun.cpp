@@ -183,22 +183,22 @@ SeenCells SunView::seen_from_tile(const MeshGrid& grid) const {
 }
 
 // Returns what those around a quadrilateral in the tile have seen.
-KnownSun known_of(const SeenCells& seen, int x, int y) {
+SunVisibility known_of(const SeenCells& seen, int x, int y) {
     int lit = 0, all = 0;
     for (int j = std::max(0, y - 1); j <= std::min(kQuads, y + 2); ++j)
         for (int i = std::max(0, x - 1); i <= std::min(kQuads, x + 2); ++i, ++all)
             lit += seen[static_cast<std::size_t>(j * kSide + i)];
-    return lit == all ? KnownSun::kLit : lit == 0 ? KnownSun::kDark : KnownSun::kAsk;
+    return lit == all ? SunVisibility::kLit : lit == 0 ? SunVisibility::kDark : SunVisibility::kAsk;
 }
 
 }  // namespace
 
-std::vector<KnownSun> known_sun(const TerrainMesh& terrain, Vec3d sun_dir) {
-    std::vector<KnownSun> known(terrain.mesh.triangles.size(), KnownSun::kAsk);
+std::vector<SunVisibility> sun_visibility(const TerrainMesh& terrain, Vec3d sun_dir) {
+    std::vector<SunVisibility> known(terrain.mesh.triangles.size(), SunVisibility::kAsk);
     const SunView view(terrain, sun_dir);
     tbb::parallel_for(std::size_t{0}, terrain.normals->tiles.size(), [&](std::size_t tile) {
         const SeenCells seen = view.seen_from_tile(terrain.grids[tile]);
-        KnownSun* const at = known.data() + terrain.grids[tile].first_triangle;
+        SunVisibility* const at = known.data() + terrain.grids[tile].first_triangle;
         for (int y = 0; y < kQuads; ++y)
             for (int x = 0; x < kQuads; ++x) {
                 const auto k = static_cast<std::size_t>(2 * (y * kQuads + x));

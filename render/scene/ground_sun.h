@@ -15,6 +15,6 @@ namespace hilcam {
 // Asks the Sun from each vertex of a mesh with tiles, sun_dir in terrain axes. A triangle is lit or dark where all
 // vertices within a quadrilateral of its corners are; others, and those of a tile's skirts, are to be asked. A
 // shadow that passes between vertices, narrower than a quadrilateral, is not seen. Any thread; allocates.
-std::vector<KnownSun> known_sun(const TerrainMesh& terrain, Vec3d sun_dir);
+std::vector<SunVisibility> sun_visibility(const TerrainMesh& terrain, Vec3d sun_dir);
 
 }  // namespace hilcam

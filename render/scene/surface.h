@@ -56,7 +56,7 @@ struct ObjectSurfaces {
     std::vector<LevelFacets> facets;  // facets of a level's triangles; empty for the mesh itself
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
-    std::vector<KnownSun> known_sun;                          // per triangle; empty: rays ask the Sun
+    std::vector<SunVisibility> sun_visibility;                // per triangle; empty: rays ask the Sun
     // Least and greatest corner of each kClusterTriangles triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     // By triangle the one that stands for it, or kNotShown; empty: each for itself.

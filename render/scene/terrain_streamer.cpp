@@ -24,7 +24,7 @@ std::unique_ptr<PreparedTerrain> TerrainStreamer::make(const TerrainView& view) 
     // A mesh with normals of its own is in their order.
     if (!terrain.normals) order_triangles(terrain.mesh);
     auto surfaces = std::make_shared<ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr);
-    if (terrain.normals) surfaces->known_sun = known_sun(terrain, view.sun_dir);
+    if (terrain.normals) surfaces->sun_visibility = sun_visibility(terrain, view.sun_dir);
     PreparedMesh tree = terrain.grids.empty()
                             ? embree_.prepare(terrain.mesh)
                             : embree_.prepare(std::move(terrain.mesh), std::move(terrain.grids));

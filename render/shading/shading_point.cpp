@@ -110,9 +110,9 @@ void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane
 
     point.object = hits.object[k], point.triangle = hits.triangle[k];
     point.lobe = nullptr;
-    point.known_sun = object.known_sun.empty() || frame.objects->size() > 1
-                          ? KnownSun::kAsk
-                          : object.known_sun[hits.triangle[k]];
+    point.sun_visibility = object.sun_visibility.empty() || frame.objects->size() > 1
+                               ? SunVisibility::kAsk
+                               : object.sun_visibility[hits.triangle[k]];
 }
 
 void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane,

@@ -47,7 +47,8 @@ struct ShadingGeometry {
 // The way in which light scatters there.
 struct ShadingSurface {
     Bsdf surface;
-    KnownSun known_sun;   // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
+    SunVisibility
+        sun_visibility;   // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
     float sunlit;         // share of it that what lies on it leaves in the Sun (mosaic.h)
     float facet_alpha;    // alpha of the lobes of its facets
     const Facet* facets;  // the shading point's own among them; null: it is one

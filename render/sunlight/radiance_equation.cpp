@@ -126,8 +126,9 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
         Bsdf surface = at.surface;
         if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
         const Spectrum weight = (ni * share) * (at.throughput * light * brdf_value(surface, c));
-        if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;
-        if (!frame.sun_is_disk && at.known_sun == KnownSun::kLit)
+        if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.sun_visibility == SunVisibility::kDark))
+            continue;
+        if (!frame.sun_is_disk && at.sun_visibility == SunVisibility::kLit)
             tile.add(at, LightPart::kSun, weight);
         else if (finds_edges)
             tile.edges->add(at, weight);
