@@ -253,7 +253,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats, facets_[slot]};
     tile.seen = seen;
-    if (seen) tile.edges = &edges_[slot];
+    if (seen) tile.penumbra = &edges_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
     if (halves_) {
         tile.half_responses = halves_->responses();

@@ -22,7 +22,7 @@
 #include "render/frame/parts_buffer.h"
 #include "render/frame/render_quality.h"
 #include "render/ground_shading/ground_places.h"
-#include "render/sunlight/sun_edges.h"
+#include "render/sunlight/penumbra_sampler.h"
 #include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/tile_grid.h"
 
@@ -98,7 +98,7 @@ class FrameTracer {
     bool ground_has_steps_ = false;        // at some level
     std::optional<GroundPlaces> places_;   // none before the first frame, and where no level has them
     std::vector<VisibilityTile> seen_;     // likewise
-    std::vector<SunEdges> edges_;          // likewise
+    std::vector<PenumbraSampler> edges_;   // likewise
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
     std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame

@@ -10,7 +10,7 @@
 
 #include "render/frame/probe_camera.h"
 #include "render/shading/path_model.h"
-#include "render/sunlight/sun_edges.h"
+#include "render/sunlight/penumbra_sampler.h"
 #include "render/visibility/visibility_buffer.h"
 
 namespace hilcam {
@@ -34,7 +34,7 @@ class ObjectPicture {
     struct Slot {
         std::vector<Spectrum> tile = std::vector<Spectrum>(PathModel::kMaxSamples);
         VisibilityTile seen;
-        SunEdges edges;
+        PenumbraSampler penumbra;
         FacetList facets;
         TileStats stats;
     };

@@ -17,7 +17,7 @@
 
 namespace hilcam {
 
-class SunEdges;
+class PenumbraSampler;
 
 struct TileStats : RayCounts {
     double covered_px = 0;  // by objects
@@ -47,8 +47,8 @@ struct Tile {
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
     VisibilityTile* seen = nullptr;        // for what the visibility buffer finds; null: rays do
     const VisibilityTile* ground =
-        nullptr;                // for what the frame's buffer of the ground finds; null: likewise
-    SunEdges* edges = nullptr;  // where that is so, to find shadows' edges; null: they are hard
+        nullptr;                          // for what the frame's buffer of the ground finds; null: likewise
+    PenumbraSampler* penumbra = nullptr;  // where that is so, to find shadows' edges; null: they are hard
 
     // Charge rates by channel, difference and pixel (half_light.h), and what makes them of radiance; empty: nobody
     // asks where in its pixel light falls.

@@ -7,7 +7,7 @@
 #include "render/shading/facet_list.h"
 #include "render/shading/lamp_light.h"
 #include "render/shading/shadow_rays.h"
-#include "render/sunlight/sun_edges.h"
+#include "render/sunlight/penumbra_sampler.h"
 
 namespace hilcam {
 namespace {
@@ -90,7 +90,7 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
     if (largest(background.sun_irradiance_w_m2_um()) <= 0 || points.empty()) return;
     const SunSampler sun(tile);
     const bool primary = points.front().depth == 1;
-    const bool finds_edges = primary && tile.edges && !frame.sun_is_disk && !frame.has_glass;
+    const bool finds_edges = primary && tile.penumbra && !frame.sun_is_disk && !frame.has_glass;
 
     const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
         tile.add(*by.at, LightPart::kSun, glass ? by.weight * *glass : by.weight);
@@ -117,7 +117,7 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
             if (sum.none()) continue;
             const Spectrum weight = share * (light * sum.reflected);
             if (finds_edges)
-                tile.edges->add(at, weight, sum);
+                tile.penumbra->add(at, weight, sum);
             else
                 shadow.add(sum.brightest[0]->start_m, dir, {&at, weight, dir});
             continue;
@@ -131,11 +131,11 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
         if (!frame.sun_is_disk && at.sun_visibility == SunVisibility::kLit)
             tile.add(at, LightPart::kSun, weight);
         else if (finds_edges)
-            tile.edges->add(at, weight);
+            tile.penumbra->add(at, weight);
         else
             shadow.add(at.start(), dir, {&at, weight, dir});
     }
-    if (finds_edges) tile.edges->add_light(tile, sun);
+    if (finds_edges) tile.penumbra->add_light(tile, sun);
 }
 
 // A random direction to each of the bodies, over its cone.

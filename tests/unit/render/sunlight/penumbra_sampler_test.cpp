@@ -1,4 +1,4 @@
-#include "render/sunlight/sun_edges.h"
+#include "render/sunlight/penumbra_sampler.h"
 
 #include <gtest/gtest.h>
 

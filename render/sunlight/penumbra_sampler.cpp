@@ -1,4 +1,4 @@
-#include "render/sunlight/sun_edges.h"
+#include "render/sunlight/penumbra_sampler.h"
 
 #include <algorithm>
 #include <bit>
@@ -13,7 +13,7 @@
 
 namespace hilcam {
 
-void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
+void PenumbraSampler::add_light(Tile& tile, const SunSampler& sun) {
     ask_once(tile, sun.middle());
     ask_again(tile, sun);
     for (const Asked& a : std::span(asked_).first(count_))
@@ -23,7 +23,7 @@ void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
     count_ = 0;
 }
 
-void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
+void PenumbraSampler::ask_once(Tile& tile, Vec3f sun_dir) {
     const auto lit = [](Asked* const& a, const Spectrum*) { a->lit = 1; };
     {
         ShadowRays<Asked*, decltype(lit)> shadow(tile.frame, tile.stats.shadow_rays, lit);
@@ -37,7 +37,7 @@ void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
 // The shading point before one whose first ray is this one's as well: that of a mosaic's layer in the same pixel, which the same
 // samples see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which
 // ShadingPoint::sunlit has.
-const SunEdges::Asked* SunEdges::layer_below(const Asked& a) const {
+const PenumbraSampler::Asked* PenumbraSampler::layer_below(const Asked& a) const {
     if (count_ < 2) return nullptr;
     const Asked& before = asked_[count_ - 2];
     const ShadingPoint &here = *a.at, &there = *before.at;
@@ -47,7 +47,7 @@ const SunEdges::Asked* SunEdges::layer_below(const Asked& a) const {
     return before.like ? before.like : &before;
 }
 
-void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
+void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     const Answers near = within_reach(width);
     const auto at_edge = [&](const Asked& a) {
@@ -73,7 +73,7 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
 // Sends so many rays for a shading point, each for as much of its light, from places that its samples see (of facets by
 // systematic sampling: the ray's place in the sum of their light).
 template <class Rays>
-void SunEdges::ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays) {
+void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays) {
     const ShadingPoint& at = *a.at;
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     // The four pixels of a square ask for other places of the disk.
@@ -102,7 +102,7 @@ void SunEdges::ask(float count, const Tile& tile, const SunSampler& sun, Asked& 
 }
 
 // An object's surface on one of its six sides, as one of kKinds.
-std::uint8_t SunEdges::kind_of(const ShadingPoint& at) {
+std::uint8_t PenumbraSampler::kind_of(const ShadingPoint& at) {
     const Vec3f size{std::abs(at.normal.x), std::abs(at.normal.y), std::abs(at.normal.z)};
     std::uint32_t side = at.normal.z > 0 ? 0 : 1;
     if (size.x > size.y && size.x > size.z)
@@ -114,7 +114,7 @@ std::uint8_t SunEdges::kind_of(const ShadingPoint& at) {
 }
 
 // The answers that lie within reach of each pixel.
-SunEdges::Answers SunEdges::within_reach(std::uint32_t width) {
+PenumbraSampler::Answers PenumbraSampler::within_reach(std::uint32_t width) {
     Answers near;
     std::uint32_t lit = 0, dark = 0;  // kinds that are somewhere, a bit each
     for (Asked& a : std::span(asked_).first(count_)) {
@@ -131,7 +131,7 @@ SunEdges::Answers SunEdges::within_reach(std::uint32_t width) {
 }
 
 // Pixels that have one of these within reach.
-SunEdges::Rows SunEdges::widened(const Rows& rows) {
+PenumbraSampler::Rows PenumbraSampler::widened(const Rows& rows) {
     Rows out{};
     for (int y = 0; y < kMaxRows; ++y) {
         const std::uint32_t row = rows[static_cast<std::size_t>(y)];

@@ -20,7 +20,7 @@ namespace hilcam {
 class SunSampler;
 
 // Memory for the shading points of a tile. One thread at a time.
-class SunEdges {
+class PenumbraSampler {
   public:
     // light: what the shading point sends to the viewer, to its pixel, if all of it is in the Sun. At most
     // PathModel::kMaxShadingPoints. Loop, any thread.
