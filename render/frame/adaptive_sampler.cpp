@@ -16,7 +16,7 @@ std::span<const Spectrum> AdaptiveSampler::trace(const FrameView& frame, const P
     const int n2 = samples_per_axis * samples_per_axis;
     for (int pass = 0;; ++pass) {
         std::fill_n(pass_.begin(), pixels(), Spectrum{});
-        Tile tile{frame, box, samples_per_axis, {pass_.data(), pixels()}, stats, facets_};
+        Tile tile{frame, box, samples_per_axis, {pass_.data(), pixels()}, stats, clusters_};
         tile.scattered = true;
         tile.first_sample = static_cast<std::uint16_t>(pass * n2);
         tile.wanted = pass > 0 ? wanted_.data() : nullptr;

@@ -50,7 +50,7 @@ class AdaptiveSampler {
   private:
     static constexpr auto kMax = static_cast<std::size_t>(PathModel::kMaxSamples);
 
-    FacetList facets_;
+    NormalClusters clusters_;
     std::vector<Spectrum> pass_, mean_;
     // Mean and sum of squares of the passes' means [e-].
     std::array<float, kMax> mean_e_, squares_e2_;

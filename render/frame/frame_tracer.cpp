@@ -104,7 +104,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
         seen_.resize(pool_slots()), edges_.resize(pool_slots()), tile_halves_.resize(pool_slots()),
             tile_kinds_.resize(pool_slots());
     if (ground) ground_seen_.resize(pool_slots());
-    facets_.resize(pool_slots());
+    clusters_.resize(pool_slots());
     for (std::size_t i = 0; budget && i < pool_slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
 }
@@ -237,7 +237,7 @@ void FrameTracer::trace_places_of(const FrameView& frame, const PixelBox& box, s
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(),
                                      static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0)));
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
-    Tile tile{frame, box, 1, pixels, stats, facets_[slot]};
+    Tile tile{frame, box, 1, pixels, stats, clusters_[slot]};
     tile.ground = ground_at(frame, box, slot);
     const bool known = tile.ground && add_ground_light(tile);
     stats.not_finite += leave_out_not_finite(pixels);
@@ -251,7 +251,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
-    Tile tile{frame, box, n, pixels, stats, facets_[slot]};
+    Tile tile{frame, box, n, pixels, stats, clusters_[slot]};
     tile.seen = seen;
     if (seen) tile.penumbra = &edges_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);

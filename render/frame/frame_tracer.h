@@ -87,7 +87,7 @@ class FrameTracer {
     std::vector<std::vector<float>> tile_halves_;    // likewise; none where rays see
     PartsBuffer* parts_ = nullptr;                   // null: nobody asks for them
     PixelRecord* record_ = nullptr;                  // likewise
-    std::vector<FacetList> facets_;
+    std::vector<NormalClusters> clusters_;
     // A tile of the frame's buffer of the ground, of which several of the picture's are parts.
     struct GroundSeen {
         VisibilityTile tile;

@@ -59,7 +59,7 @@ void ObjectPicture::trace_tile(const PixelBox& box, Slot& slot, PathModel& paths
     const int width = box.x1 - box.x0;
     const std::span<Spectrum> pixels(slot.tile.data(), static_cast<std::size_t>(width * (box.y1 - box.y0)));
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
-    Tile tile{camera_.view(), box, kVisibilitySamplesAcross, pixels, slot.stats, slot.facets};
+    Tile tile{camera_.view(), box, kVisibilitySamplesAcross, pixels, slot.stats, slot.clusters};
     tile.seen = &slot.seen, tile.penumbra = &slot.penumbra;
     paths.trace(tile);
     slot.stats.covered_px = 0;  // those are not the camera's pixels

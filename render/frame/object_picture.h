@@ -35,7 +35,7 @@ class ObjectPicture {
         std::vector<Spectrum> tile = std::vector<Spectrum>(PathModel::kMaxSamples);
         VisibilityTile seen;
         PenumbraSampler penumbra;
-        FacetList facets;
+        NormalClusters clusters;
         TileStats stats;
     };
     ProbeCamera camera_;

@@ -19,7 +19,7 @@ TileStats ObjectProbe::trace(int samples, PathModel& paths) {
             const std::span<Spectrum> pixels(tile_.data(),
                                              static_cast<std::size_t>(width * (box.y1 - box.y0)));
             std::fill(pixels.begin(), pixels.end(), Spectrum{});
-            Tile tile{camera_.view(), box, 1, pixels, stats, *facets_};
+            Tile tile{camera_.view(), box, 1, pixels, stats, *clusters_};
             paths.trace(tile);
             for (int row = box.y0; row < box.y1; ++row)
                 std::copy_n(pixels.begin() + (row - box.y0) * width, width,

@@ -27,7 +27,7 @@ class ObjectProbe {
   private:
     ProbeCamera camera_;
     std::vector<Spectrum> tile_, picture_;
-    std::unique_ptr<FacetList> facets_ = std::make_unique<FacetList>();
+    std::unique_ptr<NormalClusters> clusters_ = std::make_unique<NormalClusters>();
 
     TileStats trace(int samples, PathModel& paths);
 };

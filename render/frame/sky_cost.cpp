@@ -39,7 +39,7 @@ class TileCost {
     }
     void fill(const FrameView& frame, const PixelBox& box) {
         TileStats stats;
-        Tile tile{frame, box, kVisibilitySamplesAcross, pixels_, stats, *facets_};
+        Tile tile{frame, box, kVisibilitySamplesAcross, pixels_, stats, *clusters_};
         add_backdrop(tile, uncovered_.data());
     }
 
@@ -47,7 +47,7 @@ class TileCost {
     int width_, height_, across_, count_, stride_;
     std::vector<Spectrum> pixels_;
     std::vector<SampleMask> uncovered_;
-    std::unique_ptr<FacetList> facets_ = std::make_unique<FacetList>();
+    std::unique_ptr<NormalClusters> clusters_ = std::make_unique<NormalClusters>();
 };
 
 // A look without a part, and the name of that part.

@@ -77,7 +77,7 @@ void KeptScene::add_reflected(Tile& tile, std::span<const ShadingPoint> points,
         find(tile.frame, places);
         for (Place& place : places)
             if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
-        for (Place& place : places) reflect_facets(tile.frame, lobes, place);
+        for (Place& place : places) reflect_clusters(tile.frame, lobes, place);
         for (const Use& use : std::span(block.uses.data(), block.use_count))
             add_use(tile, use, requests, room);
     }
@@ -99,7 +99,7 @@ std::size_t KeptScene::gather(const Tile& tile, std::span<const ShadingPoint> po
     return next;
 }
 
-void KeptScene::reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const {
+void KeptScene::reflect_clusters(const FrameView& frame, Lobes& lobes, Place& place) const {
     const ShadingPoint& at = *place.at;
     place.met = {}, place.bodies = {}, place.directions = 0;
     place.mirrors_near = true, place.has_bodies = false;
@@ -239,7 +239,7 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
     // Two shading points of several parts are not alike: what one sends is not kept for others.
     SentOfBodies by_parts;
     const SentOfBodies* sent = &by_parts;
-    if (at.facets)
+    if (at.clusters)
         by_parts = sent_of_bodies(at);
     else if (sent = lobes.bodies.find(at, 0); !sent)
         sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
@@ -320,7 +320,8 @@ KeptScene::SentOfBodies KeptScene::sent_of_bodies(const ShadingPoint& at) const 
     // Brighter texels may share it.
     const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-        sent[b] = at.facets ? sent_by_parts(b, at, reflectance) : sent_of_body(b, at, at.normal, reflectance);
+        sent[b] =
+            at.clusters ? sent_by_parts(b, at, reflectance) : sent_of_body(b, at, at.normal, reflectance);
     return sent;
 }
 
@@ -356,9 +357,9 @@ SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const ShadingPoint& 
     Spectrum sum;
     float samples = 0, cosines = 0;
     std::array<SkyLight::Glossy, SkyLight::Lobes::kMost> sent;
-    for (const Facet* part = at.facets; part;) {
+    for (const NormalCluster* part = at.clusters; part;) {
         SkyLight::Lobes lobes{at.view_dir, at.surface.alpha, reflectance};
-        for (const Facet* next = part; next && lobes.count < sent.size(); next = next->next)
+        for (const NormalCluster* next = part; next && lobes.count < sent.size(); next = next->next)
             lobes.add(next->normal);
         sky_.glossy(body, lobes, sent);
         for (std::size_t i = 0; i < lobes.count; ++i, part = part->next) {

@@ -179,7 +179,7 @@ class KeptScene {
     Spectrum direct_irradiance(std::size_t body, const Place& place) const;
     Spectrum reflect_bodies(const Place& place) const;
     Spectrum radiance_of(const Place& place, const Spectrum& irradiance) const;
-    void reflect_facets(const FrameView& frame, Lobes& lobes, Place& place) const;
+    void reflect_clusters(const FrameView& frame, Lobes& lobes, Place& place) const;
     void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
     void reflect_far_bodies(Place& place) const;
     MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;

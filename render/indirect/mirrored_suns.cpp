@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "render/radiosity/kept_light.h"
-#include "render/shading/facet_list.h"
+#include "render/shading/normal_clusters.h"
 #include "render/shading/shadow_rays.h"
 #include "render/sunlight/radiance_equation.h"
 
@@ -55,10 +55,11 @@ Scattered scatter(const FrameView& frame, const ShadingPoint& at, Vec3f dir, flo
     // Slopes of independent causes add by their squares; rays follow narrow lobes to the mirror.
     if (facets)
         surface.alpha = surface.alpha < kNarrowestKept ? 0 : std::min(1.0f, std::hypot(surface.alpha, alpha));
-    if (at.facets && !(facets && surface.alpha == 0)) {
-        const SunlitPoint sunny{&at, dir, facets ? std::min(1.0f, std::hypot(at.facet_alpha, alpha)) : 0.0f};
-        FacetLight sum;
-        lit_facets(frame, {&sunny, 1}, {&sum, 1});
+    if (at.clusters && !(facets && surface.alpha == 0)) {
+        const SunlitPoint sunny{&at, dir,
+                                facets ? std::min(1.0f, std::hypot(at.cluster_alpha, alpha)) : 0.0f};
+        ClusterLight sum;
+        lit_clusters(frame, {&sunny, 1}, {&sum, 1});
         if (sum.none()) return {};
         return {sum.reflected, sum.brightest[0]->start_m, false};
     }
@@ -90,7 +91,7 @@ class Asker {
     void ask(const ShadingPoint& at) {
         // Most that stand before a mirror face away from it; facets may lean otherwise, by half a right
         // angle.
-        if (dot(at.normal, shown_.dir) <= (at.facets ? -0.7f : -0.01f)) return;
+        if (dot(at.normal, shown_.dir) <= (at.clusters ? -0.7f : -0.01f)) return;
         const float above_m = dot(at.point_m - shown_.corner_m, shown_.normal);
         if (!(above_m > shown_.tolerance_m) || !at.surface.has_lobes()) return;
         MirrorRay asked;

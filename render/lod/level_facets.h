@@ -6,7 +6,7 @@
 // The parts of the mesh belong to the triangle of the same surface that is nearest to them and faces as they
 // do. Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
 // are by Wu, ACM Trans. Graphics 10(4), 1991), which keeps their mean and most of their scatter; what is
-// left over within the four groups is kept as roughness. That parts shade each other is shading/facet_list.h's.
+// left over within the four groups is kept as roughness. That parts shade each other is shading/normal_clusters.h's.
 
 #include <array>
 #include <cstdint>
@@ -53,7 +53,7 @@ class LevelFacets {
     static constexpr float kLean = 16383, kAll = 255;  // units of a lean (2 at most), and of a share
 
   private:
-    // In this order for shading/facet_packet.cpp, which reads them as eight words.
+    // In this order for shading/cluster_packet.cpp, which reads them as eight words.
     std::array<std::int16_t, kMax> x_{}, y_{}, z_{};
     std::array<std::uint8_t, kMax> share_{};
     float alpha_ = 0;

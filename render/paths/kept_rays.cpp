@@ -77,7 +77,7 @@ void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, Next
         const bool meets_sun = surface.alpha == 0;
         NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !request.has_bodies};
         ray.part = LightPart::kMirrorRays;
-        ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.facets;
+        ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.clusters;
         // What bad mirrors show is not looked for where nothing stands near.
         if (request.mirrors_near || is_bright)
             add(tile, ray, rays);

@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// The greatest lean of two facets against each other that make one shading point: its kept light and its mirrored
+// The greatest lean of two clusters against each other that make one shading point: its kept light and its mirrored
 // rays are those of one of them.
 constexpr float kNormalsAlike = 0.94f;        // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
@@ -52,12 +52,12 @@ std::size_t PrimaryHits::next_fragments(std::span<ShadingPoint> points) {
         part_ = {box.x0 - part_px_, box.y0, box.x0, box.y0};
     }
     std::size_t count = 0;
-    tile_.facets.clear();
+    tile_.clusters.clear();
     // Rooms for a shading point of each surface of mosaics: kMaxShadingPoints leave those of kMaxSamples together.
     static_assert(Mosaic::kMaxLayers * kPacketSize <=
                   PathModel::kMaxShadingPoints - PathModel::kMaxSamples + kPacketSize);
     while (count + Mosaic::kMaxLayers * kPacketSize <= points.size() &&
-           tile_.facets.room() >= 2 * kPacketSize) {
+           tile_.clusters.room() >= 2 * kPacketSize) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))
             take_next_pixel();
         if (fragment_count_ == 0) {
@@ -346,7 +346,7 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
         if (facing > 0) set_surface(frame, mosaic->surface[1], point);
         if (is_textured(k)) paint(texture_of(k, point), point);
         finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], point);
-        tile_.facets.add(
+        tile_.clusters.add(
             frame,
             {surface_frame.geometric_normal, surface_frame.normal, point.start(), samples, fragment.samples},
             hits_.triangle[k], true, turns_of(k), point);
@@ -363,10 +363,10 @@ void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, Shad
     const SampleMask seen_by = fragments_[k].samples;
     const float samples = frame.samples.weight(seen_by);
     const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);
-    tile_.facets.add(frame,
-                     {surface_frame.geometric_normal, surface_frame.normal,
-                      point_m + point.offset_m * surface_frame.geometric_normal, samples, seen_by},
-                     hits_.triangle[k], false, turns_of(k), point);
+    tile_.clusters.add(frame,
+                       {surface_frame.geometric_normal, surface_frame.normal,
+                        point_m + point.offset_m * surface_frame.geometric_normal, samples, seen_by},
+                       hits_.triangle[k], false, turns_of(k), point);
     // Rays begin at its samples, too, where it lies in the shading point's plane but for a little: at those twice as much above
     // it. All others begin where they did, as what is higher misses the shadow of what is near.
     const Vec3f way_m = point_m - point.point_m;
@@ -375,7 +375,7 @@ void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, Shad
         point.samples |= seen_by;
         point.lift_m = std::max(point.lift_m, 2 * above_m);
     }
-    // Kept light and what lobes show is asked for once, as the parts lean in the mean; facets and mirrors lean by themselves.
+    // Kept light and what lobes show is asked for once, as the parts lean in the mean; clusters and mirrors lean by themselves.
     const Vec3f mean = normalized(point.weight_samples * point.normal + samples * surface_frame.normal);
     if (!has_narrow_lobe(point.surface) && dot(mean, point.view_dir) > kLeastFacing) point.normal = mean;
     // Alike in all bins, but for the air before it.

@@ -47,7 +47,7 @@ class PrimaryHits {
     std::array<Vec3f, kPacketSize> origins_;
     // Those of them that one look does not tell, as they turn much or a texture paints them, from several of their samples:
     // fragment k has the looks from first_look_[k] to first_look_[k + 1].
-    static constexpr std::size_t kLooks = FacetList::kTurns;
+    static constexpr std::size_t kLooks = NormalClusters::kTurns;
     FragmentPacket looked_at_;
     std::array<Vec3f, kPacketSize * kLooks> look_normals_;
     std::array<Vec2f, kPacketSize * kLooks> look_places_;  // in the triangle: u and v

@@ -392,8 +392,8 @@ class PrimaryRays {
         point.throughput = weight_;
         point.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         tile_.set_kind(pixel, HalfKind::kObject);
-        tile_.facets.add(frame_, {point.geometric_normal, point.normal, point.start(), 1}, hits_.triangle[k],
-                         true, {}, point);
+        tile_.clusters.add(frame_, {point.geometric_normal, point.normal, point.start(), 1},
+                           hits_.triangle[k], true, {}, point);
         ++count_;
         add_air_before(tile_, exact_dir(k), point);
     }
@@ -411,7 +411,7 @@ void add_air_before(Tile& tile, Vec3d dir, ShadingPoint& point) {
 }
 
 std::size_t trace_primary_rays(Tile& tile, std::span<ShadingPoint> points) {
-    tile.facets.clear();
+    tile.clusters.clear();
     return PrimaryRays(tile, points).trace(nullptr);
 }
 

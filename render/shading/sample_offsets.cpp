@@ -38,12 +38,12 @@ SampleOffsets::SampleOffsets(const Tile& tile, const ShadingPoint& at)
     per_dir_m_ = static_cast<double>(at.footprint_m) * frame_.geometry.focal_length_px / length(dir_);
 }
 
-Vec3f SampleOffsets::on(const Facet& facet, int sample) const {
+Vec3f SampleOffsets::on(const NormalCluster& cluster, int sample) const {
     const Vec3d dir = direction_through(frame_, x_px_, y_px_, frame_.samples.place(sample)),
-                normal = to_double(facet.geometric_normal);
+                normal = to_double(cluster.geometric_normal);
     const double along = dot(dir, normal);
-    if (std::abs(along) < static_cast<double>(kLeastFacingOfWay) * length(dir)) return facet.start_m;
-    const double way = dot(to_double(facet.start_m) - frame_.camera_m, normal) / along;
+    if (std::abs(along) < static_cast<double>(kLeastFacingOfWay) * length(dir)) return cluster.start_m;
+    const double way = dot(to_double(cluster.start_m) - frame_.camera_m, normal) / along;
     return to_float(frame_.camera_m + way * dir);
 }
 

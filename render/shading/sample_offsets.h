@@ -1,6 +1,6 @@
 #pragma once
 // From what a pixel sees to what one of its samples sees: the direction through a place in a pixel, and the way to it in the plane of
-// a shading point or of a facet.
+// a shading point or of a cluster.
 
 #include "render/shading/tile.h"
 
@@ -18,9 +18,9 @@ class SampleOffsets {
     SampleOffsets(const Tile& tile, const ShadingPoint& at);
     // sample: one of ShadingPoint::samples.
     Vec3f to(int sample) const;
-    // Returns where a sample meets the plane in which rays from a facet of the shading point begin [ray space]; where that is
-    // seen from its edge, the facet's own start.
-    Vec3f on(const Facet& facet, int sample) const;
+    // Returns where a sample meets the plane in which rays from a cluster of the shading point begin [ray space]; where that is
+    // seen from its edge, the cluster's own start.
+    Vec3f on(const NormalCluster& cluster, int sample) const;
 
   private:
     const FrameView& frame_;

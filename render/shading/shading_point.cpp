@@ -27,7 +27,7 @@ void set_material(const Material& material, float alpha_least, ShadingPoint& poi
     point.surface.base = material.base;
     point.surface.highlight = material.highlight;
     point.surface.hapke.reset();
-    point.facet_alpha = alpha;
+    point.cluster_alpha = alpha;
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane
     point.sunlit = 1;
     point.weight_samples = 1;
     point.samples = 0;
-    point.facets = nullptr;
+    point.clusters = nullptr;
 
     point.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
     point.point_m = origin_m + hits.distance[k] * dir;

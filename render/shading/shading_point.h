@@ -15,15 +15,16 @@
 
 namespace hilcam {
 
-// A shading point that many samples of a pixel see may be a crumpled thing: a part of it, which leans otherwise.
-struct Facet {
+// A shading point that many samples of a pixel see may be a crumpled thing: a normal cluster is a part of it that leans
+// otherwise.
+struct NormalCluster {
     Vec3f geometric_normal, normal;          // the two normals of a shading point
     Vec3f start_m;                           // where rays that leave it begin, ray space
     float samples = 0;                       // samples of sixteen a pixel that see it
     SampleMask seen_by = 0;                  // those of the visibility buffer; 0: it is not of that
-    const LevelFacets* flattened = nullptr;  // the facets of the mesh for which it stands; null: itself
+    const LevelFacets* flattened = nullptr;  // the normals of the mesh for which it stands; null: itself
     bool goes_on = false;  // the next one is the same triangle there, and leans otherwise as its normals turn
-    const Facet* next = nullptr;
+    const NormalCluster* next = nullptr;
 };
 
 // Where a ray has met an object, and how the surface lies there.
@@ -50,8 +51,8 @@ struct ShadingSurface {
     SunVisibility
         sun_visibility;   // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
     float sunlit;         // share of it that what lies on it leaves in the Sun (mosaic.h)
-    float facet_alpha;    // alpha of the lobes of its facets
-    const Facet* facets;  // the shading point's own among them; null: it is one
+    float cluster_alpha;  // alpha of the lobes of its clusters
+    const NormalCluster* clusters;  // the shading point's own among them; null: it is one
 };
 
 // The share of the light that it sends which reaches its pixel, or the lobe whose rays have met it.

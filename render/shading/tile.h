@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "render/shading/facet_list.h"
 #include "render/shading/frame_view.h"
+#include "render/shading/normal_clusters.h"
 #include "render/shading/shading_point.h"
 #include "render/shading/tile_parts.h"
 #include "render/visibility/visibility_tile.h"
@@ -40,7 +40,7 @@ struct Tile {
     int samples_per_axis;        // n: an n x n grid of rays in each pixel
     std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
     TileStats& stats;
-    FacetList& facets;  // facets of what is seen
+    NormalClusters& clusters;  // clusters of what is seen
     // The fields below are those of a pass over pixels that are sampled more than once (adaptive_sampler.h).
     bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel

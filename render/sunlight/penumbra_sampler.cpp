@@ -70,7 +70,7 @@ void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
             ask(kMost, tile, sun, a, rays);
 }
 
-// Sends so many rays for a shading point, each for as much of its light, from places that its samples see (of facets by
+// Sends so many rays for a shading point, each for as much of its light, from places that its samples see (of clusters by
 // systematic sampling: the ray's place in the sum of their light).
 template <class Rays>
 void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays) {
@@ -79,22 +79,22 @@ void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, 
     // The four pixels of a square ask for other places of the disk.
     const std::uint32_t in_square = at.pixel % width % 2 + 2 * (at.pixel / width % 2);
     const SampleOffsets way(tile, at);
-    std::array<SampleMask, FacetLight::kStarts> left{};  // samples that no ray has begun from
+    std::array<SampleMask, ClusterLight::kStarts> left{};  // samples that no ray has begun from
     const float light = std::accumulate(a.shares.begin(), a.shares.end(), 0.0f);
     std::size_t k = 0;
-    float until = a.shares[0];  // sum of shares with the facet's
+    float until = a.shares[0];  // sum of shares with the cluster's
     a.lit = 0, a.of = count, a.halves = {};
     for (std::uint32_t i = 0; static_cast<float>(i) < count; ++i) {
         while ((static_cast<float>(i) + 0.5f) * light > until * count && k + 1 < a.shares.size())
             until += a.shares[++k];
-        const Facet* const facet = a.facets[k];
+        const NormalCluster* const cluster = a.clusters[k];
         Vec3f start_m = a.first_m;
         HalfShares halves = at.halves;
-        if (const SampleMask seen_by = facet ? facet->seen_by : at.samples; seen_by != 0) {
+        if (const SampleMask seen_by = cluster ? cluster->seen_by : at.samples; seen_by != 0) {
             const int sample = next_sample_across(tile.frame.samples, left[k], seen_by);
             const Vec2f at_px = tile.frame.samples.place(sample);
             halves = half_shares_at(at_px.x, at_px.y);
-            start_m = facet ? way.on(*facet, sample) : start_m + way.to(sample);
+            start_m = cluster ? way.on(*cluster, sample) : start_m + way.to(sample);
         }
         rays.add(start_m, sun.on_disk(4 * i + in_square, 4 * static_cast<std::uint32_t>(count)),
                  {&a, halves});

@@ -4,7 +4,7 @@
 // One ray to the middle of the Sun tells which shading points are lit, and one for all layers of a mosaic in a pixel. Where
 // shading points of one kind that differ lie in pixels within kReach_px of each other, an edge passes: each of them asks again by
 // four rays, and by sixteen where these differ, from places that its samples see to places of the disk. Of a shading point with
-// facets each ray stands for as much of its light, and begins at what its samples see of the facet. A kind is a surface of an
+// clusters each ray stands for as much of its light, and begins at what its samples see of the cluster. A kind is a surface of an
 // object, or more than one, where it faces the same way by and large: what lies in shadow behind an edge of the body is no edge
 // of a shadow on what stands before it. The approximation: a shading point further off has its one ray, so penumbras wider than
 // twice the reach keep a hard edge inside; and what fills no more than a 64th of a pixel has one, a 16th four.
@@ -12,7 +12,7 @@
 #include <array>
 #include <cstdint>
 
-#include "render/shading/facet_list.h"
+#include "render/shading/normal_clusters.h"
 #include "render/shading/path_model.h"
 
 namespace hilcam {
@@ -26,16 +26,16 @@ class PenumbraSampler {
     // PathModel::kMaxShadingPoints. Loop, any thread.
     void add(const ShadingPoint& at, const Spectrum& light) {
         Asked& asked = next(at, light);
-        asked.facets[0] = nullptr, asked.shares = {1};
+        asked.clusters[0] = nullptr, asked.shares = {1};
         asked.halves_of_all = at.halves;
         asked.first_m = at.start();
     }
-    // The same of a shading point with facets: its rays begin at these.
-    void add(const ShadingPoint& at, const Spectrum& light, const FacetLight& facets) {
+    // The same of a shading point with clusters: its rays begin at these.
+    void add(const ShadingPoint& at, const Spectrum& light, const ClusterLight& clusters) {
         Asked& asked = next(at, light);
-        asked.facets = facets.brightest, asked.shares = facets.share;
-        asked.halves_of_all = facets.halves;
-        asked.first_m = facets.brightest[0]->start_m;
+        asked.clusters = clusters.brightest, asked.shares = clusters.share;
+        asked.halves_of_all = clusters.halves;
+        asked.first_m = clusters.brightest[0]->start_m;
     }
     // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
     // thread.
@@ -55,8 +55,8 @@ class PenumbraSampler {
         Spectrum light;
         Vec3f first_m;  // start of the first ray
         // Those that have the most of the light, and how much; null: it has none.
-        std::array<const Facet*, FacetLight::kStarts> facets;
-        std::array<float, FacetLight::kStarts> shares;
+        std::array<const NormalCluster*, ClusterLight::kStarts> clusters;
+        std::array<float, ClusterLight::kStarts> shares;
         float lit, of;             // rays that have got through, and that were asked
         HalfShares halves_of_all;  // the light is there if no ray is held up
         HalfShares halves;         // sum of those that have got through, one by one

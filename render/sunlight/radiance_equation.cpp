@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "render/brdf/microfacet.h"
-#include "render/shading/facet_list.h"
 #include "render/shading/lamp_light.h"
+#include "render/shading/normal_clusters.h"
 #include "render/shading/shadow_rays.h"
 #include "render/sunlight/penumbra_sampler.h"
 
@@ -59,8 +59,8 @@ struct SunlitBy {
     Vec3f dir;
 };
 
-// The light of shading points with facets among some, in their order.
-class FacetLights {
+// The light of shading points with normal clusters among some, in their order.
+class ClusterLights {
   public:
     static constexpr std::size_t kMost = SunlitPoint::kMost;
 
@@ -68,20 +68,21 @@ class FacetLights {
     void find(const FrameView& frame, const SunSampler& sun, std::span<const ShadingPoint> points) {
         std::size_t count = 0;
         for (const ShadingPoint& at : points) {
-            if (!at.facets || !at.surface.has_lobes()) continue;
-            const bool widened = !frame.sun_is_disk && at.facet_alpha > 0;
+            if (!at.clusters || !at.surface.has_lobes()) continue;
+            const bool widened = !frame.sun_is_disk && at.cluster_alpha > 0;
             lights_[count] = {};
-            sunny_[count++] = {&at, sun.of(at).dir, widened ? sun_widened(at.facet_alpha) : at.facet_alpha};
+            sunny_[count++] = {&at, sun.of(at).dir,
+                               widened ? sun_widened(at.cluster_alpha) : at.cluster_alpha};
         }
-        lit_facets(frame, std::span(sunny_).first(count), lights_);
+        lit_clusters(frame, std::span(sunny_).first(count), lights_);
         next_ = lights_.data();
     }
-    const FacetLight& next() { return *next_++; }
+    const ClusterLight& next() { return *next_++; }
 
   private:
     std::array<SunlitPoint, kMost> sunny_;
-    std::array<FacetLight, kMost> lights_;
-    const FacetLight* next_ = nullptr;
+    std::array<ClusterLight, kMost> lights_;
+    const ClusterLight* next_ = nullptr;
 };
 
 void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
@@ -98,10 +99,10 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
     TileStats& stats = tile.stats;
     std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
     ShadowRays<SunlitBy, decltype(lit)> shadow(frame, counter, lit);
-    FacetLights of_facets;
+    ClusterLights of_facets;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (i % FacetLights::kMost == 0)
-            of_facets.find(frame, sun, points.subspan(i, std::min(FacetLights::kMost, points.size() - i)));
+        if (i % ClusterLights::kMost == 0)
+            of_facets.find(frame, sun, points.subspan(i, std::min(ClusterLights::kMost, points.size() - i)));
         const ShadingPoint& at = points[i];
         if (!at.surface.has_lobes()) continue;
         const auto [dir, light] = sun.of(at);
@@ -112,8 +113,8 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
         // heuristic).
         if (frame.sun_is_disk && is_weighed(frame, at))
             share *= sun.disk_density() / (sun.disk_density() + brdf_density(at.surface, c));
-        if (at.facets) {
-            const FacetLight& sum = of_facets.next();
+        if (at.clusters) {
+            const ClusterLight& sum = of_facets.next();
             if (sum.none()) continue;
             const Spectrum weight = share * (light * sum.reflected);
             if (finds_edges)

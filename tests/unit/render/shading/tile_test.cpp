@@ -22,8 +22,8 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     std::array<float, 12> halves{};
     const std::array<Spectrum, 1> responses{of(10)};
     TileStats stats;
-    FacetList facets;
-    Tile tile{frame, {0, 0, 2, 2}, 1, pixels, stats, facets};
+    NormalClusters clusters;
+    Tile tile{frame, {0, 0, 2, 2}, 1, pixels, stats, clusters};
     tile.halves = halves, tile.half_responses = responses;
     const std::array<PixelShare, 2> parts{PixelShare{1, {1, 0, 0}, of(1)}, {2, {0, -1, 0}, of(0.25f)}};
     ShadingPoint at{};

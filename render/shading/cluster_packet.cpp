@@ -1,7 +1,7 @@
-#include "render/shading/facet_packet.h"
+#include "render/shading/cluster_packet.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/shading/facet_packet.cpp"
+#define HWY_TARGET_INCLUDE "render/shading/cluster_packet.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -11,17 +11,19 @@ HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kParts = FacetPacket::kParts;
+constexpr std::size_t kParts = ClusterPacket::kParts;
 
-HWY_INLINE V load(const FacetPacket::Floats& from, std::size_t k) {
+HWY_INLINE V load(const ClusterPacket::Floats& from, std::size_t k) {
     return hn::Load(Floats(), from.data() + k);
 }
-HWY_INLINE Vector load(const FacetPacket::Vectors& from, std::size_t k) {
+HWY_INLINE Vector load(const ClusterPacket::Vectors& from, std::size_t k) {
     return {load(from.x, k), load(from.y, k), load(from.z, k)};
 }
-HWY_INLINE void store(V v, FacetPacket::Floats& to, std::size_t k) { hn::Store(v, Floats(), to.data() + k); }
+HWY_INLINE void store(V v, ClusterPacket::Floats& to, std::size_t k) {
+    hn::Store(v, Floats(), to.data() + k);
+}
 
-// The parts of each facet: leans (body axes), shares, and the square of the alpha that their normals scatter by.
+// The parts of each cluster: leans (body axes), shares, and the square of the alpha that their normals scatter by.
 struct Parts {
     Vector lean[kParts];
     V share[kParts];
@@ -65,12 +67,12 @@ HWY_INLINE Vector turned(const Mat3f& m, const Vector& a) {
     return {row(m.x), row(m.y), row(m.z)};
 }
 
-// Weighs the parts of facets by how much the viewer sees of them and how the light falls.
+// Weighs the parts of clusters by how much the viewer sees of them and how the light falls.
 //
 // Wrinkles shade each other, most where the light comes along them: as much of it falls on all of them together as on the flat
 // triangle, whatever their sides face (the condition that Smith's shadowing is made of: Heitz, JCGT 3(2), 2014, section 2). More
 // than 1 where they lean away from the light; so much only, as the triangle has an error of its own.
-HWY_INLINE void weigh(const Mat3f& world_from_body, const Parts& parts, std::size_t k, FacetPacket& p) {
+HWY_INLINE void weigh(const Mat3f& world_from_body, const Parts& parts, std::size_t k, ClusterPacket& p) {
     const V zero = number(0), one = number(1);
     const Vector normal = load(p.normal, k), view = load(p.view, k), light = load(p.light, k);
     V seen[kParts], ni[kParts], all_seen = zero, all_lit = zero;
@@ -89,7 +91,7 @@ HWY_INLINE void weigh(const Mat3f& world_from_body, const Parts& parts, std::siz
     const V flat = load(p.flat, k);
     const auto shaded = hn::And(hn::Gt(all_lit, zero), hn::Gt(flat, zero));
     const V share = hn::Min(hn::Div(hn::Mul(flat, hn::Sqrt(dotted(area, area))), all_lit), number(kMost));
-    // A facet that leans away from the viewer as a whole is seen as it lies itself.
+    // A cluster that leans away from the viewer as a whole is seen as it lies itself.
     const auto hidden = hn::Not(hn::Gt(all_seen, zero));
     const V each = hn::Div(hn::Mul(hn::IfThenElse(shaded, share, one), load(p.samples, k)),
                            hn::IfThenElse(hidden, one, all_seen));
@@ -160,7 +162,8 @@ HWY_INLINE V lobe_of(V alpha_squared, V rougher, V over_half, V no, V ni) {
     return hn::Div(hn::Mul(number(0.5f), a2), hn::Mul(hn::Mul(number(kPiF), hn::Mul(t, t)), under));
 }
 
-HWY_INLINE void reflect_parts(const Albedos& albedos, V per_below, V rougher, std::size_t k, FacetPacket& p) {
+HWY_INLINE void reflect_parts(const Albedos& albedos, V per_below, V rougher, std::size_t k,
+                              ClusterPacket& p) {
     const V one = number(1), alpha_squared = load(p.alpha_squared, k), over_half = load(p.over_half, k);
     V below = number(0), lobe = number(0);
     for (std::size_t j = 0; j < kParts; ++j) {
@@ -173,7 +176,7 @@ HWY_INLINE void reflect_parts(const Albedos& albedos, V per_below, V rougher, st
     store(below, p.below, k), store(lobe, p.lobe, k);
 }
 
-void reflect(const Mat3f& world_from_body, const LobeAlbedo* facets, FacetPacket& p) {
+void reflect(const Mat3f& world_from_body, const LobeAlbedo* facets, ClusterPacket& p) {
     static constexpr LobeAlbedo kNone;
     const LobeAlbedo& law = facets ? *facets : kNone;
     const Albedos albedos(law);
@@ -195,7 +198,7 @@ namespace hilcam {
 
 HWY_EXPORT(reflect);
 
-void reflect_facets(const Mat3f& world_from_body, const LobeAlbedo* facets, FacetPacket& packet) {
+void reflect_clusters(const Mat3f& world_from_body, const LobeAlbedo* facets, ClusterPacket& packet) {
     HWY_DYNAMIC_DISPATCH(reflect)(world_from_body, facets, packet);
 }
 

@@ -1,4 +1,4 @@
-#include "render/shading/facet_list.h"
+#include "render/shading/normal_clusters.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ struct Foil {
                                        material_of(kModel<brdf::OrenNayar>)};
     FrameView frame;
     std::vector<LevelFacets> flattened;
-    std::vector<Facet> facets;
+    std::vector<NormalCluster> facets;
     std::vector<ShadingPoint> points;
     std::vector<SunlitPoint> sunny;
 
@@ -55,7 +55,7 @@ struct Foil {
             at.surface = {&material, material.has_facets() ? kAlpha : 0, material.base, material.highlight};
             at.view_dir = about(0.7f), at.throughput.bin.fill(0.5f);
             for (std::size_t k = 0; k <= v % kFacets; ++k) {
-                Facet facet;
+                NormalCluster facet;
                 facet.geometric_normal = about(1.0f), facet.normal = about(1.0f);
                 facet.samples = 1 + static_cast<float>(k);
                 if (k % 2 == 0) {
@@ -65,20 +65,20 @@ struct Foil {
                     flattened.push_back(LevelFacets::of(parts, k % 4 == 0 ? 0.3f : 0.0f));
                     facet.flattened = &flattened.back();
                 }
-                facet.next = at.facets;
+                facet.next = at.clusters;
                 facets.push_back(facet);
-                at.facets = &facets.back();
+                at.clusters = &facets.back();
             }
             sunny.push_back({&at, about(0.7f), at.surface.alpha});
         }
     }
-    std::vector<FacetLight> lit() const {
-        std::vector<FacetLight> out(sunny.size());
-        lit_facets(frame, sunny, out);
+    std::vector<ClusterLight> lit() const {
+        std::vector<ClusterLight> out(sunny.size());
+        lit_clusters(frame, sunny, out);
         return out;
     }
     // What one facet reflects, part by part, times its samples.
-    Spectrum reflected(const SunlitPoint& from, const Facet& facet) const {
+    Spectrum reflected(const SunlitPoint& from, const NormalCluster& facet) const {
         const ShadingPoint& at = *from.at;
         LevelFacets::Leans lean{};
         LevelFacets::Floats share{1}, seen{}, no{}, ni{};
@@ -107,7 +107,7 @@ struct Foil {
         }
         return sum;
     }
-    static float widened(const SunlitPoint& from, const Facet& facet, float no, float ni) {
+    static float widened(const SunlitPoint& from, const NormalCluster& facet, float no, float ni) {
         if (!(from.alpha > 0) || !facet.flattened) return from.alpha;
         const float own = from.alpha * from.alpha,
                     rougher = facet.flattened->alpha() * facet.flattened->alpha();
@@ -117,14 +117,14 @@ struct Foil {
     }
 };
 
-TEST(FacetList, PacketsReflectWhatTheirFacetsDoOneByOne) {
+TEST(NormalClusters, PacketsReflectWhatTheirFacetsDoOneByOne) {
     const Foil foil;
-    const std::vector<FacetLight> lit = foil.lit();
+    const std::vector<ClusterLight> lit = foil.lit();
     for (std::size_t v = 0; v < Foil::kVertices; ++v) {
         const ShadingPoint& at = foil.points[v];
         Spectrum sum;
         float samples = 0, brightest = 0;
-        for (const Facet* facet = at.facets; facet; facet = facet->next) {
+        for (const NormalCluster* facet = at.clusters; facet; facet = facet->next) {
             samples += facet->samples;
             if (!facet->flattened && dot(facet->geometric_normal, foil.sunny[v].dir) <= 0) continue;
             const Spectrum light = foil.reflected(foil.sunny[v], *facet);
@@ -137,11 +137,11 @@ TEST(FacetList, PacketsReflectWhatTheirFacetsDoOneByOne) {
     }
 }
 
-TEST(FacetList, EveryWidthOfVectorsReflectsTheSame) {
+TEST(NormalClusters, EveryWidthOfVectorsReflectsTheSame) {
     const Foil foil;
     expect_same_by_any_width([&] {
         std::vector<float> all;
-        for (const FacetLight& light : foil.lit()) {
+        for (const ClusterLight& light : foil.lit()) {
             all.push_back(light.reflected[0]), all.push_back(light.reflected[1]);
             all.insert(all.end(), light.share.begin(), light.share.end());
         }
@@ -151,7 +151,7 @@ TEST(FacetList, EveryWidthOfVectorsReflectsTheSame) {
 
 // Two facets in a pixel, as large and as much in the light: the one in its right half mirrors it to the viewer. So that is where
 // light comes from, and where rays begin that ask for shadows.
-TEST(FacetList, LightComesFromTheFacetThatReflectsIt) {
+TEST(NormalClusters, LightComesFromTheFacetThatReflectsIt) {
     const Material metal = material_of(kModel<brdf::Metal>);
     FrameView frame;
     frame.world_from_body = {Mat3f{}};
@@ -160,15 +160,15 @@ TEST(FacetList, LightComesFromTheFacetThatReflectsIt) {
     const Vec3f up{0, 0, 1}, dir = normalized(Vec3f{-0.4f, 0, 1});
     // It leans aside, by as much to the light.
     const Vec3f aside = normalized(Vec3f{-0.19f, 0.6f, 1});
-    const Facet left{up, aside, {}, 8, kLeft}, right{up, up, {}, 8, kRight, nullptr, false, &left};
+    const NormalCluster left{up, aside, {}, 8, kLeft}, right{up, up, {}, 8, kRight, nullptr, false, &left};
     ShadingPoint at{};
     at.view_dir = normalized(Vec3f{0.4f, 0, 1});
     at.throughput.bin.fill(1);
     at.surface = {&metal, 0.04f, metal.base, metal.highlight};
-    at.facets = &right;
+    at.clusters = &right;
     const SunlitPoint sunny{&at, dir, 0.04f};
-    FacetLight light;
-    lit_facets(frame, {&sunny, 1}, {&light, 1});
+    ClusterLight light;
+    lit_clusters(frame, {&sunny, 1}, {&light, 1});
     EXPECT_EQ(light.brightest[0], &right);
     EXPECT_GT(light.share[0], 100 * light.share[1]);
     EXPECT_NEAR(light.halves.across, 1, 0.02);

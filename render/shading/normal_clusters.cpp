@@ -1,24 +1,24 @@
-#include "render/shading/facet_list.h"
+#include "render/shading/normal_clusters.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "render/shading/facet_packet.h"
+#include "render/shading/cluster_packet.h"
 #include "render/vocabulary/lane_sum.h"
 
 namespace hilcam {
 namespace {
 
 constexpr float kSame = 0.999998f;  // cosine
-// The only part of a facet that stands for none.
+// The only part of a cluster that stands for none.
 const LevelFacets kItself = LevelFacets::flat();
 
-// Facets of shading points on their way through packets, those of one material of an object at a time.
+// Clusters of shading points on their way through packets, those of one material of an object at a time.
 class Reflection {
   public:
-    Reflection(const FrameView& frame, std::span<const SunlitPoint> points, std::span<FacetLight> out)
+    Reflection(const FrameView& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out)
         : frame_(frame), points_(points), out_(out) {}
 
     void of_all() {
@@ -39,17 +39,17 @@ class Reflection {
   private:
     const FrameView& frame_;
     std::span<const SunlitPoint> points_;
-    std::span<FacetLight> out_;
-    FacetPacket packet_;
-    std::array<const Facet*, FacetPacket::kSize> facets_;
-    std::array<std::uint16_t, FacetPacket::kSize> owners_;  // shading points
-    const ShadingPoint* kind_ = nullptr;                    // one of those in the packet
+    std::span<ClusterLight> out_;
+    ClusterPacket packet_;
+    std::array<const NormalCluster*, ClusterPacket::kSize> clusters_;
+    std::array<std::uint16_t, ClusterPacket::kSize> owners_;  // shading points
+    const ShadingPoint* kind_ = nullptr;                      // one of those in the packet
     struct Sum {
         float samples;
-        // By a facet's lobe alone: depends on the angle between viewer and light, and on nothing else.
+        // By a cluster's lobe alone: depends on the angle between viewer and light, and on nothing else.
         Spectrum mirrored;
         float light;        // over all bins together
-        float going_on;     // light of the facets so far that one triangle's normals make
+        float going_on;     // light of the clusters so far that one triangle's normals make
         HalfShares halves;  // times the light
     };
     std::array<Sum, SunlitPoint::kMost> sums_;
@@ -63,20 +63,20 @@ class Reflection {
         const float io = dot(at->view_dir, dir), over_half = 1 / std::sqrt(std::max(2 + 2 * io, 1e-8f));
         if (alpha > 0) sums_[v].mirrored = brdf_mirrored(at->surface, half_vector({1, 1, io}).ih);
         const float side = at->back ? -1.0f : 1.0f;
-        for (const Facet* facet = at->facets; facet; facet = facet->next) {
-            sums_[v].samples += facet->samples;
-            const float flat = dot(facet->geometric_normal, dir);
-            if (!facet->flattened && flat <= 0) continue;
-            if (packet_.count == FacetPacket::kSize) reflect();
+        for (const NormalCluster* cluster = at->clusters; cluster; cluster = cluster->next) {
+            sums_[v].samples += cluster->samples;
+            const float flat = dot(cluster->geometric_normal, dir);
+            if (!cluster->flattened && flat <= 0) continue;
+            if (packet_.count == ClusterPacket::kSize) reflect();
             const std::size_t i = packet_.count++;
-            facets_[i] = facet, owners_[i] = v;
-            packet_.normal.set(i, facet->normal);
+            clusters_[i] = cluster, owners_[i] = v;
+            packet_.normal.set(i, cluster->normal);
             packet_.view.set(i, at->view_dir), packet_.light.set(i, dir);
-            packet_.samples[i] = facet->samples;
-            packet_.flat[i] = facet->flattened ? flat : 0.0f;
+            packet_.samples[i] = cluster->samples;
+            packet_.flat[i] = cluster->flattened ? flat : 0.0f;
             packet_.side[i] = side;
             packet_.over_half[i] = over_half, packet_.alpha_squared[i] = alpha * alpha;
-            packet_.parts[i] = facet->flattened ? *facet->flattened : kItself;
+            packet_.parts[i] = cluster->flattened ? *cluster->flattened : kItself;
         }
     }
 
@@ -84,37 +84,37 @@ class Reflection {
         if (packet_.count == 0) return;
         const Bsdf& surface = kind_->surface;
         const LobeAlbedo* const facets = facets_of(*surface.material);
-        reflect_facets(frame_.world_from_body[kind_->object], facets, packet_);
+        reflect_clusters(frame_.world_from_body[kind_->object], facets, packet_);
         const bool diffuse = std::holds_alternative<brdf::Lambert>(surface.material->brdf);
         for (std::size_t i = 0; i < packet_.count; ++i) {
             const std::uint16_t v = owners_[i];
             const Spectrum& base = points_[v].at->surface.base;
             const float lobe = points_[v].alpha > 0 ? packet_.lobe[i] : 0.0f;
             if (facets)
-                take(v, *facets_[i], packet_.below[i] * base + lobe * sums_[v].mirrored);
+                take(v, *clusters_[i], packet_.below[i] * base + lobe * sums_[v].mirrored);
             else
-                take(v, *facets_[i], diffuse ? packet_.lit[i] / kPiF * base : part_by_part(i));
+                take(v, *clusters_[i], diffuse ? packet_.lit[i] / kPiF * base : part_by_part(i));
         }
         packet_.count = 0;
     }
 
-    void take(std::uint16_t v, const Facet& facet, const Spectrum& reflected) {
+    void take(std::uint16_t v, const NormalCluster& cluster, const Spectrum& reflected) {
         const float light = lane_sum(reflected.bin);
         const HalfShares halves =
-            facet.seen_by != 0 ? frame_.samples.halves(facet.seen_by) : points_[v].at->halves;
+            cluster.seen_by != 0 ? frame_.samples.halves(cluster.seen_by) : points_[v].at->halves;
         out_[v].reflected += reflected;
         Sum& sum = sums_[v];
         sum.light += light, sum.going_on += light;
         sum.halves += light * halves;
         // For shadows these are one.
-        if (!facet.goes_on) out_[v].add(facet, std::exchange(sum.going_on, 0.0f));
+        if (!cluster.goes_on) out_[v].add(cluster, std::exchange(sum.going_on, 0.0f));
     }
 
     Spectrum part_by_part(std::size_t i) const {
         const SunlitPoint& from = points_[owners_[i]];
         const float io = dot(from.at->view_dir, from.dir);
         Spectrum sum;
-        for (std::size_t j = 0; j < FacetPacket::kParts; ++j)
+        for (std::size_t j = 0; j < ClusterPacket::kParts; ++j)
             if (const float weight = packet_.weight[j][i]; weight > 0)
                 sum += weight * brdf_value(from.at->surface, {packet_.no[j][i], packet_.ni[j][i], io});
         return sum;
@@ -130,17 +130,17 @@ class Reflection {
 
 }  // namespace
 
-void FacetLight::add(const Facet& facet, float light) {
+void ClusterLight::add(const NormalCluster& cluster, float light) {
     if (!(light > share.back())) return;
     std::size_t place = share.size() - 1;
     for (; place > 0 && light > share[place - 1]; --place)
         share[place] = share[place - 1], brightest[place] = brightest[place - 1];
-    share[place] = light, brightest[place] = &facet;
+    share[place] = light, brightest[place] = &cluster;
 }
 
-// Member by member: a Facet that is copied whole waits for its own stores.
-void FacetList::push(const Facet& part, ShadingPoint& point) {
-    Facet& added = facets_[count_++];
+// Member by member: a NormalCluster that is copied whole waits for its own stores.
+void NormalClusters::push(const NormalCluster& part, ShadingPoint& point) {
+    NormalCluster& added = clusters_[count_++];
     added.geometric_normal = part.geometric_normal;
     added.normal = part.normal;
     added.start_m = part.start_m;
@@ -148,22 +148,22 @@ void FacetList::push(const Facet& part, ShadingPoint& point) {
     added.seen_by = part.seen_by;
     added.flattened = part.flattened;
     added.goes_on = part.goes_on;
-    added.next = point.facets;
-    point.facets = &added;
+    added.next = point.clusters;
+    point.clusters = &added;
 }
 
-void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first,
-                    std::span<const Vec3f> turns, ShadingPoint& point) {
+void NormalClusters::add(const FrameView& frame, NormalCluster part, std::uint32_t triangle, bool first,
+                         std::span<const Vec3f> turns, ShadingPoint& point) {
     const ObjectSurfaces& object = *(*frame.objects)[point.object];
     bool has_flattened = false;
     if (!object.facets.empty()) {
         has_flattened = object.flattened_alpha[point.surface_number] > 0;
         if (!object.facets[triangle].is_flat()) part.flattened = &object.facets[triangle];
-        if (first) point.facet_alpha = object.unflattened(point.surface_number, point.surface.alpha);
+        if (first) point.cluster_alpha = object.unflattened(point.surface_number, point.surface.alpha);
     }
     const bool alike = turns.empty() && (first || dot(point.normal, part.normal) > kSame);
-    if (alike && !part.flattened && !has_flattened && !point.facets) return;
-    if (!first && !point.facets)
+    if (alike && !part.flattened && !has_flattened && !point.clusters) return;
+    if (!first && !point.clusters)
         push({point.geometric_normal, point.normal, point.start(), point.weight_samples, point.samples},
              point);
     if (turns.empty()) return push(part, point);
@@ -175,7 +175,7 @@ void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, 
     }
 }
 
-void lit_facets(const FrameView& frame, std::span<const SunlitPoint> points, std::span<FacetLight> out) {
+void lit_clusters(const FrameView& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out) {
     if (!points.empty()) Reflection(frame, points, out).of_all();
 }
 

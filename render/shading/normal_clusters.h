@@ -1,7 +1,7 @@
 #pragma once
 // The parts of what the camera sees in a pixel that lean otherwise, for the Sun to be reflected by each of
 // them: what a shading point of many samples has joined, and what a level of detail has flattened
-// (lod/level_facets.h). What is curved, a tube as wide as the pixel, has several normals in one triangle: facets that
+// (lod/level_facets.h). What is curved, a tube as wide as the pixel, has several normals in one triangle: clusters that
 // share its samples, and of which shadows ask as of one.
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace hilcam {
 
-// Memory for the facets of a tile's shading points. One thread at a time.
-class FacetList {
+// Memory for the clusters of a tile's shading points. One thread at a time.
+class NormalClusters {
   public:
     static constexpr std::size_t kTurns = 4;  // normals of a part at most
 
@@ -20,41 +20,41 @@ class FacetList {
     // Returns how many calls of add() have a place; a shading point's own part comes late.
     std::size_t room() const { return (kMax - count_) / (1 + kTurns); }
 
-    // Adds a part to a shading point, whose own is the first. Facets are made where there is more than one, and of
+    // Adds a part to a shading point, whose own is the first. Clusters are made where there is more than one, and of
     // what a level has flattened: its own lobe is wider than theirs. turns: normals of the part in place of
     // its one, each of as many of its samples; empty: that one. Loop, any thread.
-    void add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first,
+    void add(const FrameView& frame, NormalCluster part, std::uint32_t triangle, bool first,
              std::span<const Vec3f> turns, ShadingPoint& point);
 
   private:
     static constexpr std::size_t kMax = 4096;
-    std::array<Facet, kMax> facets_;
+    std::array<NormalCluster, kMax> clusters_;
     std::size_t count_ = 0;
 
-    void push(const Facet& part, ShadingPoint& point);
+    void push(const NormalCluster& part, ShadingPoint& point);
 };
 
-// The light that the facets of a shading point reflect from a source of irradiance 1, with the shading point's throughput.
-struct FacetLight {
+// The light that the clusters of a shading point reflect from a source of irradiance 1, with the shading point's throughput.
+struct ClusterLight {
     static constexpr std::size_t kStarts = 4;
     Spectrum reflected;
-    // The facets that reflect most, most first, and how much, over all bins together.
-    std::array<const Facet*, kStarts> brightest{};
+    // The clusters that reflect most, most first, and how much, over all bins together.
+    std::array<const NormalCluster*, kStarts> brightest{};
     std::array<float, kStarts> share{};
-    HalfShares halves;  // the light of all facets is there
+    HalfShares halves;  // the light of all clusters is there
 
     bool none() const { return !(share[0] > 0); }
-    void add(const Facet& facet, float light);
+    void add(const NormalCluster& cluster, float light);
 };
-// A shading point with facets, for light from one direction.
+// A shading point with clusters, for light from one direction.
 struct SunlitPoint {
     static constexpr std::size_t kMost = 128;  // together
     const ShadingPoint* at;
     Vec3f dir;    // towards the light, unit
-    float alpha;  // alpha of the facets' own lobes
+    float alpha;  // alpha of the clusters' own lobes
 };
-// Finds what the facets of shading points reflect, SunlitPoint::kMost at most. out: one for each, as they are made. Loop, any
-// thread.
-void lit_facets(const FrameView& frame, std::span<const SunlitPoint> points, std::span<FacetLight> out);
+// Finds what the normal clusters of shading points reflect, SunlitPoint::kMost at most. out: one for each, as they are made.
+// Loop, any thread.
+void lit_clusters(const FrameView& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out);
 
 }  // namespace hilcam

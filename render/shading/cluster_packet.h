@@ -1,7 +1,7 @@
 #pragma once
-// Sunlight on sixteen facets of one material side by side: how their parts lean, which share of the light falls on each, and how
-// much of it they reflect. The facets may be those of several shading points. Compiled for several widths of vectors that give
-// the same results.
+// Sunlight on sixteen clusters of one material side by side: how their parts lean, which share of the light falls on each, and
+// how much of it they reflect. The clusters may be those of several shading points. Compiled for several widths of vectors that
+// give the same results.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-struct alignas(64) FacetPacket {
+struct alignas(64) ClusterPacket {
     static constexpr std::size_t kSize = 16, kParts = LevelFacets::kMax;
     using Floats = std::array<float, kSize>;
     struct Vectors {
@@ -27,14 +27,14 @@ struct alignas(64) FacetPacket {
     Floats over_half{};      // one over the length of view + light
     Floats alpha_squared{};  // square of its own lobe's alpha
     std::array<LevelFacets, kSize> parts{};  // that it stands for
-    // Out: the weight that each part has with its cosines to both, and for the facet sums of them: the light that falls on it, and
-    // what leaves below facets and by their lobe.
+    // Out: the weight that each part has with its cosines to both, and for the cluster sums of them: the light that falls on it,
+    // and what leaves below facets and by their lobe.
     std::array<Floats, kParts> weight, no, ni;
     Floats lit, below, lobe;
 
     std::size_t count = 0;
 };
 // facets: null where the material has none, nor then below and lobe a value. Loop, any thread.
-void reflect_facets(const Mat3f& world_from_body, const LobeAlbedo* facets, FacetPacket& packet);
+void reflect_clusters(const Mat3f& world_from_body, const LobeAlbedo* facets, ClusterPacket& packet);
 
 }  // namespace hilcam
