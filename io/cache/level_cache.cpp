@@ -22,10 +22,11 @@ bool read_level(CacheReader& in, const Mesh& mesh, MeshLevel& level) {
     Mesh& m = level.mesh;
     m.surfaces = mesh.surfaces;
     in(level.error_m), in(level.flattened_alpha), in(m.vertices_m), in(m.normals), in(m.uvs), in(m.triangles),
-        in(m.surface_of_triangle), in(level.facets);
+        in(m.surface_of_triangle), in(level.lod_normals);
     if (!in.good()) return false;
     if (level.flattened_alpha.size() != mesh.surfaces.size() ||
-        m.surface_of_triangle.size() != m.triangles.size() || level.facets.size() != m.triangles.size() ||
+        m.surface_of_triangle.size() != m.triangles.size() ||
+        level.lod_normals.size() != m.triangles.size() ||
         (!m.normals.empty() && m.normals.size() != m.vertices_m.size()) ||
         (!m.uvs.empty() && m.uvs.size() != m.vertices_m.size()))
         return false;
@@ -59,7 +60,7 @@ void write_levels(CacheWriter& out, std::uint64_t hash, const std::vector<MeshLe
     for (const MeshLevel& level : levels) {
         const Mesh& m = level.mesh;
         out(level.error_m), out(level.flattened_alpha), out(m.vertices_m), out(m.normals), out(m.uvs),
-            out(m.triangles), out(m.surface_of_triangle), out(level.facets);
+            out(m.triangles), out(m.surface_of_triangle), out(level.lod_normals);
     }
 }
 

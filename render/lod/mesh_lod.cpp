@@ -185,7 +185,7 @@ std::vector<MeshLevel> coarser_levels(const Mesh& mesh) {
         shaped = in_order(made.shaped, order_triangles(made.mesh));
         // Errors of levels made from levels add up.
         MeshLevel level{std::move(made.mesh), error_m + (levels.empty() ? 0 : levels.back().error_m), {}, {}};
-        level.facets = facets_of(mesh, level.mesh, level.error_m);
+        level.lod_normals = lod_normals_of(mesh, level.mesh, level.error_m);
         for (std::size_t s = 0; s < mesh.surfaces.size(); ++s)
             level.flattened_alpha.push_back(
                 flattened_alpha(areas[s], area_of(level.mesh, static_cast<std::uint16_t>(s))));

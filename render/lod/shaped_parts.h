@@ -1,7 +1,7 @@
 #pragma once
 // Says which parts of a mesh are shaped, as masts, rings, dishes and boxes are: bent to one side more than to the other.
 // What is wrinkled, as crumpled foil, is bent to both alike. A level of detail may flatten wrinkles, whose light it keeps
-// by how they leaned (level_facets.h), but not shapes: of a mast that is some of its own radius off in places, or of a
+// by how they leaned (lod_normals.h), but not shapes: of a mast that is some of its own radius off in places, or of a
 // ring seen from its edge, the thin sunlit part has other light.
 //
 // A part is what of one surface hangs together by edges of two triangles. How it is bent is measured by the mean

@@ -168,7 +168,7 @@ std::size_t PrimaryHits::look_at_fragments() {
         packet_.triangle[n] = seen.triangle;
         __builtin_prefetch(&shown.mesh.triangles[seen.triangle]);
         __builtin_prefetch(&surfaces.triangles[seen.triangle]);
-        if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets[seen.triangle]);
+        if (!surfaces.lod_normals.empty()) __builtin_prefetch(&surfaces.lod_normals[seen.triangle]);
         if (!surfaces.corner_uvs.empty()) {
             __builtin_prefetch(&surfaces.corner_uvs[seen.triangle]);
             __builtin_prefetch(&surfaces.uv_per_m[seen.triangle]);

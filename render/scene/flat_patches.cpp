@@ -66,7 +66,7 @@ class PatchFinder {
         const auto& n = packed.corner_normals;
         if (surfaces_.materials[packed.surface].texture >= 0) return;
         if (!packed.flat && (n[0] != n[1] || n[0] != n[2])) return;
-        if (!surfaces_.facets.empty() && !surfaces_.facets[t].is_flat()) return;
+        if (!surfaces_.lod_normals.empty() && !surfaces_.lod_normals[t].is_flat()) return;
         const auto [a, b, c] = corners(t);
         const Vec3d across = cross(b - a, c - a);
         const double area = length(across);
@@ -148,7 +148,7 @@ std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfac
         const Material& material = surfaces.materials[surfaces.triangles[t].surface];
         const bool is_mirror = material.is_bare() && material.ggx_alpha < kMirror;
         out[t] = material.texture < 0 && !material.transmits() && !is_mirror &&
-                 (surfaces.facets.empty() || surfaces.facets[t].is_flat());
+                 (surfaces.lod_normals.empty() || surfaces.lod_normals[t].is_flat());
     }
     return out;
 }

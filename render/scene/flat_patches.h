@@ -25,7 +25,7 @@ inline constexpr float kPatchReach = 64;
 // This stands in ObjectSurfaces::patches where the camera sees a triangle as part of what lies below it (mosaic.h).
 inline constexpr std::uint32_t kNotShown = ~std::uint32_t{0};
 
-// Writes ObjectSurfaces::patches and the marks of those that stand for others, after the facets of a level. The same for any
+// Writes ObjectSurfaces::patches and the marks of those that stand for others, after the normals of a level. The same for any
 // number of threads. mesh: that of which the surfaces were made. Owner thread; some tenths of a second for a million triangles.
 void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces);
 

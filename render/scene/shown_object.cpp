@@ -91,7 +91,7 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
             auto surfaces = std::make_shared<ObjectSurfaces>(
                 level.mesh, widened(object.materials, level.flattened_alpha), textures);
             surfaces->flattened_alpha = level.flattened_alpha;
-            surfaces->facets = std::move(level.facets);
+            surfaces->lod_normals = std::move(level.lod_normals);
             find_patches(level.mesh, *surfaces);
             if (!mosaics && level.error_m >= kFinestMosaic * 2 * surfaces->radius_m)
                 mosaics = std::make_shared<const std::vector<Mosaic>>(

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/lod/level_facets.h"
+#include "render/lod/lod_normals.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/ground_normals.h"
 #include "render/scene/packed_normal.h"
@@ -53,7 +53,7 @@ struct ObjectSurfaces {
     // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
     // have them, too. The mesh itself has flattened none: empty.
     std::vector<float> flattened_alpha;
-    std::vector<LevelFacets> facets;  // facets of a level's triangles; empty for the mesh itself
+    std::vector<LodNormals> lod_normals;  // normals below a level's triangles; empty for the mesh itself
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
     std::vector<SunVisibility> sun_visibility;                // per triangle; empty: rays ask the Sun

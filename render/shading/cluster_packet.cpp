@@ -30,7 +30,7 @@ struct Parts {
     V rougher;
 
     // from: as many as a vector has lanes.
-    HWY_INLINE Parts(const LevelFacets* from, V side) {
+    HWY_INLINE Parts(const LodNormals* from, V side) {
         const Floats d;
         const Ints di;
         const auto* words = reinterpret_cast<const std::int32_t*>(from);
@@ -39,7 +39,7 @@ struct Parts {
         hn::LoadInterleaved4(di, words + 4 * hn::Lanes(di), b[0], b[1], b[2], b[3]);
         const auto even = [&](int i) HWY_ATTR { return hn::ConcatEven(di, b[i], a[i]); };
         const auto odd = [&](int i) HWY_ATTR { return hn::ConcatOdd(di, b[i], a[i]); };
-        const V scale = hn::Mul(side, number(1 / LevelFacets::kLean));
+        const V scale = hn::Mul(side, number(1 / LodNormals::kLean));
         const auto set = [&](V Vector::*axis, std::size_t pair, I both) HWY_ATTR {
             const I low = hn::ShiftRight<16>(hn::ShiftLeft<16>(both)), high = hn::ShiftRight<16>(both);
             lean[2 * pair].*axis = hn::Mul(hn::ConvertTo(d, low), scale);
@@ -50,7 +50,7 @@ struct Parts {
         set(&Vector::z, 0, odd(0)), set(&Vector::z, 1, odd(1));
         const I shares = odd(2), byte = hn::Set(di, 255);
         const auto share_of = [&](I of) HWY_ATTR {
-            return hn::Mul(hn::ConvertTo(d, hn::And(of, byte)), number(1 / LevelFacets::kAll));
+            return hn::Mul(hn::ConvertTo(d, hn::And(of, byte)), number(1 / LodNormals::kAll));
         };
         share[0] = share_of(shares), share[1] = share_of(hn::ShiftRight<8>(shares));
         share[2] = share_of(hn::ShiftRight<16>(shares)), share[3] = share_of(hn::ShiftRight<24>(shares));

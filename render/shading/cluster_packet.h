@@ -7,13 +7,13 @@
 #include <cstdint>
 
 #include "render/brdf/facet_lobe.h"
-#include "render/lod/level_facets.h"
+#include "render/lod/lod_normals.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
 
 struct alignas(64) ClusterPacket {
-    static constexpr std::size_t kSize = 16, kParts = LevelFacets::kMax;
+    static constexpr std::size_t kSize = 16, kParts = LodNormals::kMax;
     using Floats = std::array<float, kSize>;
     struct Vectors {
         Floats x{}, y{}, z{};
@@ -26,7 +26,7 @@ struct alignas(64) ClusterPacket {
     Floats side{};           // 1; -1: seen from behind
     Floats over_half{};      // one over the length of view + light
     Floats alpha_squared{};  // square of its own lobe's alpha
-    std::array<LevelFacets, kSize> parts{};  // that it stands for
+    std::array<LodNormals, kSize> parts{};  // that it stands for
     // Out: the weight that each part has with its cosines to both, and for the cluster sums of them: the light that falls on it,
     // and what leaves below facets and by their lobe.
     std::array<Floats, kParts> weight, no, ni;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kSame = 0.999998f;  // cosine
 // The only part of a cluster that stands for none.
-const LevelFacets kItself = LevelFacets::flat();
+const LodNormals kItself = LodNormals::flat();
 
 // Clusters of shading points on their way through packets, those of one material of an object at a time.
 class Reflection {
@@ -156,9 +156,9 @@ void NormalClusters::add(const FrameView& frame, NormalCluster part, std::uint32
                          std::span<const Vec3f> turns, ShadingPoint& point) {
     const ObjectSurfaces& object = *(*frame.objects)[point.object];
     bool has_flattened = false;
-    if (!object.facets.empty()) {
+    if (!object.lod_normals.empty()) {
         has_flattened = object.flattened_alpha[point.surface_number] > 0;
-        if (!object.facets[triangle].is_flat()) part.flattened = &object.facets[triangle];
+        if (!object.lod_normals[triangle].is_flat()) part.flattened = &object.lod_normals[triangle];
         if (first) point.cluster_alpha = object.unflattened(point.surface_number, point.surface.alpha);
     }
     const bool alike = turns.empty() && (first || dot(point.normal, part.normal) > kSame);

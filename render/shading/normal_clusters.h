@@ -1,7 +1,7 @@
 #pragma once
 // The parts of what the camera sees in a pixel that lean otherwise, for the Sun to be reflected by each of
 // them: what a shading point of many samples has joined, and what a level of detail has flattened
-// (lod/level_facets.h). What is curved, a tube as wide as the pixel, has several normals in one triangle: clusters that
+// (lod/lod_normals.h). What is curved, a tube as wide as the pixel, has several normals in one triangle: clusters that
 // share its samples, and of which shadows ask as of one.
 
 #include <span>

@@ -18,11 +18,11 @@ namespace hilcam {
 // A shading point that many samples of a pixel see may be a crumpled thing: a normal cluster is a part of it that leans
 // otherwise.
 struct NormalCluster {
-    Vec3f geometric_normal, normal;          // the two normals of a shading point
-    Vec3f start_m;                           // where rays that leave it begin, ray space
-    float samples = 0;                       // samples of sixteen a pixel that see it
-    SampleMask seen_by = 0;                  // those of the visibility buffer; 0: it is not of that
-    const LevelFacets* flattened = nullptr;  // the normals of the mesh for which it stands; null: itself
+    Vec3f geometric_normal, normal;         // the two normals of a shading point
+    Vec3f start_m;                          // where rays that leave it begin, ray space
+    float samples = 0;                      // samples of sixteen a pixel that see it
+    SampleMask seen_by = 0;                 // those of the visibility buffer; 0: it is not of that
+    const LodNormals* flattened = nullptr;  // the normals of the mesh for which it stands; null: itself
     bool goes_on = false;  // the next one is the same triangle there, and leans otherwise as its normals turn
     const NormalCluster* next = nullptr;
 };

@@ -83,7 +83,7 @@ TEST(FlatPatches, NormalsColoursAndWrinklesOfTheirOwnKeepTrianglesApart) {
 
     const Mesh flat = leaning_plate(4);
     ObjectSurfaces level(flat, std::vector<Material>(1), std::make_shared<const std::vector<MipTexture>>());
-    level.facets.assign(flat.triangles.size(), LevelFacets::of({LevelFacets::Facet{{0.1f, 0, 0}, 1}}, 0));
+    level.lod_normals.assign(flat.triangles.size(), LodNormals::of({LodNormals::Normal{{0.1f, 0, 0}, 1}}, 0));
     find_patches(flat, level);
     EXPECT_TRUE(level.patches.empty());
 }

@@ -31,7 +31,7 @@ struct Foil {
                                        material_of(kModel<brdf::Dielectric>),
                                        material_of(kModel<brdf::OrenNayar>)};
     FrameView frame;
-    std::vector<LevelFacets> flattened;
+    std::vector<LodNormals> flattened;
     std::vector<NormalCluster> facets;
     std::vector<ShadingPoint> points;
     std::vector<SunlitPoint> sunny;
@@ -59,10 +59,10 @@ struct Foil {
                 facet.geometric_normal = about(1.0f), facet.normal = about(1.0f);
                 facet.samples = 1 + static_cast<float>(k);
                 if (k % 2 == 0) {
-                    std::array<LevelFacets::Facet, LevelFacets::kMax> parts{};
-                    for (LevelFacets::Facet& part : parts)
+                    std::array<LodNormals::Normal, LodNormals::kMax> parts{};
+                    for (LodNormals::Normal& part : parts)
                         part = {0.5f * Vec3f{any(engine), any(engine), any(engine)}, 0.25f};
-                    flattened.push_back(LevelFacets::of(parts, k % 4 == 0 ? 0.3f : 0.0f));
+                    flattened.push_back(LodNormals::of(parts, k % 4 == 0 ? 0.3f : 0.0f));
                     facet.flattened = &flattened.back();
                 }
                 facet.next = at.clusters;
@@ -80,12 +80,12 @@ struct Foil {
     // What one facet reflects, part by part, times its samples.
     Spectrum reflected(const SunlitPoint& from, const NormalCluster& facet) const {
         const ShadingPoint& at = *from.at;
-        LevelFacets::Leans lean{};
-        LevelFacets::Floats share{1}, seen{}, no{}, ni{};
+        LodNormals::Leans lean{};
+        LodNormals::Floats share{1}, seen{}, no{}, ni{};
         if (facet.flattened) lean = facet.flattened->leans(), share = facet.flattened->shares();
         Vec3f area{};
         float all_seen = 0, all_lit = 0;
-        for (std::size_t j = 0; j < LevelFacets::kMax; ++j) {
+        for (std::size_t j = 0; j < LodNormals::kMax; ++j) {
             const Vec3f own = (at.back ? -1.0f : 1.0f) * Vec3f{lean.x[j], lean.y[j], lean.z[j]};
             const Vec3f normal = normalized(facet.normal + frame.world_from_body[at.object] * own);
             const float length_of = length(facet.normal + frame.world_from_body[at.object] * own);
@@ -99,7 +99,7 @@ struct Foil {
         float each = facet.samples;
         if (facet.flattened && flat > 0 && all_lit > 0) each *= std::min(flat * length(area) / all_lit, 2.0f);
         Spectrum sum;
-        for (std::size_t j = 0; j < LevelFacets::kMax; ++j) {
+        for (std::size_t j = 0; j < LodNormals::kMax; ++j) {
             const float weight = each * (all_seen > 0 ? seen[j] / all_seen : share[j]) * ni[j];
             Bsdf surface = at.surface;
             surface.alpha = widened(from, facet, no[j], ni[j]);

@@ -91,11 +91,11 @@ class SunEdgesTest : public testing::Test {
     // Four facets that lean to all sides, where the mesh itself is flat.
     static void wrinkle(SceneObject& object) {
         constexpr float kLean = 0.3f;
-        const LevelFacets facets = LevelFacets::of({LevelFacets::Facet{{kLean, 0, 0}, 0.25f},
-                                                    {{-kLean, 0, 0}, 0.25f},
-                                                    {{0, kLean, 0}, 0.25f},
-                                                    {{0, -kLean, 0}, 0.25f}},
-                                                   0.1f);
+        const LodNormals facets = LodNormals::of({LodNormals::Normal{{kLean, 0, 0}, 0.25f},
+                                                  {{-kLean, 0, 0}, 0.25f},
+                                                  {{0, kLean, 0}, 0.25f},
+                                                  {{0, -kLean, 0}, 0.25f}},
+                                                 0.1f);
         object.levels = {{object.mesh, 1e-6, {0.3f}, {object.mesh.triangles.size(), facets}}};
     }
     void add(float size, Vec3d position_m) {

@@ -1,4 +1,4 @@
-#include "render/lod/level_facets.h"
+#include "render/lod/lod_normals.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// Normals that lean less apart than this are one facet: a sixth of the narrowest lobe that is kept
+// Normals that lean less apart than this are one: a sixth of the narrowest lobe that is kept
 // (kept_light.h).
 constexpr double kApart = 0.02;
 
@@ -105,47 +105,47 @@ std::size_t divide(const Group& group, std::span<Group> halves) {
     return 2;
 }
 
-LevelFacets facets_of_parts(std::span<Part> parts) {
+LodNormals facets_of_parts(std::span<Part> parts) {
     const Group all = group_of(parts);
     std::array<Group, 2> halves;
-    std::array<Group, LevelFacets::kMax> groups;
+    std::array<Group, LodNormals::kMax> groups;
     std::size_t count = 0;
     const std::size_t two = divide(all, halves);
     for (std::size_t i = 0; i < two; ++i) count += divide(halves[i], std::span(groups).subspan(count, 2));
-    std::array<LevelFacets::Facet, LevelFacets::kMax> facets{};
+    std::array<LodNormals::Normal, LodNormals::kMax> normals{};
     double variance = 0;  // within the groups, of both axes together: alpha squared (Beckmann's)
     for (std::size_t i = 0; i < count; ++i) {
         const Group& g = groups[i];
         const double share = g.area / all.area;
-        facets[i] = {to_float(g.mean), static_cast<float>(share)};
+        normals[i] = {to_float(g.mean), static_cast<float>(share)};
         variance += share * (g.scatter.x.x + g.scatter.y.y + g.scatter.z.z);
     }
     if (count == 1 && variance < kApart * kApart && length(groups[0].mean) < kApart)
-        return LevelFacets::flat();
-    return LevelFacets::of(facets, static_cast<float>(std::sqrt(variance)));
+        return LodNormals::flat();
+    return LodNormals::of(normals, static_cast<float>(std::sqrt(variance)));
 }
 
 }  // namespace
 
-LevelFacets LevelFacets::of(const std::array<Facet, kMax>& facets, float alpha) {
-    LevelFacets out;
+LodNormals LodNormals::of(const std::array<Normal, kMax>& normals, float alpha) {
+    LodNormals out;
     out.alpha_ = alpha;
     const auto whole = [](float lean) {
         return static_cast<std::int16_t>(std::lround(std::clamp(lean, -2.0f, 2.0f) * kLean));
     };
     for (std::size_t i = 0; i < kMax; ++i) {
-        out.x_[i] = whole(facets[i].lean.x), out.y_[i] = whole(facets[i].lean.y);
-        out.z_[i] = whole(facets[i].lean.z);
-        // A facet that is there stays there.
-        out.share_[i] = facets[i].share > 0
-                            ? static_cast<std::uint8_t>(std::max(1L, std::lround(facets[i].share * kAll)))
+        out.x_[i] = whole(normals[i].lean.x), out.y_[i] = whole(normals[i].lean.y);
+        out.z_[i] = whole(normals[i].lean.z);
+        // A normal that is there stays there.
+        out.share_[i] = normals[i].share > 0
+                            ? static_cast<std::uint8_t>(std::max(1L, std::lround(normals[i].share * kAll)))
                             : std::uint8_t{0};
     }
     return out;
 }
 
-std::vector<LevelFacets> facets_of(const Mesh& mesh, const Mesh& level, double error_m) {
-    std::vector<LevelFacets> out(level.triangles.size(), LevelFacets::flat());
+std::vector<LodNormals> lod_normals_of(const Mesh& mesh, const Mesh& level, double error_m) {
+    std::vector<LodNormals> out(level.triangles.size(), LodNormals::flat());
     const ClosestTriangle near(level);
     const auto radius_m = static_cast<float>(4 * error_m);
     std::vector<Part> parts(mesh.triangles.size());

@@ -16,17 +16,17 @@
 
 namespace hilcam {
 
-class LevelFacets {
+class LodNormals {
   public:
     static constexpr std::size_t kMax = 4;
-    struct Facet {
+    struct Normal {
         Vec3f lean;   // added to the level's own normal there, before it is made a unit vector; body axes
         float share;  // share of the area of all; 0: there are no more
     };
-    // alpha: GGX's, of how normals scatter about the facets' own.
-    static LevelFacets of(const std::array<Facet, kMax>& facets, float alpha);
+    // alpha: GGX's, of how normals scatter about these.
+    static LodNormals of(const std::array<Normal, kMax>& normals, float alpha);
     // Leans nowhere.
-    static LevelFacets flat() { return of({Facet{{}, 1}}, 0); }
+    static LodNormals flat() { return of({Normal{{}, 1}}, 0); }
 
     using Floats = std::array<float, kMax>;
     struct Leans {
@@ -58,10 +58,10 @@ class LevelFacets {
     std::array<std::uint8_t, kMax> share_{};
     float alpha_ = 0;
 };
-static_assert(sizeof(LevelFacets) == 32);
+static_assert(sizeof(LodNormals) == 32);
 
 // One for each triangle of the level. error_m: how far the level is from the mesh, about. Owner thread; some
 // seconds per million triangles of the mesh.
-std::vector<LevelFacets> facets_of(const Mesh& mesh, const Mesh& level, double error_m);
+std::vector<LodNormals> lod_normals_of(const Mesh& mesh, const Mesh& level, double error_m);
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-#include "render/lod/level_facets.h"
+#include "render/lod/lod_normals.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,15 @@ double light_of(const Mesh& mesh, Look look) {
     return sum;
 }
 // The same of a level, as a pixel shades it: all of a triangle's projected area, shared among its facets.
-double light_of(const Mesh& level, const std::vector<LevelFacets>& facets, Look look) {
+double light_of(const Mesh& level, const std::vector<LodNormals>& normals, Look look) {
     double sum = 0;
     for (std::size_t t = 0; t < level.triangles.size(); ++t) {
         const Vec3d area = area_vector(level, level.triangles[t]);
         const Vec3d flat = normalized(area);
-        const LevelFacets::Leans lean = facets[t].leans();
-        const LevelFacets::Floats share = facets[t].shares();
+        const LodNormals::Leans lean = normals[t].leans();
+        const LodNormals::Floats share = normals[t].shares();
         double seen = 0, lit = 0;
-        for (std::size_t i = 0; i < LevelFacets::kMax; ++i) {
+        for (std::size_t i = 0; i < LodNormals::kMax; ++i) {
             const Vec3d n = normalized(flat + to_double({lean.x[i], lean.y[i], lean.z[i]}));
             const double each = static_cast<double>(share[i]) * std::max(0.0, dot(n, look.view));
             seen += each;
@@ -55,28 +55,28 @@ Vec3d towards(double zenith_deg, double azimuth_deg) {
     return {std::sin(z) * std::cos(a), std::sin(z) * std::sin(a), std::cos(z)};
 }
 
-TEST(LevelFacets, AWrinkledPlateKeepsItsLightAsTwoTriangles) {
+TEST(LodNormals, AWrinkledPlateKeepsItsLightAsTwoTriangles) {
     const Mesh wrinkled = plate(400, 3e-3), flat = plate(1, 0);
-    const std::vector<LevelFacets> facets = facets_of(wrinkled, flat, 6e-3);
-    ASSERT_EQ(facets.size(), 2u);
+    const std::vector<LodNormals> normals = lod_normals_of(wrinkled, flat, 6e-3);
+    ASSERT_EQ(normals.size(), 2u);
     for (const double zenith : {0.0, 30.0, 60.0})
         for (const double azimuth : {0.0, 50.0, 110.0}) {
             const Look look{towards(20, 10), towards(zenith, azimuth)};
-            EXPECT_NEAR(light_of(flat, facets, look) / light_of(wrinkled, look), 1, 0.01)
+            EXPECT_NEAR(light_of(flat, normals, look) / light_of(wrinkled, look), 1, 0.01)
                 << zenith << " " << azimuth;
         }
     // The Sun below the plate's own horizon lights only what leans towards it.
     const Look behind{towards(60, 180), towards(93, 0)};
-    EXPECT_EQ(light_of(flat, std::vector(2, LevelFacets::flat()), behind), 0);
-    EXPECT_NEAR(light_of(flat, facets, behind) / light_of(wrinkled, behind), 1, 0.15);
+    EXPECT_EQ(light_of(flat, std::vector(2, LodNormals::flat()), behind), 0);
+    EXPECT_NEAR(light_of(flat, normals, behind) / light_of(wrinkled, behind), 1, 0.15);
 }
 
-TEST(LevelFacets, WhatIsFlatStaysFlat) {
+TEST(LodNormals, WhatIsFlatStaysFlat) {
     const Mesh fine = plate(50, 0), coarse = plate(1, 0);
-    for (const LevelFacets& f : facets_of(fine, coarse, 1e-3)) EXPECT_TRUE(f.is_flat());
+    for (const LodNormals& f : lod_normals_of(fine, coarse, 1e-3)) EXPECT_TRUE(f.is_flat());
 }
 
-TEST(LevelFacets, TheOtherSideOfASheetIsNotItsOwn) {
+TEST(LodNormals, TheOtherSideOfASheetIsNotItsOwn) {
     // Two plates back to back, nearer than the level's error; one of them wrinkled.
     Mesh sheet = plate(100, 3e-3), level = plate(1, 0);
     for (Mesh* mesh : {&sheet, &level}) {
@@ -87,16 +87,16 @@ TEST(LevelFacets, TheOtherSideOfASheetIsNotItsOwn) {
             mesh->triangles.push_back({first + t[0], first + t[2], first + t[1]});
         mesh->surface_of_triangle.assign(mesh->triangles.size(), 0);
     }
-    const std::vector<LevelFacets> facets = facets_of(sheet, level, 1e-2);
-    ASSERT_EQ(facets.size(), 4u);
-    EXPECT_FALSE(facets[0].is_flat());
-    EXPECT_FALSE(facets[1].is_flat());
-    EXPECT_TRUE(facets[2].is_flat());
-    EXPECT_TRUE(facets[3].is_flat());
+    const std::vector<LodNormals> normals = lod_normals_of(sheet, level, 1e-2);
+    ASSERT_EQ(normals.size(), 4u);
+    EXPECT_FALSE(normals[0].is_flat());
+    EXPECT_FALSE(normals[1].is_flat());
+    EXPECT_TRUE(normals[2].is_flat());
+    EXPECT_TRUE(normals[3].is_flat());
 }
 
-TEST(LevelFacets, LeansKeepFourDigitsAndSharesTwo) {
-    const LevelFacets f = LevelFacets::of({{{{0.25f, -1.5f, 2}, 0.75f}, {{-2, 0, 1e-3f}, 0.25f}}}, 0.125f);
+TEST(LodNormals, LeansKeepFourDigitsAndSharesTwo) {
+    const LodNormals f = LodNormals::of({{{{0.25f, -1.5f, 2}, 0.75f}, {{-2, 0, 1e-3f}, 0.25f}}}, 0.125f);
     EXPECT_NEAR(f.leans().x[0], 0.25f, 1e-4f);
     EXPECT_NEAR(f.leans().y[0], -1.5f, 1e-4f);
     EXPECT_NEAR(f.leans().z[0], 2, 1e-4f);
@@ -107,10 +107,10 @@ TEST(LevelFacets, LeansKeepFourDigitsAndSharesTwo) {
     EXPECT_EQ(f.shares()[2], 0);
 }
 
-TEST(LevelFacets, EveryLevelHasThemForEachTriangle) {
+TEST(LodNormals, EveryLevelHasThemForEachTriangle) {
     const std::vector<MeshLevel> levels = coarser_levels(plate(200, 1e-3));
     ASSERT_GE(levels.size(), 3u);
-    for (const MeshLevel& level : levels) EXPECT_EQ(level.facets.size(), level.mesh.triangles.size());
+    for (const MeshLevel& level : levels) EXPECT_EQ(level.lod_normals.size(), level.mesh.triangles.size());
 }
 
 // Against looking at all of them.
