@@ -37,7 +37,7 @@ struct LoopCounters {
     std::atomic<std::uint64_t> motion_limited{0};  // frames with more motion than exact motion divides
     std::atomic<std::uint64_t> standing{0}, stale{0};  // frames while time stood; while no poses came
     std::atomic<std::uint64_t> impossible{0};  // frames in which something could not be (motion_bounds.h)
-    // Frames before the kept light that they ask for was there: how many, and the newest one.
+    // Frames before the cached light that they ask for was there: how many, and the newest one.
     std::atomic<std::uint64_t> without_light{0}, last_without_light{0};
     std::atomic<bool> lacks_light{false};  // the newest frame is one
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.

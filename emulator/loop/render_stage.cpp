@@ -76,7 +76,7 @@ void RenderStage::take_light(FrameUse& use) {
     const bool lacks = !exposures_.take_light();
     counters_.lacks_light.store(lacks, std::memory_order_relaxed);
     if (!lacks) return;
-    use.faults |= kNoKeptLightBit;
+    use.faults |= kNoCachedLightBit;
     counters_.without_light.fetch_add(1, std::memory_order_relaxed);
     counters_.last_without_light.store(use.id, std::memory_order_relaxed);
 }

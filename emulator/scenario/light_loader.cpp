@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-bool wants_kept_light(const ScenarioConfig& scenario) {
+bool wants_indirect_cache(const ScenarioConfig& scenario) {
     const std::vector<RenderQuality> lower = lower_levels(scenario);
     const auto keeps = [](const RenderQuality& q) { return q.path_model == "kept"; };
     return keeps(scenario.quality.render) || std::any_of(lower.begin(), lower.end(), keeps);
@@ -63,10 +63,10 @@ double rough(float scale) { return std::exp2(std::round(std::log2(static_cast<do
 
 }  // namespace
 
-// Objects share the places that light is kept at by their areas; each has some.
+// Objects share the places that light is cached at by their areas; each has some.
 void load_tables(Scene& scene, const std::vector<float>& scales, const ScenarioConfig& scenario,
                  LightLoading& light) {
-    if (!wants_kept_light(scenario)) return;
+    if (!wants_indirect_cache(scenario)) return;
     constexpr double kMin = 1000;
     const Stopwatch watch;
     std::vector<SceneObject>& objects = scene.objects;

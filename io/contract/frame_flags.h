@@ -12,7 +12,7 @@ namespace hilcam {
 // Something in it could not be, as a place that is no number, and was left as it was (motion_bounds.h).
 inline constexpr std::uint64_t kImpossibleMotionBit = std::uint64_t{1} << 58;
 // It was made before the light between surfaces was kept that its quality asks for (loop.wait_for_light).
-inline constexpr std::uint64_t kNoKeptLightBit = std::uint64_t{1} << 59;
+inline constexpr std::uint64_t kNoCachedLightBit = std::uint64_t{1} << 59;
 inline constexpr std::uint64_t kTimeStandsBit = std::uint64_t{1} << 60;    // simulated time stood
 inline constexpr std::uint64_t kPosesStaleBit = std::uint64_t{1} << 61;    // no pose came (pose_watch.h)
 inline constexpr std::uint64_t kTagsWentBackBit = std::uint64_t{1} << 62;  // the first after tags went back
@@ -23,7 +23,7 @@ struct FrameFlag {
 };
 inline constexpr std::array<FrameFlag, 5> kFrameFlags = {{
     {kImpossibleMotionBit, "impossible_motion"},
-    {kNoKeptLightBit, "no_kept_light"},
+    {kNoCachedLightBit, "no_kept_light"},
     {kTimeStandsBit, "time_stands"},
     {kPosesStaleBit, "poses_stale"},
     {kTagsWentBackBit, "tags_went_back"},

@@ -3,7 +3,7 @@
 //
 // Lines that begin with # and empty ones are skipped. Only ratios count: a material stays what it is where the albedo is
 // the reference, and is scaled in proportion elsewhere. They become a texture, which is what renderers of surfaces,
-// kept light included, already know: a ramp of all 8-bit sRGB greys, whose places between two codes give any value to
+// cached light included, already know: a ramp of all 8-bit sRGB greys, whose places between two codes give any value to
 // single precision. Facets keep their numbers exactly. From vertex to vertex the albedo goes along the ramp, which is
 // 1.3 % below the straight line in the middle between values of 1 to 1.5.
 

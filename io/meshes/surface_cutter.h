@@ -1,7 +1,7 @@
 #pragma once
 // Cuts triangles along the borders of a picture that lies on them, so that each part is of one kind: what a mask leaves open becomes a hole in
-// the mesh, and what a texture says to be metal a surface of its own. Rays, shadows and kept light then need to know nothing of such
-// pictures.
+// the mesh, and what a texture says to be metal a surface of its own. Rays, shadows and cached light then need to know nothing of
+// such pictures.
 
 #include <cstdint>
 #include <span>

@@ -64,8 +64,8 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     full_mask_.fill();
     const bool emission = radiance_model_->emits() &&
                           any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
-    kept_settings_ = {static_cast<float>(quality.kept_step_rad), lamps_.all().size(), emission};
-    if (!scene.light_later) kept_ = make_kept();
+    indirect_settings_ = {static_cast<float>(quality.kept_step_rad), lamps_.all().size(), emission};
+    if (!scene.light_later) indirect_ = make_indirect_cache();
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
@@ -75,7 +75,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());
     frame_.is_point.resize(objects_.size());
-    frame_.keeps_light.resize(objects_.size());
+    frame_.is_cached.resize(objects_.size());
     frame_.lit_apart.resize(objects_.size());
     frame_.background = &background_;
     frame_.radiance = radiance_model_.get();
@@ -98,20 +98,20 @@ std::size_t FramePlacer::plain_ground_triangles(const ImageGeometry& geometry) c
     return is_plain ? terrain_->most_triangles() : 0;
 }
 
-std::unique_ptr<KeptScene> FramePlacer::make_kept() const {
-    return std::make_unique<KeptScene>(objects_, embree_, bands_, kept_settings_);
+std::unique_ptr<IndirectCache> FramePlacer::make_indirect_cache() const {
+    return std::make_unique<IndirectCache>(objects_, embree_, bands_, indirect_settings_);
 }
 
-void FramePlacer::use_kept_light() {
-    frame_.kept = uses_kept_light_ ? kept_.get() : nullptr;
+void FramePlacer::use_indirect_cache() {
+    frame_.indirect = uses_indirect_cache_ ? indirect_.get() : nullptr;
     for (std::size_t i = 0; i < objects_.size(); ++i)
-        frame_.keeps_light[i] = frame_.kept && frame_.kept->keeps(i);
+        frame_.is_cached[i] = frame_.indirect && frame_.indirect->keeps(i);
 }
 
 void FramePlacer::set_paths(const PathModel& paths) {
     frame_.paths_sample_lobes = paths.samples_lobes();
-    uses_kept_light_ = paths.uses_kept_light();
-    use_kept_light();
+    uses_indirect_cache_ = paths.uses_indirect_cache();
+    use_indirect_cache();
     frame_.ground = nullptr;  // whoever tries a path model wants to see it at work
 }
 
@@ -119,13 +119,13 @@ void FramePlacer::set_paths(const PathModel& paths) {
 void FramePlacer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
     for (std::size_t i = 0; i < tables.size(); ++i)
         if (tables[i]) objects_[i].transfer = tables[i];
-    handover_.give(make_kept());
+    handover_.give(make_indirect_cache());
 }
 
 bool FramePlacer::take_light() {
-    if (!kept_ && any_placed_) kept_ = handover_.take(frame_, world_);
-    use_kept_light();
-    return kept_ || !uses_kept_light_;
+    if (!indirect_ && any_placed_) indirect_ = handover_.take(frame_, world_);
+    use_indirect_cache();
+    return indirect_ || !uses_indirect_cache_;
 }
 
 void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& paths) {
@@ -171,7 +171,7 @@ PixelBox FramePlacer::box_of(std::size_t i) const {
 void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     place_shapes(world, key);
     earth_view_.place(world_, background_, frame_);
-    if (frame_.kept) kept_->place(frame_, world_);
+    if (frame_.indirect) indirect_->place(frame_, world_);
 }
 
 void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {

@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "render/background/background.h"
+#include "render/frame/cache_handover.h"
 #include "render/frame/earth_view.h"
 #include "render/frame/image_motion.h"
-#include "render/frame/kept_handover.h"
 #include "render/frame/plan.h"
 #include "render/frame/possible_world.h"
 #include "render/frame/render_quality.h"
 #include "render/frame/visibility_choice.h"
-#include "render/indirect/kept_scene.h"
+#include "render/indirect/indirect_cache.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/scene.h"
@@ -51,7 +51,7 @@ class FramePlacer {
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
     bool take_light();
     void stop_looking_ahead() {
-        if (kept_) kept_->stop_looking_ahead();
+        if (indirect_) indirect_->stop_looking_ahead();
         earth_view_.stop_looking_ahead();
     }
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
@@ -62,7 +62,7 @@ class FramePlacer {
     // Places the world. An object that cannot be (motion_bounds.h) is left out of the frame; a camera and bodies that cannot stay as they
     // were. Loop; nothing is allocated after the first call.
     void place(const WorldSnapshot& world, RandomKey key);
-    // Does so without the light that is kept: for what asks where things are, and no more. Loop.
+    // Does so without the light that is cached: for what asks where things are, and no more. Loop.
     void place_shapes(const WorldSnapshot& world, RandomKey key);
     // Makes the terrain's first mesh, for which the first frame would wait. Terrain that waits makes each frame's own: nothing.
     // Owner thread.
@@ -134,10 +134,10 @@ class FramePlacer {
     std::shared_ptr<const EarthModel> earth_;
     ColorBands bands_;
     Background background_;
-    KeptScene::Settings kept_settings_;
-    std::unique_ptr<KeptScene> kept_;  // null: its tables have not come
-    KeptHandover handover_;
-    bool uses_kept_light_ = false, any_placed_ = false;
+    IndirectCache::Settings indirect_settings_;
+    std::unique_ptr<IndirectCache> indirect_;  // null: its tables have not come
+    CacheHandover handover_;
+    bool uses_indirect_cache_ = false, any_placed_ = false;
     ScreenMask object_mask_, full_mask_;
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;
@@ -148,8 +148,8 @@ class FramePlacer {
     VisibilityChoice visibility_;
     FrameView frame_;
 
-    std::unique_ptr<KeptScene> make_kept() const;
-    void use_kept_light();
+    std::unique_ptr<IndirectCache> make_indirect_cache() const;
+    void use_indirect_cache();
     void choose_levels();
     void place_objects();
     void place_background();

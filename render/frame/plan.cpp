@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "render/frame/sky_cost.h"
-#include "render/indirect/kept_scene.h"
+#include "render/indirect/indirect_cache.h"
 #include "render/shading/lamp_light.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/units.h"
@@ -174,10 +174,10 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
             plan.picture_px > 0 ? "; its light is that of a picture of its own, " +
                                       std::to_string(plan.picture_px) + " px across"
                                 : "");
-        if (f.kept)
-            add("  light between its parts: ", f.kept->keeps(i)
-                                                   ? "kept, " + f.kept->describe(i)
-                                                   : std::string("random paths (nothing is kept)"));
+        if (f.indirect)
+            add("  light between its parts: ", f.indirect->keeps(i)
+                                                   ? "cached, " + f.indirect->describe(i)
+                                                   : std::string("random paths (nothing is cached)"));
     }
     lines.push_back(sun_line(f, world));
     const std::vector<double> costs_ms = sky_costs_ms(f);

@@ -30,8 +30,8 @@ ProbeCamera::ProbeCamera(const FrameView& frame, int picture_px)
 }
 
 void ProbeCamera::begin(const FrameView& frame) {
-    view_.kept = frame.kept;
-    std::copy(frame.keeps_light.begin(), frame.keeps_light.end(), view_.keeps_light.begin());
+    view_.indirect = frame.indirect;
+    std::copy(frame.is_cached.begin(), frame.is_cached.end(), view_.is_cached.begin());
     view_.key = frame.key;
     view_.max_depth = frame.max_depth;
     view_.contribution_threshold = frame.contribution_threshold;

@@ -12,10 +12,10 @@ RecordedSurface recorded_surface(const FramePlacer& placer, const PixelRecord::E
     out.level_error_m = out.level < object.error_m.size() ? object.error_m[out.level] : 0.0;
     out.triangles = (*frame.objects)[entry.object]->triangles.size();
     out.distance_m = length(to_double(entry.point_m) - frame.camera_m);
-    if (frame.kept && frame.keeps_light[entry.object]) {
-        out.node = frame.kept->nearest_node(frame, entry.object, entry.point_m,
-                                            {entry.geometric_normal, entry.surface, entry.back});
-        out.nodes_apart_m = static_cast<double>(frame.kept->light(entry.object).table().nodes().cube_m());
+    if (frame.indirect && frame.is_cached[entry.object]) {
+        out.node = frame.indirect->nearest_node(frame, entry.object, entry.point_m,
+                                                {entry.geometric_normal, entry.surface, entry.back});
+        out.nodes_apart_m = static_cast<double>(frame.indirect->light(entry.object).table().nodes().cube_m());
     }
     return out;
 }

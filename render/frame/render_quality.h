@@ -22,7 +22,7 @@ struct RenderQuality {
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h
     bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
-    std::int64_t kept_directions = 60;     // kept light: 16, 60 or 256
+    std::int64_t kept_directions = 60;     // cached light: 16, 60 or 256
     std::int64_t kept_nodes = 100'000;     // about, of all objects together
     double kept_step_rad = 1.0 * kDegree_rad;
     bool kept_earth = false;             // the Earth by its model from a kept picture, from afar

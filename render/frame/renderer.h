@@ -62,10 +62,10 @@ class Renderer {
     // there is no other than the scene had. Makes of them what frames need and hands it over. One thread
     // beside the loop, once.
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
-    // Lets the next frames have kept light if it has come. False: it has not, and their quality asks for it:
+    // Lets the next frames have cached light if it has come. False: it has not, and their quality asks for it:
     // they are made with random paths. Loop, between two frames: no lock, nothing is allocated.
     bool take_light();
-    // Ends the threads that make kept light and the Earth's picture before frames ask for them: they are the same
+    // Ends the threads that make cached light and the Earth's picture before frames ask for them: they are the same
     // without. For who makes single pictures, or is about to fork. Owner thread.
     void stop_looking_ahead();
     // Sets the sensor's noise, against which the noise budget is weighed in the next frames; until then,

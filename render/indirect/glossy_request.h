@@ -13,8 +13,8 @@ struct GlossyRequest {
     bool follows_lobe = false;  // rays are to find what the lobe, which is not narrow, reflects
     std::uint32_t next =
         kNobody;  // where that, or one before: the next shading point that has the light of the same rays, by its number
-    float kept_lobe = 0;             // where that, kept light in the lobe, greatest bin
-    float kept_lobe_directions = 0;  // that bring it
+    float cached_lobe = 0;             // where that, cached light in the lobe, greatest bin
+    float cached_lobe_directions = 0;  // that bring it
 };
 
 }  // namespace hilcam

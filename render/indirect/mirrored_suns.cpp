@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/radiosity/kept_light.h"
+#include "render/radiosity/irradiance_cache.h"
 #include "render/shading/normal_clusters.h"
 #include "render/shading/shadow_rays.h"
 #include "render/sunlight/radiance_equation.h"
@@ -54,7 +54,8 @@ Scattered scatter(const FrameView& frame, const ShadingPoint& at, Vec3f dir, flo
     const bool facets = surface.material->has_facets();
     // Slopes of independent causes add by their squares; rays follow narrow lobes to the mirror.
     if (facets)
-        surface.alpha = surface.alpha < kNarrowestKept ? 0 : std::min(1.0f, std::hypot(surface.alpha, alpha));
+        surface.alpha =
+            surface.alpha < kMinCachedAlpha ? 0 : std::min(1.0f, std::hypot(surface.alpha, alpha));
     if (at.clusters && !(facets && surface.alpha == 0)) {
         const SunlitPoint sunny{&at, dir,
                                 facets ? std::min(1.0f, std::hypot(at.cluster_alpha, alpha)) : 0.0f};

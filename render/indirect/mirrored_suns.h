@@ -12,8 +12,8 @@
 // middle, or from the place of the mirror that is nearest to it; what stands in the way of that is in the way
 // of all. What adds less than contribution_threshold of the Sun fades out.
 //
-// Not here: mirrors that are curved, have a texture, or are objects without kept light; light that two
-// mirrors have thrown; the lobes of what is lit where they are too narrow to be kept (rays follow these).
+// Not here: mirrors that are curved, have a texture, or are objects without cached light; light that two
+// mirrors have thrown; the lobes of what is lit where they are too narrow to be cached (rays follow these).
 
 #include <cstdint>
 #include <span>

@@ -15,7 +15,7 @@ namespace hilcam {
 namespace {
 
 // Normals that lean less apart than this are one: a sixth of the narrowest lobe that is kept
-// (kept_light.h).
+// (irradiance_cache.h).
 constexpr double kApart = 0.02;
 
 // The shading normal at a place in a triangle; `geometric` where it has none.

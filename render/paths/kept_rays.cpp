@@ -32,7 +32,7 @@ void add_through_glass(const Tile& tile, const ShadingPoint& at, NextRays& rays)
     }
 }
 
-// Adds the rays of a lobe that is too narrow to be kept, and none's tails; mirror: its middle.
+// Adds the rays of a lobe that is too narrow to be cached, and none's tails; mirror: its middle.
 void add_in_narrow_lobe(const Tile& tile, const ShadingPoint& at, Vec3f mirror, const Spectrum& weight,
                         NextRays& rays) {
     const float alpha = at.surface.alpha;
@@ -67,8 +67,8 @@ void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, Next
     const Bsdf& surface = at.surface;
     if (surface.is_glass()) return add_through_glass(tile, at, rays);
     if (request.follows_lobe) follow_lobe(tile, asking, number, rays);
-    if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
-    const Spectrum weight = at.throughput * tile.frame.kept->lobe_albedo(at);
+    if (!surface.material->has_facets() || surface.alpha >= kMinCachedAlpha) return;
+    const Spectrum weight = at.throughput * tile.frame.indirect->lobe_albedo(at);
     // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
     const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
     if (request.has_bodies && surface.alpha > 0 && !is_bright) return;
@@ -85,7 +85,7 @@ void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, Next
             add_background(tile, ray);
         return;
     }
-    // Where nothing stands near, the bodies in a lobe are all there is, and kept_scene.h has them.
+    // Where nothing stands near, the bodies in a lobe are all there is, and indirect_cache.h has them.
     if (request.mirrors_near) add_in_narrow_lobe(tile, at, mirror, weight, rays);
 }
 
@@ -100,11 +100,11 @@ KeptRays::Followers KeptRays::share_rays(const Tile& tile, const Asking& asking,
         out.point[out.count++] = &at;
         out.samples += at.weight_samples;
         const float samples = at.weight_samples / first.weight_samples;
-        shares_[share_count_++] = {at.pixel, at.halves, samples * tile.frame.kept->lobe_tint(at)};
+        shares_[share_count_++] = {at.pixel, at.halves, samples * tile.frame.indirect->lobe_tint(at)};
     }
     out.lobe = &lobes_[lobe_count_++];
     *out.lobe = {
-        {shares_.data() + begin, out.count}, request.kept_lobe, request.kept_lobe_directions, {}, {}, {}};
+        {shares_.data() + begin, out.count}, request.cached_lobe, request.cached_lobe_directions, {}, {}, {}};
     return out;
 }
 
@@ -140,8 +140,8 @@ void KeptRays::follow_lobe(Tile& tile, const Asking& asking, std::size_t number,
     }
     const std::span<NextRay> own = rays.room.subspan(first, rays.count - first);
     const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(own.size(), 1))) *
-                            (at.throughput * tile.frame.kept->plain_lobe_albedo(at));
-    KeptScene::LobeRays bodies(*tile.frame.kept, at);
+                            (at.throughput * tile.frame.indirect->plain_lobe_albedo(at));
+    IndirectCache::LobeRays bodies(*tile.frame.indirect, at);
     for (const NextRay& ray : own) bodies.count(ray.dir);
     std::uint8_t of_lobe = 0;
     for (NextRay& ray : own) {

@@ -1,12 +1,12 @@
 #pragma once
-// Rays by which paths go on from shading points that keep light (kept_scene.h). Nothing is drawn: they go into fixed directions,
-// by mirrors, lobes too narrow to be kept, lobes whose kept light hangs on few directions, and glass. What can add less than
-// contribution_threshold is left out.
+// Rays by which paths go on from shading points whose light is cached (indirect_cache.h). Nothing is drawn: they go into fixed
+// directions, by mirrors, lobes too narrow to be cached, lobes whose cached light hangs on few directions, and glass. What can
+// add less than contribution_threshold is left out.
 
 #include <array>
 #include <cstddef>
 
-#include "render/indirect/kept_scene.h"
+#include "render/indirect/indirect_cache.h"
 #include "render/paths/next_ray.h"
 #include "render/shading/path_model.h"
 
@@ -17,7 +17,7 @@ class KeptRays {
   public:
     // Begins with other shading points: no lobe is followed.
     void clear() { share_count_ = lobe_count_ = 0; }
-    // Shading points that keep light, and what each leaves to rays.
+    // Shading points whose light is cached, and what each leaves to rays.
     struct Asking {
         std::span<const ShadingPoint> points;
         std::span<const GlossyRequest> requests;
@@ -35,7 +35,7 @@ class KeptRays {
 
     // The shading points whose lobes the same rays follow.
     struct Followers {
-        std::array<const ShadingPoint*, KeptScene::kMostTogether> point;
+        std::array<const ShadingPoint*, IndirectCache::kMostTogether> point;
         std::size_t count = 0;
         float samples = 0;             // that see them
         FollowedLobe* lobe = nullptr;  // gets the light that the rays find

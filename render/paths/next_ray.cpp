@@ -1,6 +1,6 @@
 #include "render/paths/next_ray.h"
 
-#include "render/indirect/kept_scene.h"
+#include "render/indirect/indirect_cache.h"
 #include "render/sunlight/radiance_equation.h"
 
 namespace hilcam {
@@ -16,7 +16,8 @@ void add_background(Tile& tile, const NextRay& ray) {
 bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light) {
     const Background& background = *frame.background;
     if (ray.whole_lobe) {
-        if (ray.sees_bodies) frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.throughput, light);
+        if (ray.sees_bodies)
+            frame.indirect->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.throughput, light);
         if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.throughput, light);
         return false;
     }

@@ -8,7 +8,7 @@
 namespace hilcam {
 
 std::unique_ptr<PathModel> make_direct_paths();
-std::unique_ptr<PathModel> make_kept_paths();
+std::unique_ptr<PathModel> make_cached_paths();
 std::unique_ptr<PathModel> make_traced_paths();
 
 }  // namespace hilcam

@@ -3,7 +3,7 @@
 // the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
 //
-// Where light is kept (kept_scene.h) nothing is drawn: a path ends there, but for what fixed directions follow
+// Where light is cached (indirect_cache.h) nothing is drawn: a path ends there, but for what fixed directions follow
 // (kept_rays.h).
 
 #include "render/paths/path_models.h"
@@ -15,7 +15,7 @@
 #include <limits>
 #include <span>
 
-#include "render/indirect/kept_scene.h"
+#include "render/indirect/indirect_cache.h"
 #include "render/paths/kept_rays.h"
 #include "render/paths/mirror_rays.h"
 #include "render/paths/next_ray.h"
@@ -27,7 +27,7 @@ namespace {
 
 class TracedPaths final : public PathModel {
   public:
-    explicit TracedPaths(bool kept) : kept_(kept) {}
+    explicit TracedPaths(bool cached) : cached_(cached) {}
 
     void trace(Tile& tile) override {
         PrimaryHits seen(tile);
@@ -35,15 +35,15 @@ class TracedPaths final : public PathModel {
     }
 
     bool samples_lobes() const override { return true; }
-    bool uses_kept_light() const override { return kept_; }
+    bool uses_indirect_cache() const override { return cached_; }
 
   private:
-    bool kept_;
+    bool cached_;
     static constexpr auto kMax = static_cast<std::size_t>(kMaxShadingPoints);
     // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
     // where others need fewer.
     static constexpr std::size_t kLeastOfMirror = 8;
-    static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + KeptScene::kMostFollowed;
+    static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + IndirectCache::kMostFollowed;
     std::array<ShadingPoint, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
     std::array<GlossyRequest, kMostRays> requests_;  // one for each shading point in work that keeps light
@@ -60,14 +60,14 @@ class TracedPaths final : public PathModel {
         kept_rays_.clear();
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
-            if (frame.kept) {
+            if (frame.indirect) {
                 ShadingPoint* const others =
                     std::partition(current_, current_ + count,
-                                   [&](const ShadingPoint& v) { return frame.keeps_light[v.object] != 0; });
+                                   [&](const ShadingPoint& v) { return frame.is_cached[v.object] != 0; });
                 keep = static_cast<std::size_t>(others - current_);
                 frame.radiance->add_light(tile, {current_, keep}, BodySampling::kNone);
-                frame.kept->add_reflected(tile, {current_, keep}, requests_);
-                frame.kept->add_mirrored_suns(tile, {current_, keep});
+                frame.indirect->add_reflected(tile, {current_, keep}, requests_);
+                frame.indirect->add_mirrored_suns(tile, {current_, keep});
             }
             frame.radiance->add_light(tile, {current_ + keep, count - keep}, BodySampling::kSampled);
             const bool last = depth == frame.max_depth;
@@ -284,6 +284,6 @@ class TracedPaths final : public PathModel {
 }  // namespace
 
 std::unique_ptr<PathModel> make_traced_paths() { return std::make_unique<TracedPaths>(false); }
-std::unique_ptr<PathModel> make_kept_paths() { return std::make_unique<TracedPaths>(true); }
+std::unique_ptr<PathModel> make_cached_paths() { return std::make_unique<TracedPaths>(true); }
 
 }  // namespace hilcam

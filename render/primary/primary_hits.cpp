@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/radiosity/kept_light.h"
+#include "render/radiosity/irradiance_cache.h"
 #include "render/shading/sample_offsets.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// The greatest lean of two clusters against each other that make one shading point: its kept light and its mirrored
+// The greatest lean of two clusters against each other that make one shading point: its cached light and its mirrored
 // rays are those of one of them.
 constexpr float kNormalsAlike = 0.94f;        // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
@@ -31,7 +31,7 @@ constexpr float kLeastFacing =
 constexpr float kFlattest = 1e-4f;  // a mosaic is seen as one from higher than this [sine]
 
 bool has_narrow_lobe(const Bsdf& surface) {
-    return surface.material->has_facets() && surface.alpha < kNarrowestKept;
+    return surface.material->has_facets() && surface.alpha < kMinCachedAlpha;
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ bool PrimaryHits::open_next_part() {
     }
 }
 
-// Four neighbours after each other: they may share what changes slowly (KeptScene::add_reflected()).
+// Four neighbours after each other: they may share what changes slowly (IndirectCache::add_reflected()).
 void PrimaryHits::take_next_pixel() {
     // 16 or 8 pixels: a power of two, as divisions would take a third of the time.
     const auto pairs = static_cast<unsigned>(part_px_ / 2), i = static_cast<unsigned>(next_pixel_++),
@@ -375,7 +375,7 @@ void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, Shad
         point.samples |= seen_by;
         point.lift_m = std::max(point.lift_m, 2 * above_m);
     }
-    // Kept light and what lobes show is asked for once, as the parts lean in the mean; clusters and mirrors lean by themselves.
+    // Cached light and what lobes show is asked for once, as the parts lean in the mean; clusters and mirrors lean by themselves.
     const Vec3f mean = normalized(point.weight_samples * point.normal + samples * surface_frame.normal);
     if (!has_narrow_lobe(point.surface) && dot(mean, point.view_dir) > kLeastFacing) point.normal = mean;
     // Alike in all bins, but for the air before it.

@@ -51,7 +51,7 @@ float middle_of(std::uint64_t key) {
                                     static_cast<float>(c.z) + 0.5f});
 }
 
-// visit(place) for each point of a run's triangles that keep light.
+// visit(place) for each point of a run's triangles on which light is cached.
 template <class Visit>
 void for_each_point(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
                     std::size_t run, const Visit& visit) {

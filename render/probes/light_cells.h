@@ -101,7 +101,7 @@ struct MeshExtent {
     double area_m2 = 0;
 };
 
-// Returns the extent of those surfaces that keep light.
+// Returns the extent of those surfaces on which light is cached.
 MeshExtent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps);
 // Finds the cells in the order of their keys and layers. On oneTBB; the same on any number of threads.
 std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps,

@@ -1,5 +1,5 @@
 #pragma once
-// Places on an object's surface where light is kept from frame to frame (radiosity/kept_light.h).
+// Places on an object's surface where light is cached from frame to frame (radiosity/irradiance_cache.h).
 //
 // Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same
 // side of its triangles (so that the inside of a body thinner than a cube is no part of its outside), faces one
@@ -78,7 +78,7 @@ class LightNodes {
     static constexpr std::uint32_t kClosed = ~std::uint32_t{0};
 
     LightNodes() = default;
-    // keeps: per surface of the mesh, whether light is kept on it. wanted: about so many nodes (between half
+    // keeps: per surface of the mesh, whether light is cached on it. wanted: about so many nodes (between half
     // and one and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of
     // threads.
     LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,

@@ -1,6 +1,6 @@
 #pragma once
-// Walls that stand between the points of a place where light is kept (light_nodes.h). A ring on a deck keeps the light within from
-// what is without, though both are one surface that faces one way, a few centimetres apart: such a place is two, on either
+// Walls that stand between the points of a place where light is cached (light_nodes.h). A ring on a deck keeps the light within
+// from what is without, though both are one surface that faces one way, a few centimetres apart: such a place is two, on either
 // side of a plane.
 
 #include <cstddef>

@@ -1,12 +1,12 @@
 #pragma once
 // The table of what each place on an object meets along fixed directions of its half sphere: traced once,
-// kept for good, since it is knowledge of the mesh and not of a frame (radiosity/kept_light.h makes light of it).
+// kept for good, since it is knowledge of the mesh and not of a frame (radiosity/irradiance_cache.h makes light of it).
 //
 // The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance
 // instead of solid angle: a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179) projected up from the
 // disk (Malley), turned for each node by an angle of its own. A node's points share them in turn, so that a
 // node sees what its whole surface sees. Glass is passed. Each direction either is free, or meets another
-// node, or ends in the dark: behind the horizon of a rough place, or where nothing keeps light.
+// node, or ends in the dark: behind the horizon of a rough place, or where no light is cached.
 //
 // Nodes that no light can reach (the inside of a closed body, if nothing shines there) are left out; a point
 // that sees nothing but what is nearer than half a cube is buried and does not count.

@@ -23,11 +23,11 @@ struct Probe {
 // Traces the free directions of a block of nodes against their neighbours.
 class Prober {
   public:
-    Prober(std::span<const KeptNeighbour> near, const KeptLight& self,
-           std::span<const KeptLight* const> lights, const EmbreeScene& scene)
+    Prober(std::span<const KeptNeighbour> near, const IrradianceCache& self,
+           std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
         : near_(near), self_(self), lights_(lights), scene_(scene) {}
 
-    // Those that meet a place that keeps light, or one that does not: node kDark.
+    // Those that meet a place where light is cached, or one that does not: node kDark.
     static constexpr std::uint32_t kDark = ~std::uint32_t{0};
     std::vector<Probe> probe(std::size_t first, std::size_t last) const {
         std::vector<Probe> probes;
@@ -39,8 +39,8 @@ class Prober {
 
   private:
     std::span<const KeptNeighbour> near_;
-    const KeptLight& self_;
-    std::span<const KeptLight* const> lights_;
+    const IrradianceCache& self_;
+    std::span<const IrradianceCache* const> lights_;
     const EmbreeScene& scene_;
 
     bool may_meet(const KeptNeighbour& other, Vec3f origin_m, Vec3f dir) const {
@@ -92,7 +92,7 @@ class Prober {
     }
 
     bool note(const KeptNeighbour& other, const HitPacket& hits, std::size_t k, Probe& probe) const {
-        const KeptLight& light = *lights_[other.object];
+        const IrradianceCache& light = *lights_[other.object];
         const std::uint16_t surface = light.surface_of(hits.triangle[k]);
         if (light.is_glass(surface)) return false;
         const Vec3f dir = other.dir(probe.dir);
@@ -102,7 +102,7 @@ class Prober {
         probe.distance_m = hits.distance[k];
         const bool found = light.table().nodes().find(other.place(probe.origin_m) + hits.distance[k] * dir,
                                                       {back ? -normal : normal, surface, back}, about);
-        // Light that mirrors send is too sharp to be kept from object to object.
+        // Light that mirrors send is too sharp to be cached from object to object.
         const bool keeps = found && about.count > 0 && !light.is_mirror(surface);
         probe.link = {keeps ? about.nearest() : kDark, static_cast<std::uint16_t>(other.object),
                       probe.direction};
@@ -135,10 +135,10 @@ const KeptNeighbour& KeptLinks::neighbour(std::size_t object) const {
 }
 
 void KeptLinks::make(std::span<const KeptNeighbour> near, std::size_t self,
-                     std::span<const KeptLight* const> lights, const EmbreeScene& scene) {
+                     std::span<const IrradianceCache* const> lights, const EmbreeScene& scene) {
     near_.assign(near.begin(), near.end());
     links_.clear(), first_.clear(), free_.clear();
-    const KeptLight& light = *lights[self];
+    const IrradianceCache& light = *lights[self];
     const TransferTable& table = light.table();
     if (near.empty() || table.size() == 0) return;
     const Prober prober(near_, light, lights, scene);

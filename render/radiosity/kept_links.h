@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "render/radiosity/kept_light.h"
+#include "render/radiosity/irradiance_cache.h"
 #include "render/vocabulary/pose.h"
 
 namespace hilcam {
 
-// Another object, where it stands to this one: rounded, so that what is kept is a function of that alone.
+// Another object, where it stands to this one: rounded, so that what is cached is a function of that alone.
 struct KeptNeighbour {
     std::size_t object = 0;
     Mat3f axes;     // turns this object's axes into the other's
@@ -54,10 +54,10 @@ class KeptLinks {
     }
     std::size_t bytes() const;
 
-    // Traces them. lights: of all objects, by number; null where none is kept. On oneTBB; the same on any
+    // Traces them. lights: of all objects, by number; null where none is cached. On oneTBB; the same on any
     // number of threads.
-    void make(std::span<const KeptNeighbour> near, std::size_t self, std::span<const KeptLight* const> lights,
-              const EmbreeScene& scene);
+    void make(std::span<const KeptNeighbour> near, std::size_t self,
+              std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 
   private:
     std::vector<KeptNeighbour> near_;

@@ -15,13 +15,13 @@ void KeptSolver::part_lobes(const Member& member) {
     // A hundredth of what white paint sends in the Sun: with all of them light between the parts of geo_inspection is the same to
     // 0.1 %, for three times the work.
     constexpr float kWorthIt = 0.01f / kPiF;
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
     const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
     for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             sends_on_[base + n] = 0, by_lobes_[base + n] = {};
-            if (!keeps_along || light.first_along(n) == KeptLight::kNoLobe) continue;
+            if (!keeps_along || light.first_along(n) == IrradianceCache::kNoLobe) continue;
             const Spectrum came = light.throws_sun() ? unmirrored(first_, base + n) : first_[base + n];
             const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
             const Spectrum sent =
@@ -34,13 +34,13 @@ void KeptSolver::part_lobes(const Member& member) {
 
 // Numbers what facets will have of the lobes of others, by node in order.
 std::size_t KeptSolver::number_second(const Member& member) {
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const std::uint8_t* const sends = sends_on_.data() + senders_.first(member.object);
     std::uint32_t* const first = first_second_.data() + senders_.first(member.object);
     for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             first[n] = 0;
-            if (light.first_along(n) != KeptLight::kNoLobe)
+            if (light.first_along(n) != IrradianceCache::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n)) first[n] += sends[e.node];
         }
     });
@@ -52,7 +52,7 @@ std::size_t KeptSolver::number_second(const Member& member) {
 
 void KeptSolver::gather_second(const Member& member) {
     part_lobes(member);
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const std::size_t base = senders_.first(member.object);
     const std::span<const std::uint8_t> sends = std::span(sends_on_).subspan(base, table.size());
@@ -66,7 +66,7 @@ void KeptSolver::gather_second(const Member& member) {
     constexpr std::uint32_t kGolden = 0x9E3779B9;
     for_nodes(table.size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            const bool has_facets = light.first_along(n) != KeptLight::kNoLobe;
+            const bool has_facets = light.first_along(n) != IrradianceCache::kNoLobe;
             std::size_t to = first_second_[base + n];
             Spectrum sum;
             for (const TransferTable::Entry e : table.entries(n)) {
@@ -84,7 +84,7 @@ void KeptSolver::gather_second(const Member& member) {
 // The radiance that a node's facets send in a direction of what has come to it by one way. One of its points stands for all of
 // them, as often as it is seen from there. choice: 0 to 1.
 Spectrum KeptSolver::sent_on(const Member& member, std::size_t n, float choice, Vec3f to) const {
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const LightNode& node = light.table().nodes().nodes()[n];
     std::array<float, LightNode::kPoints> facing{};
     float all = 0;
@@ -97,10 +97,11 @@ Spectrum KeptSolver::sent_on(const Member& member, std::size_t n, float choice, 
     float rest = choice * all;
     for (std::size_t i = 0; i < LightNode::kPoints && rest >= 0; rest -= facing[i++])
         if (facing[i] > 0) p = i;
-    const float alpha = std::max(light.material(node.surface).ggx_alpha, KeptLight::min_alpha(light.table()));
-    const KeptLight::Lobe lobe = light.lobe(member.out, member.links, {}, static_cast<std::uint32_t>(n),
-                                            unpack_normal(node.normal[p]), to, alpha);
-    return light.facet_color(n, light.albedo(node.surface).lobe(facing[p])) * lobe.kept;
+    const float alpha =
+        std::max(light.material(node.surface).ggx_alpha, IrradianceCache::min_alpha(light.table()));
+    const IrradianceCache::Lobe lobe = light.lobe(member.out, member.links, {}, static_cast<std::uint32_t>(n),
+                                                  unpack_normal(node.normal[p]), to, alpha);
+    return light.facet_color(n, light.albedo(node.surface).lobe(facing[p])) * lobe.cached;
 }
 
 }  // namespace hilcam

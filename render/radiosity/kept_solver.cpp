@@ -49,7 +49,7 @@ Vec3f direction_to(const KeptSource& source) {
 
 }  // namespace
 
-KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeScene& scene)
+KeptSolver::KeptSolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
     : lights_(lights.begin(), lights.end()), senders_(lights, scene) {
     const std::size_t nodes = senders_.count();
     radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes), sends_on_.resize(nodes),
@@ -60,7 +60,7 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
     for (std::size_t i = 0; i < lights_.size(); ++i)
         if (lights_[i]) second_along_[i].reserve(lights_[i]->entries_along());
     if (std::any_of(lights_.begin(), lights_.end(),
-                    [](const KeptLight* light) { return light && light->throws_sun(); }))
+                    [](const IrradianceCache* light) { return light && light->throws_sun(); }))
         mirrored_.resize(nodes);
 }
 
@@ -77,7 +77,7 @@ void KeptSolver::solve(std::span<const Member> group) {
 }
 
 void KeptSolver::gather_first(const Member& member, std::span<const Member> group) {
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const std::size_t base = senders_.first(member.object);
     const Vec3f source_dir = direction_to(member.source);
@@ -91,15 +91,16 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
         return Vec3f{};
     };
     const auto is_narrow = [&](const KeptLinks::Link& link) {
-        const KeptLight& other = *lights_[link.object];
-        return other.material(other.table().nodes().nodes()[link.node].surface).ggx_alpha < kNarrowestKept;
+        const IrradianceCache& other = *lights_[link.object];
+        return other.material(other.table().nodes().nodes()[link.node].surface).ggx_alpha < kMinCachedAlpha;
     };
     for_nodes(table.size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const std::uint32_t first_along = light.first_along(n);
-            PackedSpectrum* along =
-                keeps_along && first_along != KeptLight::kNoLobe ? out.along.data() + first_along : nullptr;
-            const KeptLight::Local axes = light.axes(n);
+            PackedSpectrum* along = keeps_along && first_along != IrradianceCache::kNoLobe
+                                        ? out.along.data() + first_along
+                                        : nullptr;
+            const IrradianceCache::Local axes = light.axes(n);
             const auto direction = [&](std::size_t d) { return axes.body(light.local_direction(d)); };
             Spectrum sum, mirrored;
             Brought brought;
@@ -152,7 +153,7 @@ void KeptSolver::bounce(std::span<const Member> group) {
     double before = 0;
     for (int i = 0; i < kMaxBounces; ++i) {
         for (const Member& member : group) {
-            const KeptLight& light = *lights_[member.object];
+            const IrradianceCache& light = *lights_[member.object];
             const std::size_t base = senders_.first(member.object);
             tbb::parallel_for(Nodes(0, light.table().size(), 4096), [&](const Nodes& r) {
                 for (std::size_t n = r.begin(); n < r.end(); ++n)
@@ -185,7 +186,7 @@ void KeptSolver::bounce(std::span<const Member> group) {
 
 // One more bounce.
 KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const std::size_t base = senders_.first(member.object);
     // Sums that do not depend on how the work was shared out.
@@ -220,28 +221,28 @@ KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
 // come by further bounces alone.
 void KeptSolver::smooth(const Member& member) {
     constexpr float kFew = 4, kMany = 1e9f;
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
     const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
-    const auto kept = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
+    const auto cached = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
     for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const std::span<const std::uint32_t> beside = light.neighbours(n);
             const auto count = static_cast<float>(beside.size() + 1);
             Brought brought = brought_[base + n];
-            Spectrum sum = kept(n);
-            for (const std::uint32_t other : beside) brought += brought_[base + other], sum += kept(other);
+            Spectrum sum = cached(n);
+            for (const std::uint32_t other : beside) brought += brought_[base + other], sum += cached(other);
             // They are counted over all of these nodes, of which each has its part.
             const float directions =
                 brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kMany;
             const float share = kFew / (kFew + directions);
-            before_[base + n] = (1 - share) * kept(n) + (share / count) * sum;
+            before_[base + n] = (1 - share) * cached(n) + (share / count) * sum;
         }
     });
 }
 
 void KeptSolver::store(const Member& member) {
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
     KeptSolution& out = *member.out;
     const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
@@ -253,7 +254,7 @@ void KeptSolver::store(const Member& member) {
             out.irradiance[n] = PackedSpectrum(before_[base + n]);
             if (!keeps_along) continue;
             std::size_t to = light.first_along(n), second = first_second_[base + n];
-            if (to != KeptLight::kNoLobe)
+            if (to != IrradianceCache::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n)) {
                     Spectrum more = radiosity_[base + e.node];
                     if (sends_on_[base + e.node]) more += second_along_[member.object][second++].unpacked();

@@ -1,5 +1,5 @@
 #pragma once
-// Solves kept light (kept_light.h) for a source, over objects that stand near each other together.
+// Solves cached light (irradiance_cache.h) for a source, over objects that stand near each other together.
 //
 // What a node receives first is summed from what its directions meet (probes/transfer_table.h, kept_links.h),
 // each seen from there as its own reflection law says, point by point as these lean. What is bright of the Sun's light goes on so
@@ -8,7 +8,7 @@
 // factors. No ray is traced but those that ask which nodes a source shines on, and nothing is drawn by
 // chance.
 //
-// What flat mirrors throw of the Sun goes on from where it falls, but is not in what is kept: who looks that
+// What flat mirrors throw of the Sun goes on from where it falls, but is not in what is cached: who looks that
 // up has it sharp (mirrored_suns.h).
 //
 // The approximation: facets that other surfaces see are at least so wide that the directions find their
@@ -29,11 +29,11 @@ class KeptSolver {
   public:
     using Member = KeptMember;
 
-    // lights: of all objects, by number; null where none is kept; they outlive this. Owner thread.
-    KeptSolver(std::span<const KeptLight* const> lights, const EmbreeScene& scene);
+    // lights: of all objects, by number; null where none is cached; they outlive this. Owner thread.
+    KeptSolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 
     const EmbreeScene& scene() const { return senders_.scene(); }
-    std::span<const KeptLight* const> lights() const { return lights_; }
+    std::span<const IrradianceCache* const> lights() const { return lights_; }
     // Returns an object's share of the workspace.
     std::size_t bytes(std::size_t object) const {
         constexpr std::size_t kOfNode =
@@ -59,7 +59,7 @@ class KeptSolver {
         double change = 0, light = 0;  // weighed sums over all nodes and bins
     };
 
-    std::vector<const KeptLight*> lights_;
+    std::vector<const IrradianceCache*> lights_;
     NodeSenders senders_;              // their numbers of nodes are those of all that follows
     std::vector<Spectrum> radiosity_;  // over pi
     std::vector<Brought> brought_;

@@ -1,5 +1,5 @@
 #pragma once
-// A source whose light is kept (kept_light.h): a place in an object's own axes, rounded, so that what is kept
+// A source whose light is cached (irradiance_cache.h): a place in an object's own axes, rounded, so that what is cached
 // for it is a function of the place alone.
 
 #include <algorithm>
@@ -84,8 +84,8 @@ inline KeptSource KeptSource::rounded(float step_rad) const {
     // Steps of a sixty-fourth of the sine: 1 % of the half angle, about.
     const float sine = std::sqrt(std::max(0.0f, 1 - cone_cosine * cone_cosine));
     if (kind == Kind::kCone && cone_cosine > 0) {
-        const float kept = std::exp2(std::round(std::log2(std::max(sine, 1e-6f)) * 64) / 64);
-        out.cone_cosine = std::sqrt(std::max(0.0f, 1 - kept * kept));
+        const float cached = std::exp2(std::round(std::log2(std::max(sine, 1e-6f)) * 64) / 64);
+        out.cone_cosine = std::sqrt(std::max(0.0f, 1 - cached * cached));
     }
     if (kind == Kind::kLamp) {
         const float grid_m = std::exp2(std::floor(std::log2(std::max(length(position_m), 1e-3f))) - 6);

@@ -24,7 +24,7 @@ constexpr std::size_t kMaxLinked = 64;
 constexpr float kMinShare = 0.004f;
 
 // True when the other is worth a look from this object; both are in the other's axes.
-bool is_near(const KeptLight& self, const KeptLight& other, const KeptNeighbour& there) {
+bool is_near(const IrradianceCache& self, const IrradianceCache& other, const KeptNeighbour& there) {
     const float gap_m =
         length(there.place(self.bounds().middle_m) - other.bounds().middle_m) - self.bounds().radius_m;
     const float radius_m = other.bounds().radius_m;
@@ -71,7 +71,7 @@ void KeptTarget::reserve(std::size_t objects, const KeptTerms& terms) {
         if (objects <= kMaxLinked) others.reserve(objects);
 }
 
-void KeptTarget::set(const KeptInputs& inputs, std::span<const KeptLight* const> lights,
+void KeptTarget::set(const KeptInputs& inputs, std::span<const IrradianceCache* const> lights,
                      const KeptTerms& terms) {
     using Kind = KeptSource::Kind;
     const std::size_t count = lights.size();

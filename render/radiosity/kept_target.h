@@ -1,5 +1,5 @@
 #pragma once
-// The target that light is kept for (kept_light.h): where the sources are and how the objects stand to each
+// The target that light is cached for (irradiance_cache.h): where the sources are and how the objects stand to each
 // other, all of it rounded.
 
 #include <array>
@@ -55,9 +55,10 @@ struct KeptTarget {
 
     // Makes all the room that set() can need. Owner thread.
     void reserve(std::size_t objects, const KeptTerms& terms);
-    // lights: by object, null where none is kept. No allocation after reserve(); without it at the first call
+    // lights: by object, null where none is cached. No allocation after reserve(); without it at the first call
     // and for neighbours that are more than ever before. Loop.
-    void set(const KeptInputs& inputs, std::span<const KeptLight* const> lights, const KeptTerms& terms);
+    void set(const KeptInputs& inputs, std::span<const IrradianceCache* const> lights,
+             const KeptTerms& terms);
     bool operator==(const KeptTarget& o) const { return near == o.near && sources == o.sources; }
 };
 

@@ -5,10 +5,11 @@
 
 namespace hilcam {
 
-KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& scene, const KeptTerms& terms)
+KeptUpdates::KeptUpdates(std::span<IrradianceCache* const> lights, const EmbreeScene& scene,
+                         const KeptTerms& terms)
     : lights_(lights.begin(), lights.end()),
       terms_(terms),
-      solver_(std::vector<const KeptLight*>(lights.begin(), lights.end()), scene),
+      solver_(std::vector<const IrradianceCache*>(lights.begin(), lights.end()), scene),
       links_(lights.size()) {
     const std::size_t count = lights.size();
     stage_.links.resize(count), stage_.has_links.resize(count);

@@ -1,6 +1,6 @@
 #pragma once
-// Brings kept light up to where the sources are: at once where a frame needs it, and ahead of time, on a
-// thread of its own, where it can be told what the next frames will need. What is kept for a target is the
+// Brings cached light up to where the sources are: at once where a frame needs it, and ahead of time, on a
+// thread of its own, where it can be told what the next frames will need. What is cached for a target is the
 // same either way.
 
 #include <memory>
@@ -14,9 +14,9 @@ namespace hilcam {
 
 class KeptUpdates {
   public:
-    // lights: by object, null where none is kept; with the terms in their order. All outlive this. Owner
+    // lights: by object, null where none is cached; with the terms in their order. All outlive this. Owner
     // thread.
-    KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& scene, const KeptTerms& terms);
+    KeptUpdates(std::span<IrradianceCache* const> lights, const EmbreeScene& scene, const KeptTerms& terms);
     KeptUpdates(const KeptUpdates&) = delete;
     KeptUpdates& operator=(const KeptUpdates&) = delete;
 
@@ -42,14 +42,14 @@ class KeptUpdates {
         std::vector<std::vector<std::uint8_t>> has_solution;
     };
 
-    std::vector<KeptLight*> lights_;
+    std::vector<IrradianceCache*> lights_;
     KeptTerms terms_;
     KeptSolver solver_;
     KeptTarget shown_;
     std::vector<KeptLinks> links_;  // shown
     Stage stage_;
     KeptTarget wanted_;
-    std::vector<std::size_t> order_;  // objects that keep light, by their groups
+    std::vector<std::size_t> order_;  // objects whose light is cached, by their groups
     std::vector<KeptSolver::Member> members_;
     AheadThread ahead_;  // the last: it ends first
 

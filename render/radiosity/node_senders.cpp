@@ -28,10 +28,10 @@ std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_co
 
 }  // namespace
 
-NodeSenders::NodeSenders(std::span<const KeptLight* const> lights, const EmbreeScene& scene)
+NodeSenders::NodeSenders(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
     : lights_(lights.begin(), lights.end()), scene_(scene) {
     std::size_t nodes = 0;
-    for (const KeptLight* light : lights_) {
+    for (const IrradianceCache* light : lights_) {
         base_.push_back(nodes);
         if (light) nodes += light->table().size();
     }
@@ -64,7 +64,7 @@ std::uint32_t NodeSenders::blocked(const KeptMember& member, const RayPacket& ra
 }
 
 void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::size_t last) {
-    const KeptLight& light = *lights_[member.object];
+    const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const KeptSource& source = member.source;
     NodeSender* const senders = senders_.data() + base_[member.object];
@@ -136,7 +136,8 @@ void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::
 
 // A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
 // reflect.
-void NodeSenders::widen(const KeptLight& light, std::size_t n, const KeptSource& source, NodeSender& sender) {
+void NodeSenders::widen(const IrradianceCache& light, std::size_t n, const KeptSource& source,
+                        NodeSender& sender) {
     constexpr float kBegins = 0.2f, kWhole = 0.4f;
     const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
     sender.alpha = std::min(1.0f, std::hypot(sender.alpha, 0.5f * sine));
@@ -151,7 +152,8 @@ void NodeSenders::widen(const KeptLight& light, std::size_t n, const KeptSource&
     if (paint == 1) sender.alpha = 0;
 }
 
-void NodeSenders::send(const KeptLight& light, std::size_t n, const LitPoints& lit, NodeSender& sender) {
+void NodeSenders::send(const IrradianceCache& light, std::size_t n, const LitPoints& lit,
+                       NodeSender& sender) {
     sender = {};
     const float received = lit.mean();
     if (!(received > 0)) return;
@@ -162,14 +164,14 @@ void NodeSenders::send(const KeptLight& light, std::size_t n, const LitPoints& l
     sender.diffuse = PackedSpectrum(light.colored(n, (received / kPiF) * albedo.base(cosine)));
     if (!material.has_facets()) return;
     sender.lit = lit;
-    sender.alpha = std::max(material.ggx_alpha, KeptLight::min_alpha(light.table()));
+    sender.alpha = std::max(material.ggx_alpha, IrradianceCache::min_alpha(light.table()));
     // However wide the facets are taken, they send as much in all as they reflect.
     const float whole = largest(light.wide_albedo(surface).lobe(cosine));
     sender.gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;
     sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));
 }
 
-float NodeSenders::seen_of_cone(const KeptMember& member, const KeptLight& light, std::size_t n) {
+float NodeSenders::seen_of_cone(const KeptMember& member, const IrradianceCache& light, std::size_t n) {
     const TransferTable& table = light.table();
     const std::span<const std::uint64_t> is_free = member.links->free(table, n);
     const ConeShare cone(light.axes(n).dir(member.source.dir), member.source.cone_cosine, table.directions());

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "render/radiosity/kept_light.h"
+#include "render/radiosity/irradiance_cache.h"
 #include "render/radiosity/kept_links.h"
 
 namespace hilcam {
@@ -48,8 +48,8 @@ struct alignas(64) NodeSender {
 // The senders of all nodes of all objects, which are numbered through.
 class NodeSenders {
   public:
-    // lights: of all objects, by number; null where none is kept; they outlive this. Owner thread.
-    NodeSenders(std::span<const KeptLight* const> lights, const EmbreeScene& scene);
+    // lights: of all objects, by number; null where none is cached; they outlive this. Owner thread.
+    NodeSenders(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 
     // Finds what an object's nodes send, and fills what of a body's light comes without a way. On oneTBB.
     void light(const KeptMember& member);
@@ -67,7 +67,7 @@ class NodeSenders {
     static constexpr std::size_t kBlock = 256;  // nodes
 
   private:
-    std::vector<const KeptLight*> lights_;
+    std::vector<const IrradianceCache*> lights_;
     const EmbreeScene& scene_;
     std::vector<std::size_t> base_;  // by object: of its nodes in what follows
     std::vector<NodeSender> senders_;
@@ -75,9 +75,11 @@ class NodeSenders {
 
     void light_block(const KeptMember& member, std::size_t first, std::size_t last);
     std::uint32_t blocked(const KeptMember& member, const RayPacket& rays) const;
-    static void send(const KeptLight& light, std::size_t node, const LitPoints& lit, NodeSender& sender);
-    static void widen(const KeptLight& light, std::size_t node, const KeptSource& source, NodeSender& sender);
-    static float seen_of_cone(const KeptMember& member, const KeptLight& light, std::size_t node);
+    static void send(const IrradianceCache& light, std::size_t node, const LitPoints& lit,
+                     NodeSender& sender);
+    static void widen(const IrradianceCache& light, std::size_t node, const KeptSource& source,
+                      NodeSender& sender);
+    static float seen_of_cone(const KeptMember& member, const IrradianceCache& light, std::size_t node);
 };
 
 }  // namespace hilcam

@@ -1,6 +1,6 @@
 #pragma once
 // The share of light that a material reflects in all, by the cosine of the angle to its normal: all that kept
-// light (kept_light.h) needs of a BRDF, as it knows light only by the irradiance that it makes.
+// light (irradiance_cache.h) needs of a BRDF, as it knows light only by the irradiance that it makes.
 
 #include <array>
 

@@ -32,7 +32,7 @@ struct SceneObject {
     Mesh mesh;                                        // body axes, metres
     std::vector<Material> materials;                  // one per surface of the mesh
     std::vector<MeshLevel> levels;                    // coarser ones, from fine to coarse; may be empty
-    std::shared_ptr<const TransferTable> transfer{};  // shared by its like; null: no light is kept on it
+    std::shared_ptr<const TransferTable> transfer{};  // shared by its like; null: no light is cached on it
     double turn_rate_rad_s = 0;                       // that it is known to begin with
 };
 

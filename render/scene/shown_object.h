@@ -15,7 +15,7 @@ struct ShownObject {
     std::string name;
     std::vector<std::shared_ptr<const ObjectSurfaces>> levels;  // the mesh itself first; shared by its like
     std::vector<double> error_m;                                // error of each level
-    std::shared_ptr<const TransferTable> transfer;  // null: no light is kept on it; shared by its like
+    std::shared_ptr<const TransferTable> transfer;  // null: no light is cached on it; shared by its like
     double turn_rate_rad_s = 0;
     // Least and greatest corners of boxes that hold the mesh, 512 at most; body axes.
     std::vector<std::array<Vec3f, 2>> bounds_m;

@@ -1,6 +1,6 @@
 #pragma once
-// The light that rays along one shading point's facet lobe find, where kept light hangs on few directions (kept_scene.h), and how
-// far that is believed.
+// The light that rays along one shading point's facet lobe find, where cached light hangs on few directions (indirect_cache.h),
+// and how far that is believed.
 
 #include <array>
 #include <cstddef>
@@ -23,8 +23,8 @@ struct PixelShare {
 struct FollowedLobe {
     static constexpr std::size_t kMostRays = 32;
     std::span<const PixelShare> pixels;     // that have it
-    float kept = 0;                         // kept light in the lobe, as the sum of by_ray
-    float kept_directions = 0;              // that bring that (KeptLight::Lobe)
+    float cached = 0;                       // cached light in the lobe, as the sum of by_ray
+    float cached_directions = 0;            // that bring that (IrradianceCache::Lobe)
     Spectrum sky, light;                    // light of rays that meet nothing, and of all others
     std::array<float, kMostRays> by_ray{};  // the latter's greatest bin
     float found = 0;                        // sum of these

@@ -22,7 +22,7 @@
 namespace hilcam {
 
 class EarthPicture;
-class KeptScene;
+class IndirectCache;
 class Lamps;
 class RadianceModel;
 class VisibilityBuffer;
@@ -32,8 +32,8 @@ struct FrameView {
     const EmbreeScene* scene = nullptr;
     const std::vector<const ObjectSurfaces*>* objects = nullptr;  // each at its level of detail
     std::vector<Mat3f> world_from_body;                           // per object
-    std::vector<std::uint8_t> is_point;     // per object: drawn as a point, the camera's rays pass it
-    std::vector<std::uint8_t> keeps_light;  // per object: light from other surfaces and bodies is kept on it
+    std::vector<std::uint8_t> is_point;   // per object: drawn as a point, the camera's rays pass it
+    std::vector<std::uint8_t> is_cached;  // per object: light from other surfaces and bodies is cached on it
     // Per object: where the frame's visibility buffer sees it, it is dark, as its light comes as points (object_picture.h).
     std::vector<std::uint8_t> lit_apart;
     bool has_lit_apart = false;               // any of them
@@ -47,7 +47,7 @@ struct FrameView {
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
     const Lamps* lamps = nullptr;                 // lamp_light.h; null: none
-    const KeptScene* kept = nullptr;              // kept_scene.h; null: the path model does without
+    const IndirectCache* indirect = nullptr;      // indirect_cache.h; null: the path model does without
     const EarthPicture* earth_picture = nullptr;  // the first body's; null: it is worked out pixel by pixel
     float earth_picture_factor = 1;               // on its radiance, by the Sun's distance
     const ColorBands* bands = nullptr;

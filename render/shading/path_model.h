@@ -2,8 +2,8 @@
 // A path model follows light paths behind what the camera sees; one of the program's exchangeable models.
 //
 //   direct   what the camera sees, lit by the Sun; nothing else
-//   kept     light between surfaces and from the bodies out of what is kept (kept_scene.h), rays for mirrors;
-//            random paths where nothing is kept
+//   kept     light between surfaces and from the bodies out of what is cached (indirect_cache.h), rays for mirrors;
+//            random paths where nothing is cached
 //   path     random paths with next-event estimation, multiple importance sampling and Russian roulette
 // A path ends where it leaves the scene, where it can no longer add contribution_threshold, or at max_depth
 // surfaces.
@@ -33,8 +33,8 @@ class PathModel {
     virtual void reserve_depth(int /*max_depth*/) {}
     // Its own directions can meet lamps that next-event estimation counts too; they are weighed then.
     virtual bool samples_lobes() const { return false; }
-    // Its frames need light that is kept (kept_scene.h).
-    virtual bool uses_kept_light() const { return false; }
+    // Its frames need light that is cached (indirect_cache.h).
+    virtual bool uses_indirect_cache() const { return false; }
 };
 
 // The tile's edge [px] such that its samples fit a PathModel.

@@ -25,7 +25,7 @@ float cone_density(const BodyLight& lamp) { return 1 / (2 * kPiF * std::max(1e-2
 
 // The path's own next direction may meet the lamp as well.
 bool is_weighed(const FrameView& frame, const ShadingPoint& at) {
-    return frame.paths_sample_lobes && !frame.keeps_light[at.object] && at.depth < frame.max_depth;
+    return frame.paths_sample_lobes && !frame.is_cached[at.object] && at.depth < frame.max_depth;
 }
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and

@@ -1,4 +1,4 @@
-// Kept light in meshes as they should not be: a room without a window, in full sunlight, seen from inside. There
+// Cached light in meshes as they should not be: a room without a window, in full sunlight, seen from inside. There
 // is no light, whatever is wrong with its walls.
 
 #include <gtest/gtest.h>
@@ -134,8 +134,8 @@ TEST(LightLeak, CracksLetInNoMoreThanTheyShould) {
     EXPECT_LT(share_lit("kept"), share_lit("path") + kDark);
 }
 
-// A wall that stands on the floor, somewhere in the cubes that light is kept in. On the side of the Sun the floor has the wall's
-// light, on the other there is none: next to the wall, where its cubes are those of both sides, there is none either.
+// A wall that stands on the floor, somewhere in the cubes that light is cached in. On the side of the Sun the floor has the
+// wall's light, on the other there is none: next to the wall, where its cubes are those of both sides, there is none either.
 TEST(LightLeak, NoneBelowAWallOnTheFloor) {
     constexpr float kWall_m = 0.04f, kHigh_m = 0.5f;
     constexpr double kShown_m = 0.8;  // half of what the picture shows

@@ -1,4 +1,4 @@
-// What a flat mirror shows of the parts about it, where light is kept, against random paths.
+// What a flat mirror shows of the parts about it, where light is cached, against random paths.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ class MirrorImage {
     }
 };
 
-// A strip of 10 mm, aslant to the pixels: its light by kept light, of that by paths. Hardly a place of the mirror has a
+// A strip of 10 mm, aslant to the pixels: its light by cached light, of that by paths. Hardly a place of the mirror has a
 // direction, of sixty, that meets it.
 double light_of_strip(const MaterialConfig& material) {
     const auto light = [&](const char* model, int samples) {

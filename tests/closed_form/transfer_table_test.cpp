@@ -1,4 +1,5 @@
-// What the places of kept light meet (transfer_table.h): nothing that has no light, and of what has some the share that formulas say.
+// What the places of cached light meet (transfer_table.h): nothing that has no light, and of what has some the share that
+// formulas say.
 
 #include "render/probes/transfer_table.h"
 

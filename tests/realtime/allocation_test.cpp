@@ -192,7 +192,7 @@ TEST_F(Allocation, NorWhileACameraIsStreamedFrom) {
         allocations({"outputs.gige.interface=127.83.4.1", "outputs.gige.serial=ALLOC"}, Loop::kStreaming), 0);
 }
 
-// The first frames are without kept light; it is taken on the way, and frames with it come after that. What
+// The first frames are without cached light; it is taken on the way, and frames with it come after that. What
 // the loop allocates is counted from before the tables are given until then.
 TEST_F(Allocation, NorWhenLightComesThatWasMadeBesideTheRun) {
     const std::filesystem::path cache =

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-// A wall that stands on a plate in the sunlight, seen by kept light; more than 2000 triangles, so that it has levels of
+// A wall that stands on a plate in the sunlight, seen by cached light; more than 2000 triangles, so that it has levels of
 // detail. Its cache folder is empty.
 class ScaledObject : public FilesTest {
   protected:

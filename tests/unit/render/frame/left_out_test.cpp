@@ -27,7 +27,7 @@ const std::vector<Pose> kNowhere = {{{kNoNumber, 0, 0}, {}},
                                     {{0, 0, 6}, {kNoNumber, 0, 0, 0}},
                                     {{0, 0, 6}, {0, 0, 0, 0}}};
 
-// By paths, and with light that is kept.
+// By paths, and with light that is cached.
 TEST(LeftOut, AnObjectThatIsNowhereIsNotInThePicture) {
     for (const char* model : {"path", "kept"}) {
         Stage alone;

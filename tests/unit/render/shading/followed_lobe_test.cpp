@@ -14,9 +14,9 @@ Spectrum gray(float light) {
 }
 
 // Each of `bright` rays brings a share of the light.
-FollowedLobe lobe_of(float kept, float directions, float light, std::size_t bright) {
+FollowedLobe lobe_of(float cached, float directions, float light, std::size_t bright) {
     FollowedLobe lobe;
-    lobe.kept = kept, lobe.kept_directions = directions;
+    lobe.cached = cached, lobe.cached_directions = directions;
     for (std::size_t i = 0; i < bright; ++i) lobe.add(i, gray(light / static_cast<float>(bright)));
     return lobe;
 }

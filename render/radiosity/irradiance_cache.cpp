@@ -1,4 +1,4 @@
-#include "render/radiosity/kept_light.h"
+#include "render/radiosity/irradiance_cache.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -19,7 +19,7 @@ bool all_of(std::span<const std::uint64_t> words, int directions) {
     return free == directions;
 }
 
-KeptLight::Bounds sphere_about(std::span<const LightNode> nodes) {
+IrradianceCache::Bounds sphere_about(std::span<const LightNode> nodes) {
     if (nodes.empty()) return {};
     Vec3f least = nodes[0].point_m[0], most = least;
     for (const LightNode& node : nodes)
@@ -32,8 +32,8 @@ KeptLight::Bounds sphere_about(std::span<const LightNode> nodes) {
 
 }  // namespace
 
-KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
-                         float min_alpha)
+ObjectAlbedos::ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
+                             float min_alpha)
     : neighbours(nodes.neighbours()) {
     std::vector<float> throws;
     for (const Material& material : surfaces.materials) {
@@ -42,19 +42,19 @@ KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, c
         other.ggx_alpha = std::max(material.ggx_alpha, min_alpha);
         wide.emplace_back(other);
         const bool is_mirror =
-            material.has_facets() && material.ggx_alpha < kNarrowestKept && !material.varies();
+            material.has_facets() && material.ggx_alpha < kMinCachedAlpha && !material.varies();
         throws.push_back(is_mirror ? largest(own.back().lobe(0.5f)) : 0.0f);
     }
     mirrors = find_flat_mirrors(mesh, surfaces, throws);
 }
 
 // A lobe's half width is about twice its alpha; sixty directions stand 0.32 rad apart.
-float KeptLight::min_alpha(const TransferTable& table) {
+float IrradianceCache::min_alpha(const TransferTable& table) {
     return 1.16f / std::sqrt(static_cast<float>(table.directions()));
 }
 
-KeptLight::KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedos> albedos,
-                     const ColorBands& bands, float step_rad)
+IrradianceCache::IrradianceCache(const ShownObject& object, std::shared_ptr<const ObjectAlbedos> albedos,
+                                 const ColorBands& bands, float step_rad)
     : shown_(&object), table_(object.transfer), albedos_(std::move(albedos)), step_rad_(step_rad) {
     const std::vector<Material>& materials = object.materials();
     for (const Material& material : materials) materials_.push_back(&material);
@@ -85,7 +85,7 @@ KeptLight::KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedo
     find_what_throws();
 }
 
-void KeptLight::find_what_throws() {
+void IrradianceCache::find_what_throws() {
     if (mirrors().empty()) return;
     const std::vector<LightNode>& nodes = table_->nodes().nodes();
     throws_sun_.resize(nodes.size());
@@ -96,7 +96,7 @@ void KeptLight::find_what_throws() {
                 throws_sun_[n] = 1;
 }
 
-void KeptLight::describe_lobe(std::size_t n) {
+void IrradianceCache::describe_lobe(std::size_t n) {
     const TransferTable& table = *table_;
     const LightNode& node = table.nodes().nodes()[n];
     const auto of_32767 = [](float x) { return static_cast<std::int16_t>(std::lround(32767 * x)); };
@@ -119,14 +119,14 @@ void KeptLight::describe_lobe(std::size_t n) {
     lobes_.push_back(lobe);
 }
 
-std::size_t KeptLight::add_term(KeptSource::Kind kind) {
+std::size_t IrradianceCache::add_term(KeptSource::Kind kind) {
     terms_.push_back(make_solution(kind));
     terms_.back().irradiance = {};
     irradiance_.assign(terms_.size() * table_->size(), {});
     return terms_.size() - 1;
 }
 
-KeptSolution KeptLight::make_solution(KeptSource::Kind kind) const {
+KeptSolution IrradianceCache::make_solution(KeptSource::Kind kind) const {
     KeptSolution out;
     out.irradiance.resize(table_->size());
     if (kind == KeptSource::Kind::kSun) out.along.resize(along_);
@@ -134,7 +134,7 @@ KeptSolution KeptLight::make_solution(KeptSource::Kind kind) const {
     return out;
 }
 
-void KeptLight::adopt(std::size_t t, KeptSolution& solution) {
+void IrradianceCache::adopt(std::size_t t, KeptSolution& solution) {
     KeptSolution& term = terms_[t];
     std::swap(term.along, solution.along), std::swap(term.along_links, solution.along_links);
     std::swap(term.seen, solution.seen);
@@ -144,7 +144,7 @@ void KeptLight::adopt(std::size_t t, KeptSolution& solution) {
     });
 }
 
-void KeptLight::adopt(const KeptLinks& links) {
+void IrradianceCache::adopt(const KeptLinks& links) {
     links_ = &links;
     for (std::size_t n = 0; n < lobes_.size(); ++n) {
         const std::span<const std::uint64_t> free = links.free(*table_, n);
@@ -153,14 +153,14 @@ void KeptLight::adopt(const KeptLinks& links) {
     }
 }
 
-std::size_t KeptLight::bytes() const {
+std::size_t IrradianceCache::bytes() const {
     std::size_t bytes = colors_.size() * sizeof(Spectrum) + lobes_.size() * sizeof(LobeNode) +
                         throws_sun_.size() + (white_.size() + irradiance_.size()) * sizeof(PackedSpectrum);
     for (const KeptSolution& term : terms_) bytes += term.bytes();
     return bytes + albedos_->neighbours.bytes() + (links_ ? links_->bytes() : 0);
 }
 
-KeptLight::Local KeptLight::local(const LobeNode& node) {
+IrradianceCache::Local IrradianceCache::local(const LobeNode& node) {
     constexpr float kWhole = 1 / 32767.0f;
     return {Frame(unpack_normal(node.normal)),
             {kWhole * static_cast<float>(node.turn[0]), kWhole * static_cast<float>(node.turn[1])}};

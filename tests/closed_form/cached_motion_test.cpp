@@ -1,4 +1,4 @@
-// Kept light of several objects and of what moves (kept_links.h, kept_updates.h), against one mesh, random
+// Cached light of several objects and of what moves (kept_links.h, kept_updates.h), against one mesh, random
 // paths and a renderer that has not seen what came before.
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ Stage two_objects(const char* model) {
     return s;
 }
 
-TEST(KeptMotion, LightGoesFromOneObjectToAnotherAsRandomPathsHaveIt) {
+TEST(CachedMotion, LightGoesFromOneObjectToAnotherAsRandomPathsHaveIt) {
     Stage direct = two_objects("direct"), paths = two_objects("path"), kept = two_objects("kept");
     for (Stage* s : {&direct, &paths, &kept}) s->render();
     const double between = paths.mean() - direct.mean();
@@ -50,7 +50,7 @@ TEST(KeptMotion, LightGoesFromOneObjectToAnotherAsRandomPathsHaveIt) {
 }
 
 // The wall turns away and comes back: what is shown depends on where it stands, and on nothing before.
-TEST(KeptMotion, AFrameIsAFunctionOfWhereTheObjectsStand) {
+TEST(CachedMotion, AFrameIsAFunctionOfWhereTheObjectsStand) {
     Stage s = two_objects("kept");
     s.render();
     const std::vector<float> first = picture(s);
@@ -64,7 +64,7 @@ TEST(KeptMotion, AFrameIsAFunctionOfWhereTheObjectsStand) {
 
 // A small thing that looks at floor and wall, and is too small for them to look at, leaves. What those have of each other
 // is solved with it while it is there, and afterwards as if it had never been.
-TEST(KeptMotion, AFrameIsAFunctionOfWhoStandsNear) {
+TEST(CachedMotion, AFrameIsAFunctionOfWhoStandsNear) {
     const auto stage = [](Vec3d third_m) {
         Stage s = two_objects("kept");
         s.add(cube(lambert(0.9), s.grid, 0.1f), third_m);
@@ -84,7 +84,7 @@ TEST(KeptMotion, AFrameIsAFunctionOfWhoStandsNear) {
 }
 
 // While it turns, light is made ahead of time on a thread; a renderer that starts there has the same.
-TEST(KeptMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
+TEST(CachedMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
     Stage s = two_objects("kept");
     s.build();
     int compared = 0;
@@ -105,7 +105,7 @@ TEST(KeptMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
 
 // Tables that come while frames are made: until then random paths, from then on what a renderer shows that
 // had them from the beginning. Nothing is waited for in between, and the frames are those of either.
-TEST(KeptMotion, LightThatComesLaterIsWhatWouldHaveBeenThere) {
+TEST(CachedMotion, LightThatComesLaterIsWhatWouldHaveBeenThere) {
     Stage kept = two_objects("kept"), later = two_objects("kept"), paths = two_objects("path");
     std::vector<std::shared_ptr<const TransferTable>> tables;
     for (SceneObject& object : later.scene.objects) tables.push_back(std::move(object.transfer));
@@ -135,7 +135,7 @@ TEST(KeptMotion, LightThatComesLaterIsWhatWouldHaveBeenThere) {
 }
 
 // A renderer that ends before it has taken what was given lets go of it, and of what is being solved.
-TEST(KeptMotion, LightThatIsNeverTakenIsLetGo) {
+TEST(CachedMotion, LightThatIsNeverTakenIsLetGo) {
     for (const int calls : {0, 1}) {
         Stage later = two_objects("kept");
         std::vector<std::shared_ptr<const TransferTable>> tables;
@@ -153,7 +153,7 @@ TEST(KeptMotion, LightThatIsNeverTakenIsLetGo) {
 }
 
 // Two objects far from each other are lit as each alone is.
-TEST(KeptMotion, ObjectsFarApartGiveEachOtherNothing) {
+TEST(CachedMotion, ObjectsFarApartGiveEachOtherNothing) {
     const auto stage = [](bool both) {
         Stage s;
         s.quality.path_model = "kept";

@@ -1,10 +1,10 @@
 #pragma once
-// The kept light of all objects (kept_light.h) as one frame has it: brought up to where the sources are, and
-// looked up where a path meets a surface (kept_reflection.cpp).
+// The cached light of all objects (irradiance_cache.h) as one frame has it: brought up to where the sources are, and
+// looked up where a path meets a surface (cached_reflection.cpp).
 //
-// Kept are the light between the parts of an object and between objects that stand near each other, and what
+// Cached are the light between the parts of an object and between objects that stand near each other, and what
 // of the bodies' light reaches them past their parts. The Sun and lamps shine on what a path meets by rays as
-// ever, and by way of flat mirrors (mirrored_suns.h). Not kept: light of terrain, between objects far apart.
+// ever, and by way of flat mirrors (mirrored_suns.h). Not cached: light of terrain, between objects far apart.
 
 #include <array>
 #include <cstdint>
@@ -24,16 +24,16 @@
 
 namespace hilcam {
 
-class KeptScene {
+class IndirectCache {
   public:
     struct Settings {
         float step_rad = 0;  // step of the grid to which sources are rounded
         std::size_t lamps = 0;
         bool emission = false;
     };
-    // Light is kept on the objects that have a table. They outlive this. Owner thread.
-    KeptScene(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
-              const Settings& settings);
+    // Light is cached on the objects that have a table. They outlive this. Owner thread.
+    IndirectCache(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
+                  const Settings& settings);
 
     // Prepares a frame, after everything else is placed; solves for what has moved by a step, where that was
     // not done ahead. Loop.
@@ -46,18 +46,18 @@ class KeptScene {
     void stop_looking_ahead() { updates_->stop_looking_ahead(); }
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
-    const KeptLight& light(std::size_t object) const { return *objects_[object].light; }
+    const IrradianceCache& light(std::size_t object) const { return *objects_[object].light; }
     // Returns the node whose light is looked up at a point of an object, the nearest of those about it; none: there are none. side: its
     // normal by world axes. Any thread.
     std::optional<std::uint32_t> nearest_node(const FrameView& frame, std::size_t object, Vec3f point_m,
                                               const SurfaceSide& side) const;
-    // Says in words what is kept on an object.
+    // Says in words what is cached on an object.
     std::string describe(std::size_t object) const;
 
     // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
     static constexpr std::size_t kMostFollowed = 4096;
-    // Adds to the tile's pixels what shading points that keep light reflect of it, narrow lobes apart. requests: gets what is
-    // left to rays, by the shading point's number. Loop, any thread.
+    // Adds to the tile's pixels what shading points whose light is cached reflect of it, narrow lobes apart. requests: gets what
+    // is left to rays, by the shading point's number. Loop, any thread.
     void add_reflected(Tile& tile, std::span<const ShadingPoint> points,
                        std::span<GlossyRequest> requests) const;
     // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
@@ -71,7 +71,7 @@ class KeptScene {
     class LobeRays {
       public:
         // Their light has the material's own colour: lobe_tint() is not in it.
-        LobeRays(const KeptScene& scene, const ShadingPoint& at);
+        LobeRays(const IndirectCache& scene, const ShadingPoint& at);
         void count(Vec3f dir) {
             ++all_;
             for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
@@ -86,28 +86,28 @@ class KeptScene {
         }
 
       private:
-        const KeptScene& scene_;
+        const IndirectCache& scene_;
         std::array<Spectrum, SkyLight::kMaxBodies> sent_{};
         std::array<int, SkyLight::kMaxBodies> rays_{};  // towards each
         int all_ = 0;
     };
-    // Returns what the facets of a shading point that keeps light reflect of light from everywhere. Loop, any thread.
+    // Returns what the facets of a shading point whose light is cached reflect of light from everywhere. Loop, any thread.
     Spectrum lobe_albedo(const ShadingPoint& at) const;
     // Returns the two parts of it: that of the material, and the ratio of a texture's colour to it.
     Spectrum plain_lobe_albedo(const ShadingPoint& at) const;
     Spectrum lobe_tint(const ShadingPoint& at) const;
-    // Adds what a lobe too narrow to be kept reflects of the bodies; mirror: its middle. Loop, any thread.
+    // Adds what a lobe too narrow to be cached reflects of the bodies; mirror: its middle. Loop, any thread.
     void add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
 
   private:
     struct Object {
-        std::unique_ptr<KeptLight> light;
+        std::unique_ptr<IrradianceCache> light;
         Vec3f origin_m;  // in ray space
     };
     KeptTerms terms_;
     std::vector<Object> objects_;
-    std::vector<const KeptLight*> lights_;  // the light kept on each of them
+    std::vector<const IrradianceCache*> lights_;  // the light kept on each of them
     std::unique_ptr<KeptUpdates> updates_;
     SkyLight sky_;
     MirroredSuns mirrored_suns_;
@@ -137,7 +137,7 @@ class KeptScene {
         // texture colours facets, theirs is what white ones would reflect.
         Spectrum diffuse, met;
         SentOfBodies bodies;
-        float directions;   // that bring what is met (KeptLight::Lobe)
+        float directions;   // that bring what is met (IrradianceCache::Lobe)
         bool mirrors_near;  // see GlossyRequest
         bool has_bodies;    // likewise
         std::uint32_t
@@ -174,7 +174,7 @@ class KeptScene {
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
     bool is_near(const FrameView& frame, const Place& place) const;
     template <class Where>
-    Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
+    Spectrum others(const FrameView& frame, const IrradianceCache& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
     Spectrum direct_irradiance(std::size_t body, const Place& place) const;
     Spectrum reflect_bodies(const Place& place) const;

@@ -1,7 +1,7 @@
-// Looks up what shading points reflect of the light that is kept (kept_scene.h), and of the light of bodies that comes without a
-// way.
+// Looks up what shading points reflect of the light that is cached (indirect_cache.h), and of the light of bodies that comes
+// without a way.
 
-#include "render/indirect/kept_scene.h"
+#include "render/indirect/indirect_cache.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ bool has_own_colors(const Bsdf& at) { return at.material->varies() && at.materia
 bool is_tinted(const Bsdf& at) { return at.base.bin != at.material->base.bin; }
 Spectrum base_tint(const Bsdf& at) { return ratio(at.base, at.material->base); }
 
-// Numbers the square of four pixels that a shading point is seen in: kept light is too smooth to differ there.
+// Numbers the square of four pixels that a shading point is seen in: cached light is too smooth to differ there.
 std::uint32_t quad_of(const Tile& tile, const ShadingPoint& at) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     return at.pixel / width / 2 * width + at.pixel % width / 2;
@@ -43,7 +43,7 @@ bool is_alike(const ShadingPoint& a, const ShadingPoint& b, float near_m) {
 }  // namespace
 
 // Something may stand in the mirror's direction.
-bool KeptScene::is_near(const FrameView& frame, const Place& place) const {
+bool IndirectCache::is_near(const FrameView& frame, const Place& place) const {
     if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
     const ShadingPoint& at = *place.at;
     return objects_[at.object].light->is_near(
@@ -51,8 +51,8 @@ bool KeptScene::is_near(const FrameView& frame, const Place& place) const {
 }
 
 // The place whose light a shading point shares; null: it needs its own. What mirrors show may be seen from anywhere.
-KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const ShadingPoint& at,
-                                          std::uint32_t quad) const {
+IndirectCache::Place* IndirectCache::shared_place(std::span<Place> places, const ShadingPoint& at,
+                                                  std::uint32_t quad) const {
     const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
     for (auto place = places.rbegin(); place != places.rend(); ++place) {
         if (place->quad != quad) return nullptr;
@@ -62,8 +62,8 @@ KeptScene::Place* KeptScene::shared_place(std::span<Place> places, const Shading
     return nullptr;
 }
 
-void KeptScene::add_reflected(Tile& tile, std::span<const ShadingPoint> points,
-                              std::span<GlossyRequest> requests) const {
+void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> points,
+                                  std::span<GlossyRequest> requests) const {
     if (points.empty()) return;
     Together block;
     Lobes lobes;
@@ -84,8 +84,8 @@ void KeptScene::add_reflected(Tile& tile, std::span<const ShadingPoint> points,
 }
 
 // Takes shading points from the first on, as many as there is room for. Returns the number of the one after them.
-std::size_t KeptScene::gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
-                              Together& block) const {
+std::size_t IndirectCache::gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
+                                  Together& block) const {
     std::size_t next = first, &count = block.place_count, &used = block.use_count;
     count = used = 0;
     for (; next < points.size() && count < block.places.size() && used < block.uses.size(); ++next) {
@@ -99,19 +99,20 @@ std::size_t KeptScene::gather(const Tile& tile, std::span<const ShadingPoint> po
     return next;
 }
 
-void KeptScene::reflect_clusters(const FrameView& frame, Lobes& lobes, Place& place) const {
+void IndirectCache::reflect_clusters(const FrameView& frame, Lobes& lobes, Place& place) const {
     const ShadingPoint& at = *place.at;
     place.met = {}, place.bodies = {}, place.directions = 0;
     place.mirrors_near = true, place.has_bodies = false;
     place.follower = GlossyRequest::kNobody;
     if (!at.surface.material->has_facets()) return;
-    if (at.surface.alpha < kNarrowestKept) place.mirrors_near = is_near(frame, place);
+    if (at.surface.alpha < kMinCachedAlpha) place.mirrors_near = is_near(frame, place);
     if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(frame, lobes, place);
     if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
 }
 
 // Adds what a shading point has of its place's light to its pixel, or leaves its lobe to rays. room: for so many more samples.
-void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const {
+void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests,
+                            float& room) const {
     const ShadingPoint& at = *use.at;
     Place& place = *use.place;
     GlossyRequest& request = requests[use.number];
@@ -128,8 +129,8 @@ void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> req
         if (request.follows_lobe) {
             room -= at.weight_samples, follow_together(use.number, place, requests);
             const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
-            request.kept_lobe = largest(at.throughput * plain);
-            request.kept_lobe_directions = place.directions;
+            request.cached_lobe = largest(at.throughput * plain);
+            request.cached_lobe_directions = place.directions;
             met = {};
         } else {
             bodies = sum_of_bodies(at, place.bodies);
@@ -144,7 +145,7 @@ void KeptScene::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> req
     tile.move(at, LightPart::kDiffuse, LightPart::kGlossy, at.throughput * met);
 }
 
-void KeptScene::follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests) {
+void IndirectCache::follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests) {
     if (place.follower == GlossyRequest::kNobody || place.followers == kMostTogether) {
         place.follower = number, place.followers = 1;
         return;
@@ -154,7 +155,7 @@ void KeptScene::follow_together(std::uint32_t number, Place& place, std::span<Gl
     requests[number].next = requests[place.follower].next, requests[place.follower].next = number;
 }
 
-void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
+void IndirectCache::find(const FrameView& frame, std::span<Place> places) const {
     for (Place& place : places) {
         const ShadingPoint& at = *place.at;
         const Mat3f& axes = frame.world_from_body[at.object];
@@ -166,7 +167,7 @@ void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
     for (Place& place : places) objects_[place.at->object].light->table().nodes().open(place.search);
     for (Place& place : places) {
         const ShadingPoint& at = *place.at;
-        const KeptLight& light = *objects_[at.object].light;
+        const IrradianceCache& light = *objects_[at.object].light;
         place.found = light.table().nodes().finish(place.search, place.about);
         if (place.about.count == 0) continue;
         place.nearest = place.about.nearest();
@@ -177,7 +178,8 @@ void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
 
 // The irradiance of all sources but the Sun by way of other surfaces, at a node or about a place.
 template <class Where>
-Spectrum KeptScene::others(const FrameView& frame, const KeptLight& light, const Where& where) const {
+Spectrum IndirectCache::others(const FrameView& frame, const IrradianceCache& light,
+                               const Where& where) const {
     Spectrum sum;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
         sum += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(KeptTerms::kBodies + b, where);
@@ -189,15 +191,15 @@ Spectrum KeptScene::others(const FrameView& frame, const KeptLight& light, const
 }
 
 // This is what a surface of the material's own colour reflects without its facets.
-Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) const {
+Spectrum IndirectCache::reflect_diffuse(const FrameView& frame, const Place& place) const {
     const ShadingPoint& at = *place.at;
     const Object& object = objects_[at.object];
-    const KeptLight& light = *object.light;
+    const IrradianceCache& light = *object.light;
     const NodesAbout& about = place.about;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
     const bool sunlit = largest(sun) > 0;
     if (at.surface.material->has_facets() && at.surface.alpha >= kNarrowestLobe && place.found)
-        light.prefetch_along(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, place.nearest);
+        light.prefetch_along(sunlit ? KeptTerms::kSun : IrradianceCache::kNoTerm, place.nearest);
 
     Spectrum all = others(frame, light, about);
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) all += direct_irradiance(b, place);
@@ -206,37 +208,37 @@ Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) 
 }
 
 // The light of a body without a way, at a place.
-Spectrum KeptScene::direct_irradiance(std::size_t body, const Place& place) const {
-    const KeptLight& light = *objects_[place.at->object].light;
+Spectrum IndirectCache::direct_irradiance(std::size_t body, const Place& place) const {
+    const IrradianceCache& light = *objects_[place.at->object].light;
     return (place.found ? light.seen(KeptTerms::kBodies + body, place.about) : 1.0f) *
            sky_.irradiance(body, place.at->normal);
 }
 
 // The part of reflect_diffuse() that is the bodies' light without a way.
-Spectrum KeptScene::reflect_bodies(const Place& place) const {
+Spectrum IndirectCache::reflect_bodies(const Place& place) const {
     Spectrum all;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) all += direct_irradiance(b, place);
     return radiance_of(place, all);
 }
 
 // Returns the radiance that a surface of the material's own colour makes of an irradiance without its facets.
-Spectrum KeptScene::radiance_of(const Place& place, const Spectrum& irradiance) const {
+Spectrum IndirectCache::radiance_of(const Place& place, const Spectrum& irradiance) const {
     const ShadingPoint& at = *place.at;
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     return (1 / kPiF) * (objects_[at.object].light->albedo(at.surface_number).base(no) * irradiance);
 }
 
-void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
+void IndirectCache::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
     const ShadingPoint& at = *place.at;
     // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
     // does, it has all of them.
-    const bool narrow = at.surface.alpha < kNarrowestKept, whole = narrow && !place.mirrors_near;
+    const bool narrow = at.surface.alpha < kMinCachedAlpha, whole = narrow && !place.mirrors_near;
     const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
     const std::uint32_t node = place.found ? place.nearest : LightNodes::kClosed;
     const MetByLobe* met = lobes.met.find(at, node);
     if (!met || met->whole != whole) met = &lobes.met.keep(at, node, met_by_lobe(frame, place, whole));
     place.met = met->radiance, place.directions = met->directions;
-    // Two shading points of several parts are not alike: what one sends is not kept for others.
+    // Two shading points of several parts are not alike: what one sends is not cached for others.
     SentOfBodies by_parts;
     const SentOfBodies* sent = &by_parts;
     if (at.clusters)
@@ -248,7 +250,7 @@ void KeptScene::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place)
 }
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
-void KeptScene::reflect_far_bodies(Place& place) const {
+void IndirectCache::reflect_far_bodies(Place& place) const {
     const ShadingPoint& at = *place.at;
     const Vec3f mirror = reflect(at.view_dir, at.normal);
     place.has_bodies = !place.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
@@ -256,66 +258,67 @@ void KeptScene::reflect_far_bodies(Place& place) const {
     if (place.has_bodies) place.bodies = sent_of_bodies(at);
 }
 
-std::optional<std::uint32_t> KeptScene::nearest_node(const FrameView& frame, std::size_t object,
-                                                     Vec3f point_m, const SurfaceSide& side) const {
+std::optional<std::uint32_t> IndirectCache::nearest_node(const FrameView& frame, std::size_t object,
+                                                         Vec3f point_m, const SurfaceSide& side) const {
     const Mat3f& axes = frame.world_from_body[object];
     SurfaceSide in_body = side;
     in_body.geometric_normal = to_body(axes, side.geometric_normal);
     NodesAbout about;
-    const Object& kept = objects_[object];
+    const Object& cached = objects_[object];
     const bool found =
-        kept.light->table().nodes().find(to_body(axes, point_m - kept.origin_m), in_body, about);
+        cached.light->table().nodes().find(to_body(axes, point_m - cached.origin_m), in_body, about);
     if (!found || about.count == 0) return std::nullopt;
     return about.nearest();
 }
 
-KeptScene::MetByLobe KeptScene::met_by_lobe(const FrameView& frame, const Place& place, bool whole) const {
+IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameView& frame, const Place& place,
+                                                    bool whole) const {
     const ShadingPoint& at = *place.at;
-    const KeptLight& light = *objects_[at.object].light;
+    const IrradianceCache& light = *objects_[at.object].light;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
     const bool sunlit = largest(sun) > 0;
     const std::size_t bodies = sky_.bodies().size();
-    KeptLight::Lobe lobe;
+    IrradianceCache::Lobe lobe;
     if (place.found) {
         const Mat3f& axes = frame.world_from_body[at.object];
-        std::array<KeptLight::Cone, SkyLight::kMaxBodies> cones;
+        std::array<IrradianceCache::Cone, SkyLight::kMaxBodies> cones;
         for (std::size_t b = 0; b < bodies; ++b)
             cones[b] = {to_body(axes, sky_.bodies()[b].light_dir), sky_.bodies()[b].light_cosine};
-        lobe =
-            light.lobe(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, {cones.data(), whole ? 0 : bodies},
-                       place.nearest, to_body(axes, at.normal), to_body(axes, at.view_dir), at.surface.alpha);
+        lobe = light.lobe(sunlit ? KeptTerms::kSun : IrradianceCache::kNoTerm,
+                          {cones.data(), whole ? 0 : bodies}, place.nearest, to_body(axes, at.normal),
+                          to_body(axes, at.view_dir), at.surface.alpha);
     }
     Spectrum radiance;
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
-    if (sunlit) radiance += sun * lobe.kept;
+    if (sunlit) radiance += sun * lobe.cached;
     if (!has_own_colors(at.surface)) radiance = lobe_albedo(at) * radiance;
     return {radiance, lobe.free, lobe.directions, whole};
 }
 
-Spectrum KeptScene::lobe_albedo(const ShadingPoint& at) const {
+Spectrum IndirectCache::lobe_albedo(const ShadingPoint& at) const {
     const Spectrum plain = plain_lobe_albedo(at);
     return has_own_colors(at.surface) ? facet_tint(at.surface) * plain : plain;
 }
 
-Spectrum KeptScene::plain_lobe_albedo(const ShadingPoint& at) const {
+Spectrum IndirectCache::plain_lobe_albedo(const ShadingPoint& at) const {
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     return objects_[at.object].light->albedo(at.surface_number).lobe(no);
 }
 
-Spectrum KeptScene::lobe_tint(const ShadingPoint& at) const {
+Spectrum IndirectCache::lobe_tint(const ShadingPoint& at) const {
     Spectrum none;
     none.bin.fill(1);
     return has_own_colors(at.surface) ? facet_tint(at.surface) : none;
 }
 
-KeptScene::LobeRays::LobeRays(const KeptScene& scene, const ShadingPoint& at) : scene_(scene) {
+IndirectCache::LobeRays::LobeRays(const IndirectCache& scene, const ShadingPoint& at) : scene_(scene) {
     const SentOfBodies sent = scene.sent_of_bodies(at);
     Bsdf plain = at.surface;
     plain.highlight = plain.material->highlight;
     for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
 }
 
-KeptScene::SentOfBodies KeptScene::sent_of_bodies(const ShadingPoint& at) const {
+IndirectCache::SentOfBodies IndirectCache::sent_of_bodies(const ShadingPoint& at) const {
     SentOfBodies sent;
     // Brighter texels may share it.
     const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
@@ -329,10 +332,10 @@ KeptScene::SentOfBodies KeptScene::sent_of_bodies(const ShadingPoint& at) const 
 // that those meet. Light that hangs on a few may be the light of what is beside: of a bar that one direction meets, of
 // the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
 // than half the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
-bool KeptScene::hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met,
-                             float directions) {
+bool IndirectCache::hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met,
+                                 float directions) {
     constexpr float kFew = 8, kBeside = 2, kOfThreshold = 0.5f;
-    if (at.depth != 1 || at.surface.alpha < kNarrowestKept) return false;
+    if (at.depth != 1 || at.surface.alpha < kMinCachedAlpha) return false;
     if (tile.frame.max_depth < 2 || !(directions > 0 && directions < kFew)) return false;
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
     const float light = at.weight_samples * largest(met);
@@ -342,8 +345,8 @@ bool KeptScene::hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spe
 }
 
 // Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
-SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
-                                         float reflectance) const {
+SkyLight::Glossy IndirectCache::sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
+                                             float reflectance) const {
     SkyLight::Glossy sent = sky_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
     if (!has_own_colors(at.surface))
         sent.radiance = brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance;
@@ -352,7 +355,8 @@ SkyLight::Glossy KeptScene::sent_of_body(std::size_t body, const ShadingPoint& a
 
 // The same of a shading point of several parts, each as it leans: of two that lean apart one may show the body, and their mean
 // none of it.
-SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const {
+SkyLight::Glossy IndirectCache::sent_by_parts(std::size_t body, const ShadingPoint& at,
+                                              float reflectance) const {
     const bool own_colors = has_own_colors(at.surface);
     Spectrum sum;
     float samples = 0, cosines = 0;
@@ -375,18 +379,18 @@ SkyLight::Glossy KeptScene::sent_by_parts(std::size_t body, const ShadingPoint& 
     return {(1 / samples) * sum, own_colors && all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
 }
 
-Spectrum KeptScene::colored(const Bsdf& at, const SkyLight::Glossy& sent) {
+Spectrum IndirectCache::colored(const Bsdf& at, const SkyLight::Glossy& sent) {
     return has_own_colors(at) ? brdf_mirrored(at, sent.facet_cosine) * sent.radiance : sent.radiance;
 }
 
-Spectrum KeptScene::sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const {
+Spectrum IndirectCache::sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const {
     Spectrum sum;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sum += colored(at.surface, sent[b]);
     return sum;
 }
 
-void KeptScene::add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror,
-                                   Spectrum weight, Spectrum& radiance) const {
+void IndirectCache::add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror,
+                                       Spectrum weight, Spectrum& radiance) const {
     bool meets = false;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
         meets = meets || sky_.is_met(b, mirror);

@@ -1,4 +1,4 @@
-#include "render/indirect/kept_scene.h"
+#include "render/indirect/indirect_cache.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,20 +29,20 @@ float narrowest_alpha(std::span<const ShownObject> objects) {
 
 }  // namespace
 
-KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
-                     const Settings& settings)
+IndirectCache::IndirectCache(std::span<const ShownObject> objects, const EmbreeScene& scene,
+                             const ColorBands& bands, const Settings& settings)
     : terms_{settings.lamps, settings.emission}, objects_(objects.size()), sky_(narrowest_alpha(objects)) {
-    std::vector<KeptLight*> lights(objects.size());
-    std::map<const ObjectSurfaces*, std::shared_ptr<const KeptAlbedos>> albedos;  // by make
+    std::vector<IrradianceCache*> lights(objects.size());
+    std::map<const ObjectSurfaces*, std::shared_ptr<const ObjectAlbedos>> albedos;  // by make
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (!objects[i].transfer || objects[i].transfer->size() == 0) continue;
-        std::shared_ptr<const KeptAlbedos>& of_make = albedos[objects[i].levels.front().get()];
+        std::shared_ptr<const ObjectAlbedos>& of_make = albedos[objects[i].levels.front().get()];
         if (!of_make)
-            of_make = std::make_shared<const KeptAlbedos>(*objects[i].levels.front(), scene.mesh(i, 0),
-                                                          objects[i].transfer->nodes(),
-                                                          KeptLight::min_alpha(*objects[i].transfer));
-        objects_[i].light =
-            std::make_unique<KeptLight>(objects[i], of_make, bands, step_of(objects[i], settings.step_rad));
+            of_make = std::make_shared<const ObjectAlbedos>(*objects[i].levels.front(), scene.mesh(i, 0),
+                                                            objects[i].transfer->nodes(),
+                                                            IrradianceCache::min_alpha(*objects[i].transfer));
+        objects_[i].light = std::make_unique<IrradianceCache>(objects[i], of_make, bands,
+                                                              step_of(objects[i], settings.step_rad));
         lights[i] = objects_[i].light.get();
         mirrored_suns_.add(objects[i], i, lights[i]->mirrors(), lights[i]->albedos());
         for (std::size_t term = 0; term < terms_.count(); ++term) lights[i]->add_term(terms_.kind(term));
@@ -54,8 +54,8 @@ KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& sc
         inputs->objects.resize(objects.size()), inputs->lamps.reserve(settings.lamps);
 }
 
-std::string KeptScene::describe(std::size_t i) const {
-    const KeptLight& light = *objects_[i].light;
+std::string IndirectCache::describe(std::size_t i) const {
+    const IrradianceCache& light = *objects_[i].light;
     const TransferTable& table = light.table();
     std::ostringstream text;
     text << table.size() << " places, " << 1e3f * table.nodes().cube_m() << " mm apart, "
@@ -67,7 +67,7 @@ std::string KeptScene::describe(std::size_t i) const {
     return text.str();
 }
 
-void KeptScene::take_inputs(const FrameView& frame, const WorldSnapshot& world) {
+void IndirectCache::take_inputs(const FrameView& frame, const WorldSnapshot& world) {
     std::copy(world.objects.begin(), world.objects.end(), now_.objects.begin());
     now_.sun = largest(frame.background->sun_irradiance_w_m2_um()) > 0;
     if (now_.sun) now_.sun_dir = to_float(frame.background->sun_world_dir());
@@ -81,7 +81,7 @@ void KeptScene::take_inputs(const FrameView& frame, const WorldSnapshot& world) 
                 {lamp.number, lamp.position_m + frame.rays_world_m, to_float(lamp.axis), lamp.beam});
 }
 
-void KeptScene::set_target(const FrameView& frame, const WorldSnapshot& world) {
+void IndirectCache::set_target(const FrameView& frame, const WorldSnapshot& world) {
     // One place stands for a square of four pixels, which is 2.8 across, and its mirrors lean by 2 mrad against each other.
     constexpr float kSquare_px = 3, kLean_rad = 0.002f;
     sky_.place(*frame.background,
@@ -90,7 +90,7 @@ void KeptScene::set_target(const FrameView& frame, const WorldSnapshot& world) {
     target_.set(now_, lights_, terms_);
 }
 
-void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
+void IndirectCache::place(const FrameView& frame, const WorldSnapshot& world) {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
     mirrored_suns_.place(frame, world);
@@ -99,7 +99,7 @@ void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
     look_ahead();
 }
 
-bool KeptScene::prepare(const FrameView& frame, const WorldSnapshot& world) {
+bool IndirectCache::prepare(const FrameView& frame, const WorldSnapshot& world) {
     if (!is_asked_) {
         set_target(frame, world);
         updates_->look_ahead(target_);
@@ -109,7 +109,7 @@ bool KeptScene::prepare(const FrameView& frame, const WorldSnapshot& world) {
 }
 
 // Has made what the next frames will need first, if everything moves on as it did.
-void KeptScene::look_ahead() {
+void IndirectCache::look_ahead() {
     if (frames_++ % kStride == 0) std::swap(long_before_, before_), before_ = now_;
     const auto past = static_cast<double>(kStride + (frames_ - 1) % kStride);  // frames since long_before_
     if (frames_ <= 2 * kStride || updates_->is_busy()) return;

@@ -1,4 +1,4 @@
-// Kept light, mirrors and lamps out of the visibility buffer, where pixels share it, against pictures out of rays.
+// Cached light, mirrors and lamps out of the visibility buffer, where pixels share it, against pictures out of rays.
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 namespace hilcam {
 namespace {
 
-// Four neighbouring pixels share kept light, as it changes slowly.
-TEST(Visibility, KeptLightIsWhatRaysSee) {
+// Four neighbouring pixels share cached light, as it changes slowly.
+TEST(Visibility, CachedLightIsWhatRaysSee) {
     Stage s;
     s.quality.path_model = "kept";
     s.sun({0.3, -0.5, -1});

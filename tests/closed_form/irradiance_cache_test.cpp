@@ -1,4 +1,4 @@
-// Light that is kept (kept_light.h), against formulas and against random paths.
+// Light that is kept (irradiance_cache.h), against formulas and against random paths.
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@ namespace {
 
 // All bounces in a closed box, so that walls of every reflectance are as bright as the black body; a wall of
 // 0.9 sends light ten times around.
-TEST(KeptLight, AFurnaceIsWhiteInside) {
+TEST(IrradianceCache, AFurnaceIsWhiteInside) {
     EXPECT_NEAR(furnace_mean("kept", 2, 0.3, 1) / furnace_black(), 1, 0.005);
     EXPECT_NEAR(furnace_mean("kept", 2, 0.9, 1) / furnace_black(), 1, 0.02);
 }
 
 // A lamp in the middle of a white sphere: I / R^2 at every place, and all of the geometric series.
-TEST(KeptLight, AnIntegratingSphereHasAllBounces) {
+TEST(IrradianceCache, AnIntegratingSphereHasAllBounces) {
     constexpr double kWhite = 0.8;
     constexpr float kIntensity_w_sr_um = 100;
     Stage s;
@@ -40,7 +40,7 @@ TEST(KeptLight, AnIntegratingSphereHasAllBounces) {
 }
 
 // What the wall sends to the floor and back, against paths twelve surfaces deep: diffuse, and with facets.
-TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
+TEST(IrradianceCache, ACornerIsAsRandomPathsHaveIt) {
     MaterialConfig metal = lambert(0.8);
     metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.6;
@@ -58,7 +58,7 @@ TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
 
 // A grey picture is the colour of what lies under a clear layer, but not of that layer's own reflection: light between
 // surfaces is that of a material of such a reflectance. Under the layer it is dark, so that the layer sends most.
-TEST(KeptLight, APictureUnderALayerIsAsAMaterialOfItsReflectance) {
+TEST(IrradianceCache, APictureUnderALayerIsAsAMaterialOfItsReflectance) {
     const auto between = [](MaterialConfig material, double reflectance, std::uint8_t grey) {
         material.reflectance = Curve::constant(reflectance);
         Stage direct = corner_stage("direct", material, 2, grey),
@@ -78,7 +78,7 @@ TEST(KeptLight, APictureUnderALayerIsAsAMaterialOfItsReflectance) {
 }
 
 // A picture on metal is the colour of its facets. Light between them is as random paths have it.
-TEST(KeptLight, APictureColoursMetal) {
+TEST(IrradianceCache, APictureColoursMetal) {
     MaterialConfig metal = lambert(0.8);
     metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.6;
@@ -91,7 +91,7 @@ TEST(KeptLight, APictureColoursMetal) {
 
 // Two endless plates, nearly: between them what the Sun brings in by a bounce is kept as paths have it, and
 // nothing depends on a seed.
-TEST(KeptLight, NothingIsLeftToChance) {
+TEST(IrradianceCache, NothingIsLeftToChance) {
     Stage s = corner_stage("kept", lambert(0.8), 1);
     s.render();
     const std::vector<float> first(s.radiance.plane(0).begin(), s.radiance.plane(0).end());
@@ -101,7 +101,7 @@ TEST(KeptLight, NothingIsLeftToChance) {
 }
 
 // A frame does not depend on the frames before it, also where the light of another Sun was kept in between.
-TEST(KeptLight, AFrameIsAFunctionOfItsWorld) {
+TEST(IrradianceCache, AFrameIsAFunctionOfItsWorld) {
     Stage s = corner_stage("kept", lambert(0.8), 1);
     s.render();
     const std::vector<float> first(s.radiance.plane(0).begin(), s.radiance.plane(0).end());

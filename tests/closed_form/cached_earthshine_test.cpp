@@ -1,4 +1,4 @@
-// The Earth's light on paint and metal, kept (kept_light.h), against random paths.
+// The Earth's light on paint and metal, kept (irradiance_cache.h), against random paths.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 // The Earth over a floor that its wall hides half of it from: as random paths find it, on paint, and by
 // facets, which see part of it past the wall and the rest as the wall mirrors it.
-TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
+TEST(IrradianceCache, EarthshineIsHiddenByTheObjectsOwnParts) {
     const auto light = [](const char* model, const MaterialConfig& material, int samples, std::uint8_t grey) {
         Stage s = corner_stage(model, material, samples, grey);
         s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
@@ -66,7 +66,7 @@ struct MetalStage : Stage {
 };
 
 // Rough metal reflects all of the Earth's light that it does: facets that shade each other are counted once.
-TEST(KeptLight, RoughMetalSendsAllOfTheEarthsLight) {
+TEST(IrradianceCache, RoughMetalSendsAllOfTheEarthsLight) {
     const auto light = [](const char* model, double roughness, int samples) {
         MetalStage s(model, roughness, samples, 48, 0.5);
         s.add(sphere(40, s.metal, s.grid), {0, 0, 5});
@@ -83,7 +83,7 @@ TEST(KeptLight, RoughMetalSendsAllOfTheEarthsLight) {
 
 // A resin's surface beside the mirror's direction of a small Earth: the few facets that mirror it are met at other angles
 // than most, and reflect by those.
-TEST(KeptLight, FacetsReflectByTheAngleTheyAreMetAt) {
+TEST(IrradianceCache, FacetsReflectByTheAngleTheyAreMetAt) {
     const auto light = [](const char* model, int samples, double tilt_deg) {
         MetalStage s(model, 1, samples, 16, 0.05);
         MaterialConfig resin = lambert(0);
@@ -105,7 +105,7 @@ TEST(KeptLight, FacetsReflectByTheAngleTheyAreMetAt) {
 
 // White paint under the Earth, from low orbit to twice the geostationary height: all of its disk's light, in however many parts
 // that is taken.
-TEST(KeptLight, PaintHasAllOfTheEarthsLightAtAnyHeight) {
+TEST(IrradianceCache, PaintHasAllOfTheEarthsLightAtAnyHeight) {
     const auto light = [](const char* model, double distance_m, int samples) {
         MetalStage s(model, 1, samples, 24, 0.05);
         s.add(plate(lambert(0.8), s.grid), {0, 0, 4});
@@ -122,7 +122,7 @@ TEST(KeptLight, PaintHasAllOfTheEarthsLightAtAnyHeight) {
 }
 
 // Polished metal beside the Earth's limb: the tails of its lobe, narrow against the disk, reach over it.
-TEST(KeptLight, PolishedMetalSeesTheEarthPastItsLimb) {
+TEST(IrradianceCache, PolishedMetalSeesTheEarthPastItsLimb) {
     const auto light = [](const char* model, int samples, double tilt_rad) {
         MetalStage s(model, 0.15, samples, 16, 0.05);  // alpha 0.0225
         s.add(plate(s.metal, s.grid), {0, 0, 4}, {kPi + tilt_rad, 0, 0});
@@ -141,7 +141,7 @@ TEST(KeptLight, PolishedMetalSeesTheEarthPastItsLimb) {
 
 // A polished plate that mirrors the limb over a pole, 21 km nearer to the middle than over the equator, which
 // is 8 mrad from here: as wide as its lobe.
-TEST(KeptLight, PolishedMetalSeesALimbThatIsFlattened) {
+TEST(IrradianceCache, PolishedMetalSeesALimbThatIsFlattened) {
     const auto light = [](const char* model, int samples, double tilt_deg) {
         MetalStage s(model, 0.07, samples, 16, 0.002);  // alpha 0.0049
         s.add(plate(s.metal, s.grid), {0, 0, 4}, {kPi + tilt_deg * kDegree_rad, 0, 0});
@@ -160,7 +160,7 @@ TEST(KeptLight, PolishedMetalSeesALimbThatIsFlattened) {
 
 // Solar panels mirror clouds: what their lobes see of a field of them differs from place to place as its light
 // averaged over the lobe does, not as that of single clouds.
-TEST(KeptLight, PolishedMetalMirrorsClouds) {
+TEST(IrradianceCache, PolishedMetalMirrorsClouds) {
     const auto light = [](const char* model, double roughness, int samples, double tilt_deg) {
         MetalStage s(model, roughness, samples, 8, 0.005);
         s.scene.earth = std::make_shared<const EarthModel>(EarthConfig{}, seeded_clouds(3, 256), EarthMap(),
@@ -188,7 +188,7 @@ TEST(KeptLight, PolishedMetalMirrorsClouds) {
 
 // A white floor under tiles that cover most of it, a hair above: what is seen of it are the gaps, and those
 // have their light.
-TEST(KeptLight, TheGapsBetweenTilesAreLit) {
+TEST(IrradianceCache, TheGapsBetweenTilesAreLit) {
     const auto stage = [](const char* model, float above_m) {
         Stage s;
         s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);

@@ -1,11 +1,11 @@
-// KeptLight's lookup by a facet lobe.
+// IrradianceCache's lookup by a facet lobe.
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
-#include "render/radiosity/kept_light.h"
+#include "render/radiosity/irradiance_cache.h"
 #include "render/radiosity/kept_links.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/lane_sum.h"
@@ -18,7 +18,7 @@ struct LobeQuery {
     GgxLobe law;
     Vec3f normal, view, mirror;
     bool narrow;
-    float whole = 0, kept = 0;
+    float whole = 0, cached = 0;
 };
 
 // The sum of every sixteenth value. Vectors are written out, as GCC 12 keeps sums in memory, where each waits for the one
@@ -38,13 +38,13 @@ struct LobeQuery {
     return out;
 }
 
-// The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a narrow one. Directions
-// lie as the cosine to the node's normal, so that of a surface which leans against it each counts by the ratio of both cosines
-// (importance sampling: Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the node's; 0 for
-// directions that only fill up. n is a multiple of kDirectionLanes.
+// The weight of each direction: whole, of a lobe without Fresnel's term; cached, without what rays follow of a narrow one.
+// Directions lie as the cosine to the node's normal, so that of a surface which leans against it each counts by the ratio of both
+// cosines (importance sampling: Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the
+// node's; 0 for directions that only fill up. n is a multiple of kDirectionLanes.
 HILCAM_CLONES
 void lobe_weights(const float* x, const float* y, const float* z, const float* per_cosine, std::size_t n,
-                  LobeQuery& query, float* whole, float* kept) {
+                  LobeQuery& query, float* whole, float* cached) {
     // A narrow lobe's tails begin 15 degrees from the mirror's direction and are whole at 30.
     constexpr float kNone = 0.966f, kWhole = 0.866f;
     const Vec3f m = query.normal, v = query.view, r = query.mirror;
@@ -57,12 +57,13 @@ void lobe_weights(const float* x, const float* y, const float* z, const float* p
     if (query.narrow)
         for (std::size_t d = 0; d < n; ++d) {
             const float off = x[d] * r.x + y[d] * r.y + z[d] * r.z;
-            kept[d] = whole[d] * std::min(std::max((kNone - off) * (1 / (kNone - kWhole)), 0.0f), 1.0f);
+            cached[d] = whole[d] * std::min(std::max((kNone - off) * (1 / (kNone - kWhole)), 0.0f), 1.0f);
         }
     else
-        std::copy_n(whole, n, kept);
-    const auto wholes = sums_by_lane(whole, n), kepts = sums_by_lane(kept, n);
-    for (std::size_t i = 0; i < kDirectionLanes; ++i) query.whole += wholes[i], query.kept += kepts[i];
+        std::copy_n(whole, n, cached);
+    const auto wholes = sums_by_lane(whole, n), cached_sums = sums_by_lane(cached, n);
+    for (std::size_t i = 0; i < kDirectionLanes; ++i)
+        query.whole += wholes[i], query.cached += cached_sums[i];
 }
 
 // The weights of the directions in a cone, by direction, and their sum. n is a multiple of kDirectionLanes.
@@ -83,7 +84,7 @@ struct Brought {
 
 }  // namespace
 
-void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
+void IrradianceCache::prefetch_along(std::size_t t, std::uint32_t n) const {
     const LobeNode& node = lobes_[n];
     if (node.entries == 0) return;
     const auto ask_for = [&](const auto* first) {
@@ -94,35 +95,36 @@ void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
     if (t != kNoTerm && node.first_along != kNoLobe) ask_for(terms_[t].along.data() + node.first_along);
 }
 
-KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t n, Vec3f normal,
-                                Vec3f view_dir, float alpha) const {
+IrradianceCache::Lobe IrradianceCache::lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t n,
+                                            Vec3f normal, Vec3f view_dir, float alpha) const {
     if (lobes_[n].all_free) return {};
     return lobe(sun == kNoTerm ? nullptr : &terms_[sun], links_, cones, n, normal, view_dir, alpha);
 }
 
-KeptLight::Lobe KeptLight::lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
-                                std::uint32_t n, Vec3f normal, Vec3f view_dir, float alpha) const {
+IrradianceCache::Lobe IrradianceCache::lobe(const KeptSolution* sun, const KeptLinks* links,
+                                            std::span<const Cone> cones, std::uint32_t n, Vec3f normal,
+                                            Vec3f view_dir, float alpha) const {
     const LobeNode& node = lobes_[n];
     const Local axes = local(node);
     LobeQuery query{.law = {alpha, std::max(dot(normal, view_dir), 1e-2f)},
                     .normal = axes.dir(normal),
                     .view = axes.dir(view_dir),
                     .mirror = axes.dir(reflect(view_dir, normal)),
-                    .narrow = alpha < kNarrowestKept};
-    alignas(64) std::array<float, kMaxDirections> whole, kept;  // weights, by direction
+                    .narrow = alpha < kMinCachedAlpha};
+    alignas(64) std::array<float, kMaxDirections> whole, cached;  // weights, by direction
     lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), per_cosine_.data(), per_cosine_.size(),
-                 query, whole.data(), kept.data());
+                 query, whole.data(), cached.data());
     // Points that are buried do not count.
     const std::size_t of_point = table_->directions_of_point();
     for (std::size_t p = 0; p < LightNode::kPoints; ++p)
         for (std::size_t d = p * of_point; !(node.live >> p & 1u) && d < (p + 1) * of_point; ++d) {
-            query.whole -= whole[d], query.kept -= kept[d];
-            whole[d] = kept[d] = 0;
+            query.whole -= whole[d], query.cached -= cached[d];
+            whole[d] = cached[d] = 0;
         }
     Lobe out;
     if (!(query.whole > 0)) return out;
     // Sixty directions are too few for a sum over a lobe; for its tails they are enough.
-    const float all = query.narrow ? static_cast<float>(node.counted) / kPiF : std::max(query.kept, 1e-20f);
+    const float all = query.narrow ? static_cast<float>(node.counted) / kPiF : std::max(query.cached, 1e-20f);
     for (std::size_t c = 0; c < cones.size(); ++c) {
         const ConeShare cone(axes.dir(cones[c].dir), cones[c].cosine, table_->directions());
         alignas(64) std::array<float, kMaxDirections> in_cone;
@@ -141,21 +143,21 @@ KeptLight::Lobe KeptLight::lobe(const KeptSolution* sun, const KeptLinks* links,
     Brought brought;
     // One loop for all sums, each of which waits for itself.
     for (std::size_t i = 0; i < node.entries; ++i) {
-        occupied += of_entry[i] = kept[entries[i].direction];
+        occupied += of_entry[i] = cached[entries[i].direction];
         if (along) brought.add(of_entry[i] * along[i].greatest());
     }
-    if (along) out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
+    if (along) out.cached = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
     if (links && !links->empty()) {
         const PackedSpectrum* there = sun ? sun->along_links.data() + links->first(n) : nullptr;
         for (const KeptLinks::Link& link : links->of(n)) {
             ++met_nodes;
-            occupied += kept[link.direction];
+            occupied += cached[link.direction];
             if (!there) continue;
-            brought.add(kept[link.direction] * there->greatest());
-            out.kept += kept[link.direction] * (there++)->unpacked();
+            brought.add(cached[link.direction] * there->greatest());
+            out.cached += cached[link.direction] * (there++)->unpacked();
         }
     }
-    out.kept = (1 / all) * out.kept;
+    out.cached = (1 / all) * out.cached;
     out.directions = brought.directions();
     // Light that comes along the directions that meet something makes the node's irradiance: pi / counted of
     // each one's radiance.
@@ -167,7 +169,7 @@ KeptLight::Lobe KeptLight::lobe(const KeptSolution* sun, const KeptLinks* links,
 
 // visit(direction) where a node's direction meets something, be it dark.
 template <class Visit>
-void KeptLight::for_each_met(std::size_t n, const Visit& visit) const {
+void IrradianceCache::for_each_met(std::size_t n, const Visit& visit) const {
     const auto directions = static_cast<std::size_t>(table_->directions());
     const auto word = [&](std::size_t w) {
         return links_ ? links_->free(*table_, n)[w] : table_->free(n)[w];
@@ -180,7 +182,7 @@ void KeptLight::for_each_met(std::size_t n, const Visit& visit) const {
     }
 }
 
-bool KeptLight::is_near(std::uint32_t n, Vec3f dir) const {
+bool IrradianceCache::is_near(std::uint32_t n, Vec3f dir) const {
     const LobeNode& node = lobes_[n];
     if (node.all_free) return false;
     const Vec3f l = local(node).dir(dir);

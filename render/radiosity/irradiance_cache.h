@@ -29,7 +29,7 @@ class KeptLinks;
 
 // Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them, for all of the
 // lobe but its tails.
-inline constexpr float kNarrowestKept = 0.12f;
+inline constexpr float kMinCachedAlpha = 0.12f;
 // A lobe narrower than this is followed as a mirror, by one ray; a wider one by four.
 inline constexpr float kNarrowestLobe = 0.03f;
 // Lists of directions are filled up to a multiple of this.
@@ -39,10 +39,10 @@ inline constexpr std::size_t kDirectionLanes = 16;
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
 // The albedos of an object's materials, its mirrors, and which of its nodes lie side by side. Objects of one make share it.
-struct KeptAlbedos {
+struct ObjectAlbedos {
     // mesh: with the object's triangles. min_alpha: of facets as other surfaces see them.
-    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
-                float min_alpha);
+    ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
+                  float min_alpha);
 
     std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
     std::vector<FlatMirror> mirrors;  // flat mirrors of the object; whoever looks them up has their sunlight
@@ -62,7 +62,7 @@ struct KeptSolution {
     }
 };
 
-class KeptLight {
+class IrradianceCache {
   public:
     // A sphere that holds all nodes; body axes.
     struct Bounds {
@@ -78,8 +78,8 @@ class KeptLight {
     // Facets that another surface sees are at least so wide (GGX alpha), for its directions to find them.
     static float min_alpha(const TransferTable& table);
     // The object has a table and outlives this. step_rad: of the grid that sources are rounded to.
-    KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedos> albedos, const ColorBands& bands,
-              float step_rad);
+    IrradianceCache(const ShownObject& object, std::shared_ptr<const ObjectAlbedos> albedos,
+                    const ColorBands& bands, float step_rad);
 
     const TransferTable& table() const { return *table_; }
     const Bounds& bounds() const { return bounds_; }
@@ -88,13 +88,13 @@ class KeptLight {
         return shown_->levels.front()->triangles[triangle].surface;
     }
     bool is_glass(std::uint16_t surface) const { return materials_[surface]->transmits(); }
-    // True when a node mirrors sunlight, which is not kept: mirrored_suns.h has it.
+    // True when a node mirrors sunlight, which is not cached: mirrored_suns.h has it.
     bool throws_sun(std::size_t node) const { return !throws_sun_.empty() && throws_sun_[node] != 0; }
     bool throws_sun() const { return !throws_sun_.empty(); }
     // All that it reflects, it reflects in a narrow lobe.
     bool is_mirror(std::uint16_t surface) const {
         const Material& m = *materials_[surface];
-        return m.ggx_alpha < kNarrowestKept && m.is_bare();
+        return m.ggx_alpha < kMinCachedAlpha && m.is_bare();
     }
     // A node's direction, body axes.
     Vec3f direction(std::size_t node, std::size_t d) const {
@@ -177,16 +177,16 @@ class KeptLight {
     }
     void prefetch_lobe(std::uint32_t node) const { __builtin_prefetch(&lobes_[node]); }
     void prefetch_along(std::size_t term, std::uint32_t node) const;
-    // A facet lobe about a node's directions, or the tails of one that is narrow: what it finds of the kept
+    // A facet lobe about a node's directions, or the tails of one that is narrow: what it finds of the cached
     // light along them. Shares are of what an even sky would give, Fresnel's term left out. normal, view_dir:
     // body axes, unit.
     struct Lobe {
-        Spectrum kept;  // mean radiance of the term, times the share that meets it
+        Spectrum cached;  // mean radiance of the term, times the share that meets it
         // Share of what each cone gives to the whole lobe that comes without a way.
         std::array<float, SkyLight::kMaxBodies> free{1, 1};
         float of_irradiance = 0;  // radiance of what it meets, times the share, over the node's irradiance
-        // Number of directions of equal light whose sum would vary as much as that of what `kept` is made of: the
-        // square of the sum over the sum of squares (Kish, Survey Sampling, 1965, section 8.2). 0: nothing is kept.
+        // Number of directions of equal light whose sum would vary as much as that of what `cached` is made of: the
+        // square of the sum over the sum of squares (Kish, Survey Sampling, 1965, section 8.2). 0: nothing is cached.
         float directions = 0;
     };
     struct Cone {
@@ -221,7 +221,7 @@ class KeptLight {
     const ShownObject* shown_;
     std::shared_ptr<const TransferTable> table_;
     const KeptLinks* links_ = nullptr;
-    std::shared_ptr<const KeptAlbedos> albedos_;
+    std::shared_ptr<const ObjectAlbedos> albedos_;
     std::vector<const Material*> materials_;
     Bounds bounds_;
     float step_rad_;

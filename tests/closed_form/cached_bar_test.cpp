@@ -1,4 +1,4 @@
-// Light of a bar that few directions meet, kept (kept_light.h), against random paths.
+// Light of a bar that few directions meet, kept (irradiance_cache.h), against random paths.
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ struct PlateAndBar {
 
 // Metal mirrors the bar: of its places some have a direction that meets the bar, of sixty, and others have none. No part of
 // the plate is much brighter than the brightest is by random paths.
-TEST(KeptLight, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
+TEST(IrradianceCache, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
     const auto brightest = [](const char* model, int samples, std::uint8_t grey) {
         MaterialConfig metal = lambert(0.9);
         metal.model = kModel<brdf::Metal>;
@@ -88,7 +88,7 @@ TEST(KeptLight, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
 // Stripes on metal, a few pixels wide, beside a bar that few directions meet, so that rays follow lobes, and beside one that
 // many meet. Four pixels share what lobes meet, and yet each has its own colour: bright stripes are as much brighter than dark
 // ones as on paint.
-TEST(KeptLight, PixelsOfMetalWithAPictureHaveTheirOwnColours) {
+TEST(IrradianceCache, PixelsOfMetalWithAPictureHaveTheirOwnColours) {
     std::vector<std::uint8_t> stripes;
     for (int i = 0; i < 12; ++i) stripes.insert(stripes.end(), {kGrey, kDarkGrey});
     const auto columns = [&](const MaterialConfig& material, float bar_m) {
@@ -156,7 +156,7 @@ double light_beside_bar(const char* model, int samples, std::size_t places = 300
 // A place of a round thing is lit where it faces the Sun and seen where it does not: each of its points sends as it leans. Of the
 // light between bar and paint there is 0.99 times as much as by random paths in the mean of ten tables, of which each has few
 // places of the strip and is off by 0.1. With directions that a golden section turns from place to place it is 1.16 times.
-TEST(KeptLight, WhatIsLitOfABarDoesNotShineBehindIt) {
+TEST(IrradianceCache, WhatIsLitOfABarDoesNotShineBehindIt) {
     const double direct = light_beside_bar("direct", 4), paths = light_beside_bar("path", 16) - direct;
     EXPECT_GT(paths, 0);
     double kept = 0;
@@ -170,7 +170,7 @@ TEST(KeptLight, WhatIsLitOfABarDoesNotShineBehindIt) {
 // White paint: how many of a place's sixty directions meet the bar is chance, but where few do, places have what they have
 // together with those beside them. The light of a pixel scatters about that of its block by 0.47 of the mean; by each place's own
 // directions it is 1.14.
-TEST(KeptLight, PaintBelowABarThatFewDirectionsMeetIsEven) {
+TEST(IrradianceCache, PaintBelowABarThatFewDirectionsMeetIsEven) {
     const PlateAndBar seen("kept", lambert(0.9), 0.03f, 4);
     double sum = 0, squares = 0;
     for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
