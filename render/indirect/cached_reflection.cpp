@@ -182,10 +182,10 @@ Spectrum IndirectCache::others(const FrameView& frame, const IrradianceCache& li
                                const Where& where) const {
     Spectrum sum;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-        sum += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(KeptTerms::kBodies + b, where);
+        sum += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(RadiosityTerms::kBodies + b, where);
     if (frame.lamps)
         for (const PlacedLamp& lamp : frame.lamps->lit())
-            sum += lamp.intensity_w_sr_um * light.irradiance(KeptTerms::kLamps + lamp.number, where);
+            sum += lamp.intensity_w_sr_um * light.irradiance(RadiosityTerms::kLamps + lamp.number, where);
     if (terms_.emission) sum += light.irradiance(terms_.glow(), where);
     return sum;
 }
@@ -199,18 +199,18 @@ Spectrum IndirectCache::reflect_diffuse(const FrameView& frame, const Place& pla
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
     const bool sunlit = largest(sun) > 0;
     if (at.surface.material->has_facets() && at.surface.alpha >= kNarrowestLobe && place.found)
-        light.prefetch_along(sunlit ? KeptTerms::kSun : IrradianceCache::kNoTerm, place.nearest);
+        light.prefetch_along(sunlit ? RadiosityTerms::kSun : IrradianceCache::kNoTerm, place.nearest);
 
     Spectrum all = others(frame, light, about);
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) all += direct_irradiance(b, place);
-    if (sunlit) all += sun * light.irradiance(KeptTerms::kSun, about);
+    if (sunlit) all += sun * light.irradiance(RadiosityTerms::kSun, about);
     return radiance_of(place, all);
 }
 
 // The light of a body without a way, at a place.
 Spectrum IndirectCache::direct_irradiance(std::size_t body, const Place& place) const {
     const IrradianceCache& light = *objects_[place.at->object].light;
-    return (place.found ? light.seen(KeptTerms::kBodies + body, place.about) : 1.0f) *
+    return (place.found ? light.seen(RadiosityTerms::kBodies + body, place.about) : 1.0f) *
            sky_.irradiance(body, place.at->normal);
 }
 
@@ -284,7 +284,7 @@ IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameView& frame, cons
         std::array<IrradianceCache::Cone, SkyLight::kMaxBodies> cones;
         for (std::size_t b = 0; b < bodies; ++b)
             cones[b] = {to_body(axes, sky_.bodies()[b].light_dir), sky_.bodies()[b].light_cosine};
-        lobe = light.lobe(sunlit ? KeptTerms::kSun : IrradianceCache::kNoTerm,
+        lobe = light.lobe(sunlit ? RadiosityTerms::kSun : IrradianceCache::kNoTerm,
                           {cones.data(), whole ? 0 : bodies}, place.nearest, to_body(axes, at.normal),
                           to_body(axes, at.view_dir), at.surface.alpha);
     }

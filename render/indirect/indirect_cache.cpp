@@ -48,9 +48,9 @@ IndirectCache::IndirectCache(std::span<const ShownObject> objects, const EmbreeS
         for (std::size_t term = 0; term < terms_.count(); ++term) lights[i]->add_term(terms_.kind(term));
     }
     lights_.assign(lights.begin(), lights.end());
-    updates_ = std::make_unique<KeptUpdates>(lights, scene, terms_);
-    for (KeptTarget* target : {&target_, &ahead_target_}) target->reserve(objects.size(), terms_);
-    for (KeptInputs* inputs : {&now_, &before_, &long_before_, &ahead_})
+    updates_ = std::make_unique<SolveAhead>(lights, scene, terms_);
+    for (SolveKey* key : {&key_, &ahead_key_}) key->reserve(objects.size(), terms_);
+    for (SolveInputs* inputs : {&now_, &before_, &long_before_, &ahead_})
         inputs->objects.resize(objects.size()), inputs->lamps.reserve(settings.lamps);
 }
 
@@ -81,28 +81,28 @@ void IndirectCache::take_inputs(const FrameView& frame, const WorldSnapshot& wor
                 {lamp.number, lamp.position_m + frame.rays_world_m, to_float(lamp.axis), lamp.beam});
 }
 
-void IndirectCache::set_target(const FrameView& frame, const WorldSnapshot& world) {
+void IndirectCache::set_key(const FrameView& frame, const WorldSnapshot& world) {
     // One place stands for a square of four pixels, which is 2.8 across, and its mirrors lean by 2 mrad against each other.
     constexpr float kSquare_px = 3, kLean_rad = 0.002f;
     sky_.place(*frame.background,
                kSquare_px / static_cast<float>(frame.geometry.focal_length_px) + 2 * kLean_rad);
     take_inputs(frame, world);
-    target_.set(now_, lights_, terms_);
+    key_.set(now_, lights_, terms_);
 }
 
 void IndirectCache::place(const FrameView& frame, const WorldSnapshot& world) {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
     mirrored_suns_.place(frame, world);
-    set_target(frame, world);
-    updates_->bring_to(target_);
+    set_key(frame, world);
+    updates_->bring_to(key_);
     look_ahead();
 }
 
 bool IndirectCache::prepare(const FrameView& frame, const WorldSnapshot& world) {
     if (!is_asked_) {
-        set_target(frame, world);
-        updates_->look_ahead(target_);
+        set_key(frame, world);
+        updates_->look_ahead(key_);
         is_asked_ = true;
     }
     return !updates_->is_busy();
@@ -114,15 +114,15 @@ void IndirectCache::look_ahead() {
     const auto past = static_cast<double>(kStride + (frames_ - 1) % kStride);  // frames since long_before_
     if (frames_ <= 2 * kStride || updates_->is_busy()) return;
     const auto differs = [&](int ahead) {
-        if (!KeptInputs::extrapolate(long_before_, now_, ahead / past, ahead_)) return false;
-        ahead_target_.set(ahead_, lights_, terms_);
-        return !(ahead_target_ == target_);
+        if (!SolveInputs::extrapolate(long_before_, now_, ahead / past, ahead_)) return false;
+        ahead_key_.set(ahead_, lights_, terms_);
+        return !(ahead_key_ == key_);
     };
     // Mostly nothing takes a step for long; only where something does its first one is looked for.
     constexpr int kFurthest = 128;
     if (!differs(kFurthest)) return;
     for (int ahead = 1; ahead <= kFurthest; ahead *= 2)
-        if (differs(ahead)) return updates_->look_ahead(ahead_target_);
+        if (differs(ahead)) return updates_->look_ahead(ahead_key_);
 }
 
 }  // namespace hilcam

@@ -18,7 +18,7 @@
 #include "render/indirect/glossy_request.h"
 #include "render/indirect/mirrored_suns.h"
 #include "render/planetshine/sky_light.h"
-#include "render/radiosity/kept_updates.h"
+#include "render/radiosity/solve_ahead.h"
 #include "render/scene/shown_object.h"
 #include "render/shading/tile.h"
 
@@ -105,20 +105,20 @@ class IndirectCache {
         std::unique_ptr<IrradianceCache> light;
         Vec3f origin_m;  // in ray space
     };
-    KeptTerms terms_;
+    RadiosityTerms terms_;
     std::vector<Object> objects_;
     std::vector<const IrradianceCache*> lights_;  // the light kept on each of them
-    std::unique_ptr<KeptUpdates> updates_;
+    std::unique_ptr<SolveAhead> updates_;
     SkyLight sky_;
     MirroredSuns mirrored_suns_;
-    // The inputs now, some frames ago, and as far ahead, and the targets that they ask for.
+    // The inputs now, some frames ago, and as far ahead, and the keys that they ask for.
     static constexpr std::uint64_t kStride = 16;  // frames
-    KeptInputs now_, before_, long_before_, ahead_;
-    KeptTarget target_, ahead_target_;
+    SolveInputs now_, before_, long_before_, ahead_;
+    SolveKey key_, ahead_key_;
     std::uint64_t frames_ = 0;
     bool is_asked_ = false;  // prepare() has been called
 
-    void set_target(const FrameView& frame, const WorldSnapshot& world);
+    void set_key(const FrameView& frame, const WorldSnapshot& world);
     void take_inputs(const FrameView& frame, const WorldSnapshot& world);
     void look_ahead();
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "render/radiosity/inter_object_links.h"
 #include "render/radiosity/irradiance_cache.h"
-#include "render/radiosity/kept_links.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/lane_sum.h"
 
@@ -101,7 +101,7 @@ IrradianceCache::Lobe IrradianceCache::lobe(std::size_t sun, std::span<const Con
     return lobe(sun == kNoTerm ? nullptr : &terms_[sun], links_, cones, n, normal, view_dir, alpha);
 }
 
-IrradianceCache::Lobe IrradianceCache::lobe(const KeptSolution* sun, const KeptLinks* links,
+IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const InterObjectLinks* links,
                                             std::span<const Cone> cones, std::uint32_t n, Vec3f normal,
                                             Vec3f view_dir, float alpha) const {
     const LobeNode& node = lobes_[n];
@@ -149,7 +149,7 @@ IrradianceCache::Lobe IrradianceCache::lobe(const KeptSolution* sun, const KeptL
     if (along) out.cached = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
     if (links && !links->empty()) {
         const PackedSpectrum* there = sun ? sun->along_links.data() + links->first(n) : nullptr;
-        for (const KeptLinks::Link& link : links->of(n)) {
+        for (const InterObjectLinks::Link& link : links->of(n)) {
             ++met_nodes;
             occupied += cached[link.direction];
             if (!there) continue;

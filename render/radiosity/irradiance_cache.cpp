@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "render/radiosity/kept_links.h"
+#include "render/radiosity/inter_object_links.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {
@@ -119,23 +119,23 @@ void IrradianceCache::describe_lobe(std::size_t n) {
     lobes_.push_back(lobe);
 }
 
-std::size_t IrradianceCache::add_term(KeptSource::Kind kind) {
+std::size_t IrradianceCache::add_term(RadiositySource::Kind kind) {
     terms_.push_back(make_solution(kind));
     terms_.back().irradiance = {};
     irradiance_.assign(terms_.size() * table_->size(), {});
     return terms_.size() - 1;
 }
 
-KeptSolution IrradianceCache::make_solution(KeptSource::Kind kind) const {
-    KeptSolution out;
+RadiositySolution IrradianceCache::make_solution(RadiositySource::Kind kind) const {
+    RadiositySolution out;
     out.irradiance.resize(table_->size());
-    if (kind == KeptSource::Kind::kSun) out.along.resize(along_);
-    if (kind == KeptSource::Kind::kCone) out.seen.resize(table_->size());
+    if (kind == RadiositySource::Kind::kSun) out.along.resize(along_);
+    if (kind == RadiositySource::Kind::kCone) out.seen.resize(table_->size());
     return out;
 }
 
-void IrradianceCache::adopt(std::size_t t, KeptSolution& solution) {
-    KeptSolution& term = terms_[t];
+void IrradianceCache::adopt(std::size_t t, RadiositySolution& solution) {
+    RadiositySolution& term = terms_[t];
     std::swap(term.along, solution.along), std::swap(term.along_links, solution.along_links);
     std::swap(term.seen, solution.seen);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, table_->size(), 4096), [&](const auto& r) {
@@ -144,7 +144,7 @@ void IrradianceCache::adopt(std::size_t t, KeptSolution& solution) {
     });
 }
 
-void IrradianceCache::adopt(const KeptLinks& links) {
+void IrradianceCache::adopt(const InterObjectLinks& links) {
     links_ = &links;
     for (std::size_t n = 0; n < lobes_.size(); ++n) {
         const std::span<const std::uint64_t> free = links.free(*table_, n);
@@ -156,7 +156,7 @@ void IrradianceCache::adopt(const KeptLinks& links) {
 std::size_t IrradianceCache::bytes() const {
     std::size_t bytes = colors_.size() * sizeof(Spectrum) + lobes_.size() * sizeof(LobeNode) +
                         throws_sun_.size() + (white_.size() + irradiance_.size()) * sizeof(PackedSpectrum);
-    for (const KeptSolution& term : terms_) bytes += term.bytes();
+    for (const RadiositySolution& term : terms_) bytes += term.bytes();
     return bytes + albedos_->neighbours.bytes() + (links_ ? links_->bytes() : 0);
 }
 

@@ -2,7 +2,7 @@
 // The light between the parts of an object, kept from frame to frame at its nodes (probes/light_nodes.h).
 //
 // For each source there is a term: the irradiance that reaches every node by way of other surfaces, all
-// bounces, for one unit of the source (kept_solver.h finds it). A term depends on nothing but the tables, the
+// bounces, for one unit of the source (radiosity_solver.h finds it). A term depends on nothing but the tables, the
 // place of its source in the object's own axes, rounded to a step, and how near objects stand to each other,
 // rounded as well: so frames stay functions of their commands. The light itself (eclipses, the Sun's
 // distance, a lamp's level) is a factor at the pixel.
@@ -16,7 +16,7 @@
 #include "render/planetshine/sky_light.h"
 #include "render/probes/flat_mirrors.h"
 #include "render/probes/transfer_table.h"
-#include "render/radiosity/kept_source.h"
+#include "render/radiosity/radiosity_source.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/material_albedo.h"
@@ -25,7 +25,7 @@
 
 namespace hilcam {
 
-class KeptLinks;
+class InterObjectLinks;
 
 // Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them, for all of the
 // lobe but its tails.
@@ -50,8 +50,8 @@ struct ObjectAlbedos {
 };
 
 // A term that is solved: what one source gives to every node, per unit of it.
-struct KeptSolution {
-    // By way of other surfaces; where few directions bring it, the mean with the nodes beside (KeptSolver::smooth).
+struct RadiositySolution {
+    // By way of other surfaces; where few directions bring it, the mean with the nodes beside (RadiositySolver::smooth).
     std::vector<PackedSpectrum> irradiance;
     // Radiance along each entry of nodes with facets, and along each link; of the Sun only.
     std::vector<PackedSpectrum> along, along_links;
@@ -132,19 +132,19 @@ class IrradianceCache {
         const bool colored = !colors_.empty() && materials_[table_->nodes().nodes()[n].surface]->is_bare();
         return colored ? colors_[n] * of : of;
     }
-    // Number of a node's first entry in KeptSolution::along, or kNoLobe: it has no facets.
+    // Number of a node's first entry in RadiositySolution::along, or kNoLobe: it has no facets.
     static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
     std::uint32_t first_along(std::size_t node) const { return lobes_[node].first_along; }
     // Number of the entries of all nodes with facets.
     std::size_t entries_along() const { return along_; }
 
     // Makes room for what a source of this kind gives; its number. Owner thread.
-    std::size_t add_term(KeptSource::Kind kind);
-    KeptSolution make_solution(KeptSource::Kind kind) const;
+    std::size_t add_term(RadiositySource::Kind kind);
+    RadiositySolution make_solution(RadiositySource::Kind kind) const;
     // Takes a term's solution and gives back the one before. Loop, one thread.
-    void adopt(std::size_t term, KeptSolution& solution);
+    void adopt(std::size_t term, RadiositySolution& solution);
     // Takes over what the nodes meet of other objects, from now on; `links` outlives this. Loop, one thread.
-    void adopt(const KeptLinks& links);
+    void adopt(const InterObjectLinks& links);
 
     // --- lookup. Loop, any thread.
 
@@ -197,7 +197,7 @@ class IrradianceCache {
     Lobe lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t node, Vec3f normal, Vec3f view_dir,
               float alpha) const;
     // The same of a solution, and of links, that need not be those that are shown; null: there are none.
-    Lobe lobe(const KeptSolution* sun, const KeptLinks* links, std::span<const Cone> cones,
+    Lobe lobe(const RadiositySolution* sun, const InterObjectLinks* links, std::span<const Cone> cones,
               std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
     static constexpr float kNear = 0.88f;  // cosine of 28 degrees: further than the next direction
     // True when anything stands near a direction from a node, within the angle of that cosine.
@@ -220,7 +220,7 @@ class IrradianceCache {
 
     const ShownObject* shown_;
     std::shared_ptr<const TransferTable> table_;
-    const KeptLinks* links_ = nullptr;
+    const InterObjectLinks* links_ = nullptr;
     std::shared_ptr<const ObjectAlbedos> albedos_;
     std::vector<const Material*> materials_;
     Bounds bounds_;
@@ -234,7 +234,7 @@ class IrradianceCache {
     std::vector<LobeNode> lobes_;           // by node
     std::vector<std::uint8_t> throws_sun_;  // by node; empty: none does
     std::size_t along_ = 0;
-    std::vector<KeptSolution> terms_;         // their irradiance is in the next
+    std::vector<RadiositySolution> terms_;    // their irradiance is in the next
     std::vector<PackedSpectrum> irradiance_;  // by node and term
 
     static Local local(const LobeNode& node);

@@ -38,7 +38,7 @@ NodeSenders::NodeSenders(std::span<const IrradianceCache* const> lights, const E
     senders_.resize(nodes), shines_.resize(nodes);
 }
 
-void NodeSenders::light(const KeptMember& member) {
+void NodeSenders::light(const RadiosityMember& member) {
     using Nodes = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(
         Nodes(0, lights_[member.object]->table().size(), kBlock),
@@ -46,9 +46,9 @@ void NodeSenders::light(const KeptMember& member) {
 }
 
 // Returns which rays are blocked by the object itself, or by one that stands near.
-std::uint32_t NodeSenders::blocked(const KeptMember& member, const RayPacket& rays) const {
+std::uint32_t NodeSenders::blocked(const RadiosityMember& member, const RayPacket& rays) const {
     std::uint32_t out = scene_.occluded_by(member.object, rays);
-    for (const KeptNeighbour& other : member.links->near()) {
+    for (const NeighbourObject& other : member.links->near()) {
         RayPacket there = rays;
         bool any = false;
         for (int i = 0; i < rays.count; ++i) {
@@ -63,10 +63,10 @@ std::uint32_t NodeSenders::blocked(const KeptMember& member, const RayPacket& ra
     return out;
 }
 
-void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::size_t last) {
+void NodeSenders::light_block(const RadiosityMember& member, std::size_t first, std::size_t last) {
     const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
-    const KeptSource& source = member.source;
+    const RadiositySource& source = member.source;
     NodeSender* const senders = senders_.data() + base_[member.object];
     std::array<LitPoints, kBlock> lit;
     RayPacket rays;
@@ -79,11 +79,11 @@ void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::
             if (stopped >> i & 1u) *of[static_cast<std::size_t>(i)] = 0;
         rays.count = 0;
     };
-    const bool cone = source.kind == KeptSource::Kind::kCone;
+    const bool cone = source.kind == RadiositySource::Kind::kCone;
     const auto cone_dirs = cone_directions(source.dir, cone ? source.cone_cosine : 1);
     for (std::size_t n = first; n < last; ++n) {
         LitPoints& points = lit[n - first];
-        if (source.kind == KeptSource::Kind::kGlow) continue;
+        if (source.kind == RadiositySource::Kind::kGlow) continue;
         const LightNode& node = table.nodes().nodes()[n];
         for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
             if (!table.is_live(n, p)) continue;
@@ -92,7 +92,7 @@ void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::
             const Vec3f normal = unpack_normal(node.normal[p]), geometric = unpack_normal(node.geometric[p]);
             Vec3f dir = source.dir;
             float strength = 1, until_m = std::numeric_limits<float>::infinity();
-            if (source.kind == KeptSource::Kind::kLamp) {
+            if (source.kind == RadiositySource::Kind::kLamp) {
                 const Vec3f way = source.position_m - node.point_m[p];
                 const float distance_m = std::max(length(way), 1e-3f);
                 dir = way / distance_m;
@@ -127,7 +127,7 @@ void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::
         }
         NodeSender& sender = senders[n];
         send(light, n, points, sender);
-        if (source.kind == KeptSource::Kind::kGlow)
+        if (source.kind == RadiositySource::Kind::kGlow)
             sender.diffuse = PackedSpectrum(light.material(table.nodes().nodes()[n].surface).emission);
         if (cone && sender.alpha > 0) widen(light, n, source, sender);
         shines_[base_[member.object] + n] = sender.alpha > 0 || sender.diffuse.greatest() > 0;
@@ -136,7 +136,7 @@ void NodeSenders::light_block(const KeptMember& member, std::size_t first, std::
 
 // A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
 // reflect.
-void NodeSenders::widen(const IrradianceCache& light, std::size_t n, const KeptSource& source,
+void NodeSenders::widen(const IrradianceCache& light, std::size_t n, const RadiositySource& source,
                         NodeSender& sender) {
     constexpr float kBegins = 0.2f, kWhole = 0.4f;
     const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
@@ -171,7 +171,7 @@ void NodeSenders::send(const IrradianceCache& light, std::size_t n, const LitPoi
     sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));
 }
 
-float NodeSenders::seen_of_cone(const KeptMember& member, const IrradianceCache& light, std::size_t n) {
+float NodeSenders::seen_of_cone(const RadiosityMember& member, const IrradianceCache& light, std::size_t n) {
     const TransferTable& table = light.table();
     const std::span<const std::uint64_t> is_free = member.links->free(table, n);
     const ConeShare cone(light.axes(n).dir(member.source.dir), member.source.cone_cosine, table.directions());

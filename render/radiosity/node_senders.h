@@ -9,18 +9,18 @@
 #include <span>
 #include <vector>
 
+#include "render/radiosity/inter_object_links.h"
 #include "render/radiosity/irradiance_cache.h"
-#include "render/radiosity/kept_links.h"
 
 namespace hilcam {
 
 // An object of a group: what it meets of the others, the source in its own axes, and where the result
 // goes.
-struct KeptMember {
+struct RadiosityMember {
     std::size_t object;
-    const KeptLinks* links;
-    KeptSource source;
-    KeptSolution* out;
+    const InterObjectLinks* links;
+    RadiositySource source;
+    RadiositySolution* out;
 };
 
 // The points of a node in the light of a source, per unit of it.
@@ -52,7 +52,7 @@ class NodeSenders {
     NodeSenders(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 
     // Finds what an object's nodes send, and fills what of a body's light comes without a way. On oneTBB.
-    void light(const KeptMember& member);
+    void light(const RadiosityMember& member);
 
     // Number of an object's first node, and of all nodes.
     std::size_t first(std::size_t object) const { return base_[object]; }
@@ -73,13 +73,13 @@ class NodeSenders {
     std::vector<NodeSender> senders_;
     std::vector<std::uint8_t> shines_;
 
-    void light_block(const KeptMember& member, std::size_t first, std::size_t last);
-    std::uint32_t blocked(const KeptMember& member, const RayPacket& rays) const;
+    void light_block(const RadiosityMember& member, std::size_t first, std::size_t last);
+    std::uint32_t blocked(const RadiosityMember& member, const RayPacket& rays) const;
     static void send(const IrradianceCache& light, std::size_t node, const LitPoints& lit,
                      NodeSender& sender);
-    static void widen(const IrradianceCache& light, std::size_t node, const KeptSource& source,
+    static void widen(const IrradianceCache& light, std::size_t node, const RadiositySource& source,
                       NodeSender& sender);
-    static float seen_of_cone(const KeptMember& member, const IrradianceCache& light, std::size_t node);
+    static float seen_of_cone(const RadiosityMember& member, const IrradianceCache& light, std::size_t node);
 };
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-// Cached light of several objects and of what moves (kept_links.h, kept_updates.h), against one mesh, random
+// Cached light of several objects and of what moves (inter_object_links.h, solve_ahead.h), against one mesh, random
 // paths and a renderer that has not seen what came before.
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "render/radiosity/kept_solver.h"
+#include "render/radiosity/radiosity_solver.h"
 
 #include <tbb/parallel_reduce.h>
 
@@ -42,14 +42,14 @@ Spectrum at_least_zero(Spectrum s) {
 
 // Returns the direction in which a source is seen from an object. A lamp is taken as seen from its middle: it
 // differs by node, but little.
-Vec3f direction_to(const KeptSource& source) {
-    const bool lamp = source.kind == KeptSource::Kind::kLamp && length(source.position_m) > 0;
+Vec3f direction_to(const RadiositySource& source) {
+    const bool lamp = source.kind == RadiositySource::Kind::kLamp && length(source.position_m) > 0;
     return lamp ? normalized(source.position_m) : source.dir;
 }
 
 }  // namespace
 
-KeptSolver::KeptSolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
+RadiositySolver::RadiositySolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
     : lights_(lights.begin(), lights.end()), senders_(lights, scene) {
     const std::size_t nodes = senders_.count();
     radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes), sends_on_.resize(nodes),
@@ -64,11 +64,11 @@ KeptSolver::KeptSolver(std::span<const IrradianceCache* const> lights, const Emb
         mirrored_.resize(nodes);
 }
 
-Spectrum KeptSolver::unmirrored(const std::vector<Spectrum>& irradiance, std::size_t n) const {
+Spectrum RadiositySolver::unmirrored(const std::vector<Spectrum>& irradiance, std::size_t n) const {
     return at_least_zero(irradiance[n] + -1.0f * mirrored_[n]);
 }
 
-void KeptSolver::solve(std::span<const Member> group) {
+void RadiositySolver::solve(std::span<const Member> group) {
     for (const Member& member : group) senders_.light(member);
     for (const Member& member : group) gather_first(member, group);
     for (const Member& member : group) gather_second(member);
@@ -76,13 +76,13 @@ void KeptSolver::solve(std::span<const Member> group) {
     for (const Member& member : group) smooth(member), store(member);
 }
 
-void KeptSolver::gather_first(const Member& member, std::span<const Member> group) {
+void RadiositySolver::gather_first(const Member& member, std::span<const Member> group) {
     const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const std::size_t base = senders_.first(member.object);
     const Vec3f source_dir = direction_to(member.source);
-    KeptSolution& out = *member.out;
-    const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
+    RadiositySolution& out = *member.out;
+    const bool keeps_along = member.source.kind == RadiositySource::Kind::kSun;
     if (keeps_along) out.along_links.resize(member.links->size());
     // By object: where its links' senders have the source.
     const auto source_of = [&](std::size_t object) {
@@ -90,7 +90,7 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
             if (other.object == object) return direction_to(other.source);
         return Vec3f{};
     };
-    const auto is_narrow = [&](const KeptLinks::Link& link) {
+    const auto is_narrow = [&](const InterObjectLinks::Link& link) {
         const IrradianceCache& other = *lights_[link.object];
         return other.material(other.table().nodes().nodes()[link.node].surface).ggx_alpha < kMinCachedAlpha;
     };
@@ -122,9 +122,9 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
                 if (along) *along++ = PackedSpectrum(radiance);
                 add(radiance);
             }
-            const std::span<const KeptLinks::Link> links = member.links->of(n);
+            const std::span<const InterObjectLinks::Link> links = member.links->of(n);
             for (std::size_t i = 0; i < links.size(); ++i) {
-                const KeptLinks::Link& link = links[i];
+                const InterObjectLinks::Link& link = links[i];
                 const NodeSender& from = senders_[senders_.first(link.object) + link.node];
                 Spectrum radiance = from.diffuse.unpacked();
                 // A mirror's light is too sharp for directions to find it far away, and blurred it falls
@@ -147,7 +147,7 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
 
 // Bounces until what is left is little, and that by its geometric series: white paint in a hollow keeps light
 // for long.
-void KeptSolver::bounce(std::span<const Member> group) {
+void RadiositySolver::bounce(std::span<const Member> group) {
     constexpr int kMaxBounces = 64;
     constexpr double kLeft = 0.03, kMaxRatio = 0.95;
     double before = 0;
@@ -185,7 +185,7 @@ void KeptSolver::bounce(std::span<const Member> group) {
 }
 
 // One more bounce.
-KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
+RadiositySolver::Progress RadiositySolver::gather_again(const Member& member) {
     const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const std::size_t base = senders_.first(member.object);
@@ -196,7 +196,7 @@ KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
             for (std::size_t n = r.begin(); n < r.end(); ++n) {
                 Spectrum met;
                 for (const TransferTable::Entry e : table.entries(n)) met += radiosity_[base + e.node];
-                for (const KeptLinks::Link& link : member.links->of(n)) met += radiosity_to(link);
+                for (const InterObjectLinks::Link& link : member.links->of(n)) met += radiosity_to(link);
                 const Spectrum next = first_[base + n] + second_[base + n] +
                                       (kPiF / static_cast<float>(table.counted(n))) * met;
                 // By how much of it can be seen from outside; a little, so that closed rooms have an end too.
@@ -219,11 +219,11 @@ KeptSolver::Progress KeptSolver::gather_again(const Member& member) {
 // their mean, the more so the fewer directions of equal light their sum hangs on (Kish's effective size of a weighted
 // sample, Survey Sampling, 1965, section 8.2). What many directions see is left as sharp as it is, and so is what has
 // come by further bounces alone.
-void KeptSolver::smooth(const Member& member) {
+void RadiositySolver::smooth(const Member& member) {
     constexpr float kFew = 4, kMany = 1e9f;
     const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
-    const bool subtract = member.source.kind == KeptSource::Kind::kSun && light.throws_sun();
+    const bool subtract = member.source.kind == RadiositySource::Kind::kSun && light.throws_sun();
     const auto cached = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
     for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
@@ -241,11 +241,11 @@ void KeptSolver::smooth(const Member& member) {
     });
 }
 
-void KeptSolver::store(const Member& member) {
+void RadiositySolver::store(const Member& member) {
     const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
-    KeptSolution& out = *member.out;
-    const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
+    RadiositySolution& out = *member.out;
+    const bool keeps_along = member.source.kind == RadiositySource::Kind::kSun;
     const auto add_to = [](PackedSpectrum& sum, const Spectrum& more) {
         sum = PackedSpectrum(sum.unpacked() + more);
     };
@@ -261,7 +261,7 @@ void KeptSolver::store(const Member& member) {
                     add_to(out.along[to++], more);
                 }
             std::size_t link_to = member.links->empty() ? 0 : member.links->first(n);
-            for (const KeptLinks::Link& link : member.links->of(n))
+            for (const InterObjectLinks::Link& link : member.links->of(n))
                 add_to(out.along_links[link_to++], radiosity_to(link));
         }
     });

@@ -4,20 +4,20 @@
 #include <array>
 #include <cmath>
 
-#include "render/radiosity/kept_solver.h"
+#include "render/radiosity/radiosity_solver.h"
 #include "render/vocabulary/random.h"
 
 namespace hilcam {
 
 // Leaves to lobes what they send on of the Sun's light, where that is worth it. Not of what mirrors throw, which is not along
 // the entries.
-void KeptSolver::part_lobes(const Member& member) {
+void RadiositySolver::part_lobes(const Member& member) {
     // A hundredth of what white paint sends in the Sun: with all of them light between the parts of geo_inspection is the same to
     // 0.1 %, for three times the work.
     constexpr float kWorthIt = 0.01f / kPiF;
     const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
-    const bool keeps_along = member.source.kind == KeptSource::Kind::kSun;
+    const bool keeps_along = member.source.kind == RadiositySource::Kind::kSun;
     for_nodes(light.table().size(), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             sends_on_[base + n] = 0, by_lobes_[base + n] = {};
@@ -33,7 +33,7 @@ void KeptSolver::part_lobes(const Member& member) {
 }
 
 // Numbers what facets will have of the lobes of others, by node in order.
-std::size_t KeptSolver::number_second(const Member& member) {
+std::size_t RadiositySolver::number_second(const Member& member) {
     const IrradianceCache& light = *lights_[member.object];
     const std::uint8_t* const sends = sends_on_.data() + senders_.first(member.object);
     std::uint32_t* const first = first_second_.data() + senders_.first(member.object);
@@ -50,7 +50,7 @@ std::size_t KeptSolver::number_second(const Member& member) {
     return sum;
 }
 
-void KeptSolver::gather_second(const Member& member) {
+void RadiositySolver::gather_second(const Member& member) {
     part_lobes(member);
     const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
@@ -83,7 +83,7 @@ void KeptSolver::gather_second(const Member& member) {
 
 // The radiance that a node's facets send in a direction of what has come to it by one way. One of its points stands for all of
 // them, as often as it is seen from there. choice: 0 to 1.
-Spectrum KeptSolver::sent_on(const Member& member, std::size_t n, float choice, Vec3f to) const {
+Spectrum RadiositySolver::sent_on(const Member& member, std::size_t n, float choice, Vec3f to) const {
     const IrradianceCache& light = *lights_[member.object];
     const LightNode& node = light.table().nodes().nodes()[n];
     std::array<float, LightNode::kPoints> facing{};

@@ -1,4 +1,4 @@
-#include "render/radiosity/kept_links.h"
+#include "render/radiosity/inter_object_links.h"
 
 #include <tbb/parallel_for.h>
 
@@ -17,13 +17,13 @@ struct Probe {
     std::uint16_t direction;
     Vec3f origin_m, dir;
     float distance_m = kMeetsNothing;
-    KeptLinks::Link link{};
+    InterObjectLinks::Link link{};
 };
 
 // Traces the free directions of a block of nodes against their neighbours.
 class Prober {
   public:
-    Prober(std::span<const KeptNeighbour> near, const IrradianceCache& self,
+    Prober(std::span<const NeighbourObject> near, const IrradianceCache& self,
            std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
         : near_(near), self_(self), lights_(lights), scene_(scene) {}
 
@@ -32,18 +32,18 @@ class Prober {
     std::vector<Probe> probe(std::size_t first, std::size_t last) const {
         std::vector<Probe> probes;
         for (std::size_t n = first; n < last; ++n) aim(n, n - first, probes);
-        for (const KeptNeighbour& other : near_) ask(other, probes);
+        for (const NeighbourObject& other : near_) ask(other, probes);
         std::erase_if(probes, [](const Probe& p) { return p.distance_m == kMeetsNothing; });
         return probes;
     }
 
   private:
-    std::span<const KeptNeighbour> near_;
+    std::span<const NeighbourObject> near_;
     const IrradianceCache& self_;
     std::span<const IrradianceCache* const> lights_;
     const EmbreeScene& scene_;
 
-    bool may_meet(const KeptNeighbour& other, Vec3f origin_m, Vec3f dir) const {
+    bool may_meet(const NeighbourObject& other, Vec3f origin_m, Vec3f dir) const {
         return lights_[other.object]->bounds().is_met(other.place(origin_m), other.dir(dir));
     }
 
@@ -54,12 +54,12 @@ class Prober {
             const Vec3f origin = table.nodes().nodes()[n].point_m[table.point_of(d)];
             const Vec3f dir = self_.direction(n, d);
             if (std::any_of(near_.begin(), near_.end(),
-                            [&](const KeptNeighbour& other) { return may_meet(other, origin, dir); }))
+                            [&](const NeighbourObject& other) { return may_meet(other, origin, dir); }))
                 probes.push_back({in_block, static_cast<std::uint16_t>(d), origin, dir});
         }
     }
 
-    void ask(const KeptNeighbour& other, std::vector<Probe>& probes) const {
+    void ask(const NeighbourObject& other, std::vector<Probe>& probes) const {
         std::vector<Probe*> asked;
         for (Probe& probe : probes)
             if (may_meet(other, probe.origin_m, probe.dir)) asked.push_back(&probe);
@@ -91,7 +91,7 @@ class Prober {
         }
     }
 
-    bool note(const KeptNeighbour& other, const HitPacket& hits, std::size_t k, Probe& probe) const {
+    bool note(const NeighbourObject& other, const HitPacket& hits, std::size_t k, Probe& probe) const {
         const IrradianceCache& light = *lights_[other.object];
         const std::uint16_t surface = light.surface_of(hits.triangle[k]);
         if (light.is_glass(surface)) return false;
@@ -112,8 +112,8 @@ class Prober {
 
 }  // namespace
 
-KeptNeighbour KeptNeighbour::rounded(const Pose& self, const Pose& other, std::size_t object, float step_rad,
-                                     float least_m) {
+NeighbourObject NeighbourObject::rounded(const Pose& self, const Pose& other, std::size_t object,
+                                         float step_rad, float least_m) {
     const Quat turn = conjugate(other.world_from_body) * self.world_from_body;
     // Half a turn's sine a component.
     const double step = 0.5 * static_cast<double>(step_rad);
@@ -129,13 +129,13 @@ KeptNeighbour KeptNeighbour::rounded(const Pose& self, const Pose& other, std::s
             {place(shift.x), place(shift.y), place(shift.z)}};
 }
 
-const KeptNeighbour& KeptLinks::neighbour(std::size_t object) const {
+const NeighbourObject& InterObjectLinks::neighbour(std::size_t object) const {
     return *std::find_if(near_.begin(), near_.end(),
-                         [object](const KeptNeighbour& n) { return n.object == object; });
+                         [object](const NeighbourObject& n) { return n.object == object; });
 }
 
-void KeptLinks::make(std::span<const KeptNeighbour> near, std::size_t self,
-                     std::span<const IrradianceCache* const> lights, const EmbreeScene& scene) {
+void InterObjectLinks::make(std::span<const NeighbourObject> near, std::size_t self,
+                            std::span<const IrradianceCache* const> lights, const EmbreeScene& scene) {
     near_.assign(near.begin(), near.end());
     links_.clear(), first_.clear(), free_.clear();
     const IrradianceCache& light = *lights[self];
@@ -167,7 +167,7 @@ void KeptLinks::make(std::span<const KeptNeighbour> near, std::size_t self,
     first_.push_back(static_cast<std::uint32_t>(links_.size()));
 }
 
-std::size_t KeptLinks::bytes() const {
+std::size_t InterObjectLinks::bytes() const {
     return first_.size() * sizeof(std::uint32_t) + links_.size() * sizeof(Link) +
            free_.size() * sizeof(std::uint64_t);
 }

@@ -1,4 +1,4 @@
-#include "render/radiosity/kept_target.h"
+#include "render/radiosity/solve_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ constexpr std::size_t kMaxLinked = 64;
 constexpr float kMinShare = 0.004f;
 
 // True when the other is worth a look from this object; both are in the other's axes.
-bool is_near(const IrradianceCache& self, const IrradianceCache& other, const KeptNeighbour& there) {
+bool is_near(const IrradianceCache& self, const IrradianceCache& other, const NeighbourObject& there) {
     const float gap_m =
         length(there.place(self.bounds().middle_m) - other.bounds().middle_m) - self.bounds().radius_m;
     const float radius_m = other.bounds().radius_m;
@@ -33,13 +33,13 @@ bool is_near(const IrradianceCache& self, const IrradianceCache& other, const Ke
 
 }  // namespace
 
-KeptSource::Kind KeptTerms::kind(std::size_t term) const {
-    if (term == kSun) return KeptSource::Kind::kSun;
-    if (term < kLamps) return KeptSource::Kind::kCone;
-    return term < glow() ? KeptSource::Kind::kLamp : KeptSource::Kind::kGlow;
+RadiositySource::Kind RadiosityTerms::kind(std::size_t term) const {
+    if (term == kSun) return RadiositySource::Kind::kSun;
+    if (term < kLamps) return RadiositySource::Kind::kCone;
+    return term < glow() ? RadiositySource::Kind::kLamp : RadiositySource::Kind::kGlow;
 }
 
-bool KeptInputs::extrapolate(const KeptInputs& then, const KeptInputs& now, double by, KeptInputs& out) {
+bool SolveInputs::extrapolate(const SolveInputs& then, const SolveInputs& now, double by, SolveInputs& out) {
     if (then.objects.size() != now.objects.size() || then.sun != now.sun ||
         then.body_count != now.body_count || then.lamps.size() != now.lamps.size())
         return false;
@@ -49,7 +49,7 @@ bool KeptInputs::extrapolate(const KeptInputs& then, const KeptInputs& now, doub
                           extrapolated(then.objects[i].world_from_body, now.objects[i].world_from_body, by)};
     if (now.sun) out.sun_dir = extrapolated(then.sun_dir, now.sun_dir, by);
     for (std::size_t b = 0; b < now.body_count; ++b) {
-        KeptInputs::Body& body = out.bodies[b];
+        SolveInputs::Body& body = out.bodies[b];
         body.dir = extrapolated(then.bodies[b].dir, now.bodies[b].dir, by);
         body.cosine = std::clamp(
             now.bodies[b].cosine + static_cast<float>(by) * (now.bodies[b].cosine - then.bodies[b].cosine),
@@ -64,16 +64,16 @@ bool KeptInputs::extrapolate(const KeptInputs& then, const KeptInputs& now, doub
     return true;
 }
 
-void KeptTarget::reserve(std::size_t objects, const KeptTerms& terms) {
+void SolveKey::reserve(std::size_t objects, const RadiosityTerms& terms) {
     near.resize(objects), group.resize(objects);
-    sources.assign(objects, std::vector<KeptSource>(terms.count()));
-    for (std::vector<KeptNeighbour>& others : near)
+    sources.assign(objects, std::vector<RadiositySource>(terms.count()));
+    for (std::vector<NeighbourObject>& others : near)
         if (objects <= kMaxLinked) others.reserve(objects);
 }
 
-void KeptTarget::set(const KeptInputs& inputs, std::span<const IrradianceCache* const> lights,
-                     const KeptTerms& terms) {
-    using Kind = KeptSource::Kind;
+void SolveKey::set(const SolveInputs& inputs, std::span<const IrradianceCache* const> lights,
+                   const RadiosityTerms& terms) {
+    using Kind = RadiositySource::Kind;
     const std::size_t count = lights.size();
     near.resize(count), sources.resize(count), group.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -87,17 +87,17 @@ void KeptTarget::set(const KeptInputs& inputs, std::span<const IrradianceCache* 
         const Pose& pose = inputs.objects[i];
         const Mat3d axes = to_matrix(conjugate(pose.world_from_body));
         const Mat3f to_body{to_float(axes.x), to_float(axes.y), to_float(axes.z)};
-        std::vector<KeptSource>& out = sources[i];
-        const auto add = [&](std::size_t term, const KeptSource& source) {
+        std::vector<RadiositySource>& out = sources[i];
+        const auto add = [&](std::size_t term, const RadiositySource& source) {
             out[term] = source.rounded(step_rad);
         };
-        if (inputs.sun) add(KeptTerms::kSun, {.kind = Kind::kSun, .dir = to_body * inputs.sun_dir});
+        if (inputs.sun) add(RadiosityTerms::kSun, {.kind = Kind::kSun, .dir = to_body * inputs.sun_dir});
         for (std::size_t b = 0; b < inputs.body_count; ++b)
-            add(KeptTerms::kBodies + b, {.kind = Kind::kCone,
-                                         .dir = to_body * inputs.bodies[b].dir,
-                                         .cone_cosine = inputs.bodies[b].cosine});
-        for (const KeptInputs::Lamp& lamp : inputs.lamps)
-            add(KeptTerms::kLamps + lamp.number,
+            add(RadiosityTerms::kBodies + b, {.kind = Kind::kCone,
+                                              .dir = to_body * inputs.bodies[b].dir,
+                                              .cone_cosine = inputs.bodies[b].cosine});
+        for (const SolveInputs::Lamp& lamp : inputs.lamps)
+            add(RadiosityTerms::kLamps + lamp.number,
                 {.kind = Kind::kLamp,
                  .dir = to_body * lamp.axis,
                  .position_m = to_float(axes * (lamp.position_world_m - pose.position_world_m)),
@@ -106,8 +106,8 @@ void KeptTarget::set(const KeptInputs& inputs, std::span<const IrradianceCache* 
         for (std::size_t k = 0; k < count && count <= kMaxLinked; ++k) {
             if (k == i || !lights[k]) continue;
             // A step of the turn moves what is met by as much as two of the Sun's move its light.
-            const KeptNeighbour there = KeptNeighbour::rounded(pose, inputs.objects[k], k, 2 * step_rad,
-                                                               0.5f * lights[k]->table().nodes().cube_m());
+            const NeighbourObject there = NeighbourObject::rounded(
+                pose, inputs.objects[k], k, 2 * step_rad, 0.5f * lights[k]->table().nodes().cube_m());
             if (!is_near(*lights[i], *lights[k], there)) continue;
             near[i].push_back(there);
             const std::uint32_t from = std::max(group[i], group[k]), to = std::min(group[i], group[k]);

@@ -13,23 +13,23 @@
 namespace hilcam {
 
 // Another object, where it stands to this one: rounded, so that what is cached is a function of that alone.
-struct KeptNeighbour {
+struct NeighbourObject {
     std::size_t object = 0;
     Mat3f axes;     // turns this object's axes into the other's
     Vec3f shift_m;  // shift of this one's origin, in the other's axes
 
     Vec3f place(Vec3f point_m) const { return axes * point_m + shift_m; }
     Vec3f dir(Vec3f d) const { return axes * d; }
-    bool operator==(const KeptNeighbour& o) const {
+    bool operator==(const NeighbourObject& o) const {
         return object == o.object && axes.x == o.axes.x && axes.y == o.axes.y && axes.z == o.axes.z &&
                shift_m == o.shift_m;
     }
     // step_rad: of the turn; least_m: of the shift, which otherwise is rounded to about a hundredth.
-    static KeptNeighbour rounded(const Pose& self, const Pose& other, std::size_t object, float step_rad,
-                                 float least_m);
+    static NeighbourObject rounded(const Pose& self, const Pose& other, std::size_t object, float step_rad,
+                                   float least_m);
 };
 
-class KeptLinks {
+class InterObjectLinks {
   public:
     struct Link {
         std::uint32_t node;  // a node of the other object
@@ -37,8 +37,8 @@ class KeptLinks {
         std::uint16_t direction;
     };
 
-    const std::vector<KeptNeighbour>& near() const { return near_; }
-    const KeptNeighbour& neighbour(std::size_t object) const;
+    const std::vector<NeighbourObject>& near() const { return near_; }
+    const NeighbourObject& neighbour(std::size_t object) const;
     bool empty() const { return links_.empty(); }
     std::size_t size() const { return links_.size(); }
     std::size_t first(std::size_t node) const { return first_[node]; }
@@ -56,11 +56,11 @@ class KeptLinks {
 
     // Traces them. lights: of all objects, by number; null where none is cached. On oneTBB; the same on any
     // number of threads.
-    void make(std::span<const KeptNeighbour> near, std::size_t self,
+    void make(std::span<const NeighbourObject> near, std::size_t self,
               std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 
   private:
-    std::vector<KeptNeighbour> near_;
+    std::vector<NeighbourObject> near_;
     std::vector<std::uint32_t> first_;  // by node, and one more
     std::vector<Link> links_;
     std::vector<std::uint64_t> free_;

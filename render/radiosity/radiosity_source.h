@@ -33,7 +33,7 @@ inline Vec3f rounded_dir(Vec3f dir, float step_rad) {
 }
 
 // A source in an object's own axes.
-struct KeptSource {
+struct RadiositySource {
     enum class Kind : std::uint8_t {
         kNone,
         kSun,   // a point far away; unit: 1 W m^-2 um^-1 across the way
@@ -47,13 +47,13 @@ struct KeptSource {
     Vec3f position_m{};     // position of a lamp
     const LampBeam* beam = nullptr;
 
-    bool operator==(const KeptSource& o) const {
+    bool operator==(const RadiositySource& o) const {
         return kind == o.kind && dir == o.dir && cone_cosine == o.cone_cosine && position_m == o.position_m &&
                beam == o.beam;
     }
     // Returns the source at the middle of its cell of a grid of about `step_rad`, and of a hundredth of what
     // is near for a lamp's place.
-    KeptSource rounded(float step_rad) const;
+    RadiositySource rounded(float step_rad) const;
 };
 
 // The share of a cone of light in each of a node's directions: those within it whole, and those beside it by
@@ -77,8 +77,8 @@ struct ConeShare {
     }
 };
 
-inline KeptSource KeptSource::rounded(float step_rad) const {
-    KeptSource out = *this;
+inline RadiositySource RadiositySource::rounded(float step_rad) const {
+    RadiositySource out = *this;
     if (kind == Kind::kNone || kind == Kind::kGlow) return out;
     out.dir = rounded_dir(dir, step_rad);
     // Steps of a sixty-fourth of the sine: 1 % of the half angle, about.

@@ -1,12 +1,12 @@
-#include "render/radiosity/kept_updates.h"
+#include "render/radiosity/solve_ahead.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace hilcam {
 
-KeptUpdates::KeptUpdates(std::span<IrradianceCache* const> lights, const EmbreeScene& scene,
-                         const KeptTerms& terms)
+SolveAhead::SolveAhead(std::span<IrradianceCache* const> lights, const EmbreeScene& scene,
+                       const RadiosityTerms& terms)
     : lights_(lights.begin(), lights.end()),
       terms_(terms),
       solver_(std::vector<const IrradianceCache*>(lights.begin(), lights.end()), scene),
@@ -15,7 +15,7 @@ KeptUpdates::KeptUpdates(std::span<IrradianceCache* const> lights, const EmbreeS
     stage_.links.resize(count), stage_.has_links.resize(count);
     stage_.solutions.resize(count);
     stage_.has_solution.assign(count, std::vector<std::uint8_t>(terms_.count()));
-    for (KeptTarget* target : {&shown_, &stage_.target, &wanted_}) target->reserve(count, terms_);
+    for (SolveKey* key : {&shown_, &stage_.key, &wanted_}) key->reserve(count, terms_);
     for (std::size_t i = 0; i < count; ++i) {
         if (!lights_[i]) continue;
         order_.push_back(i);
@@ -27,48 +27,47 @@ KeptUpdates::KeptUpdates(std::span<IrradianceCache* const> lights, const EmbreeS
     if (!order_.empty()) ahead_.start([this] { prepare(wanted_); });
 }
 
-void KeptUpdates::bring_to(const KeptTarget& target) {
-    if (target == shown_) return;
+void SolveAhead::bring_to(const SolveKey& key) {
+    if (key == shown_) return;
     ahead_.give_up();
     ahead_.wait();
-    prepare(target);
+    prepare(key);
     adopt();
 }
 
-void KeptUpdates::look_ahead(const KeptTarget& target) {
-    if (is_busy() || target == shown_ || target == stage_.target) return;
-    wanted_ = target;
+void SolveAhead::look_ahead(const SolveKey& key) {
+    if (is_busy() || key == shown_ || key == stage_.key) return;
+    wanted_ = key;
     ahead_.ask();
 }
 
-// Fills the stage with what the target has and the lights have not; what it holds already and is asked for
+// Fills the stage with what the key has and the lights have not; what it holds already and is asked for
 // stays. Given up, it holds less.
-void KeptUpdates::prepare(const KeptTarget& target) {
-    prepare_links(target);
+void SolveAhead::prepare(const SolveKey& key) {
+    prepare_links(key);
     if (AheadThread::was_given_up()) return;
     std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-        return std::pair(target.group[a], a) < std::pair(target.group[b], b);
+        return std::pair(key.group[a], a) < std::pair(key.group[b], b);
     });
     for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
-        while (last < order_.size() && target.group[order_[last]] == target.group[order_[first]]) ++last;
-        const bool regrouped = is_regrouped(target, order_[first]);
+        while (last < order_.size() && key.group[order_[last]] == key.group[order_[first]]) ++last;
+        const bool regrouped = is_regrouped(key, order_[first]);
         for (std::size_t t = 0; t < terms_.count(); ++t) {
-            prepare_group(target, t, {order_.data() + first, last - first}, regrouped);
+            prepare_group(key, t, {order_.data() + first, last - first}, regrouped);
             if (AheadThread::was_given_up()) return;
         }
     }
-    stage_.target = target;
+    stage_.key = key;
 }
 
-void KeptUpdates::prepare_links(const KeptTarget& target) {
+void SolveAhead::prepare_links(const SolveKey& key) {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         if (!lights_[i]) continue;
-        const bool wanted = target.near[i] != shown_.near[i];
-        if (wanted == (stage_.has_links[i] != 0) && (!wanted || stage_.target.near[i] == target.near[i]))
-            continue;
+        const bool wanted = key.near[i] != shown_.near[i];
+        if (wanted == (stage_.has_links[i] != 0) && (!wanted || stage_.key.near[i] == key.near[i])) continue;
         if (wanted) {
-            stage_.links[i].make(target.near[i], i, solver_.lights(), solver_.scene());
-            stage_.target.near[i] = target.near[i];
+            stage_.links[i].make(key.near[i], i, solver_.lights(), solver_.scene());
+            stage_.key.near[i] = key.near[i];
         }
         const bool given_up = AheadThread::was_given_up();
         stage_.has_links[i] = wanted && !given_up;
@@ -80,41 +79,41 @@ void KeptUpdates::prepare_links(const KeptTarget& target) {
 
 // True when the group of an object has other members than it is shown with. A group is solved until all of it has enough, so what one
 // of them has depends on the others, also on those that it does not see itself.
-bool KeptUpdates::is_regrouped(const KeptTarget& target, std::size_t member) const {
-    if (target.group == shown_.group) return false;
+bool SolveAhead::is_regrouped(const SolveKey& key, std::size_t member) const {
+    if (key.group == shown_.group) return false;
     return std::any_of(order_.begin(), order_.end(), [&](std::size_t i) {
-        return (target.group[i] == target.group[member]) != (shown_.group[i] == shown_.group[member]);
+        return (key.group[i] == key.group[member]) != (shown_.group[i] == shown_.group[member]);
     });
 }
 
-void KeptUpdates::prepare_group(const KeptTarget& target, std::size_t term,
-                                std::span<const std::size_t> group, bool regrouped) {
+void SolveAhead::prepare_group(const SolveKey& key, std::size_t term, std::span<const std::size_t> group,
+                               bool regrouped) {
     members_.clear();
     bool differs = regrouped, staged = true, shines = false;
     for (const std::size_t i : group) {
-        const KeptSource& source = target.sources[i][term];
+        const RadiositySource& source = key.sources[i][term];
         members_.push_back(
             {i, stage_.has_links[i] ? &stage_.links[i] : &links_[i], source, &stage_.solutions[i][term]});
         differs = differs || stage_.has_links[i] || source != shown_.sources[i][term];
-        staged = staged && stage_.has_solution[i][term] && source == stage_.target.sources[i][term];
-        shines = shines || source.kind != KeptSource::Kind::kNone;
+        staged = staged && stage_.has_solution[i][term] && source == stage_.key.sources[i][term];
+        shines = shines || source.kind != RadiositySource::Kind::kNone;
     }
     if (staged && differs) return;
     // A source that does not shine stays as it was: its level is zero.
     if (differs && shines) solver_.solve(members_);
-    for (const KeptSolver::Member& member : members_) {
+    for (const RadiositySolver::Member& member : members_) {
         stage_.has_solution[member.object][term] = differs && shines && !AheadThread::was_given_up();
-        stage_.target.sources[member.object][term] = member.source;
+        stage_.key.sources[member.object][term] = member.source;
     }
 }
 
-std::size_t KeptUpdates::bytes(std::size_t i) const {
+std::size_t SolveAhead::bytes(std::size_t i) const {
     std::size_t bytes = solver_.bytes(i) + stage_.links[i].bytes();
-    for (const KeptSolution& solution : stage_.solutions[i]) bytes += solution.bytes();
+    for (const RadiositySolution& solution : stage_.solutions[i]) bytes += solution.bytes();
     return bytes;
 }
 
-void KeptUpdates::adopt() {
+void SolveAhead::adopt() {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         if (!lights_[i]) continue;
         if (stage_.has_links[i]) {
@@ -128,7 +127,7 @@ void KeptUpdates::adopt() {
                 stage_.has_solution[i][t] = false;
             }
     }
-    shown_ = stage_.target;
+    shown_ = stage_.key;
 }
 
 }  // namespace hilcam

@@ -1,7 +1,7 @@
 #pragma once
 // Solves cached light (irradiance_cache.h) for a source, over objects that stand near each other together.
 //
-// What a node receives first is summed from what its directions meet (probes/transfer_table.h, kept_links.h),
+// What a node receives first is summed from what its directions meet (probes/transfer_table.h, inter_object_links.h),
 // each seen from there as its own reflection law says, point by point as these lean. What is bright of the Sun's light goes on so
 // once more within an object, by lobes about what a node's directions have brought; then light goes on as from white, grey or coloured
 // paint until it stays the same (radiosity: Goral et al., SIGGRAPH 84), with the directions in place of form
@@ -25,12 +25,12 @@
 
 namespace hilcam {
 
-class KeptSolver {
+class RadiositySolver {
   public:
-    using Member = KeptMember;
+    using Member = RadiosityMember;
 
     // lights: of all objects, by number; null where none is cached; they outlive this. Owner thread.
-    KeptSolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
+    RadiositySolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 
     const EmbreeScene& scene() const { return senders_.scene(); }
     std::span<const IrradianceCache* const> lights() const { return lights_; }
@@ -86,7 +86,7 @@ class KeptSolver {
     std::size_t number_second(const Member& member);
     Spectrum sent_on(const Member& member, std::size_t node, float choice, Vec3f to) const;
     // Returns what a node of another object sends along a link: all of it as paint does.
-    Spectrum radiosity_to(const KeptLinks::Link& link) const {
+    Spectrum radiosity_to(const InterObjectLinks::Link& link) const {
         const std::size_t n = senders_.first(link.object) + link.node;
         return radiosity_[n] + by_lobes_[n];
     }
