@@ -210,9 +210,9 @@ class Report {
                  << " % of the pixel";
         if (entry.depth > 2) text << ", met by the ray of depth " << entry.depth - 1;
         if (entry.alpha > 0) text << ", facets of alpha " << number(static_cast<double>(entry.alpha));
-        if (surface.node)
-            text << ", light looked up at place " << *surface.node << " (places "
-                 << number(1e3 * surface.nodes_apart_m) << " mm apart)";
+        if (surface.probe)
+            text << ", light looked up at probe " << *surface.probe << " (probes "
+                 << number(1e3 * surface.probes_apart_m) << " mm apart)";
         return text.str();
     }
 };

@@ -36,9 +36,9 @@ std::string surface_name(const LoadedObject& object, std::size_t surface) {
 }
 
 Json points_json(const TransferTable& table, std::size_t number) {
-    const LightNode& probe = table.nodes().nodes()[number];
+    const SurfaceProbe& probe = table.probes().probes()[number];
     Json points = Json::array();
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
+    for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p)
         points.push_back({{"position_m", vector_json(probe.point_m[p])},
                           {"normal", vector_json(unpack_normal(probe.normal[p]))},
                           {"geometric_normal", vector_json(unpack_normal(probe.geometric[p]))},
@@ -51,7 +51,7 @@ Json rays_json(const TransferTable& table, std::size_t number, const LoadedObjec
     for (const ProbeRay& ray : rays_of(table, number)) {
         Json entry{{"dir", vector_json(ray.dir)}, {"point", ray.point}, {"meets", word_for(ray.meets)}};
         if (ray.meets == ProbeMeets::kProbe) {
-            const LightNode& met = table.nodes().nodes()[ray.probe];
+            const SurfaceProbe& met = table.probes().probes()[ray.probe];
             entry["probe"] = ray.probe;
             entry["surface"] = surface_name(object, met.surface);
             entry["position_m"] = vector_json(met.point_m[0]);
@@ -85,11 +85,11 @@ std::string probe_report(const ScenarioConfig& scenario, const ProbeChoice& choi
     if (choice.number >= table->size())
         throw InputError("--probe " + choice.object + ' ' + std::to_string(choice.number) +
                          ": it has no such probe; accepted: 0 to " + std::to_string(table->size() - 1));
-    const LightNode& probe = table->nodes().nodes()[choice.number];
+    const SurfaceProbe& probe = table->probes().probes()[choice.number];
     const Json out{{"object", choice.object},
                    {"probe", choice.number},
                    {"probes", table->size()},
-                   {"cube_m", table->nodes().cube_m()},
+                   {"cube_m", table->probes().cube_m()},
                    {"surface", surface_name(objects[object], probe.surface)},
                    {"normal", vector_json(unpack_normal(probe.mean_normal))},
                    {"points", points_json(*table, choice.number)},

@@ -14,12 +14,12 @@ struct TableHeader {
     std::uint32_t version = kTableVersion;
     std::uint16_t directions = 0;
     std::uint16_t enclosed = 0;
-    std::uint64_t nodes = 0;
+    std::uint64_t probes = 0;
     std::uint64_t hash = 0;
     bool operator==(const TableHeader&) const = default;
 };
 
-// Nodes have the colours of textures.
+// Probes have the colours of textures.
 std::uint64_t hash_of_looks(std::uint64_t hash, const Mesh& mesh) {
     if (mesh.textures.empty()) return hash;
     for (const MeshSurface& surface : mesh.surfaces)
@@ -41,11 +41,11 @@ struct TableFile {
         const TransferSettings& settings = source.settings;
         header.directions = static_cast<std::uint16_t>(settings.directions);
         header.enclosed = settings.enclosed;
-        header.nodes = settings.nodes;
+        header.probes = settings.probes;
         header.hash = hash_of_looks(hash_of(hash_of(source.mesh), source.glass.data(), source.glass.size()),
                                     source.mesh);
         name = "transfer_" + std::to_string(header.hash) + "_" + std::to_string(settings.directions) + "_" +
-               std::to_string(settings.nodes) + (settings.enclosed ? "_enclosed" : "") + ".bin";
+               std::to_string(settings.probes) + (settings.enclosed ? "_enclosed" : "") + ".bin";
     }
 
     bool read(CacheReader& in, TransferTable& table) const {

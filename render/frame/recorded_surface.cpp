@@ -13,9 +13,10 @@ RecordedSurface recorded_surface(const FramePlacer& placer, const PixelRecord::E
     out.triangles = (*frame.objects)[entry.object]->triangles.size();
     out.distance_m = length(to_double(entry.point_m) - frame.camera_m);
     if (frame.indirect && frame.is_cached[entry.object]) {
-        out.node = frame.indirect->nearest_node(frame, entry.object, entry.point_m,
-                                                {entry.geometric_normal, entry.surface, entry.back});
-        out.nodes_apart_m = static_cast<double>(frame.indirect->light(entry.object).table().nodes().cube_m());
+        out.probe = frame.indirect->nearest_probe(frame, entry.object, entry.point_m,
+                                                  {entry.geometric_normal, entry.surface, entry.back});
+        out.probes_apart_m =
+            static_cast<double>(frame.indirect->light(entry.object).table().probes().cube_m());
     }
     return out;
 }

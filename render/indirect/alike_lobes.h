@@ -25,25 +25,25 @@ inline bool sends_alike(const ShadingPoint& a, const ShadingPoint& b) {
     return lies_alike(a, b) && a.surface.alpha == b.surface.alpha && dot(a.view_dir, b.view_dir) > kSameLobe;
 }
 
-// Keeps a value for each kind of lobe at each node; of those that share a slot, the last. Shading points outlive this. One
+// Keeps a value for each kind of lobe at each probe; of those that share a slot, the last. Shading points outlive this. One
 // thread at a time.
 template <class Value>
 class AlikeLobes {
     static_assert(std::is_trivially_copyable_v<Value>);
 
   public:
-    // node: 0 where the value belongs to none.
+    // probe: 0 where the value belongs to none.
     // Returns the value of a lobe that is alike; null: there is none.
-    const Value* find(const ShadingPoint& at, std::uint32_t node) const {
-        const std::uint16_t place = places_[number(at, node)];
+    const Value* find(const ShadingPoint& at, std::uint32_t probe) const {
+        const std::uint16_t place = places_[number(at, probe)];
         if (place == 0) return nullptr;
         const Entry& entry = *std::launder(reinterpret_cast<const Entry*>(&memory_[place - 1]));
-        return entry.node == node && sends_alike(*entry.at, at) ? &entry.value : nullptr;
+        return entry.probe == probe && sends_alike(*entry.at, at) ? &entry.value : nullptr;
     }
-    const Value& keep(const ShadingPoint& at, std::uint32_t node, const Value& value) {
-        std::uint16_t& place = places_[number(at, node)];
+    const Value& keep(const ShadingPoint& at, std::uint32_t probe, const Value& value) {
+        std::uint16_t& place = places_[number(at, probe)];
         if (place == 0) place = ++count_;
-        return (new (&memory_[place - 1]) Entry{&at, node, value})->value;
+        return (new (&memory_[place - 1]) Entry{&at, probe, value})->value;
     }
 
   private:
@@ -51,7 +51,7 @@ class AlikeLobes {
     static constexpr std::size_t kSlots = std::size_t{1} << kSlotBits;
     struct Entry {
         const ShadingPoint* at;
-        std::uint32_t node;
+        std::uint32_t probe;
         Value value;
     };
     // Entries follow each other as they come, and are made then: a memory begins with each part of a tile, most of which
@@ -64,14 +64,14 @@ class AlikeLobes {
     std::array<EntryMemory, kSlots> memory_;
 
     // Normals that lean differently mostly have different slots.
-    static std::size_t number(const ShadingPoint& at, std::uint32_t node) {
+    static std::size_t number(const ShadingPoint& at, std::uint32_t probe) {
         constexpr float kSteps = 8;
         const auto lean = static_cast<std::uint32_t>(static_cast<int>(kSteps * (at.normal.x + 1)) +
                                                      17 * static_cast<int>(kSteps * (at.normal.y + 1)) +
                                                      289 * static_cast<int>(kSteps * (at.normal.z + 1)));
         // Fibonacci hashing (Knuth, The Art of Computer Programming 3, 1998, section 6.4).
         constexpr std::uint32_t kGolden = 2654435769u;
-        return ((node * 31 + at.surface_number) * 31 + lean) * kGolden >> (32 - kSlotBits);
+        return ((probe * 31 + at.surface_number) * 31 + lean) * kGolden >> (32 - kSlotBits);
     }
 };
 

@@ -53,7 +53,7 @@ bool IndirectCache::is_near(const FrameView& frame, const Place& place) const {
 // The place whose light a shading point shares; null: it needs its own. What mirrors show may be seen from anywhere.
 IndirectCache::Place* IndirectCache::shared_place(std::span<Place> places, const ShadingPoint& at,
                                                   std::uint32_t quad) const {
-    const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
+    const float near_m = 0.5f * objects_[at.object].light->table().probes().cube_m();
     for (auto place = places.rbegin(); place != places.rend(); ++place) {
         if (place->quad != quad) return nullptr;
         if (is_alike(*place->at, at, near_m) && (at.depth == 1 || sends_alike(*place->at, at)))
@@ -160,15 +160,15 @@ void IndirectCache::find(const FrameView& frame, std::span<Place> places) const 
         const ShadingPoint& at = *place.at;
         const Mat3f& axes = frame.world_from_body[at.object];
         const Object& object = objects_[at.object];
-        place.search = object.light->table().nodes().begin(
+        place.search = object.light->table().probes().begin(
             to_body(axes, at.point_m - object.origin_m),
             {to_body(axes, at.geometric_normal), at.surface_number, at.back});
     }
-    for (Place& place : places) objects_[place.at->object].light->table().nodes().open(place.search);
+    for (Place& place : places) objects_[place.at->object].light->table().probes().open(place.search);
     for (Place& place : places) {
         const ShadingPoint& at = *place.at;
         const IrradianceCache& light = *objects_[at.object].light;
-        place.found = light.table().nodes().finish(place.search, place.about);
+        place.found = light.table().probes().finish(place.search, place.about);
         if (place.about.count == 0) continue;
         place.nearest = place.about.nearest();
         light.prefetch(place.about);
@@ -176,7 +176,7 @@ void IndirectCache::find(const FrameView& frame, std::span<Place> places) const 
     }
 }
 
-// The irradiance of all sources but the Sun by way of other surfaces, at a node or about a place.
+// The irradiance of all sources but the Sun by way of other surfaces, at a probe or about a place.
 template <class Where>
 Spectrum IndirectCache::others(const FrameView& frame, const IrradianceCache& light,
                                const Where& where) const {
@@ -195,7 +195,7 @@ Spectrum IndirectCache::reflect_diffuse(const FrameView& frame, const Place& pla
     const ShadingPoint& at = *place.at;
     const Object& object = objects_[at.object];
     const IrradianceCache& light = *object.light;
-    const NodesAbout& about = place.about;
+    const ProbeWeights& about = place.about;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
     const bool sunlit = largest(sun) > 0;
     if (at.surface.material->has_facets() && at.surface.alpha >= kNarrowestLobe && place.found)
@@ -234,9 +234,9 @@ void IndirectCache::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& pl
     // does, it has all of them.
     const bool narrow = at.surface.alpha < kMinCachedAlpha, whole = narrow && !place.mirrors_near;
     const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
-    const std::uint32_t node = place.found ? place.nearest : LightNodes::kClosed;
-    const MetByLobe* met = lobes.met.find(at, node);
-    if (!met || met->whole != whole) met = &lobes.met.keep(at, node, met_by_lobe(frame, place, whole));
+    const std::uint32_t probe = place.found ? place.nearest : SurfaceProbes::kClosed;
+    const MetByLobe* met = lobes.met.find(at, probe);
+    if (!met || met->whole != whole) met = &lobes.met.keep(at, probe, met_by_lobe(frame, place, whole));
     place.met = met->radiance, place.directions = met->directions;
     // Two shading points of several parts are not alike: what one sends is not cached for others.
     SentOfBodies by_parts;
@@ -258,15 +258,15 @@ void IndirectCache::reflect_far_bodies(Place& place) const {
     if (place.has_bodies) place.bodies = sent_of_bodies(at);
 }
 
-std::optional<std::uint32_t> IndirectCache::nearest_node(const FrameView& frame, std::size_t object,
-                                                         Vec3f point_m, const SurfaceSide& side) const {
+std::optional<std::uint32_t> IndirectCache::nearest_probe(const FrameView& frame, std::size_t object,
+                                                          Vec3f point_m, const SurfaceSide& side) const {
     const Mat3f& axes = frame.world_from_body[object];
     SurfaceSide in_body = side;
     in_body.geometric_normal = to_body(axes, side.geometric_normal);
-    NodesAbout about;
+    ProbeWeights about;
     const Object& cached = objects_[object];
     const bool found =
-        cached.light->table().nodes().find(to_body(axes, point_m - cached.origin_m), in_body, about);
+        cached.light->table().probes().find(to_body(axes, point_m - cached.origin_m), in_body, about);
     if (!found || about.count == 0) return std::nullopt;
     return about.nearest();
 }
@@ -328,9 +328,9 @@ IndirectCache::SentOfBodies IndirectCache::sent_of_bodies(const ShadingPoint& at
     return sent;
 }
 
-// The light that a lobe meets is known by the directions of its node, some tens of them, and by the means of the nodes
+// The light that a lobe meets is known by the directions of its probe, some tens of them, and by the means of the probes
 // that those meet. Light that hangs on a few may be the light of what is beside: of a bar that one direction meets, of
-// the lit rim of a gap narrower than the nodes are apart. True where that would be seen: where a pixel has by it more
+// the lit rim of a gap narrower than the probes are apart. True where that would be seen: where a pixel has by it more
 // than half the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
 bool IndirectCache::hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met,
                                  float directions) {

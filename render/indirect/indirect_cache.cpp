@@ -39,7 +39,7 @@ IndirectCache::IndirectCache(std::span<const ShownObject> objects, const EmbreeS
         std::shared_ptr<const ObjectAlbedos>& of_make = albedos[objects[i].levels.front().get()];
         if (!of_make)
             of_make = std::make_shared<const ObjectAlbedos>(*objects[i].levels.front(), scene.mesh(i, 0),
-                                                            objects[i].transfer->nodes(),
+                                                            objects[i].transfer->probes(),
                                                             IrradianceCache::min_alpha(*objects[i].transfer));
         objects_[i].light = std::make_unique<IrradianceCache>(objects[i], of_make, bands,
                                                               step_of(objects[i], settings.step_rad));
@@ -58,7 +58,7 @@ std::string IndirectCache::describe(std::size_t i) const {
     const IrradianceCache& light = *objects_[i].light;
     const TransferTable& table = light.table();
     std::ostringstream text;
-    text << table.size() << " places, " << 1e3f * table.nodes().cube_m() << " mm apart, "
+    text << table.size() << " places, " << 1e3f * table.probes().cube_m() << " mm apart, "
          << table.directions() << " directions each, of which " << table.entries()
          << " meet something; steps of " << light.step_rad() / static_cast<float>(kDegree_rad) << " deg; "
          << light.mirrors().size() << " flat mirrors throw sunlight; table "

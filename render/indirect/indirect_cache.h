@@ -47,10 +47,10 @@ class IndirectCache {
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
     const IrradianceCache& light(std::size_t object) const { return *objects_[object].light; }
-    // Returns the node whose light is looked up at a point of an object, the nearest of those about it; none: there are none. side: its
-    // normal by world axes. Any thread.
-    std::optional<std::uint32_t> nearest_node(const FrameView& frame, std::size_t object, Vec3f point_m,
-                                              const SurfaceSide& side) const;
+    // Returns the probe whose light is looked up at a point of an object, the nearest of those about it; none: there are none.
+    // side: its normal by world axes. Any thread.
+    std::optional<std::uint32_t> nearest_probe(const FrameView& frame, std::size_t object, Vec3f point_m,
+                                               const SurfaceSide& side) const;
     // Says in words what is cached on an object.
     std::string describe(std::size_t object) const;
 
@@ -129,9 +129,9 @@ class IndirectCache {
     struct Place {
         const ShadingPoint* at;
         std::uint32_t quad;  // square of four pixels in which it is seen
-        LightNodes::Search search;
-        NodesAbout about;
-        std::uint32_t nearest;  // node, where there is one
+        SurfaceProbes::Search search;
+        ProbeWeights about;
+        std::uint32_t nearest;  // probe, where there is one
         bool found;
         // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies. Where a
         // texture colours facets, theirs is what white ones would reflect.

@@ -6,8 +6,8 @@
 namespace hilcam {
 
 std::vector<ProbeRay> rays_of(const TransferTable& table, std::size_t probe) {
-    const LightNode& node = table.nodes().nodes()[probe];
-    const Frame frame(unpack_normal(node.mean_normal));
+    const SurfaceProbe& own = table.probes().probes()[probe];
+    const Frame frame(unpack_normal(own.mean_normal));
     std::vector<ProbeRay> rays;
     for (const Vec3f local : transfer_directions(table.directions())) {
         const std::size_t direction = rays.size();
@@ -16,7 +16,7 @@ std::vector<ProbeRay> rays_of(const TransferTable& table, std::size_t probe) {
         ray.point = table.point_of(direction);
         if (!table.is_live(probe, ray.point))
             ray.meets = ProbeMeets::kBuried;
-        else if (dot(ray.dir, unpack_normal(node.geometric[ray.point])) <= 0)
+        else if (dot(ray.dir, unpack_normal(own.geometric[ray.point])) <= 0)
             ray.meets = ProbeMeets::kOwnSide;
         else if (table.is_free(probe, direction))
             ray.meets = ProbeMeets::kNothing;
@@ -24,7 +24,7 @@ std::vector<ProbeRay> rays_of(const TransferTable& table, std::size_t probe) {
     }
     for (const TransferTable::Entry entry : table.entries(probe)) {
         rays[entry.direction].meets = ProbeMeets::kProbe;
-        rays[entry.direction].probe = entry.node;
+        rays[entry.direction].probe = entry.probe;
     }
     return rays;
 }

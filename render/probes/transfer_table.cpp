@@ -17,23 +17,23 @@ namespace hilcam {
 namespace {
 
 constexpr float kGoldenRatio = 0.61803399f;
-// From node to node, of a whole turn: the root of a half. How many directions of two to nine nodes side by side lie in a small disk
-// then scatters by a third of what it does by the golden section, which would turn the spiral, being one by it itself, into its
-// own next directions (docs/decisions.md).
+// From probe to probe, of a whole turn: the root of a half. How many directions of two to nine probes side by side lie in a small
+// disk then scatters by a third of what it does by the golden section, which would turn the spiral, being one by it itself, into
+// its own next directions (docs/decisions.md).
 constexpr float kTurn = 0.70710678f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
-// The state of a direction while it is being traced: the node that it meets, whether it is nearer than half a
-// cube, and which of the node's points is next to the place; or one of these.
+// The state of a direction while it is being traced: the probe that it meets, whether it is nearer than half a
+// cube, and which of the probe's points is next to the place; or one of these.
 struct Met {
-    static std::uint32_t pack(std::uint32_t node, bool close, std::size_t point) {
-        return node << 3 | static_cast<std::uint32_t>(close) << 2 | static_cast<std::uint32_t>(point);
+    static std::uint32_t pack(std::uint32_t probe, bool close, std::size_t point) {
+        return probe << 3 | static_cast<std::uint32_t>(close) << 2 | static_cast<std::uint32_t>(point);
     }
-    static std::uint32_t node(std::uint32_t met) { return met >> 3; }
+    static std::uint32_t probe(std::uint32_t met) { return met >> 3; }
     static bool is_close(std::uint32_t met) { return met >> 2 & 1u; }
     static std::uint32_t point(std::uint32_t met) { return met & 3u; }
 };
-static_assert(LightNode::kPoints == 4);
+static_assert(SurfaceProbe::kPoints == 4);
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::uint32_t kDarkNode = kFree - 1;
 constexpr std::uint32_t kBuried = kFree - 2;  // index of a point that does not count
@@ -46,46 +46,46 @@ struct Ray {
     int sheets = 0;  // number of sheets of glass that it has passed
 };
 
-// Traces a block of nodes.
+// Traces a block of probes.
 class Tracer {
   public:
-    Tracer(const Mesh& mesh, std::span<const std::uint8_t> glass, const LightNodes& nodes,
+    Tracer(const Mesh& mesh, std::span<const std::uint8_t> glass, const SurfaceProbes& probes,
            const EmbreeScene& scene, std::span<const Vec3f> local, std::span<const Vec2f> turns)
-        : mesh_(mesh), glass_(glass), nodes_(nodes), scene_(scene), local_(local), turns_(turns) {}
+        : mesh_(mesh), glass_(glass), probes_(probes), scene_(scene), local_(local), turns_(turns) {}
 
-    // met: by node and direction of the block.
+    // met: by probe and direction of the block.
     void trace(std::size_t first, std::size_t last, std::span<std::uint32_t> met) const {
         std::vector<Ray> rays;
         for (std::size_t n = first; n < last; ++n) {
-            const std::span<std::uint32_t> of_node = met.subspan((n - first) * local_.size(), local_.size());
+            const std::span<std::uint32_t> of_probe = met.subspan((n - first) * local_.size(), local_.size());
             std::vector<float> distance(local_.size(), kFarthest);
-            aim(n, of_node, rays);
-            follow(rays, of_node, distance);
-            drop_buried(of_node, distance);
+            aim(n, of_probe, rays);
+            follow(rays, of_probe, distance);
+            drop_buried(of_probe, distance);
         }
     }
 
   private:
     const Mesh& mesh_;
     std::span<const std::uint8_t> glass_;
-    const LightNodes& nodes_;
+    const SurfaceProbes& probes_;
     const EmbreeScene& scene_;
     std::span<const Vec3f> local_;
     std::span<const Vec2f> turns_;
 
     void aim(std::size_t n, std::span<std::uint32_t> met, std::vector<Ray>& rays) const {
-        const LightNode& node = nodes_.nodes()[n];
+        const SurfaceProbe& probe = probes_.probes()[n];
         rays.clear();
-        const Frame frame(unpack_normal(node.mean_normal));
-        const std::size_t of_point = local_.size() / LightNode::kPoints;
-        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-            const Vec3f geometric = unpack_normal(node.geometric[p]);
+        const Frame frame(unpack_normal(probe.mean_normal));
+        const std::size_t of_point = local_.size() / SurfaceProbe::kPoints;
+        for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p) {
+            const Vec3f geometric = unpack_normal(probe.geometric[p]);
             for (std::size_t d = p * of_point; d < (p + 1) * of_point; ++d) {
                 const Vec3f dir = probe_direction(frame, turns_[n], local_[d]);
                 met[d] = kUnder;
                 if (dot(dir, geometric) <= 0) continue;
                 met[d] = kTracing;
-                rays.push_back({d, node.point_m[p], dir});
+                rays.push_back({d, probe.point_m[p], dir});
             }
         }
     }
@@ -134,32 +134,32 @@ class Tracer {
         if (ray.sheets == 0) distance[ray.direction] = hits.distance[k];
         const Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
         const bool back = dot(normal, ray.dir) > 0;
-        NodesAbout about;
+        ProbeWeights about;
         out = kDarkNode;
-        if (nodes_.find(point_m, {back ? -normal : normal, surface, back}, about) && about.count > 0) {
-            const std::uint32_t node = about.nearest();
-            out = Met::pack(node, hits.distance[k] < 0.5f * nodes_.cube_m(),
-                            next_point(nodes_.nodes()[node], point_m));
+        if (probes_.find(point_m, {back ? -normal : normal, surface, back}, about) && about.count > 0) {
+            const std::uint32_t probe = about.nearest();
+            out = Met::pack(probe, hits.distance[k] < 0.5f * probes_.cube_m(),
+                            next_point(probes_.probes()[probe], point_m));
         }
     }
 
-    static std::size_t next_point(const LightNode& node, Vec3f place_m) {
+    static std::size_t next_point(const SurfaceProbe& probe, Vec3f place_m) {
         std::size_t best = 0;
         float least = kFarthest;
-        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-            const Vec3f way = node.point_m[p] - place_m;
+        for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p) {
+            const Vec3f way = probe.point_m[p] - place_m;
             if (dot(way, way) < least) least = dot(way, way), best = p;
         }
         return best;
     }
 
     void drop_buried(std::span<std::uint32_t> met, std::span<const float> distance) const {
-        const std::size_t of_point = met.size() / LightNode::kPoints;
+        const std::size_t of_point = met.size() / SurfaceProbe::kPoints;
         for (std::size_t first = 0; first < met.size(); first += of_point) {
             bool buried = true;
             for (std::size_t d = first; d < first + of_point; ++d)
                 buried = buried && met[d] != kFree &&
-                         (met[d] == kDarkNode || distance[d] < 0.5f * nodes_.cube_m());
+                         (met[d] == kDarkNode || distance[d] < 0.5f * probes_.cube_m());
             if (buried) std::fill_n(met.begin() + static_cast<std::ptrdiff_t>(first), of_point, kBuried);
         }
     }
@@ -206,8 +206,8 @@ std::optional<Wall> wall_between(std::span<const std::uint8_t> glass, const Mesh
 
 std::vector<Vec3f> transfer_directions(int count) {
     std::vector<Vec3f> out;
-    for (int point = 0; point < LightNode::kPoints; ++point)
-        for (int i = point; i < count; i += LightNode::kPoints) {
+    for (int point = 0; point < SurfaceProbe::kPoints; ++point)
+        for (int i = point; i < count; i += SurfaceProbe::kPoints) {
             const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
             const float r = std::sqrt(u), phi = 2 * kPiF * kGoldenRatio * static_cast<float>(i);
             out.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)});
@@ -223,15 +223,15 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
     EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
-    nodes_ = LightNodes(
-        mesh, keeps, std::min(settings.nodes, kMaxNodes / 2),
+    probes_ = SurfaceProbes(
+        mesh, keeps, std::min(settings.probes, kMaxProbes / 2),
         [&](Vec3f point_m, Vec3f normal, float near_m, float far_m) {
             if (watcher) watcher(0);
             return openness(mesh, glass, scene, point_m, normal, near_m, far_m);
         },
         [&](Vec3f from_m, Vec3f to_m) { return wall_between(glass, mesh, scene, from_m, to_m); });
     for (std::size_t n = 0; n < size(); ++n) {
-        // Turns that are far from those of the nodes beside.
+        // Turns that are far from those of the probes beside.
         const float part = std::fmod(static_cast<float>(n % 4096) * kTurn, 1.0f);
         turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
     }
@@ -247,7 +247,7 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
     free_.assign(size() * free_words(), 0);
     live_.assign(size(), 0), counted_.assign(size(), 0);
     if (blocks.empty()) return blocks;
-    const Tracer tracer(mesh, glass, nodes_, scene, local, turns_);
+    const Tracer tracer(mesh, glass, probes_, scene, local, turns_);
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
         if (watcher) watcher(static_cast<double>(done.fetch_add(1)) / static_cast<double>(blocks.size()));
@@ -272,9 +272,9 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
     return blocks;
 }
 
-// visit(node, its links).
-void TransferTable::for_each_node(std::vector<Block>& blocks,
-                                  const std::function<void(std::size_t, std::span<Link>)>& visit) {
+// visit(probe, its links).
+void TransferTable::for_each_probe(std::vector<Block>& blocks,
+                                   const std::function<void(std::size_t, std::span<Link>)>& visit) {
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         std::size_t first = 0;
         for (std::size_t i = 0; i < blocks[b].counts.size(); ++i) {
@@ -284,31 +284,31 @@ void TransferTable::for_each_node(std::vector<Block>& blocks,
     }
 }
 
-// Darkens links that meet a buried point at once: they are buried, too, and the node's light is that of its
+// Darkens links that meet a buried point at once: they are buried, too, and the probe's light is that of its
 // other points.
 void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
-    for_each_node(blocks, [&](std::size_t, std::span<Link> links) {
+    for_each_probe(blocks, [&](std::size_t, std::span<Link> links) {
         for (Link& link : links)
-            if (Met::is_close(link.met) && !is_live(Met::node(link.met), Met::point(link.met)))
+            if (Met::is_close(link.met) && !is_live(Met::probe(link.met), Met::point(link.met)))
                 link.met = kDarkNode;
     });
 }
 
-// New numbers for the nodes that light reaches: which are free somewhere, or meet one that light reaches.
+// New numbers for the probes that light reaches: which are free somewhere, or meet one that light reaches.
 std::vector<std::uint32_t> TransferTable::numbers_of_open(std::vector<Block>& blocks, bool enclosed) {
     std::vector<std::uint8_t> open(size(), enclosed);
     for (std::size_t n = 0; n < size(); ++n)
         for (std::size_t w = 0; w < free_words(); ++w) open[n] |= free_[n * free_words() + w] != 0;
     for (bool more = true; more;) {
         more = false;
-        for_each_node(blocks, [&](std::size_t n, std::span<Link> links) {
+        for_each_probe(blocks, [&](std::size_t n, std::span<Link> links) {
             const auto leads_out = [&](const Link& l) {
-                return l.met != kDarkNode && open[Met::node(l.met)] != 0;
+                return l.met != kDarkNode && open[Met::probe(l.met)] != 0;
             };
             if (!open[n] && std::any_of(links.begin(), links.end(), leads_out)) open[n] = 1, more = true;
         });
     }
-    std::vector<std::uint32_t> numbers(size(), LightNodes::kClosed);
+    std::vector<std::uint32_t> numbers(size(), SurfaceProbes::kClosed);
     std::uint32_t kept = 0;
     for (std::size_t n = 0; n < size(); ++n)
         if (open[n] && counted_[n] != 0) numbers[n] = kept++;
@@ -317,15 +317,15 @@ std::vector<std::uint32_t> TransferTable::numbers_of_open(std::vector<Block>& bl
 
 void TransferTable::pack(std::vector<Block>& blocks, std::span<const std::uint32_t> numbers) {
     first_entry_.push_back(0);
-    for_each_node(blocks, [&](std::size_t n, std::span<Link> links) {
+    for_each_probe(blocks, [&](std::size_t n, std::span<Link> links) {
         const std::size_t to = numbers[n];
-        if (to == LightNodes::kClosed) return;
+        if (to == SurfaceProbes::kClosed) return;
         for (const Link& link : links) {
-            const std::uint32_t node =
-                link.met == kDarkNode ? LightNodes::kClosed : numbers[Met::node(link.met)];
-            if (node == LightNodes::kClosed) continue;
+            const std::uint32_t probe =
+                link.met == kDarkNode ? SurfaceProbes::kClosed : numbers[Met::probe(link.met)];
+            if (probe == SurfaceProbes::kClosed) continue;
             Entry entry;
-            entry.node = node & 0xFFFFFFu;
+            entry.probe = probe & 0xFFFFFFu;
             entry.direction = link.direction;
             entries_.push_back(entry);
         }
@@ -334,29 +334,29 @@ void TransferTable::pack(std::vector<Block>& blocks, std::span<const std::uint32
         for (std::size_t w = 0; w < free_words(); ++w)
             free_[to * free_words() + w] = free_[n * free_words() + w];
     });
-    nodes_.keep(numbers);
+    probes_.keep(numbers);
     live_.resize(size()), counted_.resize(size()), turns_.resize(size()), free_.resize(size() * free_words());
     live_.shrink_to_fit(), counted_.shrink_to_fit(), turns_.shrink_to_fit(), free_.shrink_to_fit(),
         entries_.shrink_to_fit();
 }
 
 std::size_t TransferTable::bytes() const {
-    return nodes_.bytes() + first_entry_.size() * sizeof(std::uint32_t) + entries_.size() * sizeof(Entry) +
+    return probes_.bytes() + first_entry_.size() * sizeof(std::uint32_t) + entries_.size() * sizeof(Entry) +
            free_.size() * sizeof(std::uint64_t) + live_.size() + counted_.size() * sizeof(std::uint16_t) +
            turns_.size() * sizeof(Vec2f);
 }
 
 bool TransferTable::is_whole() const {
     const std::size_t n = size();
-    if (directions_ < 4 || directions_ % LightNode::kPoints != 0 || directions_ > 256 || !nodes_.is_whole() ||
-        n > kMaxNodes)
+    if (directions_ < 4 || directions_ % SurfaceProbe::kPoints != 0 || directions_ > 256 ||
+        !probes_.is_whole() || n > kMaxProbes)
         return false;
     if (first_entry_.size() != n + 1 || first_entry_.front() != 0 || first_entry_.back() != entries_.size() ||
         free_.size() != n * free_words() || live_.size() != n || counted_.size() != n || turns_.size() != n)
         return false;
     if (!std::is_sorted(first_entry_.begin(), first_entry_.end())) return false;
     return std::all_of(entries_.begin(), entries_.end(),
-                       [&](Entry e) { return e.node < n && static_cast<int>(e.direction) < directions_; });
+                       [&](Entry e) { return e.probe < n && static_cast<int>(e.direction) < directions_; });
 }
 
 }  // namespace hilcam

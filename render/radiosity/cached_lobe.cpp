@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// A lobe in a node's axes, and the sums of its weights.
+// A lobe in a probe's axes, and the sums of its weights.
 struct LobeQuery {
     GgxLobe law;
     Vec3f normal, view, mirror;
@@ -39,9 +39,9 @@ struct LobeQuery {
 }
 
 // The weight of each direction: whole, of a lobe without Fresnel's term; cached, without what rays follow of a narrow one.
-// Directions lie as the cosine to the node's normal, so that of a surface which leans against it each counts by the ratio of both
-// cosines (importance sampling: Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the
-// node's; 0 for directions that only fill up. n is a multiple of kDirectionLanes.
+// Directions lie as the cosine to the probe's normal, so that of a surface which leans against it each counts by the ratio of
+// both cosines (importance sampling: Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the
+// probe's; 0 for directions that only fill up. n is a multiple of kDirectionLanes.
 HILCAM_CLONES
 void lobe_weights(const float* x, const float* y, const float* z, const float* per_cosine, std::size_t n,
                   LobeQuery& query, float* whole, float* cached) {
@@ -85,14 +85,14 @@ struct Brought {
 }  // namespace
 
 void IrradianceCache::prefetch_along(std::size_t t, std::uint32_t n) const {
-    const LobeNode& node = lobes_[n];
-    if (node.entries == 0) return;
+    const LobeProbe& probe = lobes_[n];
+    if (probe.entries == 0) return;
     const auto ask_for = [&](const auto* first) {
         constexpr std::size_t kLine = 64 / sizeof(*first);
-        for (std::size_t i = 0; i < node.entries; i += kLine) __builtin_prefetch(first + i);
+        for (std::size_t i = 0; i < probe.entries; i += kLine) __builtin_prefetch(first + i);
     };
-    ask_for(table_->entry(node.first_entry));
-    if (t != kNoTerm && node.first_along != kNoLobe) ask_for(terms_[t].along.data() + node.first_along);
+    ask_for(table_->entry(probe.first_entry));
+    if (t != kNoTerm && probe.first_along != kNoLobe) ask_for(terms_[t].along.data() + probe.first_along);
 }
 
 IrradianceCache::Lobe IrradianceCache::lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t n,
@@ -104,8 +104,8 @@ IrradianceCache::Lobe IrradianceCache::lobe(std::size_t sun, std::span<const Con
 IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const InterObjectLinks* links,
                                             std::span<const Cone> cones, std::uint32_t n, Vec3f normal,
                                             Vec3f view_dir, float alpha) const {
-    const LobeNode& node = lobes_[n];
-    const Local axes = local(node);
+    const LobeProbe& probe = lobes_[n];
+    const Local axes = local(probe);
     LobeQuery query{.law = {alpha, std::max(dot(normal, view_dir), 1e-2f)},
                     .normal = axes.dir(normal),
                     .view = axes.dir(view_dir),
@@ -116,15 +116,16 @@ IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const 
                  query, whole.data(), cached.data());
     // Points that are buried do not count.
     const std::size_t of_point = table_->directions_of_point();
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
-        for (std::size_t d = p * of_point; !(node.live >> p & 1u) && d < (p + 1) * of_point; ++d) {
+    for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p)
+        for (std::size_t d = p * of_point; !(probe.live >> p & 1u) && d < (p + 1) * of_point; ++d) {
             query.whole -= whole[d], query.cached -= cached[d];
             whole[d] = cached[d] = 0;
         }
     Lobe out;
     if (!(query.whole > 0)) return out;
     // Sixty directions are too few for a sum over a lobe; for its tails they are enough.
-    const float all = query.narrow ? static_cast<float>(node.counted) / kPiF : std::max(query.cached, 1e-20f);
+    const float all =
+        query.narrow ? static_cast<float>(probe.counted) / kPiF : std::max(query.cached, 1e-20f);
     for (std::size_t c = 0; c < cones.size(); ++c) {
         const ConeShare cone(axes.dir(cones[c].dir), cones[c].cosine, table_->directions());
         alignas(64) std::array<float, kMaxDirections> in_cone;
@@ -134,23 +135,23 @@ IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const 
         for_each_met(n, [&](std::size_t d) { met += in_cone[d]; });
         out.free[c] = of_cone > 0 ? std::clamp(1 - met / of_cone, 0.0f, 1.0f) : 0.0f;
     }
-    const bool facets = sun && node.first_along != kNoLobe;
-    const PackedSpectrum* along = facets ? sun->along.data() + node.first_along : nullptr;
+    const bool facets = sun && probe.first_along != kNoLobe;
+    const PackedSpectrum* along = facets ? sun->along.data() + probe.first_along : nullptr;
     float occupied = 0;
-    std::size_t met_nodes = node.entries;
-    const TransferTable::Entry* const entries = table_->entry(node.first_entry);
+    std::size_t met_probes = probe.entries;
+    const TransferTable::Entry* const entries = table_->entry(probe.first_entry);
     std::array<float, kMaxDirections> of_entry;  // a direction meets one thing at most
     Brought brought;
     // One loop for all sums, each of which waits for itself.
-    for (std::size_t i = 0; i < node.entries; ++i) {
+    for (std::size_t i = 0; i < probe.entries; ++i) {
         occupied += of_entry[i] = cached[entries[i].direction];
         if (along) brought.add(of_entry[i] * along[i].greatest());
     }
-    if (along) out.cached = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
+    if (along) out.cached = PackedSpectrum::weighted_sum(along, of_entry.data(), probe.entries);
     if (links && !links->empty()) {
         const PackedSpectrum* there = sun ? sun->along_links.data() + links->first(n) : nullptr;
         for (const InterObjectLinks::Link& link : links->of(n)) {
-            ++met_nodes;
+            ++met_probes;
             occupied += cached[link.direction];
             if (!there) continue;
             brought.add(cached[link.direction] * there->greatest());
@@ -159,15 +160,15 @@ IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const 
     }
     out.cached = (1 / all) * out.cached;
     out.directions = brought.directions();
-    // Light that comes along the directions that meet something makes the node's irradiance: pi / counted of
+    // Light that comes along the directions that meet something makes the probe's irradiance: pi / counted of
     // each one's radiance.
-    if (met_nodes > 0)
+    if (met_probes > 0)
         out.of_irradiance =
-            occupied / all * static_cast<float>(node.counted) / (kPiF * static_cast<float>(met_nodes));
+            occupied / all * static_cast<float>(probe.counted) / (kPiF * static_cast<float>(met_probes));
     return out;
 }
 
-// visit(direction) where a node's direction meets something, be it dark.
+// visit(direction) where a probe's direction meets something, be it dark.
 template <class Visit>
 void IrradianceCache::for_each_met(std::size_t n, const Visit& visit) const {
     const auto directions = static_cast<std::size_t>(table_->directions());
@@ -183,13 +184,13 @@ void IrradianceCache::for_each_met(std::size_t n, const Visit& visit) const {
 }
 
 bool IrradianceCache::is_near(std::uint32_t n, Vec3f dir) const {
-    const LobeNode& node = lobes_[n];
-    if (node.all_free) return false;
-    const Vec3f l = local(node).dir(dir);
+    const LobeProbe& probe = lobes_[n];
+    if (probe.all_free) return false;
+    const Vec3f l = local(probe).dir(dir);
     bool near = false;
     for_each_met(n, [&](std::size_t d) {
         near = near || (local_x_[d] * l.x + local_y_[d] * l.y + local_z_[d] * l.z > kNear &&
-                        (node.live >> table_->point_of(d) & 1u) != 0);
+                        (probe.live >> table_->point_of(d) & 1u) != 0);
     });
     return near;
 }

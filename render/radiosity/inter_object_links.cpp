@@ -10,24 +10,24 @@ namespace hilcam {
 namespace {
 
 constexpr float kMeetsNothing = std::numeric_limits<float>::infinity();
-constexpr std::size_t kNodesAtOnce = 256;  // nodes
+constexpr std::size_t kProbesAtOnce = 256;  // probes
 
 struct Probe {
-    std::size_t node;  // number of the node in the block
+    std::size_t probe;  // number of the probe in the block
     std::uint16_t direction;
     Vec3f origin_m, dir;
     float distance_m = kMeetsNothing;
     InterObjectLinks::Link link{};
 };
 
-// Traces the free directions of a block of nodes against their neighbours.
+// Traces the free directions of a block of probes against their neighbours.
 class Prober {
   public:
     Prober(std::span<const NeighbourObject> near, const IrradianceCache& self,
            std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
         : near_(near), self_(self), lights_(lights), scene_(scene) {}
 
-    // Those that meet a place where light is cached, or one that does not: node kDark.
+    // Those that meet a place where light is cached, or one that does not: probe kDark.
     static constexpr std::uint32_t kDark = ~std::uint32_t{0};
     std::vector<Probe> probe(std::size_t first, std::size_t last) const {
         std::vector<Probe> probes;
@@ -51,7 +51,7 @@ class Prober {
         const TransferTable& table = self_.table();
         for (std::size_t d = 0; d < static_cast<std::size_t>(table.directions()); ++d) {
             if (!table.is_free(n, d)) continue;
-            const Vec3f origin = table.nodes().nodes()[n].point_m[table.point_of(d)];
+            const Vec3f origin = table.probes().probes()[n].point_m[table.point_of(d)];
             const Vec3f dir = self_.direction(n, d);
             if (std::any_of(near_.begin(), near_.end(),
                             [&](const NeighbourObject& other) { return may_meet(other, origin, dir); }))
@@ -98,10 +98,10 @@ class Prober {
         const Vec3f dir = other.dir(probe.dir);
         const Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
         const bool back = dot(normal, dir) > 0;
-        NodesAbout about;
+        ProbeWeights about;
         probe.distance_m = hits.distance[k];
-        const bool found = light.table().nodes().find(other.place(probe.origin_m) + hits.distance[k] * dir,
-                                                      {back ? -normal : normal, surface, back}, about);
+        const bool found = light.table().probes().find(other.place(probe.origin_m) + hits.distance[k] * dir,
+                                                       {back ? -normal : normal, surface, back}, about);
         // Light that mirrors send is too sharp to be cached from object to object.
         const bool keeps = found && about.count > 0 && !light.is_mirror(surface);
         probe.link = {keeps ? about.nearest() : kDark, static_cast<std::uint16_t>(other.object),
@@ -142,11 +142,11 @@ void InterObjectLinks::make(std::span<const NeighbourObject> near, std::size_t s
     const TransferTable& table = light.table();
     if (near.empty() || table.size() == 0) return;
     const Prober prober(near_, light, lights, scene);
-    std::vector<std::vector<Probe>> blocks((table.size() + kNodesAtOnce - 1) / kNodesAtOnce);
+    std::vector<std::vector<Probe>> blocks((table.size() + kProbesAtOnce - 1) / kProbesAtOnce);
     const auto ask = [&](std::size_t b) {
-        blocks[b] = prober.probe(b * kNodesAtOnce, std::min(table.size(), (b + 1) * kNodesAtOnce));
+        blocks[b] = prober.probe(b * kProbesAtOnce, std::min(table.size(), (b + 1) * kProbesAtOnce));
         std::stable_sort(blocks[b].begin(), blocks[b].end(),
-                         [](const Probe& x, const Probe& y) { return x.node < y.node; });
+                         [](const Probe& x, const Probe& y) { return x.probe < y.probe; });
     };
     // One at a time, so that one who waits for a block does not wait long.
     tbb::parallel_for(std::size_t{0}, blocks.size(), ask, tbb::simple_partitioner{});
@@ -155,12 +155,12 @@ void InterObjectLinks::make(std::span<const NeighbourObject> near, std::size_t s
         free_.insert(free_.end(), table.free(n).begin(), table.free(n).end());
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         std::size_t next = 0;
-        for (std::size_t n = b * kNodesAtOnce; n < std::min(table.size(), (b + 1) * kNodesAtOnce); ++n) {
+        for (std::size_t n = b * kProbesAtOnce; n < std::min(table.size(), (b + 1) * kProbesAtOnce); ++n) {
             first_.push_back(static_cast<std::uint32_t>(links_.size()));
-            for (; next < blocks[b].size() && blocks[b][next].node == n - b * kNodesAtOnce; ++next) {
+            for (; next < blocks[b].size() && blocks[b][next].probe == n - b * kProbesAtOnce; ++next) {
                 const Probe& probe = blocks[b][next];
                 free_[n * words + probe.direction / 64] &= ~(std::uint64_t{1} << (probe.direction % 64));
-                if (probe.link.node != Prober::kDark) links_.push_back(probe.link);
+                if (probe.link.probe != Prober::kDark) links_.push_back(probe.link);
             }
         }
     }

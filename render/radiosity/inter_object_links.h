@@ -1,5 +1,5 @@
 #pragma once
-// The links of an object's nodes to other objects that stand near it: the part of the table of directions
+// The links of an object's probes to other objects that stand near it: the part of the table of directions
 // (probes/transfer_table.h) that depends on where objects stand to each other, traced anew when that has
 // changed by a step. Turning parts are objects here. Glass of another object is passed.
 
@@ -32,7 +32,7 @@ struct NeighbourObject {
 class InterObjectLinks {
   public:
     struct Link {
-        std::uint32_t node;  // a node of the other object
+        std::uint32_t probe;  // a probe of the other object
         std::uint16_t object;
         std::uint16_t direction;
     };
@@ -41,16 +41,16 @@ class InterObjectLinks {
     const NeighbourObject& neighbour(std::size_t object) const;
     bool empty() const { return links_.empty(); }
     std::size_t size() const { return links_.size(); }
-    std::size_t first(std::size_t node) const { return first_[node]; }
-    std::span<const Link> of(std::size_t node) const {
+    std::size_t first(std::size_t probe) const { return first_[probe]; }
+    std::span<const Link> of(std::size_t probe) const {
         if (links_.empty()) return {};
-        return {links_.data() + first_[node], first_[node + 1] - first_[node]};
+        return {links_.data() + first_[probe], first_[probe + 1] - first_[probe]};
     }
     // Bits by direction, as the table's, without those that meet another object.
-    std::span<const std::uint64_t> free(const TransferTable& table, std::size_t node) const {
-        if (free_.empty()) return table.free(node);
-        const std::size_t words = table.free(node).size();
-        return {free_.data() + node * words, words};
+    std::span<const std::uint64_t> free(const TransferTable& table, std::size_t probe) const {
+        if (free_.empty()) return table.free(probe);
+        const std::size_t words = table.free(probe).size();
+        return {free_.data() + probe * words, words};
     }
     std::size_t bytes() const;
 
@@ -61,7 +61,7 @@ class InterObjectLinks {
 
   private:
     std::vector<NeighbourObject> near_;
-    std::vector<std::uint32_t> first_;  // by node, and one more
+    std::vector<std::uint32_t> first_;  // by probe, and one more
     std::vector<Link> links_;
     std::vector<std::uint64_t> free_;
 };

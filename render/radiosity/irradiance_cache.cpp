@@ -19,11 +19,11 @@ bool all_of(std::span<const std::uint64_t> words, int directions) {
     return free == directions;
 }
 
-IrradianceCache::Bounds sphere_about(std::span<const LightNode> nodes) {
-    if (nodes.empty()) return {};
-    Vec3f least = nodes[0].point_m[0], most = least;
-    for (const LightNode& node : nodes)
-        for (const Vec3f p : node.point_m) {
+IrradianceCache::Bounds sphere_about(std::span<const SurfaceProbe> probes) {
+    if (probes.empty()) return {};
+    Vec3f least = probes[0].point_m[0], most = least;
+    for (const SurfaceProbe& probe : probes)
+        for (const Vec3f p : probe.point_m) {
             least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
             most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
         }
@@ -32,9 +32,9 @@ IrradianceCache::Bounds sphere_about(std::span<const LightNode> nodes) {
 
 }  // namespace
 
-ObjectAlbedos::ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
-                             float min_alpha)
-    : neighbours(nodes.neighbours()) {
+ObjectAlbedos::ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh,
+                             const SurfaceProbes& probes, float min_alpha)
+    : neighbours(probes.neighbours()) {
     std::vector<float> throws;
     for (const Material& material : surfaces.materials) {
         own.emplace_back(material);
@@ -64,55 +64,55 @@ IrradianceCache::IrradianceCache(const ShownObject& object, std::shared_ptr<cons
     while (per_cosine_.size() % kDirectionLanes != 0)
         local_x_.push_back(0), local_y_.push_back(0), local_z_.push_back(1), per_cosine_.push_back(0);
 
-    const std::vector<LightNode>& nodes = table_->nodes().nodes();
+    const std::vector<SurfaceProbe>& probes = table_->probes().probes();
     const bool textured =
         std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.varies(); });
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        const Material& material = *materials_[nodes[n].surface];
-        Spectrum lobe = albedos_->own[nodes[n].surface].white_lobe(),
-                 base = albedos_->own[nodes[n].surface].white_base();
+    for (std::size_t n = 0; n < probes.size(); ++n) {
+        const Material& material = *materials_[probes[n].surface];
+        Spectrum lobe = albedos_->own[probes[n].surface].white_lobe(),
+                 base = albedos_->own[probes[n].surface].white_base();
         if (textured) {
             colors_.push_back(Spectrum{});
             colors_.back().bin.fill(1);
-            if (material.varies()) colors_.back() = bands.spectrum(nodes[n].color);
+            if (material.varies()) colors_.back() = bands.spectrum(probes[n].color);
             base = base * colors_.back();
         }
         lobe = facet_color(n, lobe);
         white_.emplace_back((1 / kPiF) * (base + lobe));
         describe_lobe(n);
     }
-    bounds_ = sphere_about(nodes);
+    bounds_ = sphere_about(probes);
     find_what_throws();
 }
 
 void IrradianceCache::find_what_throws() {
     if (mirrors().empty()) return;
-    const std::vector<LightNode>& nodes = table_->nodes().nodes();
-    throws_sun_.resize(nodes.size());
-    for (std::size_t n = 0; n < nodes.size(); ++n)
+    const std::vector<SurfaceProbe>& probes = table_->probes().probes();
+    throws_sun_.resize(probes.size());
+    for (std::size_t n = 0; n < probes.size(); ++n)
         for (const FlatMirror& mirror : mirrors())
-            if (mirror.surface == nodes[n].surface &&
-                mirror.holds(nodes[n].point_m[0], unpack_normal(nodes[n].geometric[0])))
+            if (mirror.surface == probes[n].surface &&
+                mirror.holds(probes[n].point_m[0], unpack_normal(probes[n].geometric[0])))
                 throws_sun_[n] = 1;
 }
 
 void IrradianceCache::describe_lobe(std::size_t n) {
     const TransferTable& table = *table_;
-    const LightNode& node = table.nodes().nodes()[n];
+    const SurfaceProbe& probe = table.probes().probes()[n];
     const auto of_32767 = [](float x) { return static_cast<std::int16_t>(std::lround(32767 * x)); };
-    LobeNode lobe{};
-    lobe.normal = node.mean_normal;
+    LobeProbe lobe{};
+    lobe.normal = probe.mean_normal;
     lobe.turn = {of_32767(table.turn(n).x), of_32767(table.turn(n).y)};
     lobe.first_entry = table.first_entry(n);
     lobe.entries = static_cast<std::uint16_t>(table.entries(n).size());
     lobe.counted = static_cast<std::uint16_t>(table.counted(n));
     lobe.free = table.free(n)[0];
     lobe.all_free = all_of(table.free(n), table.directions());
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
+    for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p)
         lobe.live = static_cast<std::uint8_t>(lobe.live | table.is_live(n, p) << p);
     // Curved surfaces widen lobes, so that any may be asked for.
     lobe.first_along = kNoLobe;
-    if (materials_[node.surface]->has_facets()) {
+    if (materials_[probe.surface]->has_facets()) {
         lobe.first_along = static_cast<std::uint32_t>(along_);
         along_ += lobe.entries;
     }
@@ -154,16 +154,16 @@ void IrradianceCache::adopt(const InterObjectLinks& links) {
 }
 
 std::size_t IrradianceCache::bytes() const {
-    std::size_t bytes = colors_.size() * sizeof(Spectrum) + lobes_.size() * sizeof(LobeNode) +
+    std::size_t bytes = colors_.size() * sizeof(Spectrum) + lobes_.size() * sizeof(LobeProbe) +
                         throws_sun_.size() + (white_.size() + irradiance_.size()) * sizeof(PackedSpectrum);
     for (const RadiositySolution& term : terms_) bytes += term.bytes();
     return bytes + albedos_->neighbours.bytes() + (links_ ? links_->bytes() : 0);
 }
 
-IrradianceCache::Local IrradianceCache::local(const LobeNode& node) {
+IrradianceCache::Local IrradianceCache::local(const LobeProbe& probe) {
     constexpr float kWhole = 1 / 32767.0f;
-    return {Frame(unpack_normal(node.normal)),
-            {kWhole * static_cast<float>(node.turn[0]), kWhole * static_cast<float>(node.turn[1])}};
+    return {Frame(unpack_normal(probe.normal)),
+            {kWhole * static_cast<float>(probe.turn[0]), kWhole * static_cast<float>(probe.turn[1])}};
 }
 
 }  // namespace hilcam

@@ -1,7 +1,7 @@
 #pragma once
-// The light between the parts of an object, kept from frame to frame at its nodes (probes/light_nodes.h).
+// The light between the parts of an object, kept from frame to frame at its probes (probes/surface_probes.h).
 //
-// For each source there is a term: the irradiance that reaches every node by way of other surfaces, all
+// For each source there is a term: the irradiance that reaches every probe by way of other surfaces, all
 // bounces, for one unit of the source (radiosity_solver.h finds it). A term depends on nothing but the tables, the
 // place of its source in the object's own axes, rounded to a step, and how near objects stand to each other,
 // rounded as well: so frames stay functions of their commands. The light itself (eclipses, the Sun's
@@ -38,22 +38,22 @@ inline constexpr std::size_t kDirectionLanes = 16;
 // normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
-// The albedos of an object's materials, its mirrors, and which of its nodes lie side by side. Objects of one make share it.
+// The albedos of an object's materials, its mirrors, and which of its probes lie side by side. Objects of one make share it.
 struct ObjectAlbedos {
     // mesh: with the object's triangles. min_alpha: of facets as other surfaces see them.
-    ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const LightNodes& nodes,
+    ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const SurfaceProbes& probes,
                   float min_alpha);
 
     std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
     std::vector<FlatMirror> mirrors;  // flat mirrors of the object; whoever looks them up has their sunlight
-    NodeNeighbours neighbours;
+    ProbeNeighbours neighbours;
 };
 
-// A term that is solved: what one source gives to every node, per unit of it.
+// A term that is solved: what one source gives to every probe, per unit of it.
 struct RadiositySolution {
-    // By way of other surfaces; where few directions bring it, the mean with the nodes beside (RadiositySolver::smooth).
+    // By way of other surfaces; where few directions bring it, the mean with the probes beside (RadiositySolver::smooth).
     std::vector<PackedSpectrum> irradiance;
-    // Radiance along each entry of nodes with facets, and along each link; of the Sun only.
+    // Radiance along each entry of probes with facets, and along each link; of the Sun only.
     std::vector<PackedSpectrum> along, along_links;
     std::vector<std::uint8_t> seen;  // share of a cone that is free, of 255
 
@@ -64,7 +64,7 @@ struct RadiositySolution {
 
 class IrradianceCache {
   public:
-    // A sphere that holds all nodes; body axes.
+    // A sphere that holds all probes; body axes.
     struct Bounds {
         Vec3f middle_m;
         float radius_m = 0;
@@ -88,22 +88,22 @@ class IrradianceCache {
         return shown_->levels.front()->triangles[triangle].surface;
     }
     bool is_glass(std::uint16_t surface) const { return materials_[surface]->transmits(); }
-    // True when a node mirrors sunlight, which is not cached: mirrored_suns.h has it.
-    bool throws_sun(std::size_t node) const { return !throws_sun_.empty() && throws_sun_[node] != 0; }
+    // True when a probe mirrors sunlight, which is not cached: mirrored_suns.h has it.
+    bool throws_sun(std::size_t probe) const { return !throws_sun_.empty() && throws_sun_[probe] != 0; }
     bool throws_sun() const { return !throws_sun_.empty(); }
     // All that it reflects, it reflects in a narrow lobe.
     bool is_mirror(std::uint16_t surface) const {
         const Material& m = *materials_[surface];
         return m.ggx_alpha < kMinCachedAlpha && m.is_bare();
     }
-    // A node's direction, body axes.
-    Vec3f direction(std::size_t node, std::size_t d) const {
-        return local(lobes_[node]).body({local_x_[d], local_y_[d], local_z_[d]});
+    // A probe's direction, body axes.
+    Vec3f direction(std::size_t probe, std::size_t d) const {
+        return local(lobes_[probe]).body({local_x_[d], local_y_[d], local_z_[d]});
     }
 
-    // --- nodes, as the solver asks for them
+    // --- probes, as the solver asks for them
 
-    // Node axes.
+    // Probe axes.
     struct Local {
         Frame frame;
         Vec2f turn;
@@ -115,27 +115,27 @@ class IrradianceCache {
             return frame.to_world({turn.x * l.x - turn.y * l.y, turn.y * l.x + turn.x * l.y, l.z});
         }
     };
-    Local axes(std::size_t node) const { return local(lobes_[node]); }
-    // Returns the direction of that number in the axes of every node; zero in z beyond a table's own.
+    Local axes(std::size_t probe) const { return local(lobes_[probe]); }
+    // Returns the direction of that number in the axes of every probe; zero in z beyond a table's own.
     Vec3f local_direction(std::size_t d) const { return {local_x_[d], local_y_[d], local_z_[d]}; }
     const Material& material(std::uint16_t surface) const { return *materials_[surface]; }
     // Returns the albedo of facets that are as wide as lobes of other surfaces find them (min_alpha()).
     const MaterialAlbedo& wide_albedo(std::uint16_t surface) const { return albedos_->wide[surface]; }
-    // Returns what a node reflects over pi of light from everywhere.
-    Spectrum white(std::size_t node) const { return white_[node].unpacked(); }
-    // Returns a spectrum of a node's surface in its texture's colour.
-    Spectrum colored(std::size_t node, const Spectrum& of) const {
-        return colors_.empty() ? of : colors_[node] * of;
+    // Returns what a probe reflects over pi of light from everywhere.
+    Spectrum white(std::size_t probe) const { return white_[probe].unpacked(); }
+    // Returns a spectrum of a probe's surface in its texture's colour.
+    Spectrum colored(std::size_t probe, const Spectrum& of) const {
+        return colors_.empty() ? of : colors_[probe] * of;
     }
-    // Returns a spectrum of a node's facets in its texture's colour, which those have that no body lies below.
+    // Returns a spectrum of a probe's facets in its texture's colour, which those have that no body lies below.
     Spectrum facet_color(std::size_t n, const Spectrum& of) const {
-        const bool colored = !colors_.empty() && materials_[table_->nodes().nodes()[n].surface]->is_bare();
+        const bool colored = !colors_.empty() && materials_[table_->probes().probes()[n].surface]->is_bare();
         return colored ? colors_[n] * of : of;
     }
-    // Number of a node's first entry in RadiositySolution::along, or kNoLobe: it has no facets.
+    // Number of a probe's first entry in RadiositySolution::along, or kNoLobe: it has no facets.
     static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
-    std::uint32_t first_along(std::size_t node) const { return lobes_[node].first_along; }
-    // Number of the entries of all nodes with facets.
+    std::uint32_t first_along(std::size_t probe) const { return lobes_[probe].first_along; }
+    // Number of the entries of all probes with facets.
     std::size_t entries_along() const { return along_; }
 
     // Makes room for what a source of this kind gives; its number. Owner thread.
@@ -143,7 +143,7 @@ class IrradianceCache {
     RadiositySolution make_solution(RadiositySource::Kind kind) const;
     // Takes a term's solution and gives back the one before. Loop, one thread.
     void adopt(std::size_t term, RadiositySolution& solution);
-    // Takes over what the nodes meet of other objects, from now on; `links` outlives this. Loop, one thread.
+    // Takes over what the probes meet of other objects, from now on; `links` outlives this. Loop, one thread.
     void adopt(const InterObjectLinks& links);
 
     // --- lookup. Loop, any thread.
@@ -151,40 +151,40 @@ class IrradianceCache {
     const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_->own[surface]; }
     std::span<const MaterialAlbedo> albedos() const { return albedos_->own; }
     std::span<const FlatMirror> mirrors() const { return albedos_->mirrors; }
-    std::span<const std::uint32_t> neighbours(std::size_t node) const {
-        return albedos_->neighbours.of(node);
+    std::span<const std::uint32_t> neighbours(std::size_t probe) const {
+        return albedos_->neighbours.of(probe);
     }
     // Returns the irradiance by way of other surfaces, per unit of the source.
-    Spectrum irradiance(std::size_t term, const NodesAbout& about) const {
-        return PackedSpectrum::weighted_sum(irradiance_.data() + term, terms_.size(), about.node.data(),
+    Spectrum irradiance(std::size_t term, const ProbeWeights& about) const {
+        return PackedSpectrum::weighted_sum(irradiance_.data() + term, terms_.size(), about.probe.data(),
                                             about.weight.data(), about.count);
     }
-    // The same, at one node.
-    Spectrum irradiance(std::size_t term, std::uint32_t node) const {
-        return irradiance_[node * terms_.size() + term].unpacked();
+    // The same, at one probe.
+    Spectrum irradiance(std::size_t term, std::uint32_t probe) const {
+        return irradiance_[probe * terms_.size() + term].unpacked();
     }
     // Share of a cone's light that comes without a way.
-    float seen(std::size_t term, const NodesAbout& about) const {
+    float seen(std::size_t term, const ProbeWeights& about) const {
         float sum = 0;
         for (std::size_t i = 0; i < about.count; ++i)
-            sum += about.weight[i] * static_cast<float>(terms_[term].seen[about.node[i]]);
+            sum += about.weight[i] * static_cast<float>(terms_[term].seen[about.probe[i]]);
         return sum * (1 / 255.0f);
     }
     // Asks for the memory of what irradiance() and lobe() read.
-    void prefetch(const NodesAbout& about) const {
+    void prefetch(const ProbeWeights& about) const {
         for (std::size_t i = 0; i < about.count; ++i)
-            __builtin_prefetch(&irradiance_[about.node[i] * terms_.size()]);
+            __builtin_prefetch(&irradiance_[about.probe[i] * terms_.size()]);
     }
-    void prefetch_lobe(std::uint32_t node) const { __builtin_prefetch(&lobes_[node]); }
-    void prefetch_along(std::size_t term, std::uint32_t node) const;
-    // A facet lobe about a node's directions, or the tails of one that is narrow: what it finds of the cached
+    void prefetch_lobe(std::uint32_t probe) const { __builtin_prefetch(&lobes_[probe]); }
+    void prefetch_along(std::size_t term, std::uint32_t probe) const;
+    // A facet lobe about a probe's directions, or the tails of one that is narrow: what it finds of the cached
     // light along them. Shares are of what an even sky would give, Fresnel's term left out. normal, view_dir:
     // body axes, unit.
     struct Lobe {
         Spectrum cached;  // mean radiance of the term, times the share that meets it
         // Share of what each cone gives to the whole lobe that comes without a way.
         std::array<float, SkyLight::kMaxBodies> free{1, 1};
-        float of_irradiance = 0;  // radiance of what it meets, times the share, over the node's irradiance
+        float of_irradiance = 0;  // radiance of what it meets, times the share, over the probe's irradiance
         // Number of directions of equal light whose sum would vary as much as that of what `cached` is made of: the
         // square of the sum over the sum of squares (Kish, Survey Sampling, 1965, section 8.2). 0: nothing is cached.
         float directions = 0;
@@ -194,19 +194,19 @@ class IrradianceCache {
         float cosine;
     };
     static constexpr std::size_t kNoTerm = ~std::size_t{0};
-    Lobe lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t node, Vec3f normal, Vec3f view_dir,
+    Lobe lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t probe, Vec3f normal, Vec3f view_dir,
               float alpha) const;
     // The same of a solution, and of links, that need not be those that are shown; null: there are none.
     Lobe lobe(const RadiositySolution* sun, const InterObjectLinks* links, std::span<const Cone> cones,
-              std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
+              std::uint32_t probe, Vec3f normal, Vec3f view_dir, float alpha) const;
     static constexpr float kNear = 0.88f;  // cosine of 28 degrees: further than the next direction
-    // True when anything stands near a direction from a node, within the angle of that cosine.
-    bool is_near(std::uint32_t node, Vec3f dir) const;
+    // True when anything stands near a direction from a probe, within the angle of that cosine.
+    bool is_near(std::uint32_t probe, Vec3f dir) const;
     std::size_t bytes() const;
 
   private:
-    // The values of a node that lookups of lobes read, side by side.
-    struct alignas(32) LobeNode {
+    // The values of a probe that lookups of lobes read, side by side.
+    struct alignas(32) LobeProbe {
         std::uint32_t normal;              // packed
         std::array<std::int16_t, 2> turn;  // the turn in units of 1 / 32767
         std::uint32_t first_entry;
@@ -216,7 +216,7 @@ class IrradianceCache {
         std::uint8_t live;  // bits by point
         bool all_free;
     };
-    static_assert(sizeof(LobeNode) == 32);
+    static_assert(sizeof(LobeProbe) == 32);
 
     const ShownObject* shown_;
     std::shared_ptr<const TransferTable> table_;
@@ -229,19 +229,19 @@ class IrradianceCache {
     static constexpr std::size_t kMaxDirections = 256;
     std::vector<float> local_x_, local_y_, local_z_;
     std::vector<float> per_cosine_;         // one over local_z_, or 0
-    std::vector<Spectrum> colors_;          // by node where there are textures; else empty
-    std::vector<PackedSpectrum> white_;     // by node: albedo over pi
-    std::vector<LobeNode> lobes_;           // by node
-    std::vector<std::uint8_t> throws_sun_;  // by node; empty: none does
+    std::vector<Spectrum> colors_;          // by probe where there are textures; else empty
+    std::vector<PackedSpectrum> white_;     // by probe: albedo over pi
+    std::vector<LobeProbe> lobes_;          // by probe
+    std::vector<std::uint8_t> throws_sun_;  // by probe; empty: none does
     std::size_t along_ = 0;
     std::vector<RadiositySolution> terms_;    // their irradiance is in the next
-    std::vector<PackedSpectrum> irradiance_;  // by node and term
+    std::vector<PackedSpectrum> irradiance_;  // by probe and term
 
-    static Local local(const LobeNode& node);
-    void describe_lobe(std::size_t node);
+    static Local local(const LobeProbe& probe);
+    void describe_lobe(std::size_t probe);
     void find_what_throws();
     template <class Visit>
-    void for_each_met(std::size_t node, const Visit& visit) const;
+    void for_each_met(std::size_t probe, const Visit& visit) const;
 };
 
 }  // namespace hilcam

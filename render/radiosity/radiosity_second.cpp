@@ -18,12 +18,12 @@ void RadiositySolver::part_lobes(const Member& member) {
     const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
     const bool keeps_along = member.source.kind == RadiositySource::Kind::kSun;
-    for_nodes(light.table().size(), [&](const Nodes& r) {
+    for_probes(light.table().size(), [&](const Probes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             sends_on_[base + n] = 0, by_lobes_[base + n] = {};
             if (!keeps_along || light.first_along(n) == IrradianceCache::kNoLobe) continue;
             const Spectrum came = light.throws_sun() ? unmirrored(first_, base + n) : first_[base + n];
-            const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
+            const std::uint16_t surface = light.table().probes().probes()[n].surface;
             const Spectrum sent =
                 (1 / kPiF) * (light.facet_color(n, light.albedo(surface).white_lobe()) * came);
             if (largest(sent) < kWorthIt) continue;
@@ -32,16 +32,16 @@ void RadiositySolver::part_lobes(const Member& member) {
     });
 }
 
-// Numbers what facets will have of the lobes of others, by node in order.
+// Numbers what facets will have of the lobes of others, by probe in order.
 std::size_t RadiositySolver::number_second(const Member& member) {
     const IrradianceCache& light = *lights_[member.object];
     const std::uint8_t* const sends = sends_on_.data() + senders_.first(member.object);
     std::uint32_t* const first = first_second_.data() + senders_.first(member.object);
-    for_nodes(light.table().size(), [&](const Nodes& r) {
+    for_probes(light.table().size(), [&](const Probes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             first[n] = 0;
             if (light.first_along(n) != IrradianceCache::kNoLobe)
-                for (const TransferTable::Entry e : light.table().entries(n)) first[n] += sends[e.node];
+                for (const TransferTable::Entry e : light.table().entries(n)) first[n] += sends[e.probe];
         }
     });
     if (tbb::is_current_task_group_canceling()) return 0;  // not all are counted
@@ -64,15 +64,15 @@ void RadiositySolver::gather_second(const Member& member) {
     if (const std::size_t count = number_second(member); count > along.size()) along.resize(count);
     // The golden section of 2^32, so that a place's points take turns (Schretter et al., Journal of Graphics Tools 16(2), 2012).
     constexpr std::uint32_t kGolden = 0x9E3779B9;
-    for_nodes(table.size(), [&](const Nodes& r) {
+    for_probes(table.size(), [&](const Probes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const bool has_facets = light.first_along(n) != IrradianceCache::kNoLobe;
             std::size_t to = first_second_[base + n];
             Spectrum sum;
             for (const TransferTable::Entry e : table.entries(n)) {
-                if (!sends_on_[base + e.node]) continue;
+                if (!sends_on_[base + e.probe]) continue;
                 const float choice = uniform01(kGolden * static_cast<std::uint32_t>(n + e.direction));
-                const Spectrum sent = sent_on(member, e.node, choice, -light.direction(n, e.direction));
+                const Spectrum sent = sent_on(member, e.probe, choice, -light.direction(n, e.direction));
                 if (has_facets) along[to++] = PackedSpectrum(sent);
                 sum += sent;
             }
@@ -81,27 +81,27 @@ void RadiositySolver::gather_second(const Member& member) {
     });
 }
 
-// The radiance that a node's facets send in a direction of what has come to it by one way. One of its points stands for all of
+// The radiance that a probe's facets send in a direction of what has come to it by one way. One of its points stands for all of
 // them, as often as it is seen from there. choice: 0 to 1.
 Spectrum RadiositySolver::sent_on(const Member& member, std::size_t n, float choice, Vec3f to) const {
     const IrradianceCache& light = *lights_[member.object];
-    const LightNode& node = light.table().nodes().nodes()[n];
-    std::array<float, LightNode::kPoints> facing{};
+    const SurfaceProbe& probe = light.table().probes().probes()[n];
+    std::array<float, SurfaceProbe::kPoints> facing{};
     float all = 0;
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-        if (light.table().is_live(n, p)) facing[p] = std::max(0.0f, dot(unpack_normal(node.normal[p]), to));
+    for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p) {
+        if (light.table().is_live(n, p)) facing[p] = std::max(0.0f, dot(unpack_normal(probe.normal[p]), to));
         all += facing[p];
     }
     if (!(all > 0)) return {};
     std::size_t p = 0;
     float rest = choice * all;
-    for (std::size_t i = 0; i < LightNode::kPoints && rest >= 0; rest -= facing[i++])
+    for (std::size_t i = 0; i < SurfaceProbe::kPoints && rest >= 0; rest -= facing[i++])
         if (facing[i] > 0) p = i;
     const float alpha =
-        std::max(light.material(node.surface).ggx_alpha, IrradianceCache::min_alpha(light.table()));
+        std::max(light.material(probe.surface).ggx_alpha, IrradianceCache::min_alpha(light.table()));
     const IrradianceCache::Lobe lobe = light.lobe(member.out, member.links, {}, static_cast<std::uint32_t>(n),
-                                                  unpack_normal(node.normal[p]), to, alpha);
-    return light.facet_color(n, light.albedo(node.surface).lobe(facing[p])) * lobe.cached;
+                                                  unpack_normal(probe.normal[p]), to, alpha);
+    return light.facet_color(n, light.albedo(probe.surface).lobe(facing[p])) * lobe.cached;
 }
 
 }  // namespace hilcam

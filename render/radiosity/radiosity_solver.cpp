@@ -13,7 +13,7 @@ namespace hilcam {
 namespace {
 
 // The lobe of a sender's facets towards one that gathers: of its points, as each leans and as much as it is seen.
-void add_lobe(const NodeSender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
+void add_lobe(const ProbeSender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
     const float io = -dot(dir, source_dir);
     const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f)), ih = 0.5f / inverse;
     float sum = 0, seen = 0;
@@ -41,7 +41,7 @@ Spectrum at_least_zero(Spectrum s) {
 }
 
 // Returns the direction in which a source is seen from an object. A lamp is taken as seen from its middle: it
-// differs by node, but little.
+// differs by probe, but little.
 Vec3f direction_to(const RadiositySource& source) {
     const bool lamp = source.kind == RadiositySource::Kind::kLamp && length(source.position_m) > 0;
     return lamp ? normalized(source.position_m) : source.dir;
@@ -51,17 +51,17 @@ Vec3f direction_to(const RadiositySource& source) {
 
 RadiositySolver::RadiositySolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
     : lights_(lights.begin(), lights.end()), senders_(lights, scene) {
-    const std::size_t nodes = senders_.count();
-    radiosity_.resize(nodes), brought_.resize(nodes), first_.resize(nodes), sends_on_.resize(nodes),
-        by_lobes_.resize(nodes), second_.resize(nodes), first_second_.resize(nodes), now_.resize(nodes),
-        before_.resize(nodes);
+    const std::size_t probes = senders_.count();
+    radiosity_.resize(probes), brought_.resize(probes), first_.resize(probes), sends_on_.resize(probes),
+        by_lobes_.resize(probes), second_.resize(probes), first_second_.resize(probes), now_.resize(probes),
+        before_.resize(probes);
     // Addresses for the most there can be; pages are taken as they are needed.
     second_along_.resize(lights_.size());
     for (std::size_t i = 0; i < lights_.size(); ++i)
         if (lights_[i]) second_along_[i].reserve(lights_[i]->entries_along());
     if (std::any_of(lights_.begin(), lights_.end(),
                     [](const IrradianceCache* light) { return light && light->throws_sun(); }))
-        mirrored_.resize(nodes);
+        mirrored_.resize(probes);
 }
 
 Spectrum RadiositySolver::unmirrored(const std::vector<Spectrum>& irradiance, std::size_t n) const {
@@ -92,9 +92,10 @@ void RadiositySolver::gather_first(const Member& member, std::span<const Member>
     };
     const auto is_narrow = [&](const InterObjectLinks::Link& link) {
         const IrradianceCache& other = *lights_[link.object];
-        return other.material(other.table().nodes().nodes()[link.node].surface).ggx_alpha < kMinCachedAlpha;
+        return other.material(other.table().probes().probes()[link.probe].surface).ggx_alpha <
+               kMinCachedAlpha;
     };
-    for_nodes(table.size(), [&](const Nodes& r) {
+    for_probes(table.size(), [&](const Probes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const std::uint32_t first_along = light.first_along(n);
             PackedSpectrum* along = keeps_along && first_along != IrradianceCache::kNoLobe
@@ -110,22 +111,22 @@ void RadiositySolver::gather_first(const Member& member, std::span<const Member>
                 brought += {bright, bright * bright};
             };
             for (const TransferTable::Entry e : table.entries(n)) {
-                if (!senders_.shines(base + e.node)) {
+                if (!senders_.shines(base + e.probe)) {
                     if (along) *along++ = {};
                     continue;
                 }
-                const NodeSender& from = senders_[base + e.node];
+                const ProbeSender& from = senders_[base + e.probe];
                 Spectrum radiance = from.diffuse.unpacked();
                 if (from.alpha > 0)
                     add_lobe(from, direction(e.direction), source_dir,
-                             keeps_along && light.throws_sun(e.node) ? mirrored : radiance);
+                             keeps_along && light.throws_sun(e.probe) ? mirrored : radiance);
                 if (along) *along++ = PackedSpectrum(radiance);
                 add(radiance);
             }
             const std::span<const InterObjectLinks::Link> links = member.links->of(n);
             for (std::size_t i = 0; i < links.size(); ++i) {
                 const InterObjectLinks::Link& link = links[i];
-                const NodeSender& from = senders_[senders_.first(link.object) + link.node];
+                const ProbeSender& from = senders_[senders_.first(link.object) + link.probe];
                 Spectrum radiance = from.diffuse.unpacked();
                 // A mirror's light is too sharp for directions to find it far away, and blurred it falls
                 // where none is.
@@ -155,7 +156,7 @@ void RadiositySolver::bounce(std::span<const Member> group) {
         for (const Member& member : group) {
             const IrradianceCache& light = *lights_[member.object];
             const std::size_t base = senders_.first(member.object);
-            tbb::parallel_for(Nodes(0, light.table().size(), 4096), [&](const Nodes& r) {
+            tbb::parallel_for(Probes(0, light.table().size(), 4096), [&](const Probes& r) {
                 for (std::size_t n = r.begin(); n < r.end(); ++n)
                     radiosity_[base + n] =
                         at_least_zero(light.white(n) * now_[base + n] + -1.0f * by_lobes_[base + n]);
@@ -173,7 +174,7 @@ void RadiositySolver::bounce(std::span<const Member> group) {
         for (const Member& member : group) {
             const std::size_t base = senders_.first(member.object);
             tbb::parallel_for(
-                Nodes(base, base + lights_[member.object]->table().size(), 4096), [&](const Nodes& r) {
+                Probes(base, base + lights_[member.object]->table().size(), 4096), [&](const Probes& r) {
                     for (std::size_t n = r.begin(); n < r.end(); ++n)
                         for (int b = 0; b < kMaxBins; ++b)
                             now_[n][b] +=
@@ -191,11 +192,11 @@ RadiositySolver::Progress RadiositySolver::gather_again(const Member& member) {
     const std::size_t base = senders_.first(member.object);
     // Sums that do not depend on how the work was shared out.
     return tbb::parallel_deterministic_reduce(
-        Nodes(0, table.size(), kBlock), Progress{},
-        [&](const Nodes& r, Progress sum) {
+        Probes(0, table.size(), kBlock), Progress{},
+        [&](const Probes& r, Progress sum) {
             for (std::size_t n = r.begin(); n < r.end(); ++n) {
                 Spectrum met;
-                for (const TransferTable::Entry e : table.entries(n)) met += radiosity_[base + e.node];
+                for (const TransferTable::Entry e : table.entries(n)) met += radiosity_[base + e.probe];
                 for (const InterObjectLinks::Link& link : member.links->of(n)) met += radiosity_to(link);
                 const Spectrum next = first_[base + n] + second_[base + n] +
                                       (kPiF / static_cast<float>(table.counted(n))) * met;
@@ -214,8 +215,8 @@ RadiositySolver::Progress RadiositySolver::gather_again(const Member& member) {
         });
 }
 
-// Leaves what the nodes keep in before_. A node's directions are too few to tell how much of a small bright part it
-// sees: one of sixty meets a lit rim, and the next node's none. Where that is so, a node and those beside it have
+// Leaves what the probes keep in before_. A probe's directions are too few to tell how much of a small bright part it
+// sees: one of sixty meets a lit rim, and the next probe's none. Where that is so, a probe and those beside it have
 // their mean, the more so the fewer directions of equal light their sum hangs on (Kish's effective size of a weighted
 // sample, Survey Sampling, 1965, section 8.2). What many directions see is left as sharp as it is, and so is what has
 // come by further bounces alone.
@@ -225,14 +226,14 @@ void RadiositySolver::smooth(const Member& member) {
     const std::size_t base = senders_.first(member.object);
     const bool subtract = member.source.kind == RadiositySource::Kind::kSun && light.throws_sun();
     const auto cached = [&](std::size_t n) { return subtract ? unmirrored(now_, base + n) : now_[base + n]; };
-    for_nodes(light.table().size(), [&](const Nodes& r) {
+    for_probes(light.table().size(), [&](const Probes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             const std::span<const std::uint32_t> beside = light.neighbours(n);
             const auto count = static_cast<float>(beside.size() + 1);
             Brought brought = brought_[base + n];
             Spectrum sum = cached(n);
             for (const std::uint32_t other : beside) brought += brought_[base + other], sum += cached(other);
-            // They are counted over all of these nodes, of which each has its part.
+            // They are counted over all of these probes, of which each has its part.
             const float directions =
                 brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kMany;
             const float share = kFew / (kFew + directions);
@@ -249,15 +250,15 @@ void RadiositySolver::store(const Member& member) {
     const auto add_to = [](PackedSpectrum& sum, const Spectrum& more) {
         sum = PackedSpectrum(sum.unpacked() + more);
     };
-    for_nodes(light.table().size(), [&](const Nodes& r) {
+    for_probes(light.table().size(), [&](const Probes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             out.irradiance[n] = PackedSpectrum(before_[base + n]);
             if (!keeps_along) continue;
             std::size_t to = light.first_along(n), second = first_second_[base + n];
             if (to != IrradianceCache::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n)) {
-                    Spectrum more = radiosity_[base + e.node];
-                    if (sends_on_[base + e.node]) more += second_along_[member.object][second++].unpacked();
+                    Spectrum more = radiosity_[base + e.probe];
+                    if (sends_on_[base + e.probe]) more += second_along_[member.object][second++].unpacked();
                     add_to(out.along[to++], more);
                 }
             std::size_t link_to = member.links->empty() ? 0 : member.links->first(n);

@@ -56,15 +56,15 @@ struct RadiositySource {
     RadiositySource rounded(float step_rad) const;
 };
 
-// The share of a cone of light in each of a node's directions: those within it whole, and those beside it by
+// The share of a cone of light in each of a probe's directions: those within it whole, and those beside it by
 // falling weights, so far that there are half a dozen: of all directions, sin^2 of a cone's half angle times
 // the cosine of its axis are in it.
 struct ConeShare {
-    Vec3f axis{0, 0, 1};  // node axes
+    Vec3f axis{0, 0, 1};  // probe axes
     float inside = 1, outside = 1;
 
     ConeShare() = default;
-    ConeShare(Vec3f node_axis, float cone_cosine, int directions) : axis(node_axis), inside(cone_cosine) {
+    ConeShare(Vec3f probe_axis, float cone_cosine, int directions) : axis(probe_axis), inside(cone_cosine) {
         constexpr float kEnough = 6, kMinCosine = 0.25f, kSoft_rad = 0.05f;
         const float share = kEnough / (static_cast<float>(directions) * std::max(axis.z, kMinCosine));
         const float half_angle = std::acos(std::clamp(cone_cosine, -1.0f, 1.0f));

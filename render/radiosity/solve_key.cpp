@@ -107,7 +107,7 @@ void SolveKey::set(const SolveInputs& inputs, std::span<const IrradianceCache* c
             if (k == i || !lights[k]) continue;
             // A step of the turn moves what is met by as much as two of the Sun's move its light.
             const NeighbourObject there = NeighbourObject::rounded(
-                pose, inputs.objects[k], k, 2 * step_rad, 0.5f * lights[k]->table().nodes().cube_m());
+                pose, inputs.objects[k], k, 2 * step_rad, 0.5f * lights[k]->table().probes().cube_m());
             if (!is_near(*lights[i], *lights[k], there)) continue;
             near[i].push_back(there);
             const std::uint32_t from = std::max(group[i], group[k]), to = std::min(group[i], group[k]);

@@ -140,7 +140,7 @@ SceneObject paint_and_bar(const SpectralGrid& grid) {
 double light_beside_bar(const char* model, int samples, std::size_t places = 3000) {
     constexpr std::size_t kSize_px = 48;
     Stage s = stage_above(model, 4, samples, kSize_px);
-    s.kept.nodes = places;
+    s.transfer.probes = places;
     s.add(paint_and_bar(s.grid), {0, 0, 4});
     s.sun({-1, 0, -3});
     s.render();

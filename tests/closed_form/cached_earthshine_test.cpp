@@ -196,7 +196,7 @@ TEST(IrradianceCache, TheGapsBetweenTilesAreLit) {
         s.quality.samples_per_axis = 8;
         s.quality.contribution_threshold = 0;
         s.quality.rays_across = 0;
-        s.kept.nodes = 300;
+        s.transfer.probes = 300;
         s.camera(64, 0.3);
         std::vector<Vec3f> v = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
         std::vector<std::array<std::uint32_t, 3>> t = {{0, 1, 2}, {0, 2, 3}};

@@ -1,4 +1,4 @@
-// What the places of cached light meet (transfer_table.h): nothing that has no light, and of what has some the share that
+// What the surface probes meet (transfer_table.h): nothing that has no light, and of what has some the share that
 // formulas say.
 
 #include "render/probes/transfer_table.h"
@@ -25,12 +25,12 @@ TEST(TransferTable, LeavesOutWhatNoLightReaches) {
     EXPECT_EQ(outside.entries(), 0u);
     EXPECT_NEAR(static_cast<double>(both.size()) / static_cast<double>(outside.size()), 2, 0.1);
     EXPECT_TRUE(outside.is_whole() && both.is_whole());
-    NodesAbout about;
-    EXPECT_TRUE(outside.nodes().find({0.5f, 0.1f, 0.2f}, {{1, 0, 0}, 0, false}, about));
+    ProbeWeights about;
+    EXPECT_TRUE(outside.probes().find({0.5f, 0.1f, 0.2f}, {{1, 0, 0}, 0, false}, about));
     EXPECT_GT(about.count, 0);
-    EXPECT_TRUE(outside.nodes().find({0.5f, 0.1f, 0.2f}, {{-1, 0, 0}, 0, true}, about));
+    EXPECT_TRUE(outside.probes().find({0.5f, 0.1f, 0.2f}, {{-1, 0, 0}, 0, true}, about));
     EXPECT_EQ(about.count, 0);
-    EXPECT_FALSE(outside.nodes().find({3, 3, 3}, {{1, 0, 0}, 0, false}, about));
+    EXPECT_FALSE(outside.probes().find({3, 3, 3}, {{1, 0, 0}, 0, false}, about));
 }
 
 // Two parallel squares a side apart: each sends the other 0.1998 of what leaves it (Howell, Menguc & Siegel,
@@ -42,7 +42,7 @@ TEST(TransferTable, ParallelSquaresMeetTheirViewFactor) {
                   {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}}, lambert(0.5), grid);
     for (const int directions : {16, 60, 256}) {
         const TransferTable table(plates.mesh, std::vector<std::uint8_t>(1), {directions, 3000, false});
-        // Entries belong to the inner sides alone, which are half of the nodes.
+        // Entries belong to the inner sides alone, which are half of the probes.
         const double factor =
             static_cast<double>(table.entries()) / (0.5 * static_cast<double>(table.size()) * directions);
         EXPECT_NEAR(factor / 0.1998, 1, directions == 16 ? 0.06 : 0.04) << directions;
@@ -83,9 +83,9 @@ TEST(TransferTable, PlacesSideBySideLookElsewhere) {
     constexpr int kAcross = 20;
     std::vector<double> met(kAcross * kAcross), expected(kAcross * kAcross);
     for (std::size_t n = 0; n < table.size(); ++n) {
-        const LightNode& node = table.nodes().nodes()[n];
-        const Vec3f place_m = node.point_m[0];
-        if (place_m.z > 0.5f || unpack_normal(node.mean_normal).z < 0.5f) continue;
+        const SurfaceProbe& probe = table.probes().probes()[n];
+        const Vec3f place_m = probe.point_m[0];
+        if (place_m.z > 0.5f || unpack_normal(probe.mean_normal).z < 0.5f) continue;
         const auto column = static_cast<std::size_t>((place_m.x + 2) * 5),
                    row = static_cast<std::size_t>((place_m.y + 2) * 5);
         const std::size_t at =

@@ -121,7 +121,7 @@ class Stage {
     SpectralGrid grid{{0.5, 0.6, 0.7}};
     ImageGeometry geometry{32, 32, 4, 32, {}};
     RenderQuality quality;
-    TransferSettings kept{.nodes = 3000, .enclosed = true};
+    TransferSettings transfer{.probes = 3000, .enclosed = true};
     Scene scene;
     WorldSnapshot world;
     RadianceImage radiance{40, 40, 2};
@@ -146,7 +146,7 @@ class Stage {
     void add(SceneObject object, Vec3d position, Vec3d rotation = {kPi, 0, 0}) {
         if (quality.path_model == "kept")
             object.transfer = std::make_shared<const TransferTable>(
-                object.mesh, std::vector<std::uint8_t>(object.mesh.surfaces.size()), kept);
+                object.mesh, std::vector<std::uint8_t>(object.mesh.surfaces.size()), transfer);
         scene.objects.push_back(std::move(object));
         world.objects.push_back({position, from_rotation_vector(rotation)});
     }

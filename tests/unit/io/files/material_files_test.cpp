@@ -278,18 +278,19 @@ TEST_F(MaterialFiles, OneTransferTableServesAMeshInAllSizes) {
         const TransferTable own(large, glass, settings);
         ASSERT_EQ(scaled->size(), own.size()) << scale;
         EXPECT_EQ(scaled->entries(), own.entries()) << scale;
-        EXPECT_NEAR(scaled->nodes().cube_m(), own.nodes().cube_m(), 1e-5f * own.nodes().cube_m()) << scale;
+        EXPECT_NEAR(scaled->probes().cube_m(), own.probes().cube_m(), 1e-5f * own.probes().cube_m()) << scale;
         for (std::size_t n = 0; n < own.size(); ++n)
-            for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-                const Vec3f off = scaled->nodes().nodes()[n].point_m[p] - own.nodes().nodes()[n].point_m[p];
+            for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p) {
+                const Vec3f off =
+                    scaled->probes().probes()[n].point_m[p] - own.probes().probes()[n].point_m[p];
                 EXPECT_LT(length(off), 1e-5f * scale) << scale << ", node " << n;
             }
         // Each finds its own places.
         std::size_t found = 0;
-        for (const LightNode& node : own.nodes().nodes()) {
-            NodesAbout about;
-            found += scaled->nodes().find(node.point_m[0],
-                                          {unpack_normal(node.geometric[0]), node.surface, false}, about);
+        for (const SurfaceProbe& probe : own.probes().probes()) {
+            ProbeWeights about;
+            found += scaled->probes().find(probe.point_m[0],
+                                           {unpack_normal(probe.geometric[0]), probe.surface, false}, about);
         }
         EXPECT_GT(found, own.size() / 3) << scale;
     }

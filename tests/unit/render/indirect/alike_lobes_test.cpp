@@ -56,15 +56,15 @@ TEST(AlikeLobes, KeepTheLastOfAnyNumber) {
     const Material material{};
     const ShadingPoint at = vertex_of(material);
     AlikeLobes<int> lobes;
-    for (std::uint32_t node = 1; node <= 3000; ++node) {
-        EXPECT_EQ(lobes.keep(at, node, static_cast<int>(node)), static_cast<int>(node));
-        ASSERT_NE(lobes.find(at, node), nullptr);
-        EXPECT_EQ(*lobes.find(at, node), static_cast<int>(node));
+    for (std::uint32_t probe = 1; probe <= 3000; ++probe) {
+        EXPECT_EQ(lobes.keep(at, probe, static_cast<int>(probe)), static_cast<int>(probe));
+        ASSERT_NE(lobes.find(at, probe), nullptr);
+        EXPECT_EQ(*lobes.find(at, probe), static_cast<int>(probe));
     }
     int kept = 0;
-    for (std::uint32_t node = 1; node <= 3000; ++node)
-        if (const int* value = lobes.find(at, node)) {
-            EXPECT_EQ(*value, static_cast<int>(node));
+    for (std::uint32_t probe = 1; probe <= 3000; ++probe)
+        if (const int* value = lobes.find(at, probe)) {
+            EXPECT_EQ(*value, static_cast<int>(probe));
             ++kept;
         }
     EXPECT_GT(kept, 200);

@@ -23,7 +23,7 @@ TEST(ProbeView, RaysMeetWhatStandsInTheirWay) {
     constexpr float kEdge_m = 0.01f;
     std::size_t met = 0, free = 0;
     for (std::size_t n = 0; n < table.size(); ++n) {
-        const LightNode& probe = table.nodes().nodes()[n];
+        const SurfaceProbe& probe = table.probes().probes()[n];
         if (probe.point_m[0].z > 0.5f || unpack_normal(probe.mean_normal).z < 0) continue;
         const std::vector<ProbeRay> rays = rays_of(table, n);
         ASSERT_EQ(rays.size(), 60u);
@@ -33,8 +33,8 @@ TEST(ProbeView, RaysMeetWhatStandsInTheirWay) {
             const Vec3f at = from + (1 - from.z) / ray.dir.z * ray.dir;
             if (is_in(at.x, kEdge_m, 1 - kEdge_m) && is_in(at.y, kEdge_m, 1 - kEdge_m)) {
                 ASSERT_EQ(ray.meets, ProbeMeets::kProbe) << n;
-                const Vec3f point = table.nodes().nodes()[ray.probe].point_m[0];
-                EXPECT_LT(length(point - at), 2.5f * table.nodes().cube_m()) << n;
+                const Vec3f point = table.probes().probes()[ray.probe].point_m[0];
+                EXPECT_LT(length(point - at), 2.5f * table.probes().cube_m()) << n;
                 ++met;
             } else if (!is_in(at.x, -kEdge_m, 1 + kEdge_m) || !is_in(at.y, -kEdge_m, 1 + kEdge_m)) {
                 ASSERT_EQ(ray.meets, ProbeMeets::kNothing) << n;

@@ -1,4 +1,4 @@
-#include "render/probes/light_nodes.h"
+#include "render/probes/surface_probes.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <tuple>
 
-#include "render/probes/light_cells.h"
-#include "render/probes/node_maker.h"
+#include "render/probes/probe_cells.h"
+#include "render/probes/probe_maker.h"
 #include "render/vocabulary/mixed_bits.h"
 
 namespace hilcam {
@@ -65,8 +65,8 @@ std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
 
 }  // namespace
 
-LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
-                       const Openness& openness, const Sight& sight) {
+SurfaceProbes::SurfaceProbes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
+                             const Openness& openness, const Sight& sight) {
     const MeshExtent extent = extent_of(mesh, keeps);
     if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
     const Vec3f size = extent.most - extent.least;
@@ -112,7 +112,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
             corners[uses[i].cell][uses[i].corner] = static_cast<std::uint32_t>(sets.size() - 1);
     }
     cells_.resize(cells.size());
-    make_nodes(sets, NodeMaker(mesh, {corner_m_, cube_m_}, cells, sight));
+    make_probes(sets, ProbeMaker(mesh, {corner_m_, cube_m_}, cells, sight));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         take(corners[i], cells_[i]);
         cells_[i].lowest = cells[i].lowest, cells_[i].highest = cells[i].highest;
@@ -124,34 +124,34 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     index(keys);
 }
 
-void LightNodes::make_nodes(std::span<const CellSet> sets, const NodeMaker& maker) {
-    std::vector<MadeNode> made(sets.size());
+void SurfaceProbes::make_probes(std::span<const CellSet> sets, const ProbeMaker& maker) {
+    std::vector<MadeProbe> made(sets.size());
     tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t i) { made[i] = maker.make(sets[i], i); });
-    for (const MadeNode& one : made) nodes_.push_back(one.node);
+    for (const MadeProbe& one : made) probes_.push_back(one.probe);
     for (std::size_t i = 0; i < made.size(); ++i) {
         if (!made[i].division) continue;
         pairs_.push_back(
-            {*made[i].division, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(nodes_.size())});
-        nodes_.push_back(made[i].above);
+            {*made[i].division, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(probes_.size())});
+        probes_.push_back(made[i].above);
     }
 }
 
-// Gives a cell the nodes of its corners.
-void LightNodes::take(const std::array<std::uint32_t, 8>& of_corner, Cell& cell) const {
+// Gives a cell the probes of its corners.
+void SurfaceProbes::take(const std::array<std::uint32_t, 8>& of_corner, Cell& cell) const {
     cell.take(of_corner);
     cell.divided = 0;
     for (std::size_t i = 0; i < cell.count; ++i)
-        if (pair(cell.node[i])) cell.divided = static_cast<std::uint16_t>(cell.divided | 1u << i);
+        if (pair(cell.probe[i])) cell.divided = static_cast<std::uint16_t>(cell.divided | 1u << i);
 }
 
-// Null: the node is no pair's.
-const LightNodes::Pair* LightNodes::pair(std::uint32_t node) const {
-    const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), node,
+// Null: the probe is no pair's.
+const SurfaceProbes::Pair* SurfaceProbes::pair(std::uint32_t probe) const {
+    const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), probe,
                                      [](const Pair& p, std::uint32_t name) { return p.name() < name; });
-    return at != pairs_.end() && at->name() == node ? &*at : nullptr;
+    return at != pairs_.end() && at->name() == probe ? &*at : nullptr;
 }
 
-void LightNodes::index(std::span<const std::uint64_t> keys) {
+void SurfaceProbes::index(std::span<const std::uint64_t> keys) {
     slots_.assign(std::bit_ceil(2 * keys.size() + 1), {});
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t i = 0, first = 0; i < keys.size(); first = i) {
@@ -162,7 +162,7 @@ void LightNodes::index(std::span<const std::uint64_t> keys) {
     }
 }
 
-const LightNodes::Slot* LightNodes::slot(std::uint64_t key) const {
+const SurfaceProbes::Slot* SurfaceProbes::slot(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t at = mixed(key) & mask; slots_[at].key != Slot::kNone; at = (at + 1) & mask)
         if (slots_[at].key == key) return &slots_[at];
@@ -170,7 +170,7 @@ const LightNodes::Slot* LightNodes::slot(std::uint64_t key) const {
 }
 
 // The layer next to a place.
-const LightNodes::Cell* LightNodes::cell(const Slot& slot, Vec3f at) const {
+const SurfaceProbes::Cell* SurfaceProbes::cell(const Slot& slot, Vec3f at) const {
     const Cell* best = &cells_[slot.cell];
     if (slot.layers == 1) return best;
     const float height = height_of(kind_in(slot.key), at);
@@ -179,7 +179,7 @@ const LightNodes::Cell* LightNodes::cell(const Slot& slot, Vec3f at) const {
     return best;
 }
 
-LightNodes::Search LightNodes::begin(Vec3f point_m, const SurfaceSide& side) const {
+SurfaceProbes::Search SurfaceProbes::begin(Vec3f point_m, const SurfaceSide& side) const {
     Search search;
     search.at = (point_m - corner_m_) / cube_m_;
     search.cube = CubeGrid{corner_m_, cube_m_}.cube(point_m);
@@ -188,7 +188,7 @@ LightNodes::Search LightNodes::begin(Vec3f point_m, const SurfaceSide& side) con
     return search;
 }
 
-void LightNodes::open(Search& search) const {
+void SurfaceProbes::open(Search& search) const {
     if (slots_.empty()) return;
     if (const Slot* found = slot(search.key)) search.cell = cell(*found, search.at);
     // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little
@@ -200,7 +200,7 @@ void LightNodes::open(Search& search) const {
     __builtin_prefetch(reinterpret_cast<const std::byte*>(search.cell + 1) - 1);
 }
 
-void LightNodes::take_neighbour(Search& search) const {
+void SurfaceProbes::take_neighbour(Search& search) const {
     float nearest = INFINITY;
     const Cube cube = search.cube;
     for (int i = 0; i < 27; ++i) {
@@ -216,7 +216,7 @@ void LightNodes::take_neighbour(Search& search) const {
     }
 }
 
-bool LightNodes::finish(const Search& search, NodesAbout& about) const {
+bool SurfaceProbes::finish(const Search& search, ProbeWeights& about) const {
     about.count = 0;
     if (!search.cell) return false;
     const Cell& cell = *search.cell;
@@ -230,9 +230,9 @@ bool LightNodes::finish(const Search& search, NodesAbout& about) const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < cell.count; ++i) {
         const bool divided = (static_cast<unsigned>(cell.divided) >> i & 1u) != 0;
-        const std::uint32_t node = divided ? on_side(*pair(cell.node[i]), search.at) : cell.node[i];
-        if (node == kClosed) continue;
-        about.node[count] = node, about.weight[count++] = weight[i];
+        const std::uint32_t probe = divided ? on_side(*pair(cell.probe[i]), search.at) : cell.probe[i];
+        if (probe == kClosed) continue;
+        about.probe[count] = probe, about.weight[count++] = weight[i];
         sum += weight[i];
     }
     if (!(sum > 0)) return true;
@@ -242,30 +242,30 @@ bool LightNodes::finish(const Search& search, NodesAbout& about) const {
 }
 
 // The one of a pair for a place; at: in cubes.
-std::uint32_t LightNodes::on_side(const Pair& pair, Vec3f at) const {
+std::uint32_t SurfaceProbes::on_side(const Pair& pair, Vec3f at) const {
     return pair.division.is_above(corner_m_ + cube_m_ * at) ? pair.above : pair.below;
 }
 
-void LightNodes::Cell::take(const std::array<std::uint32_t, 8>& of_corner) {
+void SurfaceProbes::Cell::take(const std::array<std::uint32_t, 8>& of_corner) {
     count = 0, corners = 0;
     for (std::size_t i = 0; i < of_corner.size(); ++i) {
         unsigned place = kNone;
         if (of_corner[i] != kClosed) {
-            place = static_cast<unsigned>(std::find(node.begin(), node.begin() + count, of_corner[i]) -
-                                          node.begin());
-            if (place == count) node[count++] = of_corner[i];
+            place = static_cast<unsigned>(std::find(probe.begin(), probe.begin() + count, of_corner[i]) -
+                                          probe.begin());
+            if (place == count) probe[count++] = of_corner[i];
         }
         corners |= place << (4 * i);
     }
 }
 
-void LightNodes::keep(std::span<const std::uint32_t> new_number) {
-    std::vector<LightNode> kept;
+void SurfaceProbes::keep(std::span<const std::uint32_t> new_number) {
+    std::vector<SurfaceProbe> kept;
     for (const std::uint32_t number : new_number)
         if (number != kClosed) kept.emplace_back();
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-        if (new_number[i] != kClosed) kept[new_number[i]] = nodes_[i];
-    nodes_ = std::move(kept);
+    for (std::size_t i = 0; i < probes_.size(); ++i)
+        if (new_number[i] != kClosed) kept[new_number[i]] = probes_[i];
+    probes_ = std::move(kept);
     const auto number = [&](std::uint32_t old) { return old == kClosed ? kClosed : new_number[old]; };
     std::vector<Pair> pairs;
     for (const Pair& p : pairs_) pairs.push_back({p.division, number(p.below), number(p.above)});
@@ -273,7 +273,7 @@ void LightNodes::keep(std::span<const std::uint32_t> new_number) {
     for (std::size_t c = 0; c < cells_.size(); ++c)
         for (std::size_t i = 0; i < corners[c].size(); ++i) {
             const unsigned place = cells_[c].corner(i);
-            const std::uint32_t old = place == Cell::kNone ? kClosed : cells_[c].node[place];
+            const std::uint32_t old = place == Cell::kNone ? kClosed : cells_[c].probe[place];
             const Pair* const one = old == kClosed ? nullptr : pair(old);
             corners[c][i] = one ? pairs[static_cast<std::size_t>(one - pairs_.data())].name() : number(old);
         }
@@ -283,62 +283,62 @@ void LightNodes::keep(std::span<const std::uint32_t> new_number) {
     for (std::size_t c = 0; c < cells_.size(); ++c) take(corners[c], cells_[c]);
 }
 
-void LightNodes::scale(float factor) {
+void SurfaceProbes::scale(float factor) {
     if (factor == 1) return;
     corner_m_ = factor * corner_m_;
     cube_m_ *= factor;
-    for (LightNode& node : nodes_)
-        for (Vec3f& point_m : node.point_m) point_m = factor * point_m;
+    for (SurfaceProbe& probe : probes_)
+        for (Vec3f& point_m : probe.point_m) point_m = factor * point_m;
     for (Pair& one : pairs_) one.division.offset_m *= factor;
 }
 
-std::size_t LightNodes::bytes() const {
-    return slots_.size() * sizeof(Slot) + cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(LightNode) +
-           pairs_.size() * sizeof(Pair);
+std::size_t SurfaceProbes::bytes() const {
+    return slots_.size() * sizeof(Slot) + cells_.size() * sizeof(Cell) +
+           probes_.size() * sizeof(SurfaceProbe) + pairs_.size() * sizeof(Pair);
 }
 
-// True when most of a node's points lie on one side.
-bool LightNodes::lies(std::uint32_t node, const Pair& pair, bool above) const {
+// True when most of a probe's points lie on one side.
+bool SurfaceProbes::lies(std::uint32_t probe, const Pair& pair, bool above) const {
     int here = 0;
-    for (const Vec3f point_m : nodes_[node].point_m) here += pair.division.is_above(point_m) == above;
-    return 2 * here > LightNode::kPoints;
+    for (const Vec3f point_m : probes_[probe].point_m) here += pair.division.is_above(point_m) == above;
+    return 2 * here > SurfaceProbe::kPoints;
 }
 
-NodeNeighbours LightNodes::neighbours() const {
+ProbeNeighbours SurfaceProbes::neighbours() const {
     struct Part {
-        std::uint32_t node;
+        std::uint32_t probe;
         const Pair* of;  // null: it is whole
     };
     const auto parts_of = [&](std::uint32_t name, std::vector<Part>& out) {
         const Pair* const one = pair(name);
         if (!one) return out.push_back({name, nullptr});
-        for (const std::uint32_t node : {one->below, one->above})
-            if (node != kClosed) out.push_back({node, one});
+        for (const std::uint32_t probe : {one->below, one->above})
+            if (probe != kClosed) out.push_back({probe, one});
     };
     // A part of what a wall divides has none beside it but on its own side.
     const auto on_side_of = [&](const Part& a, const Part& b) {
-        return !a.of || lies(b.node, *a.of, a.node == a.of->above);
+        return !a.of || lies(b.probe, *a.of, a.probe == a.of->above);
     };
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     std::vector<Part> parts;
     for (const Cell& cell : cells_) {
         parts.clear();
-        for (std::size_t i = 0; i < cell.count; ++i) parts_of(cell.node[i], parts);
+        for (std::size_t i = 0; i < cell.count; ++i) parts_of(cell.probe[i], parts);
         for (const Part& a : parts)
             for (const Part& b : parts)
-                if (a.node != b.node && on_side_of(a, b) && on_side_of(b, a))
-                    pairs.emplace_back(a.node, b.node);
+                if (a.probe != b.probe && on_side_of(a, b) && on_side_of(b, a))
+                    pairs.emplace_back(a.probe, b.probe);
     }
     tbb::parallel_sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    NodeNeighbours out;
-    out.first.assign(nodes_.size() + 1, 0);
-    for (const auto& [from, to] : pairs) ++out.first[from + 1], out.node.push_back(to);
-    for (std::size_t n = 0; n < nodes_.size(); ++n) out.first[n + 1] += out.first[n];
+    ProbeNeighbours out;
+    out.first.assign(probes_.size() + 1, 0);
+    for (const auto& [from, to] : pairs) ++out.first[from + 1], out.probe.push_back(to);
+    for (std::size_t n = 0; n < probes_.size(); ++n) out.first[n + 1] += out.first[n];
     return out;
 }
 
-bool LightNodes::is_whole() const {
+bool SurfaceProbes::is_whole() const {
     if (!(cube_m_ > 0) || (!slots_.empty() && !std::has_single_bit(slots_.size()))) return false;
     std::size_t used = 0;
     for (const Slot& slot : slots_) {
@@ -348,9 +348,9 @@ bool LightNodes::is_whole() const {
         ++used;
     }
     if (!slots_.empty() && used == slots_.size()) return false;  // a search would not end
-    const auto is_node = [&](std::uint32_t n) { return n == kClosed || n < nodes_.size(); };
+    const auto is_probe = [&](std::uint32_t n) { return n == kClosed || n < probes_.size(); };
     for (std::size_t i = 0; i < pairs_.size(); ++i)
-        if (!is_node(pairs_[i].below) || !is_node(pairs_[i].above) || pairs_[i].name() == kClosed ||
+        if (!is_probe(pairs_[i].below) || !is_probe(pairs_[i].above) || pairs_[i].name() == kClosed ||
             (i > 0 && pairs_[i - 1].name() >= pairs_[i].name()))
             return false;
     for (const Cell& cell : cells_) {
@@ -359,7 +359,7 @@ bool LightNodes::is_whole() const {
             if (cell.corner(i) != Cell::kNone && cell.corner(i) >= cell.count) return false;
         for (std::size_t i = 0; i < cell.count; ++i) {
             const bool divided = (static_cast<unsigned>(cell.divided) >> i & 1u) != 0;
-            if (cell.node[i] >= nodes_.size() || divided != (pair(cell.node[i]) != nullptr)) return false;
+            if (cell.probe[i] >= probes_.size() || divided != (pair(cell.probe[i]) != nullptr)) return false;
         }
     }
     return true;

@@ -1,4 +1,4 @@
-#include "render/probes/node_division.h"
+#include "render/probes/probe_division.h"
 
 #include <algorithm>
 #include <numeric>
@@ -60,8 +60,8 @@ float share_hidden(Walls& walls, const Numbers& a, const Numbers& b) {
 }
 
 // The plane of what stands between two groups, upright on the surface.
-std::optional<NodeDivision> plane_between(Walls& walls, std::span<const Vec3f> points_m, const Numbers& below,
-                                          const Numbers& above, Vec3f facing) {
+std::optional<ProbeDivision> plane_between(Walls& walls, std::span<const Vec3f> points_m,
+                                           const Numbers& below, const Numbers& above, Vec3f facing) {
     std::vector<Wall> faces;
     for (const std::size_t i : below)
         for (const std::size_t j : above)
@@ -76,7 +76,7 @@ std::optional<NodeDivision> plane_between(Walls& walls, std::span<const Vec3f> p
     }
     if (!(length(along) > 0)) return std::nullopt;
     along = normalized(along);
-    return NodeDivision{along, dot(along, middle_m) / static_cast<float>(faces.size())};
+    return ProbeDivision{along, dot(along, middle_m) / static_cast<float>(faces.size())};
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ std::optional<DividedPoints> find_division(std::span<const Vec3f> points_m, Vec3
         share_hidden(walls, out.below, out.below) > 1 - kNearly ||
         share_hidden(walls, out.above, out.above) > 1 - kNearly)
         return std::nullopt;
-    const std::optional<NodeDivision> plane = plane_between(walls, points_m, out.below, out.above, facing);
+    const std::optional<ProbeDivision> plane = plane_between(walls, points_m, out.below, out.above, facing);
     if (!plane) return std::nullopt;
     out.by = *plane;
     const auto keep = [&](Numbers& group, bool above) {

@@ -1,4 +1,4 @@
-#include "render/probes/light_cells.h"
+#include "render/probes/probe_cells.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Walls that stand between the points of a place where light is cached (light_nodes.h). A ring on a deck keeps the light within
-// from what is without, though both are one surface that faces one way, a few centimetres apart: such a place is two, on either
-// side of a plane.
+// Walls that stand between the points of a place where light is cached (surface_probes.h). A ring on a deck keeps the light
+// within from what is without, though both are one surface that faces one way, a few centimetres apart: such a place is two, on
+// either side of a plane.
 
 #include <cstddef>
 #include <functional>
@@ -21,7 +21,7 @@ struct Wall {
 using Sight = std::function<std::optional<Wall>(Vec3f from_m, Vec3f to_m)>;
 
 // A plane between two groups of points; above: along * place > offset.
-struct NodeDivision {
+struct ProbeDivision {
     Vec3f along;  // unit
     float offset_m = 0;
 
@@ -30,7 +30,7 @@ struct NodeDivision {
 
 // Points on either side of a wall, by their numbers.
 struct DividedPoints {
-    NodeDivision by;
+    ProbeDivision by;
     std::vector<std::size_t> below, above;
 };
 // Divides points that a wall stands between. None: there is no wall that hides nearly all of one group from nearly all of

@@ -1,5 +1,5 @@
 #pragma once
-// Keys of the cells that a surface is cut into (light_nodes.h): 14 bits for each coordinate of the cube, six
+// Keys of the cells that a surface is cut into (surface_probes.h): 14 bits for each coordinate of the cube, six
 // for the way it faces, one for the side, twelve for the surface. Walls of one kind that lie behind each other
 // in a cube are layers of one key. Inline: looked up for every pixel.
 
@@ -88,7 +88,7 @@ inline float height_of(std::uint64_t kind, Vec3f at) { return dot(middle_of_way(
 
 // The layers of a kind in a cube: a bit for each eighth of a cube, along its way, in which some of it lies.
 // Layers are at least a quarter apart. A wall that leans by 20 degrees against its way rises by less than that
-// from one of its points to the next (light_cells.h).
+// from one of its points to the next (probe_cells.h).
 class Layers {
   public:
     static constexpr float kApart = 0.25f;  // cubes

@@ -1,4 +1,4 @@
-#include "render/radiosity/node_senders.h"
+#include "render/radiosity/probe_senders.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -28,25 +28,25 @@ std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_co
 
 }  // namespace
 
-NodeSenders::NodeSenders(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
+ProbeSenders::ProbeSenders(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
     : lights_(lights.begin(), lights.end()), scene_(scene) {
-    std::size_t nodes = 0;
+    std::size_t probes = 0;
     for (const IrradianceCache* light : lights_) {
-        base_.push_back(nodes);
-        if (light) nodes += light->table().size();
+        base_.push_back(probes);
+        if (light) probes += light->table().size();
     }
-    senders_.resize(nodes), shines_.resize(nodes);
+    senders_.resize(probes), shines_.resize(probes);
 }
 
-void NodeSenders::light(const RadiosityMember& member) {
-    using Nodes = tbb::blocked_range<std::size_t>;
+void ProbeSenders::light(const RadiosityMember& member) {
+    using Probes = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(
-        Nodes(0, lights_[member.object]->table().size(), kBlock),
-        [&](const Nodes& r) { light_block(member, r.begin(), r.end()); }, tbb::simple_partitioner{});
+        Probes(0, lights_[member.object]->table().size(), kBlock),
+        [&](const Probes& r) { light_block(member, r.begin(), r.end()); }, tbb::simple_partitioner{});
 }
 
 // Returns which rays are blocked by the object itself, or by one that stands near.
-std::uint32_t NodeSenders::blocked(const RadiosityMember& member, const RayPacket& rays) const {
+std::uint32_t ProbeSenders::blocked(const RadiosityMember& member, const RayPacket& rays) const {
     std::uint32_t out = scene_.occluded_by(member.object, rays);
     for (const NeighbourObject& other : member.links->near()) {
         RayPacket there = rays;
@@ -63,11 +63,11 @@ std::uint32_t NodeSenders::blocked(const RadiosityMember& member, const RayPacke
     return out;
 }
 
-void NodeSenders::light_block(const RadiosityMember& member, std::size_t first, std::size_t last) {
+void ProbeSenders::light_block(const RadiosityMember& member, std::size_t first, std::size_t last) {
     const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const RadiositySource& source = member.source;
-    NodeSender* const senders = senders_.data() + base_[member.object];
+    ProbeSender* const senders = senders_.data() + base_[member.object];
     std::array<LitPoints, kBlock> lit;
     RayPacket rays;
     std::array<float*, kPacketSize> of;  // by ray, what it asks for
@@ -84,16 +84,17 @@ void NodeSenders::light_block(const RadiosityMember& member, std::size_t first, 
     for (std::size_t n = first; n < last; ++n) {
         LitPoints& points = lit[n - first];
         if (source.kind == RadiositySource::Kind::kGlow) continue;
-        const LightNode& node = table.nodes().nodes()[n];
-        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+        const SurfaceProbe& probe = table.probes().probes()[n];
+        for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p) {
             if (!table.is_live(n, p)) continue;
             const std::size_t place = points.count++;
-            points.normal[place] = node.normal[p];
-            const Vec3f normal = unpack_normal(node.normal[p]), geometric = unpack_normal(node.geometric[p]);
+            points.normal[place] = probe.normal[p];
+            const Vec3f normal = unpack_normal(probe.normal[p]),
+                        geometric = unpack_normal(probe.geometric[p]);
             Vec3f dir = source.dir;
             float strength = 1, until_m = std::numeric_limits<float>::infinity();
             if (source.kind == RadiositySource::Kind::kLamp) {
-                const Vec3f way = source.position_m - node.point_m[p];
+                const Vec3f way = source.position_m - probe.point_m[p];
                 const float distance_m = std::max(length(way), 1e-3f);
                 dir = way / distance_m;
                 strength = static_cast<float>(source.beam->at(to_double(source.dir), to_double(-dir))) /
@@ -113,7 +114,7 @@ void NodeSenders::light_block(const RadiosityMember& member, std::size_t first, 
             points.cosine[place] = cosine, points.received[place] = cosine * strength;
             if (cone) continue;
             of[static_cast<std::size_t>(rays.count)] = &points.received[place];
-            rays.set(rays.count, node.point_m[p], dir, 0, until_m);
+            rays.set(rays.count, probe.point_m[p], dir, 0, until_m);
             if (++rays.count == kPacketSize) flush();
         }
     }
@@ -125,10 +126,10 @@ void NodeSenders::light_block(const RadiosityMember& member, std::size_t first, 
             member.out->seen[n] = static_cast<std::uint8_t>(std::lround(255 * share));
             for (float& received : points.received) received *= share;
         }
-        NodeSender& sender = senders[n];
+        ProbeSender& sender = senders[n];
         send(light, n, points, sender);
         if (source.kind == RadiositySource::Kind::kGlow)
-            sender.diffuse = PackedSpectrum(light.material(table.nodes().nodes()[n].surface).emission);
+            sender.diffuse = PackedSpectrum(light.material(table.probes().probes()[n].surface).emission);
         if (cone && sender.alpha > 0) widen(light, n, source, sender);
         shines_[base_[member.object] + n] = sender.alpha > 0 || sender.diffuse.greatest() > 0;
     }
@@ -136,8 +137,8 @@ void NodeSenders::light_block(const RadiosityMember& member, std::size_t first, 
 
 // A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
 // reflect.
-void NodeSenders::widen(const IrradianceCache& light, std::size_t n, const RadiositySource& source,
-                        NodeSender& sender) {
+void ProbeSenders::widen(const IrradianceCache& light, std::size_t n, const RadiositySource& source,
+                         ProbeSender& sender) {
     constexpr float kBegins = 0.2f, kWhole = 0.4f;
     const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
     sender.alpha = std::min(1.0f, std::hypot(sender.alpha, 0.5f * sine));
@@ -145,20 +146,20 @@ void NodeSenders::widen(const IrradianceCache& light, std::size_t n, const Radio
     if (paint == 0) return;
     const float received = sender.lit.mean();
     const Spectrum albedo = light.facet_color(
-        n, light.albedo(light.table().nodes().nodes()[n].surface).lobe(sender.lit.mean_cosine()));
+        n, light.albedo(light.table().probes().probes()[n].surface).lobe(sender.lit.mean_cosine()));
     sender.diffuse = PackedSpectrum(sender.diffuse.unpacked() + (paint * received / kPiF) * albedo);
     sender.lobe = PackedSpectrum((1 - paint) * sender.lobe.unpacked());
     sender.gain *= 1 - paint;
     if (paint == 1) sender.alpha = 0;
 }
 
-void NodeSenders::send(const IrradianceCache& light, std::size_t n, const LitPoints& lit,
-                       NodeSender& sender) {
+void ProbeSenders::send(const IrradianceCache& light, std::size_t n, const LitPoints& lit,
+                        ProbeSender& sender) {
     sender = {};
     const float received = lit.mean();
     if (!(received > 0)) return;
     const float cosine = lit.mean_cosine();
-    const std::uint16_t surface = light.table().nodes().nodes()[n].surface;
+    const std::uint16_t surface = light.table().probes().probes()[n].surface;
     const Material& material = light.material(surface);
     const MaterialAlbedo& albedo = light.albedo(surface);
     sender.diffuse = PackedSpectrum(light.colored(n, (received / kPiF) * albedo.base(cosine)));
@@ -171,7 +172,7 @@ void NodeSenders::send(const IrradianceCache& light, std::size_t n, const LitPoi
     sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));
 }
 
-float NodeSenders::seen_of_cone(const RadiosityMember& member, const IrradianceCache& light, std::size_t n) {
+float ProbeSenders::seen_of_cone(const RadiosityMember& member, const IrradianceCache& light, std::size_t n) {
     const TransferTable& table = light.table();
     const std::span<const std::uint64_t> is_free = member.links->free(table, n);
     const ConeShare cone(light.axes(n).dir(member.source.dir), member.source.cone_cosine, table.directions());

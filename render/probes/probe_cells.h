@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a mesh that lie in each cube: the cells of light_nodes.h as they are found, each with some
+// The parts of a mesh that lie in each cube: the cells of surface_probes.h as they are found, each with some
 // points on it.
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include <tuple>
 #include <vector>
 
-#include "render/probes/light_cell_key.h"
-#include "render/probes/light_nodes.h"
+#include "render/probes/probe_cell_key.h"
+#include "render/probes/surface_probes.h"
 
 namespace hilcam {
 
@@ -73,8 +73,8 @@ struct FoundCell {
     float lowest = 0, highest = 0;  // height_of() what lies in it
     double area_m2 = 0;
     int count = 0;
-    // More than a node has, as a wall may stand between them (node_division.h).
-    static constexpr int kMost = 2 * LightNode::kPoints;
+    // More than a probe has, as a wall may stand between them (probe_division.h).
+    static constexpr int kMost = 2 * SurfaceProbe::kPoints;
     std::array<CellPoint, kMost> best;
 
     void add(const CellPoint& candidate) {

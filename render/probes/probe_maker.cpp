@@ -1,4 +1,4 @@
-#include "render/probes/node_maker.h"
+#include "render/probes/probe_maker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ namespace {
 
 // The cells of a set, without its unused places.
 std::span<const std::uint32_t> used(const CellSet& set) {
-    return {set.begin(), std::find(set.begin(), set.end(), LightNodes::kClosed)};
+    return {set.begin(), std::find(set.begin(), set.end(), SurfaceProbes::kClosed)};
 }
 
-// Takes one of some items for each of a node's points, evenly by their areas one behind the other. pick(point, item).
+// Takes one of some items for each of a probe's points, evenly by their areas one behind the other. pick(point, item).
 template <class AreaOf, class Pick>
 void spread_evenly(std::size_t items, std::uint64_t seed, const AreaOf& area_of, const Pick& pick) {
     double area_m2 = 0;
@@ -23,19 +23,19 @@ void spread_evenly(std::size_t items, std::uint64_t seed, const AreaOf& area_of,
     const double shift = static_cast<double>(mixed(seed) >> 11) * 0x1p-53;
     std::size_t k = 0;
     double passed = 0;
-    for (std::size_t i = 0; i < LightNode::kPoints; ++i) {
-        const double at = (static_cast<double>(i) + shift) / LightNode::kPoints * area_m2;
+    for (std::size_t i = 0; i < SurfaceProbe::kPoints; ++i) {
+        const double at = (static_cast<double>(i) + shift) / SurfaceProbe::kPoints * area_m2;
         while (k + 1 < items && passed + area_of(k) <= at) passed += area_of(k), ++k;
         pick(i, k);
     }
 }
 
 // color: sum of the points'.
-void finish(LightNode& node, Vec3f color) {
-    node.color = color / static_cast<float>(LightNode::kPoints);
+void finish(SurfaceProbe& probe, Vec3f color) {
+    probe.color = color / static_cast<float>(SurfaceProbe::kPoints);
     Vec3f mean{};
-    for (const std::uint32_t normal : node.normal) mean = mean + unpack_normal(normal);
-    node.mean_normal = dot(mean, mean) > 1e-6f ? pack_normal(normalized(mean)) : node.normal[0];
+    for (const std::uint32_t normal : probe.normal) mean = mean + unpack_normal(normal);
+    probe.mean_normal = dot(mean, mean) > 1e-6f ? pack_normal(normalized(mean)) : probe.normal[0];
 }
 
 }  // namespace
@@ -47,17 +47,17 @@ float points_above_m(const Mesh& mesh) {
     return 32 * std::numeric_limits<float>::epsilon() * greatest;
 }
 
-NodeMaker::NodeMaker(const Mesh& mesh, const CubeGrid& grid, std::span<const FoundCell> cells,
-                     const Sight& sight)
+ProbeMaker::ProbeMaker(const Mesh& mesh, const CubeGrid& grid, std::span<const FoundCell> cells,
+                       const Sight& sight)
     : mesh_(mesh), grid_(grid), cells_(cells), sight_(sight), above_m_(points_above_m(mesh)) {
     for (const Texture& texture : mesh.textures) pictures_.emplace_back(Texture(texture));
 }
 
-MadeNode NodeMaker::make(const CellSet& set, std::uint64_t seed) const {
+MadeProbe ProbeMaker::make(const CellSet& set, std::uint64_t seed) const {
     const Candidates all = candidates(used(set));
     const std::optional<DividedPoints> divided = find_division(all.raised_m, all.facing, sight_);
     if (!divided) return {of_cells(used(set), seed), {}, {}};
-    // What few points of a side meet is chance: the node is the other side's.
+    // What few points of a side meet is chance: the probe is the other side's.
     constexpr std::size_t kFew = 16;
     const auto is_few = [&](const std::vector<std::size_t>& side) {
         return kFew * side.size() < all.point.size();
@@ -67,7 +67,7 @@ MadeNode NodeMaker::make(const CellSet& set, std::uint64_t seed) const {
     return {of_points(all, divided->below, seed), of_points(all, divided->above, seed), divided->by};
 }
 
-NodeMaker::Candidates NodeMaker::candidates(std::span<const std::uint32_t> cells) const {
+ProbeMaker::Candidates ProbeMaker::candidates(std::span<const std::uint32_t> cells) const {
     constexpr float kWall = 0.15f;     // in cubes: tiles and wrinkles are lower
     constexpr std::size_t kMost = 32;  // each two of them cost a ray
     Candidates out;
@@ -87,34 +87,34 @@ NodeMaker::Candidates NodeMaker::candidates(std::span<const std::uint32_t> cells
     return out;
 }
 
-// The node of some of the candidates.
-LightNode NodeMaker::of_points(const Candidates& all, std::span<const std::size_t> here,
-                               std::uint64_t seed) const {
-    LightNode node;
+// The probe of some of the candidates.
+SurfaceProbe ProbeMaker::of_points(const Candidates& all, std::span<const std::size_t> here,
+                                   std::uint64_t seed) const {
+    SurfaceProbe probe;
     Vec3f color{};
     spread_evenly(
         here.size(), seed, [&](std::size_t k) { return all.area_m2[here[k]]; },
-        [&](std::size_t i, std::size_t k) { add(node, i, all.point[here[k]], color); });
-    finish(node, color);
-    return node;
+        [&](std::size_t i, std::size_t k) { add(probe, i, all.point[here[k]], color); });
+    finish(probe, color);
+    return probe;
 }
 
-// The node of all points of some cells.
-LightNode NodeMaker::of_cells(std::span<const std::uint32_t> cells, std::uint64_t seed) const {
-    LightNode node;
+// The probe of all points of some cells.
+SurfaceProbe ProbeMaker::of_cells(std::span<const std::uint32_t> cells, std::uint64_t seed) const {
+    SurfaceProbe probe;
     Vec3f color{};
     std::array<int, std::tuple_size_v<CellSet>> taken{};
     spread_evenly(
         cells.size(), seed, [&](std::size_t k) { return cells_[cells[k]].area_m2; },
         [&](std::size_t i, std::size_t k) {
             const FoundCell& cell = cells_[cells[k]];
-            add(node, i, cell.best[static_cast<std::size_t>(taken[k]++ % cell.count)], color);
+            add(probe, i, cell.best[static_cast<std::size_t>(taken[k]++ % cell.count)], color);
         });
-    finish(node, color);
-    return node;
+    finish(probe, color);
+    return probe;
 }
 
-void NodeMaker::add(LightNode& node, std::size_t i, const CellPoint& candidate, Vec3f& sum) const {
+void ProbeMaker::add(SurfaceProbe& probe, std::size_t i, const CellPoint& candidate, Vec3f& sum) const {
     const TriangleSpread spread(mesh_, candidate.triangle, 0.5f * grid_.cube_m);
     const Vec3f w = spread.weights(static_cast<int>(candidate.point));
     const Vec3f geometric = candidate.back ? -spread.normal : spread.normal;
@@ -125,14 +125,14 @@ void NodeMaker::add(LightNode& node, std::size_t i, const CellPoint& candidate, 
         if (dot(smooth, smooth) > 1e-6f) normal = normalized(smooth);
         if (dot(normal, geometric) < 0) normal = -normal;
     }
-    node.surface = mesh_.surface_of_triangle[candidate.triangle];
-    node.point_m[i] = spread.at(w) + above_m_ * geometric;
-    node.normal[i] = pack_normal(normal);
-    node.geometric[i] = pack_normal(geometric);
-    sum = sum + color(spread, w, node.surface);
+    probe.surface = mesh_.surface_of_triangle[candidate.triangle];
+    probe.point_m[i] = spread.at(w) + above_m_ * geometric;
+    probe.normal[i] = pack_normal(normal);
+    probe.geometric[i] = pack_normal(geometric);
+    sum = sum + color(spread, w, probe.surface);
 }
 
-Vec3f NodeMaker::color(const TriangleSpread& spread, Vec3f w, std::uint16_t surface) const {
+Vec3f ProbeMaker::color(const TriangleSpread& spread, Vec3f w, std::uint16_t surface) const {
     Vec3f own{1, 1, 1};
     if (!mesh_.colors.empty()) {
         const auto at = [&](std::size_t i) { return mesh_.colors[spread.corner[i].vertex]; };
