@@ -40,7 +40,7 @@ std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRend
     return out;
 }
 
-// Says where the tables of directions came from, how long that took here, and what a run does without them.
+// Says where the transfer tables came from, how long that took here, and what a run does without them.
 std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
     if (light.found + light.made == 0) return {};
     if (light.made == 0)

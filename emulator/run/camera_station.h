@@ -87,7 +87,7 @@ class CameraStation {
     const Renderer& renderer() const { return *renderer_; }
     // Returns what was found when they were loaded, in the scenario's order.
     const std::vector<LoadedObject>& objects() const { return objects_; }
-    // Says how it got its tables of directions; orders: those that it is still without.
+    // Says how it got its transfer tables; orders: those that it is still without.
     LightLoading& light() { return light_; }
     SensorChain& chain() { return *chain_; }
     WorldState& world() { return *world_; }

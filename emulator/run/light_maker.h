@@ -1,5 +1,5 @@
 #pragma once
-// Makes the tables of directions beside a run that has begun without them (loop.wait_for_light), and gives
+// Makes the transfer tables beside a run that has begun without them (loop.wait_for_light), and gives
 // them to the cameras' renderers: one camera after the other, on one thread that runs when nothing else wants
 // its core.
 

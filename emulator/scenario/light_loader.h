@@ -1,5 +1,5 @@
 #pragma once
-// The tables of directions of a scene's objects (render/probes/transfer_table.h): read from the cache folder,
+// The transfer tables of a scene's objects (render/probes/transfer_table.h): read from the cache folder,
 // made and written there, or ordered, for who begins without them.
 
 #include <string>

@@ -32,7 +32,7 @@ struct LoadedObject {
 };
 
 // Loads the objects of a scenario, each make once, and puts them into the scene: the objects in their order, then all their turning
-// parts, as WorldState places them; at their sizes and with their tables of directions. found: gets what was found of the objects, in
+// parts, as WorldState places them; at their sizes and with their transfer tables. found: gets what was found of the objects, in
 // their order. Throws InputError or DeviceError.
 void load_objects(const ScenarioConfig& scenario, const SpectralGrid& grid, LightLoading& light, Scene& scene,
                   std::vector<LoadedObject>& found);

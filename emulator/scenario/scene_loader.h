@@ -11,7 +11,7 @@
 namespace hilcam {
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
-// found: gets the objects in their order; light: how the scene is to get its tables of directions, and what
+// found: gets the objects in their order; light: how the scene is to get its transfer tables, and what
 // came of it; null: nobody wants to know, and tables are made at once.
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
                  std::vector<LoadedObject>* found = nullptr, LightLoading* light = nullptr);

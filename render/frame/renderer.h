@@ -58,7 +58,7 @@ class Renderer {
     // The quality of the next frames. Loop: nothing is allocated.
     void use_level(std::size_t level);
     const RenderQuality& quality() const;
-    // Takes the tables that a scene's light was waiting for: tables of directions, by object, null where
+    // Takes the tables that a scene's light was waiting for: transfer tables, by object, null where
     // there is no other than the scene had. Makes of them what frames need and hands it over. One thread
     // beside the loop, once.
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);

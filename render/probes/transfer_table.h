@@ -1,5 +1,5 @@
 #pragma once
-// The table of what each place on an object meets along fixed directions of its half sphere: traced once,
+// The transfer table: what each probe on an object meets along fixed directions of its half sphere, traced once,
 // kept for good, since it is knowledge of the mesh and not of a frame (radiosity/irradiance_cache.h makes light of it).
 //
 // The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance

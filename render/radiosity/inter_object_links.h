@@ -1,5 +1,5 @@
 #pragma once
-// The links of an object's probes to other objects that stand near it: the part of the table of directions
+// The links of an object's probes to other objects that stand near it: the part of the transfer table
 // (probes/transfer_table.h) that depends on where objects stand to each other, traced anew when that has
 // changed by a step. Turning parts are objects here. Glass of another object is passed.
 

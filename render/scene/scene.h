@@ -74,7 +74,7 @@ struct Scene {
     std::shared_ptr<const EarthModel> earth;
     Spectrum sun_irradiance_1au_w_m2_um;
     bool limb_darkening = true;
-    // Objects' tables of directions come when frames are being made already (Renderer::give_tables).
+    // Objects' transfer tables come when frames are being made already (Renderer::give_tables).
     bool light_later = false;
 
     SceneBody& body(BodyId id) { return bodies[index_of(id)]; }

@@ -1,6 +1,7 @@
 #pragma once
 // An atmosphere for tests that shares nothing with the program's own: tables as the U.S. Standard Atmosphere 1976 prints them instead of
-// its layers' formulas, another author's cross sections of air, and light by sums and chance that know no tables of directions. One wavelength.
+// its layers' formulas, another author's cross sections of air, and light by sums and chance that know no transfer tables. One
+// wavelength.
 
 #include <algorithm>
 #include <array>
