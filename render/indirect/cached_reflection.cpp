@@ -67,7 +67,7 @@ void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> poin
     if (points.empty()) return;
     Together block;
     Lobes lobes;
-    float room = kMostFollowed;
+    float room = kMaxGlossy;
     for (std::size_t first = 0; first < points.size();) {
         const std::size_t end = gather(tile, points, first, block);
         std::fill(requests.begin() + static_cast<std::ptrdiff_t>(first),
@@ -125,8 +125,9 @@ void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest>
     Spectrum met, bodies;  // light of other surfaces and of bodies in the lobe
     if (surface.material->has_facets()) {
         met = has_own_colors(surface) ? lobe_albedo(at) * place.met : place.met;
-        request.follows_lobe = at.weight_samples <= room && hangs_on_few(tile, at, met, place.directions);
-        if (request.follows_lobe) {
+        request.wants_glossy_rays =
+            at.weight_samples <= room && hangs_on_few(tile, at, met, place.directions);
+        if (request.wants_glossy_rays) {
             room -= at.weight_samples, follow_together(use.number, place, requests);
             const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
             request.cached_lobe = largest(at.throughput * plain);
@@ -151,7 +152,7 @@ void IndirectCache::follow_together(std::uint32_t number, Place& place, std::spa
         return;
     }
     ++place.followers;
-    requests[number].follows_lobe = false;
+    requests[number].wants_glossy_rays = false;
     requests[number].next = requests[place.follower].next, requests[place.follower].next = number;
 }
 

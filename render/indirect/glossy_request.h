@@ -8,9 +8,9 @@ namespace hilcam {
 struct GlossyRequest {
     static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
 
-    bool mirrors_near = true;   // something may stand in the mirror's direction
-    bool has_bodies = false;    // the light of bodies in the lobe has been added
-    bool follows_lobe = false;  // rays are to find what the lobe, which is not narrow, reflects
+    bool mirrors_near = true;        // something may stand in the mirror's direction
+    bool has_bodies = false;         // the light of bodies in the lobe has been added
+    bool wants_glossy_rays = false;  // rays are to find what the lobe, which is not narrow, reflects
     std::uint32_t next =
         kNobody;  // where that, or one before: the next shading point that has the light of the same rays, by its number
     float cached_lobe = 0;             // where that, cached light in the lobe, greatest bin

@@ -55,7 +55,7 @@ class IndirectCache {
     std::string describe(std::size_t object) const;
 
     // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
-    static constexpr std::size_t kMostFollowed = 4096;
+    static constexpr std::size_t kMaxGlossy = 4096;
     // Adds to the tile's pixels what shading points whose light is cached reflect of it, narrow lobes apart. requests: gets what
     // is left to rays, by the shading point's number. Loop, any thread.
     void add_reflected(Tile& tile, std::span<const ShadingPoint> points,

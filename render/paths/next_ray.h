@@ -24,7 +24,7 @@ struct NextRay {
     bool sees_bodies = true;            // false: their light in its lobe has been counted
     Spectrum if_free{};                 // light that it adds where it meets nothing
     LightPart part = LightPart::kPath;  // the part of what it meets
-    FollowedLobe* lobe = nullptr;       // the lobe that it is one of the rays of; null: none
+    GlossyLobe* lobe = nullptr;         // the lobe that it is one of the rays of; null: none
     std::uint8_t lobe_ray = 0;          // which of them
     // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
     bool may_be_many = false;

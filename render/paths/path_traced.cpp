@@ -4,7 +4,7 @@
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
 //
 // Where light is cached (indirect_cache.h) nothing is drawn: a path ends there, but for what fixed directions follow
-// (kept_rays.h).
+// (glossy_rays.h).
 
 #include "render/paths/path_models.h"
 
@@ -16,7 +16,7 @@
 #include <span>
 
 #include "render/indirect/indirect_cache.h"
-#include "render/paths/kept_rays.h"
+#include "render/paths/glossy_rays.h"
 #include "render/paths/mirror_rays.h"
 #include "render/paths/next_ray.h"
 #include "render/primary/primary_hits.h"
@@ -43,13 +43,13 @@ class TracedPaths final : public PathModel {
     // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
     // where others need fewer.
     static constexpr std::size_t kLeastOfMirror = 8;
-    static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + IndirectCache::kMostFollowed;
+    static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + IndirectCache::kMaxGlossy;
     std::array<ShadingPoint, kMostRays> a_, b_;
     std::array<NextRay, kMostRays> next_;
     std::array<GlossyRequest, kMostRays> requests_;  // one for each shading point in work that keeps light
     ShadingPoint* current_ = a_.data();
     ShadingPoint* following_ = b_.data();
-    KeptRays kept_rays_;
+    GlossyRays glossy_rays_;
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
@@ -57,7 +57,7 @@ class TracedPaths final : public PathModel {
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
-        kept_rays_.clear();
+        glossy_rays_.clear();
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.indirect) {
@@ -73,11 +73,11 @@ class TracedPaths final : public PathModel {
             const bool last = depth == frame.max_depth;
             NextRays rays{next_};
             for (std::size_t i = 0; i < keep; ++i)
-                kept_rays_.add_of(tile, {{current_, keep}, requests_}, i, rays);
+                glossy_rays_.add_of(tile, {{current_, keep}, requests_}, i, rays);
             choose(tile, {current_ + keep, count - keep}, last, rays);
             count = follow(tile, rays.count, last);
         }
-        kept_rays_.add_found(tile);
+        glossy_rays_.add_found(tile);
     }
 
     // Draws a direction at each shading point. At the last surface only exact ones go on: no lamp has been counted in them.

@@ -6,8 +6,8 @@
 
 #include "render/scene/brdf.h"
 #include "render/scene/embree_scene.h"
-#include "render/shading/followed_lobe.h"
 #include "render/shading/frame_view.h"
+#include "render/shading/glossy_lobe.h"
 #include "render/vocabulary/half_light.h"
 #include "render/vocabulary/light_part.h"
 #include "render/vocabulary/spectrum.h"
@@ -62,7 +62,7 @@ struct PathThroughput {
     std::uint16_t depth;    // 1: seen by the camera
     LightPart ray_part;     // where a ray has met it: the part of its light
     std::uint8_t lobe_ray;  // which of a lobe's rays that is
-    FollowedLobe* lobe;     // the lobe whose rays have met it; null: its light is its pixel's
+    GlossyLobe* lobe;       // the lobe whose rays have met it; null: its light is its pixel's
 
     // Returns the figure that thresholds are held against: the largest throughput of one of the samples for which
     // a ray stands.

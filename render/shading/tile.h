@@ -73,7 +73,7 @@ struct Tile {
         if (parts) note_move(at, from, to, light);
     }
     // Adds what all rays of a lobe have found to the pixels that have it, as far as it is believed.
-    void add(const FollowedLobe& lobe, float light_believed) {
+    void add(const GlossyLobe& lobe, float light_believed) {
         const Spectrum light = lobe.sum(light_believed);
         for (const PixelShare& share : lobe.pixels)
             add(share.pixel, LightPart::kGlossyRays, share.halves, share.share * light);

@@ -30,7 +30,7 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     at.pixel = 3;
     at.halves = {1, 1, 1};
     tile.add(at, LightPart::kSun, of(2));
-    FollowedLobe lobe;
+    GlossyLobe lobe;
     lobe.pixels = parts;
     at.lobe = &lobe;
     tile.add(at, LightPart::kSun, of(4));

@@ -13,7 +13,7 @@
 namespace hilcam {
 
 // Scratch memory for one thread.
-class KeptRays {
+class GlossyRays {
   public:
     // Begins with other shading points: no lobe is followed.
     void clear() { share_count_ = lobe_count_ = 0; }
@@ -30,18 +30,18 @@ class KeptRays {
   private:
     static constexpr auto kMost = static_cast<std::size_t>(PathModel::kMaxShadingPoints);
     std::array<PixelShare, kMost> shares_;
-    std::array<FollowedLobe, kMost> lobes_;
+    std::array<GlossyLobe, kMost> lobes_;
     std::size_t share_count_ = 0, lobe_count_ = 0;
 
     // The shading points whose lobes the same rays follow.
     struct Followers {
         std::array<const ShadingPoint*, IndirectCache::kMostTogether> point;
         std::size_t count = 0;
-        float samples = 0;             // that see them
-        FollowedLobe* lobe = nullptr;  // gets the light that the rays find
+        float samples = 0;           // that see them
+        GlossyLobe* lobe = nullptr;  // gets the light that the rays find
     };
     Followers share_rays(const Tile& tile, const Asking& asking, std::size_t first);
-    void follow_lobe(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays);
+    void send_glossy_rays(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays);
 };
 
 }  // namespace hilcam

@@ -20,7 +20,7 @@ struct PixelShare {
 };
 
 // The light that rays find which follow one shading point's lobe, until all have come back.
-struct FollowedLobe {
+struct GlossyLobe {
     static constexpr std::size_t kMostRays = 32;
     std::span<const PixelShare> pixels;     // that have it
     float cached = 0;                       // cached light in the lobe, as the sum of by_ray
@@ -40,6 +40,6 @@ struct FollowedLobe {
 };
 // Returns the factor on what is believed of each by which all together send what their rays have found: what one shading point
 // does not have, those about it have. At least 1.
-float found_over_believed(std::span<const FollowedLobe> lobes);
+float found_over_believed(std::span<const GlossyLobe> lobes);
 
 }  // namespace hilcam

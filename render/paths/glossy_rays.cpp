@@ -1,4 +1,4 @@
-#include "render/paths/kept_rays.h"
+#include "render/paths/glossy_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,12 +61,12 @@ float rays_for(float samples) {
 
 }  // namespace
 
-void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
+void GlossyRays::add_of(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
     const ShadingPoint& at = asking.points[number];
     const GlossyRequest& request = asking.requests[number];
     const Bsdf& surface = at.surface;
     if (surface.is_glass()) return add_through_glass(tile, at, rays);
-    if (request.follows_lobe) follow_lobe(tile, asking, number, rays);
+    if (request.wants_glossy_rays) send_glossy_rays(tile, asking, number, rays);
     if (!surface.material->has_facets() || surface.alpha >= kMinCachedAlpha) return;
     const Spectrum weight = at.throughput * tile.frame.indirect->lobe_albedo(at);
     // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
@@ -90,7 +90,7 @@ void KeptRays::add_of(Tile& tile, const Asking& asking, std::size_t number, Next
 }
 
 // Gives the pixels of shading points that the same rays serve, from the first on, their shares of what these find.
-KeptRays::Followers KeptRays::share_rays(const Tile& tile, const Asking& asking, std::size_t number) {
+GlossyRays::Followers GlossyRays::share_rays(const Tile& tile, const Asking& asking, std::size_t number) {
     const ShadingPoint& first = asking.points[number];
     const GlossyRequest& request = asking.requests[number];
     Followers out;
@@ -109,13 +109,13 @@ KeptRays::Followers KeptRays::share_rays(const Tile& tile, const Asking& asking,
 }
 
 // Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all.
-void KeptRays::follow_lobe(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
+void GlossyRays::send_glossy_rays(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
     const ShadingPoint& at = asking.points[number];
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
     const Followers followers = share_rays(tile, asking, number);
     const std::size_t count =
-        std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))), FollowedLobe::kMostRays);
+        std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))), GlossyLobe::kMostRays);
     const Frame local(at.normal);
     const std::size_t first = rays.count;
     for (std::size_t i = 0; i < count && !rays.full(); ++i) {
@@ -150,10 +150,10 @@ void KeptRays::follow_lobe(Tile& tile, const Asking& asking, std::size_t number,
     }
 }
 
-void KeptRays::add_found(Tile& tile) const {
-    const std::span<const FollowedLobe> lobes = std::span(lobes_).first(lobe_count_);
+void GlossyRays::add_found(Tile& tile) const {
+    const std::span<const GlossyLobe> lobes = std::span(lobes_).first(lobe_count_);
     const float share = found_over_believed(lobes);
-    for (const FollowedLobe& lobe : lobes) tile.add(lobe, share * lobe.believed());
+    for (const GlossyLobe& lobe : lobes) tile.add(lobe, share * lobe.believed());
 }
 
 }  // namespace hilcam

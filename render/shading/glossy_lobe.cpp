@@ -1,4 +1,4 @@
-#include "render/shading/followed_lobe.h"
+#include "render/shading/glossy_lobe.h"
 
 namespace hilcam {
 
@@ -7,7 +7,7 @@ namespace hilcam {
 // are many that bring it, against the directions that brought the other: both numbers are those of equal shares that would
 // scatter as much (Kish, Survey Sampling, 1965, section 8.2). Where they find less they are right, as what a place sees past an
 // edge is none of its neighbour's.
-float FollowedLobe::believed() const {
+float GlossyLobe::believed() const {
     if (!(found > cached)) return found;
     float squares = 0;
     for (const float ray : by_ray) squares += ray * ray;
@@ -16,13 +16,13 @@ float FollowedLobe::believed() const {
     return cached + rays / (rays + cached_directions) * (found - cached);
 }
 
-float found_over_believed(std::span<const FollowedLobe> lobes) {
+float found_over_believed(std::span<const GlossyLobe> lobes) {
     float found = 0, believed = 0;
-    for (const FollowedLobe& lobe : lobes) found += lobe.found, believed += lobe.believed();
+    for (const GlossyLobe& lobe : lobes) found += lobe.found, believed += lobe.believed();
     return believed > 0 ? found / believed : 1.0f;
 }
 
-Spectrum FollowedLobe::sum(float light_believed) const {
+Spectrum GlossyLobe::sum(float light_believed) const {
     return found > 0 ? sky + (light_believed / found) * light : sky;
 }
 
