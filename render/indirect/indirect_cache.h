@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "render/indirect/alike_lobes.h"
 #include "render/indirect/glossy_request.h"
+#include "render/indirect/lobe_memo.h"
 #include "render/indirect/mirrored_suns.h"
 #include "render/planetshine/sky_light.h"
 #include "render/radiosity/solve_ahead.h"
@@ -164,8 +164,8 @@ class IndirectCache {
         bool whole;  // the bodies are not looked for, as nothing is in their way
     };
     struct Lobes {
-        AlikeLobes<MetByLobe> met;
-        AlikeLobes<SentOfBodies> bodies;
+        LobeMemo<MetByLobe> met;
+        LobeMemo<SentOfBodies> bodies;
     };
     std::size_t gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
                        Together& block) const;

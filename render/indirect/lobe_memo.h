@@ -28,7 +28,7 @@ inline bool sends_alike(const ShadingPoint& a, const ShadingPoint& b) {
 // Keeps a value for each kind of lobe at each probe; of those that share a slot, the last. Shading points outlive this. One
 // thread at a time.
 template <class Value>
-class AlikeLobes {
+class LobeMemo {
     static_assert(std::is_trivially_copyable_v<Value>);
 
   public:

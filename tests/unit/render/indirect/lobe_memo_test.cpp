@@ -1,4 +1,4 @@
-#include "render/indirect/alike_lobes.h"
+#include "render/indirect/lobe_memo.h"
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,10 @@ ShadingPoint vertex_of(const Material& material) {
     return at;
 }
 
-TEST(AlikeLobes, AreFoundAgainWithinADegree) {
+TEST(LobeMemo, AreFoundAgainWithinADegree) {
     const Material material{};
     const ShadingPoint at = vertex_of(material);
-    AlikeLobes<int> lobes;
+    LobeMemo<int> lobes;
     EXPECT_EQ(lobes.find(at, 7), nullptr);
     EXPECT_EQ(lobes.keep(at, 7, 42), 42);
     ShadingPoint near = at;
@@ -32,10 +32,10 @@ TEST(AlikeLobes, AreFoundAgainWithinADegree) {
     EXPECT_EQ(lobes.find(near, 7), nullptr);
 }
 
-TEST(AlikeLobes, DifferByWhatTheyAreOf) {
+TEST(LobeMemo, DifferByWhatTheyAreOf) {
     const Material material{};
     const ShadingPoint at = vertex_of(material);
-    AlikeLobes<int> lobes;
+    LobeMemo<int> lobes;
     lobes.keep(at, 7, 42);
     EXPECT_EQ(lobes.find(at, 8), nullptr);
     const auto differs = [&](auto&& change) {
@@ -52,10 +52,10 @@ TEST(AlikeLobes, DifferByWhatTheyAreOf) {
 }
 
 // More than there are slots: each takes the place of one before.
-TEST(AlikeLobes, KeepTheLastOfAnyNumber) {
+TEST(LobeMemo, KeepTheLastOfAnyNumber) {
     const Material material{};
     const ShadingPoint at = vertex_of(material);
-    AlikeLobes<int> lobes;
+    LobeMemo<int> lobes;
     for (std::uint32_t probe = 1; probe <= 3000; ++probe) {
         EXPECT_EQ(lobes.keep(at, probe, static_cast<int>(probe)), static_cast<int>(probe));
         ASSERT_NE(lobes.find(at, probe), nullptr);
