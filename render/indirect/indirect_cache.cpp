@@ -44,7 +44,7 @@ IndirectCache::IndirectCache(std::span<const ShownObject> objects, const EmbreeS
         objects_[i].light = std::make_unique<IrradianceCache>(objects[i], of_make, bands,
                                                               step_of(objects[i], settings.step_rad));
         lights[i] = objects_[i].light.get();
-        mirrored_suns_.add(objects[i], i, lights[i]->mirrors(), lights[i]->albedos());
+        mirror_sunlight_.add(objects[i], i, lights[i]->mirrors(), lights[i]->albedos());
         for (std::size_t term = 0; term < terms_.count(); ++term) lights[i]->add_term(terms_.kind(term));
     }
     lights_.assign(lights.begin(), lights.end());
@@ -93,7 +93,7 @@ void IndirectCache::set_key(const FrameView& frame, const WorldSnapshot& world) 
 void IndirectCache::place(const FrameView& frame, const WorldSnapshot& world) {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
-    mirrored_suns_.place(frame, world);
+    mirror_sunlight_.place(frame, world);
     set_key(frame, world);
     updates_->bring_to(key_);
     look_ahead();

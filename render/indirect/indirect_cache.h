@@ -4,7 +4,7 @@
 //
 // Cached are the light between the parts of an object and between objects that stand near each other, and what
 // of the bodies' light reaches them past their parts. The Sun and lamps shine on what a path meets by rays as
-// ever, and by way of flat mirrors (mirrored_suns.h). Not cached: light of terrain, between objects far apart.
+// ever, and by way of flat mirrors (mirror_sunlight.h). Not cached: light of terrain, between objects far apart.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 #include "render/indirect/glossy_request.h"
 #include "render/indirect/lobe_memo.h"
-#include "render/indirect/mirrored_suns.h"
+#include "render/indirect/mirror_sunlight.h"
 #include "render/planetshine/sky_light.h"
 #include "render/radiosity/solve_ahead.h"
 #include "render/scene/shown_object.h"
@@ -61,8 +61,8 @@ class IndirectCache {
     void add_reflected(Tile& tile, std::span<const ShadingPoint> points,
                        std::span<GlossyRequest> requests) const;
     // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
-    void add_mirrored_suns(Tile& tile, std::span<const ShadingPoint> points) const {
-        mirrored_suns_.add_light(tile, points);
+    void add_mirror_sunlight(Tile& tile, std::span<const ShadingPoint> points) const {
+        mirror_sunlight_.add_light(tile, points);
     }
     // The most shading points whose lobes the same rays follow.
     static constexpr std::size_t kMostTogether = 16;
@@ -110,7 +110,7 @@ class IndirectCache {
     std::vector<const IrradianceCache*> lights_;  // the light kept on each of them
     std::unique_ptr<SolveAhead> updates_;
     SkyLight sky_;
-    MirroredSuns mirrored_suns_;
+    MirrorSunlight mirror_sunlight_;
     // The inputs now, some frames ago, and as far ahead, and the keys that they ask for.
     static constexpr std::uint64_t kStride = 16;  // frames
     SolveInputs now_, before_, long_before_, ahead_;

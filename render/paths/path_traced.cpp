@@ -67,7 +67,7 @@ class TracedPaths final : public PathModel {
                 keep = static_cast<std::size_t>(others - current_);
                 frame.radiance->add_light(tile, {current_, keep}, BodySampling::kNone);
                 frame.indirect->add_reflected(tile, {current_, keep}, requests_);
-                frame.indirect->add_mirrored_suns(tile, {current_, keep});
+                frame.indirect->add_mirror_sunlight(tile, {current_, keep});
             }
             frame.radiance->add_light(tile, {current_ + keep, count - keep}, BodySampling::kSampled);
             const bool last = depth == frame.max_depth;

@@ -88,7 +88,7 @@ class IrradianceCache {
         return shown_->levels.front()->triangles[triangle].surface;
     }
     bool is_glass(std::uint16_t surface) const { return materials_[surface]->transmits(); }
-    // True when a probe mirrors sunlight, which is not cached: mirrored_suns.h has it.
+    // True when a probe mirrors sunlight, which is not cached: mirror_sunlight.h has it.
     bool throws_sun(std::size_t probe) const { return !throws_sun_.empty() && throws_sun_[probe] != 0; }
     bool throws_sun() const { return !throws_sun_.empty(); }
     // All that it reflects, it reflects in a narrow lobe.

@@ -9,7 +9,7 @@
 // chance.
 //
 // What flat mirrors throw of the Sun goes on from where it falls, but is not in what is cached: who looks that
-// up has it sharp (mirrored_suns.h).
+// up has it sharp (mirror_sunlight.h).
 //
 // The approximation: facets that other surfaces see are at least so wide that the directions find their
 // light; from the third bounce on (of what is dim, of lamps and bodies, and between objects from the second) everything

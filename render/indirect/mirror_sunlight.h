@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "render/indirect/mirror_beam.h"
+#include "render/indirect/reflected_beam.h"
 #include "render/probes/flat_mirrors.h"
 #include "render/scene/material_albedo.h"
 #include "render/scene/shown_object.h"
@@ -27,7 +27,7 @@
 
 namespace hilcam {
 
-class MirroredSuns {
+class MirrorSunlight {
   public:
     // A flat mirror of an object.
     struct Mirror {
@@ -47,8 +47,8 @@ class MirroredSuns {
         // The distance by which a facet that leans by alpha moves the place where the Sun is seen, over the
         // distance, along across and down; 0: the mirror is as sharp as its edge.
         Vec2f blur{};
-        Vec3f dir{};        // towards the mirrored Sun's middle
-        MirrorBeam beam{};  // where anything of it counts
+        Vec3f dir{};           // towards the mirrored Sun's middle
+        ReflectedBeam beam{};  // where anything of it counts
     };
 
     // An object's mirrors and its materials' albedos, by surface; all outlive this. Owner thread.
@@ -64,7 +64,7 @@ class MirroredSuns {
   private:
     std::vector<Mirror> mirrors_;
     std::vector<Shown> shown_;
-    MirrorBeams beams_;  // the beams of shown_
+    ReflectedBeams beams_;  // the beams of shown_
 
     void add_light_of(const Shown& shown, Tile& tile, std::span<const ShadingPoint> points,
                       BeamPlaces& places) const;

@@ -1,4 +1,4 @@
-#include "render/indirect/mirror_beam.h"
+#include "render/indirect/reflected_beam.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace hilcam {
 
-HILCAM_CLONES void find_places_in_beam(const MirrorBeam& beam, BeamPlaces& places) {
-    using Line = MirrorBeam::Line;
+HILCAM_CLONES void find_places_in_beam(const ReflectedBeam& beam, BeamPlaces& places) {
+    using Line = ReflectedBeam::Line;
     const Line d = beam.distance, u = beam.x, v = beam.y;
     const float nearest_m = beam.least_m, width_m = beam.width_m, height_m = beam.height_m;
     const Vec2f margin = beam.margin, margin_m = beam.margin_m;
@@ -26,7 +26,7 @@ HILCAM_CLONES void find_places_in_beam(const MirrorBeam& beam, BeamPlaces& place
     }
 }
 
-void MirrorBeams::add(const MirrorBeam& beam) {
+void ReflectedBeams::add(const ReflectedBeam& beam) {
     const std::size_t i = count_++ % kTogether;
     if (i == 0) {
         // No place is so far away: what a block has left meets nothing.
@@ -34,7 +34,7 @@ void MirrorBeams::add(const MirrorBeam& beam) {
         blocks_.back().least_m.fill(std::numeric_limits<float>::infinity());
     }
     Block& block = blocks_.back();
-    const auto set = [i](Lines& lines, const MirrorBeam::Line& line) {
+    const auto set = [i](Lines& lines, const ReflectedBeam::Line& line) {
         lines.by_x[i] = line.by_place.x, lines.by_y[i] = line.by_place.y, lines.by_z[i] = line.by_place.z;
         lines.constant[i] = line.constant;
     };
@@ -44,15 +44,15 @@ void MirrorBeams::add(const MirrorBeam& beam) {
     block.margin_x_m[i] = beam.margin_m.x, block.margin_y_m[i] = beam.margin_m.y;
 }
 
-void MirrorBeams::find(const PlaceBox& box, std::size_t block,
-                       std::array<std::uint8_t, kTogether>& meets) const {
+void ReflectedBeams::find(const PlaceBox& box, std::size_t block,
+                          std::array<std::uint8_t, kTogether>& meets) const {
     find_in(blocks_[block], box, meets);
 }
 
 // Each line is within its value in the box's middle and what half the box adds to that at most, and a
 // rounding: of a dozen operations here and there, on terms as large as `size`.
-HILCAM_CLONES void MirrorBeams::find_in(const Block& block, const PlaceBox& box,
-                                        std::array<std::uint8_t, kTogether>& meets) {
+HILCAM_CLONES void ReflectedBeams::find_in(const Block& block, const PlaceBox& box,
+                                           std::array<std::uint8_t, kTogether>& meets) {
     constexpr float kRounding = 16 * std::numeric_limits<float>::epsilon();
     const Vec3f m = box.middle_m, h = box.half_m;
     const Vec3f farthest{std::abs(m.x) + h.x, std::abs(m.y) + h.y, std::abs(m.z) + h.z};

@@ -1,4 +1,4 @@
-#include "render/indirect/mirrored_suns.h"
+#include "render/indirect/mirror_sunlight.h"
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ Scattered scatter(const FrameView& frame, const ShadingPoint& at, Vec3f dir, flo
 template <class Lit>
 class Asker {
   public:
-    Asker(Tile& tile, const MirroredSuns::Shown& shown, Lit lit)
+    Asker(Tile& tile, const MirrorSunlight::Shown& shown, Lit lit)
         : tile_(tile),
           frame_(tile.frame),
           shown_(shown),
@@ -123,7 +123,7 @@ class Asker {
   private:
     Tile& tile_;
     const FrameView& frame_;
-    const MirroredSuns::Shown& shown_;
+    const MirrorSunlight::Shown& shown_;
     const FlatMirror& shape_;
     std::uint32_t object_;
     SunSampler sun_;
@@ -201,8 +201,8 @@ class Asker {
 
 }  // namespace
 
-void MirroredSuns::add(const ShownObject& object, std::size_t number, std::span<const FlatMirror> mirrors,
-                       std::span<const MaterialAlbedo> albedos) {
+void MirrorSunlight::add(const ShownObject& object, std::size_t number, std::span<const FlatMirror> mirrors,
+                         std::span<const MaterialAlbedo> albedos) {
     for (const FlatMirror& mirror : mirrors)
         mirrors_.push_back({&object, static_cast<std::uint32_t>(number), &mirror, &albedos[mirror.surface],
                             object.materials()[mirror.surface].ggx_alpha});
@@ -214,7 +214,7 @@ namespace {
 // A facet that leans along the plane of incidence turns light by twice that, one that leans across it by a
 // cosine less; seen on the mirror's own plane the former is a cosine longer. At flat angles, where facets
 // hide each other, no longer than at six degrees.
-Vec2f blur_of(const MirroredSuns::Shown& shown, Vec3f sun) {
+Vec2f blur_of(const MirrorSunlight::Shown& shown, Vec3f sun) {
     const float cosine = std::max(dot(sun, shown.normal), 0.1f), turned = 2 * shown.mirror.alpha;
     const float along = std::hypot(turned, kHalfSun_rad) / cosine,
                 beside = std::hypot(turned * cosine, kHalfSun_rad);
@@ -229,11 +229,11 @@ Vec2f blur_of(const MirroredSuns::Shown& shown, Vec3f sun) {
 }
 
 // least: what is to be added at least, of the Sun.
-void find_beam(Vec3f sun, float least, MirroredSuns::Shown& out) {
-    using Line = MirrorBeam::Line;
+void find_beam(Vec3f sun, float least, MirrorSunlight::Shown& out) {
+    using Line = ReflectedBeam::Line;
     const float cosine = dot(sun, out.normal);
     const Vec3f dir = out.dir = sun - 2 * cosine * out.normal;
-    MirrorBeam& beam = out.beam;
+    ReflectedBeam& beam = out.beam;
     beam.least_m = out.tolerance_m;
     beam.width_m = out.mirror.shape->width_m, beam.height_m = out.mirror.shape->height_m;
     const auto line = [&](Vec3f by_place) { return Line{by_place, -dot(by_place, out.corner_m)}; };
@@ -255,7 +255,7 @@ void find_beam(Vec3f sun, float least, MirroredSuns::Shown& out) {
 
 }  // namespace
 
-void MirroredSuns::place(const FrameView& frame, const WorldSnapshot& world) {
+void MirrorSunlight::place(const FrameView& frame, const WorldSnapshot& world) {
     shown_.clear(), beams_.clear();
     if (!(largest(frame.background->sun_irradiance_w_m2_um()) > 0)) return;
     const Vec3f sun = to_float(frame.background->sun_world_dir());
@@ -303,7 +303,7 @@ PlaceBox box_of(std::span<const ShadingPoint> points) {
 
 }  // namespace
 
-void MirroredSuns::add_light(Tile& tile, std::span<const ShadingPoint> points) const {
+void MirrorSunlight::add_light(Tile& tile, std::span<const ShadingPoint> points) const {
     BeamPlaces places;
     for (std::size_t first = 0; first < points.size() && !shown_.empty(); first += BeamPlaces::kMax) {
         const std::span<const ShadingPoint> some =
@@ -313,20 +313,20 @@ void MirroredSuns::add_light(Tile& tile, std::span<const ShadingPoint> points) c
             places.x[i] = point_m.x, places.y[i] = point_m.y, places.z[i] = point_m.z;
         }
         const PlaceBox box = box_of(some);
-        std::array<std::uint8_t, MirrorBeams::kTogether> meets;
+        std::array<std::uint8_t, ReflectedBeams::kTogether> meets;
         for (std::size_t block = 0; block < beams_.blocks(); ++block) {
             beams_.find(box, block, meets);
             for (auto met = meets.begin(); (met = std::find(met, meets.end(), 1)) != meets.end(); ++met) {
                 const auto in_block = static_cast<std::size_t>(met - meets.begin());
-                add_light_of(shown_[block * MirrorBeams::kTogether + in_block], tile, some, places);
+                add_light_of(shown_[block * ReflectedBeams::kTogether + in_block], tile, some, places);
             }
         }
     }
 }
 
 // shading points: as many as places at most, and at those.
-void MirroredSuns::add_light_of(const Shown& shown, Tile& tile, std::span<const ShadingPoint> points,
-                                BeamPlaces& places) const {
+void MirrorSunlight::add_light_of(const Shown& shown, Tile& tile, std::span<const ShadingPoint> points,
+                                  BeamPlaces& places) const {
     find_places_in_beam(shown.beam, places);
     const auto* const all = places.in_beam.data();
     const auto* const end = all + points.size();

@@ -1,4 +1,4 @@
-// Sunlight that a flat mirror throws on a plate (mirrored_suns.h), against what its plane and its reflection
+// Sunlight that a flat mirror throws on a plate (mirror_sunlight.h), against what its plane and its reflection
 // law say.
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ class Mirrored {
 
 // The light's middle has R times what the Sun would give from there; its outline is the mirror's, seen along
 // it.
-TEST(MirroredSun, AFlatMirrorThrowsItsOwnOutline) {
+TEST(MirrorSunlight, AFlatMirrorThrowsItsOwnOutline) {
     for (const bool apart : {false, true})
         for (const char* visibility : {"rays", "buffer"}) {
             Mirrored m("kept", 0, 4);
@@ -106,7 +106,7 @@ TEST(MirroredSun, AFlatMirrorThrowsItsOwnOutline) {
 
 // With the Sun as a disk the edge is the share of it that stands before the mirror: of an even disk, for an
 // edge that lies x of its radii off the middle, 1/2 + (x sqrt(1 - x^2) + asin x) / pi.
-TEST(MirroredSun, TheDiskMakesAPenumbra) {
+TEST(MirrorSunlight, TheDiskMakesAPenumbra) {
     Stage s;
     s.quality.path_model = "kept";
     s.quality.sun_disk = true;
@@ -157,7 +157,7 @@ double thrown_irradiance(const Material& material, Vec3f place) {
     }
     return sum * 4 * static_cast<double>(kHalfLength_m * kHalfWidth_m) / (kParts * kParts);
 }
-TEST(MirroredSun, ARoughMirrorThrowsWhatItsLobeSays) {
+TEST(MirrorSunlight, ARoughMirrorThrowsWhatItsLobeSays) {
     for (const double roughness : {0.2, 0.33}) {
         Mirrored m("kept", roughness);
         m.add_both(true);
@@ -177,7 +177,7 @@ TEST(MirroredSun, ARoughMirrorThrowsWhatItsLobeSays) {
 }
 
 // Random paths find the same light where the mirror is rough and many are sent.
-TEST(MirroredSun, IsWhatRandomPathsFind) {
+TEST(MirrorSunlight, IsWhatRandomPathsFind) {
     const auto light = [](const char* model, int samples) {
         Mirrored m(model, 0.33, samples);
         m.s.quality.facets_behind_diffuse = 0;
@@ -191,7 +191,7 @@ TEST(MirroredSun, IsWhatRandomPathsFind) {
 
 // Something small and black on the way, before the mirror and behind it: its shadow lies in the light's
 // middle.
-TEST(MirroredSun, WhatStandsInTheWayCastsAShadow) {
+TEST(MirrorSunlight, WhatStandsInTheWayCastsAShadow) {
     for (const double roughness : {0.0, 0.2}) {
         Mirrored free("kept", roughness);
         free.add_both(true);
@@ -211,7 +211,7 @@ TEST(MirroredSun, WhatStandsInTheWayCastsAShadow) {
     }
 }
 
-TEST(MirroredSun, AnEclipseTakesIt) {
+TEST(MirrorSunlight, AnEclipseTakesIt) {
     Mirrored m("kept");
     m.add_both(true);
     m.s.earth(0.3);
@@ -221,7 +221,7 @@ TEST(MirroredSun, AnEclipseTakesIt) {
 }
 
 // A frame does not depend on those before it, and no seed on any.
-TEST(MirroredSun, NothingIsLeftToChance) {
+TEST(MirrorSunlight, NothingIsLeftToChance) {
     Mirrored m("kept", 0.2);
     m.add_both(false);
     m.s.render();

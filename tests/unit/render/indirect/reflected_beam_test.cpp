@@ -1,6 +1,6 @@
 // What is told of many mirrors at once, against each mirror and each place.
 
-#include "render/indirect/mirror_beam.h"
+#include "render/indirect/reflected_beam.h"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@ namespace {
 // Mirrors and boxes as in a crowd of small satellites, far from the origin of their space.
 class Crowd {
   public:
-    MirrorBeam beam() {
-        MirrorBeam out;
+    ReflectedBeam beam() {
+        ReflectedBeam out;
         const auto line = [&](float length) {
             const Vec3f by_place = length * normalized(some(1));
-            return MirrorBeam::Line{by_place, -dot(by_place, some(30))};
+            return ReflectedBeam::Line{by_place, -dot(by_place, some(30))};
         };
         out.distance = line(1 + 20 * share_(random_)), out.x = line(2), out.y = line(2);
         out.least_m = 1e-3f;
@@ -50,22 +50,22 @@ class Crowd {
     }
 };
 
-TEST(MirrorBeams, NameEachBeamThatHoldsAPlaceOfTheBoxAndFewOthers) {
+TEST(ReflectedBeams, NameEachBeamThatHoldsAPlaceOfTheBoxAndFewOthers) {
     Crowd crowd;
     constexpr std::size_t kBeams = 1000;
-    std::vector<MirrorBeam> beams;
-    MirrorBeams all;
+    std::vector<ReflectedBeam> beams;
+    ReflectedBeams all;
     all.reserve(kBeams);
     for (std::size_t i = 0; i < kBeams; ++i) beams.push_back(crowd.beam()), all.add(beams.back());
     std::size_t named = 0, held = 0;
     for (int n = 0; n < 50; ++n) {
         const PlaceBox box = crowd.box();
         BeamPlaces places = crowd.places_in(box);
-        std::array<std::uint8_t, MirrorBeams::kTogether> meets;
+        std::array<std::uint8_t, ReflectedBeams::kTogether> meets;
         for (std::size_t block = 0; block < all.blocks(); ++block) {
             all.find(box, block, meets);
             for (std::size_t i = 0; i < meets.size(); ++i) {
-                const std::size_t number = block * MirrorBeams::kTogether + i;
+                const std::size_t number = block * ReflectedBeams::kTogether + i;
                 if (number >= kBeams) {
                     EXPECT_EQ(meets[i], 0) << "there is no beam " << number;
                     continue;

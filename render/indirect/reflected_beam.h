@@ -1,5 +1,5 @@
 #pragma once
-// The beams of light that flat mirrors throw (mirrored_suns.h), one for each of them. Nearly all places are
+// The beams of light that flat mirrors throw (mirror_sunlight.h), one for each of them. Nearly all places are
 // in none, and are to cost nothing: a look at one mirror and many places, and one at many mirrors and a box
 // of places.
 
@@ -15,7 +15,7 @@ namespace hilcam {
 // Ray space, metres. A place is in the beam where it is farther than least_m from the mirror's plane, along
 // the beam, and where it sees the Sun's middle within the mirror's rectangle or a margin about it, which
 // grows with that distance.
-struct MirrorBeam {
+struct ReflectedBeam {
     // A product with a place, and a constant.
     struct Line {
         Vec3f by_place;
@@ -34,7 +34,7 @@ struct BeamPlaces {
     alignas(64) std::array<std::uint8_t, kMax> in_beam;  // 1: it is
 };
 // Sets in_beam of all kMax. Loop, any thread.
-void find_places_in_beam(const MirrorBeam& beam, BeamPlaces& places);
+void find_places_in_beam(const ReflectedBeam& beam, BeamPlaces& places);
 
 // A box along the axes.
 struct PlaceBox {
@@ -42,7 +42,7 @@ struct PlaceBox {
 };
 
 // Beams side by side.
-class MirrorBeams {
+class ReflectedBeams {
   public:
     static constexpr std::size_t kTogether = 64;
 
@@ -50,7 +50,7 @@ class MirrorBeams {
     void reserve(std::size_t beams) { blocks_.reserve((beams + kTogether - 1) / kTogether); }
     // Loop; no allocation while there is room.
     void clear() { blocks_.clear(), count_ = 0; }
-    void add(const MirrorBeam& beam);
+    void add(const ReflectedBeam& beam);
 
     std::size_t blocks() const { return blocks_.size(); }
     // Tells the beams of a block, number 64 x block and on, that can meet the box: 1 in `meets`. It may name
