@@ -21,7 +21,7 @@ import sys
 import numpy
 from PIL import Image
 
-# I/F of the law of render/sky/body_light.h at 643 nm, 60 deg of incidence and phase, seen from above (tests: BodyLight.
+# I/F of the law of render/sky/body_photometry.h at 643 nm, 60 deg of incidence and phase, seen from above (tests: PlanetshineSource.
 # TheMoonsReflectanceFactorIsThatOfItsParameters).
 LAW_AT_60_DEG = 0.04582
 FACTORS, GAMMA, FROM, TO = (0.935, 1.005, 1.04), 2.8, 0.16, 0.4

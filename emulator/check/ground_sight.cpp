@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/time.h"
 #include "render/vocabulary/units.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "render/scene/scene.h"
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 
 namespace hilcam {
 

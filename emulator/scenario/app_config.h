@@ -29,7 +29,7 @@
 #include "render/frame/render_quality.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/bodies.h"
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 #include "render/sky/sun.h"
 #include "sensor/camera_model.h"
 #include "sensor/exposure.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "emulator/scenario/motion_config.h"
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 #include "render/sky/own_bodies.h"
 
 namespace hilcam {

@@ -46,7 +46,7 @@ class Background {
     // Bodies with a disk, nearest first; and those that are points.
     std::span<const PlacedBody> disks() const { return placed_.disks(); }
     std::span<const PlacedBody> points() const { return placed_.points(); }
-    std::span<const BodyLight> body_lights() const { return placed_.lights(); }
+    std::span<const PlanetshineSource> planetshine_sources() const { return placed_.lights(); }
     // Irradiance of a point body at the camera [W m^-2 um^-1].
     Spectrum point_irradiance(const PlacedBody& body) const { return light_.point_irradiance(body); }
     // Returns the radiance of a body's ground and rings in a direction of any length from the camera, whatever stands before
@@ -76,7 +76,7 @@ class Background {
     }
     // Cheaply, whether add_bodies() could add anything. dir: unit.
     bool may_meet_body(Vec3f dir) const {
-        for (const BodyLight& lamp : body_lights()) {
+        for (const PlanetshineSource& lamp : planetshine_sources()) {
             const Vec3f axis = to_float(lamp.world_dir);
             const float cosine = dot(axis, dir);
             // The cone with a margin for single precision and for the objects' own size.

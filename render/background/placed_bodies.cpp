@@ -57,7 +57,7 @@ void PlacedBodies::place(const WorldSnapshot& world, Vec3d objects_world_m, doub
         lights_[i] = light_of(disks_[i], world.bodies[disks_[i].id].world_m - objects_world_m);
 }
 
-BodyLight PlacedBodies::light_of(const PlacedBody& body, Vec3d to_body_m) const {
+PlanetshineSource PlacedBodies::light_of(const PlacedBody& body, Vec3d to_body_m) const {
     // Lambert's radiance is at most albedo / pi; Lommel-Seeliger's w / 4 pi at the bright limb.
     Spectrum most = scene_[body.id].look.max_sr();
     if (scene_.is_modelled(body.id)) most.bin.fill(EarthModel::kMaxOverSun);

@@ -26,7 +26,7 @@ class PlacedBodies {
     std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
     std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
     // Those with a disk as lamps, in the same order.
-    std::span<const BodyLight> lights() const { return {lights_.data(), disk_count_}; }
+    std::span<const PlanetshineSource> lights() const { return {lights_.data(), disk_count_}; }
     // Returns the distance from the camera to the nearest place that any body can have.
     double nearest_m() const { return nearest_m_; }
     bool camera_in_air() const { return camera_in_air_; }
@@ -35,14 +35,14 @@ class PlacedBodies {
     SceneBodies scene_;
     Spectrum sun_irradiance_1au_;
     std::array<PlacedBody, kMaxBodies> disks_, points_;
-    std::array<BodyLight, kMaxBodies> lights_;
+    std::array<PlanetshineSource, kMaxBodies> lights_;
     std::size_t disk_count_ = 0, point_count_ = 0;
     double nearest_m_ = 0;
     bool camera_in_air_ = false;
 
     PlacedBody placed(BodyId id, const WorldSnapshot& world, const BodyRadiance& light, bool stays) const;
     void add_planetshine(const WorldSnapshot& world, const BodyRadiance& light, PlacedBody& body) const;
-    BodyLight light_of(const PlacedBody& body, Vec3d to_body_m) const;
+    PlanetshineSource light_of(const PlacedBody& body, Vec3d to_body_m) const;
     // Radius with air or mountains.
     double outer_radius_m(BodyId id, const Figure& figure) const;
     bool is_seen_in_points(const PlacedBody& body, double pixel_rad) const;

@@ -15,7 +15,7 @@ namespace hilcam {
 inline constexpr double kBodyPoints_px = 8.0;
 
 // A body that shines on the objects: the cone that holds it.
-struct BodyLight {
+struct PlanetshineSource {
     Vec3d world_dir;          // from the objects
     float cone_sine_squared;  // square of the sine of its half angle; 1 inside it
     float one_minus_cosine;   // 1 - cosine of its half angle, with all its digits where it is small

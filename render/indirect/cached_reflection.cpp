@@ -182,8 +182,9 @@ template <class Where>
 Spectrum IndirectCache::others(const FrameView& frame, const IrradianceCache& light,
                                const Where& where) const {
     Spectrum sum;
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-        sum += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(RadiosityTerms::kBodies + b, where);
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
+        sum += planetshine_.bodies()[b].irradiance_w_m2_um *
+               light.irradiance(RadiosityTerms::kBodies + b, where);
     if (frame.lamps)
         for (const PlacedLamp& lamp : frame.lamps->lit())
             sum += lamp.intensity_w_sr_um * light.irradiance(RadiosityTerms::kLamps + lamp.number, where);
@@ -203,7 +204,7 @@ Spectrum IndirectCache::reflect_diffuse(const FrameView& frame, const Place& pla
         light.prefetch_along(sunlit ? RadiosityTerms::kSun : IrradianceCache::kNoTerm, place.nearest);
 
     Spectrum all = others(frame, light, about);
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) all += direct_irradiance(b, place);
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) all += direct_irradiance(b, place);
     if (sunlit) all += sun * light.irradiance(RadiosityTerms::kSun, about);
     return radiance_of(place, all);
 }
@@ -212,13 +213,13 @@ Spectrum IndirectCache::reflect_diffuse(const FrameView& frame, const Place& pla
 Spectrum IndirectCache::direct_irradiance(std::size_t body, const Place& place) const {
     const IrradianceCache& light = *objects_[place.at->object].light;
     return (place.found ? light.seen(RadiosityTerms::kBodies + body, place.about) : 1.0f) *
-           sky_.irradiance(body, place.at->normal);
+           planetshine_.irradiance(body, place.at->normal);
 }
 
 // The part of reflect_diffuse() that is the bodies' light without a way.
 Spectrum IndirectCache::reflect_bodies(const Place& place) const {
     Spectrum all;
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) all += direct_irradiance(b, place);
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) all += direct_irradiance(b, place);
     return radiance_of(place, all);
 }
 
@@ -246,7 +247,7 @@ void IndirectCache::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& pl
         by_parts = sent_of_bodies(at);
     else if (sent = lobes.bodies.find(at, 0); !sent)
         sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
         place.bodies[b] = {(share * met->free[b]) * (*sent)[b].radiance, (*sent)[b].facet_cosine};
 }
 
@@ -255,7 +256,7 @@ void IndirectCache::reflect_far_bodies(Place& place) const {
     const ShadingPoint& at = *place.at;
     const Vec3f mirror = reflect(at.view_dir, at.normal);
     place.has_bodies = !place.mirrors_near && is_lit(place) && dot(at.geometric_normal, mirror) > 0 &&
-                       sky_.is_clear_of_bodies(mirror);
+                       planetshine_.is_clear_of_bodies(mirror);
     if (place.has_bodies) place.bodies = sent_of_bodies(at);
 }
 
@@ -278,13 +279,14 @@ IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameView& frame, cons
     const IrradianceCache& light = *objects_[at.object].light;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
     const bool sunlit = largest(sun) > 0;
-    const std::size_t bodies = sky_.bodies().size();
+    const std::size_t bodies = planetshine_.bodies().size();
     IrradianceCache::Lobe lobe;
     if (place.found) {
         const Mat3f& axes = frame.world_from_body[at.object];
-        std::array<IrradianceCache::Cone, SkyLight::kMaxBodies> cones;
+        std::array<IrradianceCache::Cone, Planetshine::kMaxBodies> cones;
         for (std::size_t b = 0; b < bodies; ++b)
-            cones[b] = {to_body(axes, sky_.bodies()[b].light_dir), sky_.bodies()[b].light_cosine};
+            cones[b] = {to_body(axes, planetshine_.bodies()[b].light_dir),
+                        planetshine_.bodies()[b].light_cosine};
         lobe = light.lobe(sunlit ? RadiosityTerms::kSun : IrradianceCache::kNoTerm,
                           {cones.data(), whole ? 0 : bodies}, place.nearest, to_body(axes, at.normal),
                           to_body(axes, at.view_dir), at.surface.alpha);
@@ -316,14 +318,14 @@ IndirectCache::LobeRays::LobeRays(const IndirectCache& scene, const ShadingPoint
     const SentOfBodies sent = scene.sent_of_bodies(at);
     Bsdf plain = at.surface;
     plain.highlight = plain.material->highlight;
-    for (std::size_t b = 0; b < scene.sky_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
+    for (std::size_t b = 0; b < scene.planetshine_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
 }
 
 IndirectCache::SentOfBodies IndirectCache::sent_of_bodies(const ShadingPoint& at) const {
     SentOfBodies sent;
     // Brighter texels may share it.
     const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
         sent[b] =
             at.clusters ? sent_by_parts(b, at, reflectance) : sent_of_body(b, at, at.normal, reflectance);
     return sent;
@@ -346,9 +348,9 @@ bool IndirectCache::hangs_on_few(const Tile& tile, const ShadingPoint& at, const
 }
 
 // Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
-SkyLight::Glossy IndirectCache::sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
-                                             float reflectance) const {
-    SkyLight::Glossy sent = sky_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
+Planetshine::Glossy IndirectCache::sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
+                                                float reflectance) const {
+    Planetshine::Glossy sent = planetshine_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
     if (!has_own_colors(at.surface))
         sent.radiance = brdf_mirrored(at.surface, sent.facet_cosine) * sent.radiance;
     return sent;
@@ -356,17 +358,17 @@ SkyLight::Glossy IndirectCache::sent_of_body(std::size_t body, const ShadingPoin
 
 // The same of a shading point of several parts, each as it leans: of two that lean apart one may show the body, and their mean
 // none of it.
-SkyLight::Glossy IndirectCache::sent_by_parts(std::size_t body, const ShadingPoint& at,
-                                              float reflectance) const {
+Planetshine::Glossy IndirectCache::sent_by_parts(std::size_t body, const ShadingPoint& at,
+                                                 float reflectance) const {
     const bool own_colors = has_own_colors(at.surface);
     Spectrum sum;
     float samples = 0, cosines = 0;
-    std::array<SkyLight::Glossy, SkyLight::Lobes::kMost> sent;
+    std::array<Planetshine::Glossy, Planetshine::Lobes::kMost> sent;
     for (const NormalCluster* part = at.clusters; part;) {
-        SkyLight::Lobes lobes{at.view_dir, at.surface.alpha, reflectance};
+        Planetshine::Lobes lobes{at.view_dir, at.surface.alpha, reflectance};
         for (const NormalCluster* next = part; next && lobes.count < sent.size(); next = next->next)
             lobes.add(next->normal);
-        sky_.glossy(body, lobes, sent);
+        planetshine_.glossy(body, lobes, sent);
         for (std::size_t i = 0; i < lobes.count; ++i, part = part->next) {
             const Spectrum white = sent[i].radiance;
             const Spectrum light =
@@ -380,21 +382,21 @@ SkyLight::Glossy IndirectCache::sent_by_parts(std::size_t body, const ShadingPoi
     return {(1 / samples) * sum, own_colors && all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
 }
 
-Spectrum IndirectCache::colored(const Bsdf& at, const SkyLight::Glossy& sent) {
+Spectrum IndirectCache::colored(const Bsdf& at, const Planetshine::Glossy& sent) {
     return has_own_colors(at) ? brdf_mirrored(at, sent.facet_cosine) * sent.radiance : sent.radiance;
 }
 
 Spectrum IndirectCache::sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const {
     Spectrum sum;
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) sum += colored(at.surface, sent[b]);
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) sum += colored(at.surface, sent[b]);
     return sum;
 }
 
 void IndirectCache::add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror,
                                        Spectrum weight, Spectrum& radiance) const {
     bool meets = false;
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
-        meets = meets || sky_.is_met(b, mirror);
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) {
+        meets = meets || planetshine_.is_met(b, mirror);
         radiance += at.throughput * colored(at.surface, sent_of_body(b, at, at.normal, largest(weight)));
     }
     // Small bodies, and air.

@@ -31,7 +31,9 @@ float narrowest_alpha(std::span<const ShownObject> objects) {
 
 IndirectCache::IndirectCache(std::span<const ShownObject> objects, const EmbreeScene& scene,
                              const ColorBands& bands, const Settings& settings)
-    : terms_{settings.lamps, settings.emission}, objects_(objects.size()), sky_(narrowest_alpha(objects)) {
+    : terms_{settings.lamps, settings.emission},
+      objects_(objects.size()),
+      planetshine_(narrowest_alpha(objects)) {
     std::vector<IrradianceCache*> lights(objects.size());
     std::map<const ObjectSurfaces*, std::shared_ptr<const ObjectAlbedos>> albedos;  // by make
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -71,9 +73,9 @@ void IndirectCache::take_inputs(const FrameView& frame, const WorldSnapshot& wor
     std::copy(world.objects.begin(), world.objects.end(), now_.objects.begin());
     now_.sun = largest(frame.background->sun_irradiance_w_m2_um()) > 0;
     if (now_.sun) now_.sun_dir = to_float(frame.background->sun_world_dir());
-    now_.body_count = sky_.bodies().size();
+    now_.body_count = planetshine_.bodies().size();
     for (std::size_t b = 0; b < now_.body_count; ++b)
-        now_.bodies[b] = {sky_.bodies()[b].light_dir, sky_.bodies()[b].light_cosine};
+        now_.bodies[b] = {planetshine_.bodies()[b].light_dir, planetshine_.bodies()[b].light_cosine};
     now_.lamps.clear();
     if (frame.lamps)
         for (const PlacedLamp& lamp : frame.lamps->lit())
@@ -84,8 +86,8 @@ void IndirectCache::take_inputs(const FrameView& frame, const WorldSnapshot& wor
 void IndirectCache::set_key(const FrameView& frame, const WorldSnapshot& world) {
     // One place stands for a square of four pixels, which is 2.8 across, and its mirrors lean by 2 mrad against each other.
     constexpr float kSquare_px = 3, kLean_rad = 0.002f;
-    sky_.place(*frame.background,
-               kSquare_px / static_cast<float>(frame.geometry.focal_length_px) + 2 * kLean_rad);
+    planetshine_.place(*frame.background,
+                       kSquare_px / static_cast<float>(frame.geometry.focal_length_px) + 2 * kLean_rad);
     take_inputs(frame, world);
     key_.set(now_, lights_, terms_);
 }

@@ -17,7 +17,7 @@
 #include "render/indirect/glossy_request.h"
 #include "render/indirect/lobe_memo.h"
 #include "render/indirect/mirror_sunlight.h"
-#include "render/planetshine/sky_light.h"
+#include "render/planetshine/planetshine.h"
 #include "render/radiosity/solve_ahead.h"
 #include "render/scene/shown_object.h"
 #include "render/shading/tile.h"
@@ -74,21 +74,21 @@ class IndirectCache {
         LobeRays(const IndirectCache& scene, const ShadingPoint& at);
         void count(Vec3f dir) {
             ++all_;
-            for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
-                if (scene_.sky_.is_met(b, dir)) ++rays_[b];
+            for (std::size_t b = 0; b < scene_.planetshine_.bodies().size(); ++b)
+                if (scene_.planetshine_.is_met(b, dir)) ++rays_[b];
         }
         Spectrum share(Vec3f dir) const {
             Spectrum sum;
-            for (std::size_t b = 0; b < scene_.sky_.bodies().size(); ++b)
-                if (rays_[b] == 0 || scene_.sky_.is_met(b, dir))
+            for (std::size_t b = 0; b < scene_.planetshine_.bodies().size(); ++b)
+                if (rays_[b] == 0 || scene_.planetshine_.is_met(b, dir))
                     sum += (1 / static_cast<float>(rays_[b] > 0 ? rays_[b] : all_)) * sent_[b];
             return sum;
         }
 
       private:
         const IndirectCache& scene_;
-        std::array<Spectrum, SkyLight::kMaxBodies> sent_{};
-        std::array<int, SkyLight::kMaxBodies> rays_{};  // towards each
+        std::array<Spectrum, Planetshine::kMaxBodies> sent_{};
+        std::array<int, Planetshine::kMaxBodies> rays_{};  // towards each
         int all_ = 0;
     };
     // Returns what the facets of a shading point whose light is cached reflect of light from everywhere. Loop, any thread.
@@ -109,7 +109,7 @@ class IndirectCache {
     std::vector<Object> objects_;
     std::vector<const IrradianceCache*> lights_;  // the light kept on each of them
     std::unique_ptr<SolveAhead> updates_;
-    SkyLight sky_;
+    Planetshine planetshine_;
     MirrorSunlight mirror_sunlight_;
     // The inputs now, some frames ago, and as far ahead, and the keys that they ask for.
     static constexpr std::uint64_t kStride = 16;  // frames
@@ -124,7 +124,7 @@ class IndirectCache {
 
     // The radiance that a lobe sends of each body, if nothing is in the way; where a texture colours facets
     // (has_own_colors()) white, with the cosine that Fresnel's term has.
-    using SentOfBodies = std::array<SkyLight::Glossy, SkyLight::kMaxBodies>;
+    using SentOfBodies = std::array<Planetshine::Glossy, Planetshine::kMaxBodies>;
     // A shading point on its way through the lookup: many go together, so that none waits for memory.
     struct Place {
         const ShadingPoint* at;
@@ -158,8 +158,9 @@ class IndirectCache {
     };
     // A lobe's reflection of other surfaces.
     struct MetByLobe {
-        Spectrum radiance;                             // white or coloured as that of a place
-        std::array<float, SkyLight::kMaxBodies> free;  // share of each body's light that comes without a way
+        Spectrum radiance;  // white or coloured as that of a place
+        // Share of each body's light that comes without a way.
+        std::array<float, Planetshine::kMaxBodies> free;
         float directions;
         bool whole;  // the bodies are not looked for, as nothing is in their way
     };
@@ -187,11 +188,11 @@ class IndirectCache {
     void add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const;
     static void follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests);
     static bool hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met, float directions);
-    SkyLight::Glossy sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
-                                  float reflectance) const;
-    SkyLight::Glossy sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const;
+    Planetshine::Glossy sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
+                                     float reflectance) const;
+    Planetshine::Glossy sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const;
     // Returns it in the colours that a shading point has.
-    static Spectrum colored(const Bsdf& at, const SkyLight::Glossy& sent);
+    static Spectrum colored(const Bsdf& at, const Planetshine::Glossy& sent);
     Spectrum sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const;
 };
 

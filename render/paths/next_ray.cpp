@@ -22,7 +22,7 @@ bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& l
         return false;
     }
     const bool exact = ray.density == 0;
-    const float lamps = exact ? 0 : body_light_density(frame, *ray.from, ray.dir);
+    const float lamps = exact ? 0 : planetshine_density(frame, *ray.from, ray.dir);
     Spectrum weight = exact ? ray.throughput : (ray.density / (ray.density + lamps)) * ray.throughput;
     if (background.may_meet_body(ray.dir) &&
         background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light))

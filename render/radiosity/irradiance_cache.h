@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "render/brdf/microfacet.h"
-#include "render/planetshine/sky_light.h"
+#include "render/planetshine/planetshine.h"
 #include "render/probes/flat_mirrors.h"
 #include "render/probes/transfer_table.h"
 #include "render/radiosity/radiosity_source.h"
@@ -183,7 +183,7 @@ class IrradianceCache {
     struct Lobe {
         Spectrum cached;  // mean radiance of the term, times the share that meets it
         // Share of what each cone gives to the whole lobe that comes without a way.
-        std::array<float, SkyLight::kMaxBodies> free{1, 1};
+        std::array<float, Planetshine::kMaxBodies> free{1, 1};
         float of_irradiance = 0;  // radiance of what it meets, times the share, over the probe's irradiance
         // Number of directions of equal light whose sum would vary as much as that of what `cached` is made of: the
         // square of the sum over the sum of squares (Kish, Survey Sampling, 1965, section 8.2). 0: nothing is cached.

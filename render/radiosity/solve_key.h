@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "render/planetshine/sky_light.h"
+#include "render/planetshine/planetshine.h"
 #include "render/radiosity/inter_object_links.h"
 #include "render/scene/lamp.h"
 
@@ -14,7 +14,7 @@ namespace hilcam {
 
 // The terms of an object, by number.
 struct RadiosityTerms {
-    static constexpr std::size_t kSun = 0, kBodies = 1, kLamps = 1 + SkyLight::kMaxBodies;
+    static constexpr std::size_t kSun = 0, kBodies = 1, kLamps = 1 + Planetshine::kMaxBodies;
     std::size_t lamps = 0;
     bool emission = false;
 
@@ -39,7 +39,7 @@ struct SolveInputs {
     bool sun = false;
     Vec3f sun_dir;
     std::size_t body_count = 0;
-    std::array<Body, SkyLight::kMaxBodies> bodies;
+    std::array<Body, Planetshine::kMaxBodies> bodies;
     std::vector<Lamp> lamps;
 
     // Finds what comes after `now`, as far from it as `by` times what lies between it and `then`, everything

@@ -15,7 +15,7 @@
 #include "render/scene/terrain.h"
 #include "render/sky/atmosphere.h"
 #include "render/sky/bodies.h"
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 #include "render/sky/body_relief.h"
 #include "render/sky/stars.h"
 #include "render/vocabulary/mesh.h"

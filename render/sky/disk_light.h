@@ -1,6 +1,6 @@
 #pragma once
 // The light of the whole of a body for a distant viewer, where its V magnitude is measured: what the laws of
-// body_light.h leave to the body's shape, to Uranus' poles and to Saturn's rings.
+// body_photometry.h leave to the body's shape, to Uranus' poles and to Saturn's rings.
 //
 // The magnitudes of Jupiter and Saturn are those of flattened disks near their equators. So a body that is seen from its
 // equator has the law's light, and from elsewhere as much more as its outline is larger. What is drawn of an ellipsoid -
@@ -19,7 +19,7 @@
 
 #include <vector>
 
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 
 namespace hilcam {
 

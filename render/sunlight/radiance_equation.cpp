@@ -16,12 +16,14 @@ namespace {
 // of independent causes add by their squares.
 float sun_widened(float alpha) { return std::min(1.0f, std::sqrt(alpha * alpha + 0.00233f * 0.00233f)); }
 
-bool in_cone(const BodyLight& lamp, Vec3f dir) {
+bool in_cone(const PlanetshineSource& lamp, Vec3f dir) {
     const Vec3f axis = to_float(lamp.world_dir);
     const Vec3f across = cross(axis, dir);
     return dot(axis, dir) > 0 && dot(across, across) <= lamp.cone_sine_squared;
 }
-float cone_density(const BodyLight& lamp) { return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine)); }
+float cone_density(const PlanetshineSource& lamp) {
+    return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine));
+}
 
 // The path's own next direction may meet the lamp as well.
 bool is_weighed(const FrameView& frame, const ShadingPoint& at) {
@@ -30,7 +32,7 @@ bool is_weighed(const FrameView& frame, const ShadingPoint& at) {
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool body_light_counts(const FrameView& frame, const ShadingPoint& at, const BodyLight& lamp) {
+bool body_light_counts(const FrameView& frame, const ShadingPoint& at, const PlanetshineSource& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
     if (at.importance(at.throughput) * largest(lamp.max_over_sun) * solid_angle <
         frame.contribution_threshold)
@@ -45,9 +47,10 @@ Vec3f in_cone_at(const Frame& axis, float one_minus_cosine, float u1, float u2) 
 }
 
 // Density of the directions that are drawn to all bodies but one [sr^-1].
-float density_of_others(const FrameView& frame, const ShadingPoint& at, Vec3f dir, const BodyLight* one) {
+float density_of_others(const FrameView& frame, const ShadingPoint& at, Vec3f dir,
+                        const PlanetshineSource* one) {
     float density = 0;
-    for (const BodyLight& lamp : frame.background->body_lights())
+    for (const PlanetshineSource& lamp : frame.background->planetshine_sources())
         if (&lamp != one && in_cone(lamp, dir) && body_light_counts(frame, at, lamp))
             density += cone_density(lamp);
     return density;
@@ -151,7 +154,7 @@ void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
     };
     ShadowRays<SunlitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     std::uint32_t use = 2;
-    for (const BodyLight& lamp : background.body_lights()) {
+    for (const PlanetshineSource& lamp : background.planetshine_sources()) {
         const Frame axis(to_float(lamp.world_dir));
         ++use;
         for (const ShadingPoint& at : points) {
@@ -196,7 +199,7 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission) {
     return std::make_unique<RadianceEquation>(emission);
 }
 
-float body_light_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
+float planetshine_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
     return density_of_others(frame, at, dir, nullptr);
 }
 

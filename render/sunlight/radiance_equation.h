@@ -15,7 +15,7 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission);
 
 // Density [sr^-1] of the directions that kSampled draws to all bodies together, for a shading point; what a path's
 // own direction is weighed against.
-float body_light_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir);
+float planetshine_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir);
 // The same for the Sun's disk; 0 where the Sun is a point or the direction is off its disk.
 float sun_density(const FrameView& frame, Vec3f dir);
 

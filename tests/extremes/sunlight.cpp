@@ -1,6 +1,6 @@
 // The Sun: grazing, behind, near and far.
 
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 #include "tests/extremes/groups.h"
 #include "tests/support/stage.h"
 

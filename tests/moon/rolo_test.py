@@ -5,7 +5,7 @@
 
 ROLO: Kieffer & Stone, "The spectral irradiance of the Moon", Astron. J. 129, 2887 (2005), equation 10 with the coefficients of its table 4
 and of equation 10's text; absolute within 5 to 10 %, relative within 1 % over phases of 1.55 to 97 deg. hilcam's Moon is that of Sato et al. 2014
-(render/sky/body_light.h) with LROC's colour and LOLA's relief from configs/maps; its scale at 643 nm (tools/make_moon_map.py) and its phase curve know
+(render/sky/body_photometry.h) with LROC's colour and LOLA's relief from configs/maps; its scale at 643 nm (tools/make_moon_map.py) and its phase curve know
 nothing of ROLO, its colour is ROLO's at 30 deg. The camera stands where the mean Earth does, in axes that turn with the Moon, and time goes through a month. The Sun
 of these runs has 1000 W m^-2 um^-1 everywhere, so that neither solar spectrum is in the comparison. TABLE.csv gets what docs/bodies.md shows.
 

@@ -89,7 +89,7 @@ float lobe_share(const Bsdf& at, float no) {
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool counts(const FrameView& frame, const ShadingPoint& at, const BodyLight& body) {
+bool counts(const FrameView& frame, const ShadingPoint& at, const PlanetshineSource& body) {
     const float solid_angle = 2 * kPiF * body.one_minus_cosine;
     return at.importance(at.throughput) * largest(body.max_over_sun) * solid_angle >=
                frame.contribution_threshold &&
@@ -97,8 +97,8 @@ bool counts(const FrameView& frame, const ShadingPoint& at, const BodyLight& bod
 }
 
 bool is_in_a_body(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
-    const auto bodies = frame.background->body_lights();
-    return std::any_of(bodies.begin(), bodies.end(), [&](const BodyLight& body) {
+    const auto bodies = frame.background->planetshine_sources();
+    return std::any_of(bodies.begin(), bodies.end(), [&](const PlanetshineSource& body) {
         const Vec3f axis = to_float(body.world_dir), across = cross(axis, dir);
         return dot(axis, dir) > 0 && dot(across, across) <= body.cone_sine_squared && counts(frame, at, body);
     });
@@ -107,7 +107,7 @@ bool is_in_a_body(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
 // Equal areas on a body's cone by a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179): 64 directions
 // are within 1 % of a half-lit disk.
 constexpr int kOnBody = 64;
-Vec3f on_body(const BodyLight& body, const Frame& axis, int i) {
+Vec3f on_body(const PlanetshineSource& body, const Frame& axis, int i) {
     const float below = (static_cast<float>(i) + 0.5f) / kOnBody * body.one_minus_cosine;  // 1 - z
     const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * (static_cast<float>(i) * 0.61803399f);
     return axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
@@ -128,7 +128,7 @@ void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
         tile.add(*from.at, LightPart::kPlanetshine, light);
     };
     ShadowRays<FromBody, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
-    for (const BodyLight& body : frame.background->body_lights()) {
+    for (const PlanetshineSource& body : frame.background->planetshine_sources()) {
         const Frame axis(to_float(body.world_dir));
         const float density = 1 / (2 * kPiF * std::max(1e-20f, body.one_minus_cosine)) * kOnBody;
         for (const ShadingPoint& at : points) {

@@ -8,7 +8,7 @@
 
 #include "render/frame/renderer.h"
 #include "render/probes/transfer_table.h"
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/stage.h"
 

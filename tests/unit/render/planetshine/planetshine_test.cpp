@@ -1,4 +1,4 @@
-#include "render/planetshine/sky_light.h"
+#include "render/planetshine/planetshine.h"
 
 #include <gtest/gtest.h>
 
@@ -32,14 +32,14 @@ struct EarthAhead {
 };
 
 // The Earth from low orbit: its cone, air and all, and the margin beside it are not clear.
-TEST(SkyLight, KeepsClearOfBodiesByItsMargin) {
+TEST(Planetshine, KeepsClearOfBodiesByItsMargin) {
     const EarthAhead earth_ahead(6.8e6, {0, 1, -1});
     const Background& background = earth_ahead.background;
     constexpr double kMargin_rad = 0.01;
-    SkyLight sky(1);
+    Planetshine sky(1);
     sky.place(background, static_cast<float>(kMargin_rad));
-    ASSERT_FALSE(background.body_lights().empty());
-    const BodyLight& earth = background.body_lights().front();
+    ASSERT_FALSE(background.planetshine_sources().empty());
+    const PlanetshineSource& earth = background.planetshine_sources().front();
     const double half_rad = std::acos(1 - static_cast<double>(earth.one_minus_cosine));
     EXPECT_GT(half_rad, std::asin(kEarthEquatorialRadius_m / 6.8e6) - 0.003);  // a ball at least
     const auto is_clear = [&](double off_rad) {
@@ -54,13 +54,13 @@ TEST(SkyLight, KeepsClearOfBodiesByItsMargin) {
 
 // The whole Earth from a geostationary orbit, in lobes about its middle and beside it: what a sum over twenty thousand
 // directions of a spiral has.
-TEST(SkyLight, WideLobesHaveTheLightOfADisk) {
+TEST(Planetshine, WideLobesHaveTheLightOfADisk) {
     const EarthAhead earth(4.2164e7, {0, 0.3, -1});
     const Background& background = earth.background;
-    SkyLight sky(0.1f);
+    Planetshine sky(0.1f);
     sky.place(background, 0.01f);
     ASSERT_EQ(sky.bodies().size(), 1u);
-    const float below = background.body_lights().front().one_minus_cosine;
+    const float below = background.planetshine_sources().front().one_minus_cosine;
     for (const float alpha : {0.15f, 0.2f, 0.3f, 0.5f})
         for (const float off_rad : {0.0f, 0.1f, 0.2f, 0.4f}) {
             const Vec3f normal = normalized(Vec3f{0.4f, 0.1f, 1});

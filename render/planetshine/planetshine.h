@@ -12,14 +12,14 @@
 
 namespace hilcam {
 
-class SkyLight {
+class Planetshine {
   public:
     static constexpr std::size_t kMaxBodies = 2;
     // Bodies that cannot give this share of what white paint sends in the Sun are left out.
     static constexpr float kMinOverSun = 1e-5f;
 
     // narrowest_alpha: of the facets of all that it lights (GGX); 1: there are none.
-    explicit SkyLight(float narrowest_alpha);
+    explicit Planetshine(float narrowest_alpha);
 
     // Prepares a frame; the background is placed. margin_rad: how far from bodies is_clear_of_bodies() keeps. Loop.
     void place(const Background& background, float margin_rad);

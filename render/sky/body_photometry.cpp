@@ -1,4 +1,4 @@
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr double kSunColorBv = 0.653;
 // Mercury ... Neptune; the Earth's is not used.
 constexpr std::array<double, kBodyCount> kColorBv = {0.93, 0.82, 0.0, 0.92, 1.36, 0.83, 1.04, 0.56, 0.41};
 
-// The Moon's single-scattering albedo (body_light.h).
+// The Moon's single-scattering albedo (body_photometry.h).
 Curve moon_scattering() {
     return {
         {0.353, 0.411, 0.467, 0.549, 0.643, 0.687, 0.761, 0.873, 0.937, 1.06, 1.243, 1.586, 1.982, 2.189},

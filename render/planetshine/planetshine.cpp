@@ -1,4 +1,4 @@
-#include "render/planetshine/sky_light.h"
+#include "render/planetshine/planetshine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +87,9 @@ float whole_lobe(float alpha, float no) {
 }
 
 // Half the angle of a body's cone.
-float half_angle_rad(const BodyLight& lamp) { return 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine)); }
+float half_angle_rad(const PlanetshineSource& lamp) {
+    return 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
+}
 
 float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
 
@@ -102,16 +104,16 @@ Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, fl
 
 }  // namespace
 
-SkyLight::SkyLight(float narrowest_alpha) : narrowest_alpha_(narrowest_alpha) {
+Planetshine::Planetshine(float narrowest_alpha) : narrowest_alpha_(narrowest_alpha) {
     whole_lobe(0, 1);  // the table is made here, so that no frame makes it
 }
 
-bool SkyLight::is_clear_of_bodies(Vec3f dir) const {
+bool Planetshine::is_clear_of_bodies(Vec3f dir) const {
     return std::none_of(cones_.begin(), cones_.begin() + static_cast<std::ptrdiff_t>(cone_count_),
                         [&](const Cone& cone) { return dot(cone.axis, dir) >= cone.cosine; });
 }
 
-Vec3f SkyLight::DirectionMap::direction(int index) {
+Vec3f Planetshine::DirectionMap::direction(int index) {
     const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
     const float y = 2 * static_cast<float>(index / (kSteps + 1)) / kSteps - 1;
     const float z = 1 - std::abs(x) - std::abs(y);
@@ -119,7 +121,7 @@ Vec3f SkyLight::DirectionMap::direction(int index) {
                              : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
 }
 
-Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
+Spectrum Planetshine::DirectionMap::at(Vec3f dir) const {
     const float sum = std::abs(dir.x) + std::abs(dir.y) + std::abs(dir.z);
     float x = dir.x / sum, y = dir.y / sum;
     if (dir.z < 0) {
@@ -132,16 +134,16 @@ Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
     return interpolated(value, kSteps, px, py);
 }
 
-void SkyLight::place(const Background& background, float margin_rad) {
+void Planetshine::place(const Background& background, float margin_rad) {
     background_ = &background;
     cone_count_ = 0;
-    for (const BodyLight& lamp : background.body_lights()) {
+    for (const PlanetshineSource& lamp : background.planetshine_sources()) {
         const float half_rad = std::min(half_angle_rad(lamp) + margin_rad, kPiF);
         cones_[cone_count_++] = {to_float(lamp.world_dir), std::cos(half_rad)};
     }
     count_ = 0;
-    for (std::size_t number = 0; number < background.body_lights().size(); ++number) {
-        const BodyLight& lamp = background.body_lights()[number];
+    for (std::size_t number = 0; number < background.planetshine_sources().size(); ++number) {
+        const PlanetshineSource& lamp = background.planetshine_sources()[number];
         const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
         if (count_ == kMaxBodies || largest(lamp.max_over_sun) * solid_angle < kMinOverSun) continue;
         place_disks(background, number, disks_[count_]);
@@ -166,8 +168,8 @@ void SkyLight::place(const Background& background, float margin_rad) {
 }
 
 // Equal areas on the cone by a golden-angle spiral (Vogel 1979), four for each patch.
-void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) const {
-    const BodyLight& lamp = background.body_lights()[number];
+void Planetshine::place_disks(const Background& background, std::size_t number, Disks& disks) const {
+    const PlanetshineSource& lamp = background.planetshine_sources()[number];
     const float half_angle = half_angle_rad(lamp);
     disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
     disks.half_angle_rad = half_angle;
@@ -192,8 +194,8 @@ void SkyLight::place_disks(const Background& background, std::size_t number, Dis
 }
 
 // Each look's light goes to the nearest of fewer parts, which stand in the middle of what they have of it.
-void SkyLight::place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine, std::size_t count,
-                           Disk& out) {
+void Planetshine::place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine,
+                              std::size_t count, Disk& out) {
     std::array<Vec3f, kPatches> seed, middle{};
     for (std::size_t k = 0; k < count; ++k)
         seed[k] = spiral(axis, one_minus_cosine, k, count), out.irradiance[k] = {};
@@ -238,7 +240,8 @@ const FacetSlopes kSlopes(16), kSlopesAtLimb(64);
 // Facets of the lobe, each with what it sees of the map over its share of the directions (Krivanek & Colbert, GPU
 // Gems 3, 2007, ch. 20). Those that the map is too coarse for see it together along the mirror's direction, and each
 // by itself where the disk's limb is near.
-SkyLight::Glossy SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
+Planetshine::Glossy Planetshine::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir,
+                                             float alpha) const {
     const Disks& disks = disks_[body];
     const Frame local(normal);
     const float no = std::max(dot(normal, view_dir), 1e-2f);
@@ -288,7 +291,7 @@ SkyLight::Glossy SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f vie
 
 // Middle and size of the even disk whose light has the same mean direction and spread: half angle is the root
 // of twice the mean square.
-void SkyLight::place_light(const Disk& disk, Body& body) {
+void Planetshine::place_light(const Disk& disk, Body& body) {
     Vec3f mean{};
     float sum = 0, square = 0;
     for (std::size_t i = 0; i < kPatches; ++i) {
@@ -305,7 +308,7 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
 }
 
 // The part of a disk that lobes see.
-struct SkyLight::Seen {
+struct Planetshine::Seen {
     static constexpr float kNextToNothing = 1e-3f;
     std::array<float, Lobes::kMost> off;   // cosine between the mirror's direction and the disk's
     std::array<float, Lobes::kMost> most;  // radiance as a share of the irradiance, at most
@@ -316,8 +319,8 @@ struct SkyLight::Seen {
 
 // One kernel for all of it, as calls through clones cost as much as sixteen directions.
 HILCAM_CLONES
-void SkyLight::look(const Disks& disks, const Disk& disk, std::size_t count, Vec3f body_dir,
-                    const Lobes& lobes, Seen& seen) {
+void Planetshine::look(const Disks& disks, const Disk& disk, std::size_t count, Vec3f body_dir,
+                       const Lobes& lobes, Seen& seen) {
     const Vec3f view = lobes.view_dir;
     const float alpha = lobes.alpha;
     // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
@@ -356,8 +359,8 @@ void SkyLight::look(const Disks& disks, const Disk& disk, std::size_t count, Vec
     }
 }
 
-SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
-                                  float reflectance) const {
+Planetshine::Glossy Planetshine::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
+                                        float reflectance) const {
     Lobes lobes{view_dir, alpha, reflectance};
     lobes.add(normal);
     Glossy out;
@@ -365,7 +368,7 @@ SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir
     return out;
 }
 
-void SkyLight::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const {
+void Planetshine::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const {
     const Disks& disks = disks_[body];
     const float alpha = lobes.alpha;
     // The fewer parts where facets turn by half of alpha, at most, from one to the next.

@@ -1,4 +1,4 @@
-#include "render/sky/body_light.h"
+#include "render/sky/body_photometry.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 // Point and disk of a body have the same light, whatever the law: the sum of its radiance over the disk
 // against disk_albedo. The Moon at 40 degrees: V = -12.73 + 0.026 x 40 + 4e-9 x 40^4 (Krisciunas & Schaefer
 // 1991).
-TEST(BodyLight, DiskSumsUpToTheMagnitude) {
+TEST(PlanetshineSource, DiskSumsUpToTheMagnitude) {
     const SpectralGrid grid({0.545, 0.555});
     for (const BodyId id : {BodyId::kMoon, BodyId::kMars, BodyId::kJupiter}) {
         const BodyLook look(id, default_body(id), grid);
@@ -53,7 +53,7 @@ BodyConfig hapke_moon() {
 }
 
 // By squares of the disk, where the table goes by chords.
-TEST(BodyLight, HapkesDiskIsTheSumOfItsElements) {
+TEST(PlanetshineSource, HapkesDiskIsTheSumOfItsElements) {
     const SpectralGrid grid({0.6, 0.68});
     const BodyLook look(BodyId::kMoon, hapke_moon(), grid);
     for (const double phase_deg : {0.0, 5.0, 40.0, 90.0, 135.0}) {
@@ -77,7 +77,7 @@ TEST(BodyLight, HapkesDiskIsTheSumOfItsElements) {
 
 // Sato et al. 2014 with these medians: I/F of 0.098 at 30 deg incidence and phase, 0.046 at 60, worked out from
 // Hapke's formulas by another program.
-TEST(BodyLight, TheMoonsReflectanceFactorIsThatOfItsParameters) {
+TEST(PlanetshineSource, TheMoonsReflectanceFactorIsThatOfItsParameters) {
     const SpectralGrid grid({0.638, 0.648});
     const BodyLook look(BodyId::kMoon, hapke_moon(), grid);
     const auto radiance_factor = [&](double i_deg) {
@@ -90,7 +90,7 @@ TEST(BodyLight, TheMoonsReflectanceFactorIsThatOfItsParameters) {
     EXPECT_GT(look.disk_albedo(2 * kDegree_rad)[0] / look.disk_albedo(90 * kDegree_rad)[0], 8);
 }
 
-TEST(BodyLight, NothingIsBrighterThanItsBound) {
+TEST(PlanetshineSource, NothingIsBrighterThanItsBound) {
     const SpectralGrid grid({0.6, 0.7});
     const BodyLook look(BodyId::kMoon, hapke_moon(), grid);
     const float most = look.max_sr()[0];
@@ -105,7 +105,7 @@ TEST(BodyLight, NothingIsBrighterThanItsBound) {
         }
 }
 
-TEST(BodyLight, RefusesWhatContradictsItself) {
+TEST(PlanetshineSource, RefusesWhatContradictsItself) {
     const SpectralGrid grid({0.6, 0.7});
     BodyConfig mars = default_body(BodyId::kMars);
     mars.law = SurfaceLaw::kHapke;
@@ -122,7 +122,7 @@ TEST(BodyLight, RefusesWhatContradictsItself) {
 }
 
 // The Moon's night side, which faces a full Earth: the Earth as a Lambert disk, the Moon's law at its phase.
-TEST(BodyLight, TheEarthShinesOnTheMoonsNight) {
+TEST(PlanetshineSource, TheEarthShinesOnTheMoonsNight) {
     Stage s;
     s.geometry.focal_length_px = 8000;
     const double moon_m = 3.9e8, earth_m = -2e7;
