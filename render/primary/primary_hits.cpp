@@ -28,7 +28,7 @@ constexpr float kFarFromLobe = 2;
 constexpr float kTextureWidth = 0.5f;
 constexpr float kLeastFacing =
     1e-4f;  // a shading point's normal against the viewer [cosine], as find_surface_frame() has it
-constexpr float kFlattest = 1e-4f;  // a mosaic is seen as one from higher than this [sine]
+constexpr float kFlattest = 1e-4f;  // a coverage map is seen as one from higher than this [sine]
 
 bool has_narrow_lobe(const Bsdf& surface) {
     return surface.material->has_facets() && surface.alpha < kMinCachedAlpha;
@@ -53,10 +53,10 @@ std::size_t PrimaryHits::next_fragments(std::span<ShadingPoint> points) {
     }
     std::size_t count = 0;
     tile_.clusters.clear();
-    // Rooms for a shading point of each surface of mosaics: kMaxShadingPoints leave those of kMaxSamples together.
-    static_assert(Mosaic::kMaxLayers * kPacketSize <=
+    // Rooms for a shading point of each surface of coverage maps: kMaxShadingPoints leave those of kMaxSamples together.
+    static_assert(CoverageMap::kMaxLayers * kPacketSize <=
                   PathModel::kMaxShadingPoints - PathModel::kMaxSamples + kPacketSize);
-    while (count + Mosaic::kMaxLayers * kPacketSize <= points.size() &&
+    while (count + CoverageMap::kMaxLayers * kPacketSize <= points.size() &&
            tile_.clusters.room() >= 2 * kPacketSize) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))
             take_next_pixel();
@@ -325,16 +325,16 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
             continue;
         const ObjectSurfaces& surfaces = *(*frame.objects)[hits_.object[k]];
         const std::uint8_t patch = surfaces.triangles[hits_.triangle[k]].patch;
-        const Mosaic* mosaic = patch > 1 ? &(*surfaces.mosaics)[patch - 2u] : nullptr;
-        const float facing = mosaic ? dot(shown(*mosaic).normal, surface_frame.view_dir) : 0.0f;
+        const CoverageMap* coverage_map = patch > 1 ? &(*surfaces.coverage_maps)[patch - 2u] : nullptr;
+        const float facing = coverage_map ? dot(shown(*coverage_map).normal, surface_frame.view_dir) : 0.0f;
         if (facing > kFlattest) {
             const std::size_t before = count;
-            count = make_mosaic(k, surface_frame, points, count);
+            count = make_covered_points(k, surface_frame, points, count);
             if (count > before) continue;
         }
-        ShadingPoint* const joined = mosaic ? nullptr
-                                            : join(points.first(count), fragment.pixel, hits_.object[k],
-                                                   triangles[hits_.triangle[k]].surface, surface_frame);
+        ShadingPoint* const joined = coverage_map ? nullptr
+                                                  : join(points.first(count), fragment.pixel, hits_.object[k],
+                                                         triangles[hits_.triangle[k]].surface, surface_frame);
         if (joined) {
             take_in(k, surface_frame, *joined);
             continue;
@@ -343,7 +343,7 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
         make_shading_point(frame, hits_, static_cast<int>(k), surface_frame, origins_[k], dir, 0,
                            {pixel_rad * from_m, pixel_rad}, point);
         // Seen from its edge, what lies on the ground hides it.
-        if (facing > 0) set_surface(frame, mosaic->surface[1], point);
+        if (facing > 0) set_surface(frame, coverage_map->surface[1], point);
         if (is_textured(k)) paint(texture_of(k, point), point);
         finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], point);
         tile_.clusters.add(

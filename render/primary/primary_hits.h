@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "render/lod/mosaic.h"
+#include "render/lod/coverage_map.h"
 #include "render/shading/path_model.h"
 #include "render/visibility/fragment_packet.h"
 
@@ -53,9 +53,9 @@ class PrimaryHits {
     std::array<Vec2f, kPacketSize * kLooks> look_places_;  // in the triangle: u and v
     std::array<std::size_t, kPacketSize + 1> first_look_;
     std::array<bool, kPacketSize> turns_;
-    // The mosaic that was met last, as the frame shows it.
-    struct ShownMosaic {
-        const Mosaic* is = nullptr;
+    // The coverage map that was met last, as the frame shows it.
+    struct ShownCoverageMap {
+        const CoverageMap* is = nullptr;
         std::uint32_t object = 0;
         Vec3f normal, across, down;  // world axes
         Vec3d corner_m;              // world axes, from the body's origin
@@ -63,7 +63,7 @@ class PrimaryHits {
 
         Vec2f slopes(Vec3f dir) const;
     };
-    ShownMosaic mosaic_;
+    ShownCoverageMap coverage_map_;
 
     std::size_t next_fragments(std::span<ShadingPoint> points);
     bool open_next_part();
@@ -98,15 +98,15 @@ class PrimaryHits {
         Vec3d middle, right, down;
     };
     PixelRays rays_of(const Fragment& fragment) const;
-    const ShownMosaic& shown(const Mosaic& mosaic);
-    struct MosaicPixel {
+    const ShownCoverageMap& shown(const CoverageMap& coverage_map);
+    struct CoverageMapPixel {
         // Where its middle is from the camera, and how far a step of a pixel goes.
         Vec3d middle_m, per_x_m, per_y_m;
-        Mosaic::Look look;
+        CoverageMap::Coverage coverage;
     };
-    MosaicPixel look_at_mosaic(std::size_t k, Vec3f view_dir) const;
-    std::size_t make_mosaic(std::size_t k, const SurfaceFrame& surface_frame, std::span<ShadingPoint> points,
-                            std::size_t count);
+    CoverageMapPixel look_at_coverage_map(std::size_t k, Vec3f view_dir) const;
+    std::size_t make_covered_points(std::size_t k, const SurfaceFrame& surface_frame,
+                                    std::span<ShadingPoint> points, std::size_t count);
     void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, ShadingPoint& point);
     void take_in(std::size_t k, const SurfaceFrame& surface_frame, ShadingPoint& point);
     static ShadingPoint* join(std::span<ShadingPoint> so_far, std::uint32_t pixel, std::uint32_t object,

@@ -8,7 +8,7 @@
 #include <span>
 #include <tuple>
 
-#include "render/lod/mosaic_finder.h"
+#include "render/lod/coverage_map_finder.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {
@@ -139,10 +139,10 @@ void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces) {
         surfaces.patches = {};
 }
 
-std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces) {
+std::vector<std::uint8_t> may_be_in_coverage_maps(const Mesh& mesh, const ObjectSurfaces& surfaces) {
     std::vector<std::uint8_t> out(mesh.triangles.size());
     if (!mesh.colors.empty() || !mesh.hapke.empty()) return out;
-    // What mirrors show hangs on where they are: tiles of radiators as mosaics had more false lights than as tiles.
+    // What mirrors show hangs on where they are: tiles of radiators as coverage maps had more false lights than as tiles.
     constexpr float kMirror = 0.02f;  // alpha
     for (std::size_t t = 0; t < out.size(); ++t) {
         const Material& material = surfaces.materials[surfaces.triangles[t].surface];
@@ -159,37 +159,38 @@ namespace {
 // six tenths of a pixel: it blurs gaps, but has their light, which samples that are lit from the middles of gaps have not (docs/decisions.md).
 constexpr double kTexelOverError = 4;
 
-// Places of a mosaic are found from its ground's triangle, by its edges.
-bool reaches_all(const Mesh& mesh, std::uint32_t triangle, const Mosaic& mosaic) {
+// Places of a coverage map are found from its ground's triangle, by its edges.
+bool reaches_all(const Mesh& mesh, std::uint32_t triangle, const CoverageMap& coverage_map) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     const Vec3f u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
     const float height_m = length(cross(u, v)) / std::max({length(u), length(v), length(u - v)});
-    return kPatchReach * height_m > std::hypot(mosaic.width_m, mosaic.height_m);
+    return kPatchReach * height_m > std::hypot(coverage_map.width_m, coverage_map.height_m);
 }
 
 }  // namespace
 
-void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, const Mesh& mesh,
-                    double error_m, ObjectSurfaces& surfaces) {
-    if (!mosaics || mosaics->empty()) return;
-    const std::vector<MosaicParts> parts = mosaic_parts(*mosaics, mesh, may_be_in_mosaics(mesh, surfaces));
+void attach_coverage_maps(const std::shared_ptr<const std::vector<CoverageMap>>& coverage_maps,
+                          const Mesh& mesh, double error_m, ObjectSurfaces& surfaces) {
+    if (!coverage_maps || coverage_maps->empty()) return;
+    const std::vector<CoverageMapParts> parts =
+        coverage_map_parts(*coverage_maps, mesh, may_be_in_coverage_maps(mesh, surfaces));
     for (std::size_t m = 0; m < parts.size(); ++m) {
-        const Mosaic& mosaic = (*mosaics)[m];
-        if (kTexelOverError * error_m < static_cast<double>(mosaic.texel_m) || parts[m].ground.empty())
+        const CoverageMap& coverage_map = (*coverage_maps)[m];
+        if (kTexelOverError * error_m < static_cast<double>(coverage_map.texel_m) || parts[m].ground.empty())
             continue;
         const std::uint32_t ground = parts[m].ground.front();
-        if (!reaches_all(mesh, ground, mosaic)) continue;
+        if (!reaches_all(mesh, ground, coverage_map)) continue;
         if (surfaces.patches.empty()) {
             surfaces.patches.resize(mesh.triangles.size());
             std::iota(surfaces.patches.begin(), surfaces.patches.end(), 0u);
         }
-        // Who goes on in the ground's plane beside the mosaic is by himself.
+        // Who goes on in the ground's plane beside the coverage map is by himself.
         for (std::uint32_t t = 0; t < surfaces.patches.size(); ++t)
             if (surfaces.patches[t] == ground) surfaces.patches[t] = t;
         for (const std::uint32_t t : parts[m].ground) surfaces.patches[t] = ground;
         for (const std::uint32_t t : parts[m].upon) surfaces.patches[t] = kNotShown;
         surfaces.triangles[ground].patch = static_cast<std::uint8_t>(m + 2);
-        surfaces.mosaics = mosaics;
+        surfaces.coverage_maps = coverage_maps;
     }
 }
 

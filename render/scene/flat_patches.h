@@ -16,24 +16,24 @@
 
 namespace hilcam {
 
-class Mosaic;
+class CoverageMap;
 struct ObjectSurfaces;
 
 // Corners of a patch lie no farther from the first corner of what stands for it than so many of its edges.
 inline constexpr float kPatchReach = 64;
 
-// This stands in ObjectSurfaces::patches where the camera sees a triangle as part of what lies below it (mosaic.h).
+// This stands in ObjectSurfaces::patches where the camera sees a triangle as part of what lies below it (coverage_map.h).
 inline constexpr std::uint32_t kNotShown = ~std::uint32_t{0};
 
 // Writes ObjectSurfaces::patches and the marks of those that stand for others, after the normals of a level. The same for any
 // number of threads. mesh: that of which the surfaces were made. Owner thread; some tenths of a second for a million triangles.
 void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces);
 
-// By triangle, 1 where a mosaic may have it (mosaic_finder.h). Owner thread.
-std::vector<std::uint8_t> may_be_in_mosaics(const Mesh& mesh, const ObjectSurfaces& surfaces);
-// In a level of detail, the ground's largest triangle stands for all of a mosaic where its texels are at most four times as coarse as
-// the level's error, and what lies on the ground is not shown by itself. After find_patches(). Owner thread.
-void attach_mosaics(const std::shared_ptr<const std::vector<Mosaic>>& mosaics, const Mesh& mesh,
-                    double error_m, ObjectSurfaces& surfaces);
+// By triangle, 1 where a coverage map may have it (coverage_map_finder.h). Owner thread.
+std::vector<std::uint8_t> may_be_in_coverage_maps(const Mesh& mesh, const ObjectSurfaces& surfaces);
+// In a level of detail, the ground's largest triangle stands for all of a coverage map where its texels are at most four times as
+// coarse as the level's error, and what lies on the ground is not shown by itself. After find_patches(). Owner thread.
+void attach_coverage_maps(const std::shared_ptr<const std::vector<CoverageMap>>& coverage_maps,
+                          const Mesh& mesh, double error_m, ObjectSurfaces& surfaces);
 
 }  // namespace hilcam

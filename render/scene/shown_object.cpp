@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/lod/mosaic_finder.h"
+#include "render/lod/coverage_map_finder.h"
 #include "render/lod/triangle_order.h"
 #include "render/scene/flat_patches.h"
 
@@ -32,9 +32,9 @@ std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
     return out;
 }
 
-// Levels of smaller errors, over the object's size, have no mosaics: texels of small panels would be many. Those of a satellite with
-// wings from 20 to 40 m have more (docs/decisions.md).
-constexpr double kFinestMosaic = 1.0 / 65536;
+// Levels of smaller errors, over the object's size, have no coverage maps: texels of small panels would be many. Those of a
+// satellite with wings from 20 to 40 m have more (docs/decisions.md).
+constexpr double kFinestCoverageMap = 1.0 / 65536;
 
 }  // namespace
 
@@ -86,17 +86,17 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         out.bounds_m = bounds_of(*finest);
         out.levels.push_back(std::move(finest));
         out.error_m.push_back(0);
-        std::shared_ptr<const std::vector<Mosaic>> mosaics;
+        std::shared_ptr<const std::vector<CoverageMap>> coverage_maps;
         for (MeshLevel& level : object.levels) {
             auto surfaces = std::make_shared<ObjectSurfaces>(
                 level.mesh, widened(object.materials, level.flattened_alpha), textures);
             surfaces->flattened_alpha = level.flattened_alpha;
             surfaces->lod_normals = std::move(level.lod_normals);
             find_patches(level.mesh, *surfaces);
-            if (!mosaics && level.error_m >= kFinestMosaic * 2 * surfaces->radius_m)
-                mosaics = std::make_shared<const std::vector<Mosaic>>(
-                    find_mosaics(level.mesh, may_be_in_mosaics(level.mesh, *surfaces), level.error_m));
-            attach_mosaics(mosaics, level.mesh, level.error_m, *surfaces);
+            if (!coverage_maps && level.error_m >= kFinestCoverageMap * 2 * surfaces->radius_m)
+                coverage_maps = std::make_shared<const std::vector<CoverageMap>>(find_coverage_maps(
+                    level.mesh, may_be_in_coverage_maps(level.mesh, *surfaces), level.error_m));
+            attach_coverage_maps(coverage_maps, level.mesh, level.error_m, *surfaces);
             out.levels.push_back(std::move(surfaces));
             out.error_m.push_back(level.error_m);
         }

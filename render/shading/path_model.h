@@ -22,7 +22,7 @@ class PathModel {
   public:
     static constexpr int kMaxSamples = 1024;  // samples of a tile
     // Shading points that are lit together: those of as many samples, and what the last packet of them has more where a pixel
-    // sees several surfaces of a mosaic.
+    // sees several surfaces of a coverage map.
     static constexpr int kMaxShadingPoints = kMaxSamples + 2 * kPacketSize;
 
     virtual ~PathModel() = default;

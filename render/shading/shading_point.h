@@ -50,7 +50,7 @@ struct ShadingSurface {
     Bsdf surface;
     SunVisibility
         sun_visibility;   // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
-    float sunlit;         // share of it that what lies on it leaves in the Sun (mosaic.h)
+    float sunlit;         // share of it that what lies on it leaves in the Sun (coverage_map.h)
     float cluster_alpha;  // alpha of the lobes of its clusters
     const NormalCluster* clusters;  // the shading point's own among them; null: it is one
 };

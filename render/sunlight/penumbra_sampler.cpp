@@ -34,8 +34,8 @@ void PenumbraSampler::ask_once(Tile& tile, Vec3f sun_dir) {
         if (a.like) a.lit = a.like->lit;
 }
 
-// The shading point before one whose first ray is this one's as well: that of a mosaic's layer in the same pixel, which the same
-// samples see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which
+// The shading point before one whose first ray is this one's as well: that of a coverage map's layer in the same pixel, which the
+// same samples see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which
 // ShadingPoint::sunlit has.
 const PenumbraSampler::Asked* PenumbraSampler::layer_below(const Asked& a) const {
     if (count_ < 2) return nullptr;

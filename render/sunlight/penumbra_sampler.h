@@ -1,7 +1,7 @@
 #pragma once
 // Shadows' edges on what the camera sees by the visibility buffer, as wide as the Sun's disk makes them.
 //
-// One ray to the middle of the Sun tells which shading points are lit, and one for all layers of a mosaic in a pixel. Where
+// One ray to the middle of the Sun tells which shading points are lit, and one for all layers of a coverage map in a pixel. Where
 // shading points of one kind that differ lie in pixels within kReach_px of each other, an edge passes: each of them asks again by
 // four rays, and by sixteen where these differ, from places that its samples see to places of the disk. Of a shading point with
 // clusters each ray stands for as much of its light, and begins at what its samples see of the cluster. A kind is a surface of an

@@ -1,4 +1,4 @@
-#include "render/lod/mosaic.h"
+#include "render/lod/coverage_map.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/lod/mosaic_finder.h"
+#include "render/lod/coverage_map_finder.h"
 #include "render/scene/flat_patches.h"
 #include "render/scene/surface.h"
 #include "tests/support/tiled_panel.h"
@@ -30,21 +30,22 @@ Mesh leaning(Mesh mesh) {
     return mesh;
 }
 
-std::vector<Mosaic> mosaics_of(const Mesh& mesh) {
-    return find_mosaics(mesh, may_be_in_mosaics(mesh, surfaces_of(mesh)), kError_m);
+std::vector<CoverageMap> coverage_maps_of(const Mesh& mesh) {
+    return find_coverage_maps(mesh, may_be_in_coverage_maps(mesh, surfaces_of(mesh)), kError_m);
 }
 
-// A pixel of so many metres whose sides are turned against the mosaic's.
-Mosaic::Footprint pixel_at(const Mosaic& mosaic, Vec2d middle_m, double size_m, double turned_rad) {
-    const double per_m = 1 / static_cast<double>(mosaic.texel_m), step = per_m * size_m;
+// A pixel of so many metres whose sides are turned against the coverage map's.
+CoverageMap::Footprint pixel_at(const CoverageMap& coverage_map, Vec2d middle_m, double size_m,
+                                double turned_rad) {
+    const double per_m = 1 / static_cast<double>(coverage_map.texel_m), step = per_m * size_m;
     const auto c = static_cast<float>(step * std::cos(turned_rad)),
                s = static_cast<float>(step * std::sin(turned_rad));
     return {{per_m * middle_m.x, per_m * middle_m.y}, {c, s}, {-s, c}};
 }
 
-TEST(Mosaic, IsFoundWhereTilesLieOnTheGround) {
+TEST(CoverageMap, IsFoundWhereTilesLieOnTheGround) {
     const TiledPanel panel;
-    const std::vector<Mosaic> found = mosaics_of(leaning(panel.mesh()));
+    const std::vector<CoverageMap> found = coverage_maps_of(leaning(panel.mesh()));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].layers, 2u);
     EXPECT_EQ(found[0].surface[0], 0);
@@ -55,24 +56,25 @@ TEST(Mosaic, IsFoundWhereTilesLieOnTheGround) {
     EXPECT_NEAR(found[0].texel_m, kError_m, 1e-9);
 }
 
-TEST(Mosaic, IsNotFoundWhereTilesStandApartLeanOrHaveColours) {
-    EXPECT_TRUE(mosaics_of(TiledPanel{.height_m = 2 * kError_m}.mesh()).empty());
+TEST(CoverageMap, IsNotFoundWhereTilesStandApartLeanOrHaveColours) {
+    EXPECT_TRUE(coverage_maps_of(TiledPanel{.height_m = 2 * kError_m}.mesh()).empty());
     Mesh leans = TiledPanel{}.mesh();
     for (std::size_t i = 4; i < leans.vertices_m.size(); i += 4)
         leans.vertices_m[i].z += 0.001f, leans.vertices_m[i + 1].z += 0.001f;  // 0.6 degrees
-    EXPECT_TRUE(mosaics_of(leans).empty());
+    EXPECT_TRUE(coverage_maps_of(leans).empty());
     Mesh colored = TiledPanel{}.mesh();
     colored.colors.assign(colored.vertices_m.size(), {1, 0.5f, 0.5f});
-    EXPECT_TRUE(mosaics_of(colored).empty());
-    EXPECT_TRUE(mosaics_of(TiledPanel{.gap_m = 0}.mesh()).empty());  // of the ground nothing is seen
+    EXPECT_TRUE(coverage_maps_of(colored).empty());
+    EXPECT_TRUE(coverage_maps_of(TiledPanel{.gap_m = 0}.mesh()).empty());  // of the ground nothing is seen
 }
 
-TEST(Mosaic, HasTheAreasOfItsTriangles) {
+TEST(CoverageMap, HasTheAreasOfItsTriangles) {
     const TiledPanel panel;
-    const Mosaic mosaic = mosaics_of(leaning(panel.mesh())).at(0);
+    const CoverageMap coverage_map = coverage_maps_of(leaning(panel.mesh())).at(0);
     const double tiles = std::pow(1 - panel.gap_m / panel.pitch_m, 2);
     // Ten tiles each way, however the pixel lies.
-    const Mosaic::Look whole = mosaic.look(pixel_at(mosaic, {1, 1}, 10 * panel.pitch_m, 0), {});
+    const CoverageMap::Coverage whole =
+        coverage_map.coverage(pixel_at(coverage_map, {1, 1}, 10 * panel.pitch_m, 0), {});
     // Texels are a third of the pixel, over which its sides fall off.
     EXPECT_NEAR(whole.share[1], tiles, 5e-3);
     EXPECT_NEAR(whole.share[0] + whole.share[1], 1, 1e-6);
@@ -80,18 +82,19 @@ TEST(Mosaic, HasTheAreasOfItsTriangles) {
     // A pixel of a third of a tile has a gap or none.
     for (const double x_m : {1.0, 1.03, 1.05}) {
         const double half_m = 0.0165;
-        const Mosaic::Look small = mosaic.look(pixel_at(mosaic, {x_m, 1.05}, 2 * half_m, 0), {});
+        const CoverageMap::Coverage small =
+            coverage_map.coverage(pixel_at(coverage_map, {x_m, 1.05}, 2 * half_m, 0), {});
         EXPECT_NEAR(small.share[1], panel.covered(x_m - half_m, x_m + half_m), 0.02) << x_m;
     }
     // Nothing beside it.
-    EXPECT_EQ(mosaic.look(pixel_at(mosaic, {-1, 1}, 0.1, 0), {}).share,
-              (std::array<float, Mosaic::kMaxLayers>{}));
+    EXPECT_EQ(coverage_map.coverage(pixel_at(coverage_map, {-1, 1}, 0.1, 0), {}).share,
+              (std::array<float, CoverageMap::kMaxLayers>{}));
 }
 
 // Whatever the phase of pixels and gaps is, none is lost: the mean is the areas', and no pixel has a gap that another has, too.
-TEST(Mosaic, PixelsSideBySideAddUpToIt) {
+TEST(CoverageMap, PixelsSideBySideAddUpToIt) {
     const TiledPanel panel;
-    const Mosaic mosaic = mosaics_of(leaning(panel.mesh())).at(0);
+    const CoverageMap coverage_map = coverage_maps_of(leaning(panel.mesh())).at(0);
     for (const double size_m : {0.011, 0.031, 0.07})
         for (const double turned : {0.0, 0.3, 0.8}) {
             double sum = 0;
@@ -102,7 +105,8 @@ TEST(Mosaic, PixelsSideBySideAddUpToIt) {
                     const double x = size_m * (i * std::cos(turned) - j * std::sin(turned)),
                                  y = size_m * (i * std::sin(turned) + j * std::cos(turned));
                     sum += static_cast<double>(
-                        mosaic.look(pixel_at(mosaic, {1 + x, 1 + y}, size_m, turned), {}).share[0]);
+                        coverage_map.coverage(pixel_at(coverage_map, {1 + x, 1 + y}, size_m, turned), {})
+                            .share[0]);
                     ++count;
                 }
             const double side_m = size_m * (2 * half + 1);
@@ -113,28 +117,28 @@ TEST(Mosaic, PixelsSideBySideAddUpToIt) {
 }
 
 // Seen at a flat angle a pixel is long, and texels as many; nothing is lost nor out of bounds.
-TEST(Mosaic, IsSeenFromNearItsEdge) {
-    const Mosaic mosaic = mosaics_of(leaning(TiledPanel{}.mesh())).at(0);
+TEST(CoverageMap, IsSeenFromNearItsEdge) {
+    const CoverageMap coverage_map = coverage_maps_of(leaning(TiledPanel{}.mesh())).at(0);
     for (const float longer : {3.0f, 30.0f, 3e3f, 1e6f}) {
-        Mosaic::Footprint pixel = pixel_at(mosaic, {1.05, 1.05}, 0.02, 0.3);
+        CoverageMap::Footprint pixel = pixel_at(coverage_map, {1.05, 1.05}, 0.02, 0.3);
         pixel.per_y = {longer * pixel.per_y.x, longer * pixel.per_y.y};
-        const Mosaic::Look look = mosaic.look(pixel, {});
+        const CoverageMap::Coverage look = coverage_map.coverage(pixel, {});
         EXPECT_NEAR(look.share[0] + look.share[1], 1, 1e-5) << longer;
         EXPECT_GT(look.share[1], 0.7f) << longer;
     }
-    EXPECT_EQ(mosaic.look({{1, 1}, {1, 1}, {1, 1}}, {}).share[1], 0);
+    EXPECT_EQ(coverage_map.coverage({{1, 1}, {1, 1}, {1, 1}}, {}).share[1], 0);
 }
 
 // In a gap of five millimetres a millimetre below, the Sun 45 degrees to its side lights four fifths; along it, all.
-TEST(Mosaic, GapsAreShadedAsNarrowAsTheyAre) {
+TEST(CoverageMap, GapsAreShadedAsNarrowAsTheyAre) {
     const TiledPanel panel;
-    const Mosaic mosaic = mosaics_of(panel.mesh()).at(0);
+    const CoverageMap coverage_map = coverage_maps_of(panel.mesh()).at(0);
     const auto lit = [&](Vec2d at_m, Vec2f way) {
-        const Vec3d from = Vec3d{at_m.x, at_m.y, panel.height_m} - to_double(mosaic.corner_m);
-        const Vec2d place{dot(from, to_double(mosaic.across)), dot(from, to_double(mosaic.down))};
-        const Vec2f own{way.x * mosaic.across.x + way.y * mosaic.across.y,
-                        way.x * mosaic.down.x + way.y * mosaic.down.y};
-        return mosaic.look(pixel_at(mosaic, place, 0.03, 0), own).lit;
+        const Vec3d from = Vec3d{at_m.x, at_m.y, panel.height_m} - to_double(coverage_map.corner_m);
+        const Vec2d place{dot(from, to_double(coverage_map.across)), dot(from, to_double(coverage_map.down))};
+        const Vec2f own{way.x * coverage_map.across.x + way.y * coverage_map.across.y,
+                        way.x * coverage_map.down.x + way.y * coverage_map.down.y};
+        return coverage_map.coverage(pixel_at(coverage_map, place, 0.03, 0), own).lit;
     };
     const Vec2d along_x{1.05, 1}, along_y{1, 1.05};
     EXPECT_NEAR(lit(along_y, {0, 0}), 1, 0.01);
@@ -147,15 +151,15 @@ TEST(Mosaic, GapsAreShadedAsNarrowAsTheyAre) {
     EXPECT_NEAR(lit({1, 1}, {9, 9}), 0, 0.02);
 }
 
-TEST(Mosaic, TheGroundStandsForAllInALevelOfDetail) {
+TEST(CoverageMap, TheGroundStandsForAllInALevelOfDetail) {
     const Mesh mesh = leaning(TiledPanel{}.mesh());
     ObjectSurfaces surfaces = surfaces_of(mesh);
     find_patches(mesh, surfaces);
-    const auto mosaics = std::make_shared<const std::vector<Mosaic>>(mosaics_of(mesh));
-    attach_mosaics(mosaics, mesh, 0.24 * kError_m, surfaces);  // too fine a level
-    EXPECT_EQ(surfaces.mosaics, nullptr);
-    attach_mosaics(mosaics, mesh, 0.26 * kError_m, surfaces);  // a quarter of a texel
-    ASSERT_EQ(surfaces.mosaics, mosaics);
+    const auto coverage_maps = std::make_shared<const std::vector<CoverageMap>>(coverage_maps_of(mesh));
+    attach_coverage_maps(coverage_maps, mesh, 0.24 * kError_m, surfaces);  // too fine a level
+    EXPECT_EQ(surfaces.coverage_maps, nullptr);
+    attach_coverage_maps(coverage_maps, mesh, 0.26 * kError_m, surfaces);  // a quarter of a texel
+    ASSERT_EQ(surfaces.coverage_maps, coverage_maps);
     const std::uint32_t ground = surfaces.patches[0];
     EXPECT_LT(ground, 2u);
     EXPECT_EQ(surfaces.patches[1], ground);
@@ -165,15 +169,15 @@ TEST(Mosaic, TheGroundStandsForAllInALevelOfDetail) {
 }
 
 // A ground is cut off along a diagonal, and some tiles stand out over the cut: these are shown by themselves.
-TEST(Mosaic, TilesThatStandOutOfTheGroundAreNoPartOfIt) {
+TEST(CoverageMap, TilesThatStandOutOfTheGroundAreNoPartOfIt) {
     const TiledPanel panel;
     Mesh mesh = panel.mesh();
     mesh.vertices_m[2] = {static_cast<float>(panel.side_m()), 0.4f, 0};
     ObjectSurfaces surfaces = surfaces_of(mesh);
     find_patches(mesh, surfaces);
-    const auto mosaics = std::make_shared<const std::vector<Mosaic>>(mosaics_of(mesh));
-    ASSERT_EQ(mosaics->size(), 1u);
-    attach_mosaics(mosaics, mesh, kError_m, surfaces);
+    const auto coverage_maps = std::make_shared<const std::vector<CoverageMap>>(coverage_maps_of(mesh));
+    ASSERT_EQ(coverage_maps->size(), 1u);
+    attach_coverage_maps(coverage_maps, mesh, kError_m, surfaces);
     std::size_t hidden = 0;
     for (std::size_t t = 2; t < mesh.triangles.size(); ++t) {
         const auto inside = [&](std::uint32_t v) {
@@ -194,14 +198,14 @@ TEST(Mosaic, TilesThatStandOutOfTheGroundAreNoPartOfIt) {
     EXPECT_LT(hidden, 600u);
 }
 
-TEST(Mosaic, IsTheSameByAnyWidthOfVectors) {
-    const Mosaic mosaic = mosaics_of(leaning(TiledPanel{}.mesh())).at(0);
+TEST(CoverageMap, IsTheSameByAnyWidthOfVectors) {
+    const CoverageMap coverage_map = coverage_maps_of(leaning(TiledPanel{}.mesh())).at(0);
     expect_same_by_any_width([&] {
         std::vector<float> out;
         for (int i = 0; i < 50; ++i) {
-            const Mosaic::Look look = mosaic.look(
-                pixel_at(mosaic, {0.3 + 0.03 * i, 0.2 + 0.02 * i}, 0.01 + 0.003 * i, 0.1 * i), {1, -2});
-            for (std::size_t k = 0; k < mosaic.layers; ++k)
+            const CoverageMap::Coverage look = coverage_map.coverage(
+                pixel_at(coverage_map, {0.3 + 0.03 * i, 0.2 + 0.02 * i}, 0.01 + 0.003 * i, 0.1 * i), {1, -2});
+            for (std::size_t k = 0; k < coverage_map.layers; ++k)
                 out.insert(out.end(), {look.share[k], look.place[k].x, look.place[k].y});
             out.insert(out.end(), {look.lit, look.lean.x, look.lean.y});
         }

@@ -1,4 +1,4 @@
-#include "render/lod/mosaic_sums.h"
+#include "render/lod/coverage_map_sums.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/lod/mosaic_sums.cpp"
+#define HWY_TARGET_INCLUDE "render/lod/coverage_map_sums.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -17,14 +17,14 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 // Two eights side by side, in as many vectors as they take.
-constexpr std::size_t kEight = MosaicTexels::kLanes, kLanes = 2 * kEight;
+constexpr std::size_t kEight = CoverageTexels::kLanes, kLanes = 2 * kEight;
 using Floats = hn::CappedTag<float, kLanes>;
 using Numbers = hn::RebindToUnsigned<Floats>;
 using V = hn::Vec<Floats>;
 constexpr std::size_t kStep = hn::MaxLanes(Floats());
 
 // Two eights that lie anywhere.
-using Pair = std::array<const MosaicTexels*, 2>;
+using Pair = std::array<const CoverageTexels*, 2>;
 // A vector's part of them, which begins with lane kFirst.
 template <std::size_t kFirst>
 struct Part {
@@ -45,7 +45,7 @@ struct Part {
             return hn::Add(hn::Set(d, first[kOf]), ways);
         }
     }
-    // What the texels have at an offset in MosaicTexels.
+    // What the texels have at an offset in CoverageTexels.
     template <class Byte = std::uint8_t>
     static HWY_INLINE V numbers(const Pair& eights, std::size_t offset) {
         const hn::Rebind<Byte, Floats> bytes;
@@ -65,8 +65,8 @@ struct Part {
 // Eights of which a part may be in the pixel, and where the first texel of each is.
 struct Found {
     std::size_t count = 0;
-    alignas(64) std::array<std::uint32_t, MosaicWindow::kMost + kLanes> number;
-    alignas(64) std::array<float, MosaicWindow::kMost + kLanes> x, y;
+    alignas(64) std::array<std::uint32_t, CoverageWindow::kMost + kLanes> number;
+    alignas(64) std::array<float, CoverageWindow::kMost + kLanes> x, y;
 
     // Appends those of a vector that are seen.
     HWY_INLINE void append(hn::Mask<Floats> seen, hn::Vec<Numbers> numbers, V x_there, V y_there) {
@@ -96,7 +96,7 @@ struct Found {
 float inverse(float step) { return std::copysign(1 / std::max(std::abs(step), 1e-6f), step); }
 
 // False: there are too many. Rows are lanes.
-HWY_INLINE bool find(const MosaicWindow& w, Found& out) {
+HWY_INLINE bool find(const CoverageWindow& w, Found& out) {
     const Floats d;
     const Numbers du;
     const float x_per_column = inverse(w.x_column), y_per_column = inverse(w.y_column);
@@ -120,7 +120,7 @@ HWY_INLINE bool find(const MosaicWindow& w, Found& out) {
             const auto number = hn::Add(rows_of_eights, hn::Set(du, r * w.row_of_eights + e));
             out.append(seen, number, hn::Add(x, hn::Set(d, first * w.x_column)),
                        hn::Add(y, hn::Set(d, first * w.y_column)));
-            if (out.count > MosaicWindow::kMost) return false;
+            if (out.count > CoverageWindow::kMost) return false;
         }
     }
     // They are taken by twos: the last may be one far away.
@@ -135,14 +135,14 @@ HWY_INLINE V inside(V at, V reach) {
     return hn::Min(hn::Max(hn::Sub(reach, hn::Abs(at)), hn::Zero(d)), hn::Set(d, 1));
 }
 
-// The terms of MosaicSums, in order.
-constexpr std::size_t kLayers = MosaicTexels::kLayers, kShare = 0, kX = kLayers, kY = 2 * kLayers,
+// The terms of CoverageSums, in order.
+constexpr std::size_t kLayers = CoverageTexels::kLayers, kShare = 0, kX = kLayers, kY = 2 * kLayers,
                       kLean = 3 * kLayers, kLit = kLean + 2, kTerms = kLit + 1;
-static_assert(sizeof(MosaicSums) == kTerms * sizeof(float) && kTerms % 4 == 0);
+static_assert(sizeof(CoverageSums) == kTerms * sizeof(float) && kTerms % 4 == 0);
 using Lanes = std::array<std::array<float, kLanes>, kTerms>;
 
 template <std::size_t kFirst>
-HWY_INLINE void sum_part(const MosaicWindow& w, const Found& found, Lanes& out) {
+HWY_INLINE void sum_part(const CoverageWindow& w, const Found& found, Lanes& out) {
     using P = Part<kFirst>;
     const Floats d;
     const V x_ways = P::ways(w.x_column), y_ways = P::ways(w.y_column), x_reach = hn::Set(d, w.x_reach),
@@ -157,18 +157,18 @@ HWY_INLINE void sum_part(const MosaicWindow& w, const Found& found, Lanes& out) 
                 weight = hn::Mul(inside(x, x_reach), inside(y, y_reach));
         V share[kLayers];
         for (std::size_t k = 0; k < kLayers; ++k) {
-            share[k] = P::numbers(eights, offsetof(MosaicTexels, share) + k * kEight);
+            share[k] = P::numbers(eights, offsetof(CoverageTexels, share) + k * kEight);
             const V part = hn::Mul(weight, share[k]);
             add(kShare + k, part), add(kX + k, hn::Mul(part, x)), add(kY + k, hn::Mul(part, y));
         }
         V gap[2];
         for (std::size_t k = 0; k < 2; ++k) {
-            const std::size_t lean = offsetof(MosaicTexels, lean) + k * kEight;
+            const std::size_t lean = offsetof(CoverageTexels, lean) + k * kEight;
             add(kLean + k, hn::Mul(weight, P::template numbers<std::int8_t>(eights, lean)));
-            gap[k] = P::numbers(eights, offsetof(MosaicTexels, gap) + k * kEight);
+            gap[k] = P::numbers(eights, offsetof(CoverageTexels, gap) + k * kEight);
         }
         // Texel by texel, as a narrow gap that is dark must not darken a wide one.
-        const V down = P::numbers(eights, offsetof(MosaicTexels, down)), across = hn::Sub(share[0], down);
+        const V down = P::numbers(eights, offsetof(CoverageTexels, down)), across = hn::Sub(share[0], down);
         const V open = hn::Add(hn::Max(hn::Sub(down, hn::Mul(light_across, gap[0])), dark),
                                hn::Max(hn::Sub(across, hn::Mul(light_down, gap[1])), dark));
         add(kLit, hn::Mul(weight, open));
@@ -177,13 +177,13 @@ HWY_INLINE void sum_part(const MosaicWindow& w, const Found& found, Lanes& out) 
 }
 
 template <std::size_t... kPart>
-HWY_INLINE void sum_parts(const MosaicWindow& w, const Found& found, Lanes& out,
+HWY_INLINE void sum_parts(const CoverageWindow& w, const Found& found, Lanes& out,
                           std::index_sequence<kPart...>) {
     (sum_part<kPart * kStep>(w, found, out), ...);
 }
 
 // Halves of lanes are added to each other, of four sums at a time.
-MosaicSums add_lanes(const Lanes& lanes) {
+CoverageSums add_lanes(const Lanes& lanes) {
     const hn::Full128<float> d;
     const auto four = [&](std::size_t term) HWY_ATTR {
         const float* lane = lanes[term].data();
@@ -199,10 +199,10 @@ MosaicSums add_lanes(const Lanes& lanes) {
         const auto ab = two_each(i), cd = two_each(i + 2);
         hn::Store(hn::Add(hn::ConcatEven(d, cd, ab), hn::ConcatOdd(d, cd, ab)), d, &out[i]);
     }
-    return std::bit_cast<MosaicSums>(out);
+    return std::bit_cast<CoverageSums>(out);
 }
 
-bool sums(const MosaicWindow& w, MosaicSums& out) {
+bool sums(const CoverageWindow& w, CoverageSums& out) {
     Found found;
     if (!find(w, found)) return false;
     alignas(64) Lanes lanes;
@@ -220,7 +220,7 @@ namespace hilcam {
 
 HWY_EXPORT(sums);
 
-bool find_sums(const MosaicWindow& window, MosaicSums& out) {
+bool find_sums(const CoverageWindow& window, CoverageSums& out) {
     return HWY_DYNAMIC_DISPATCH(sums)(window, out);
 }
 

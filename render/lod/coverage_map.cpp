@@ -1,4 +1,4 @@
-#include "render/lod/mosaic.h"
+#include "render/lod/coverage_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace {
 
 // Texels are no longer than this, where there are such: a choice by its error (docs/decisions.md).
 constexpr float kSharp_px = 0.35f;
-constexpr auto kEight = static_cast<int>(MosaicTexels::kLanes);
+constexpr auto kEight = static_cast<int>(CoverageTexels::kLanes);
 
 // Whole numbers, from the first until before the end.
 struct WholeNumbers {
@@ -29,7 +29,7 @@ struct WholeNumbers {
 
 // Ways of texels in a pixel, by the width that one takes there: a side falls off over it, so that pixels side by side add up to
 // one.
-struct Mosaic::Steps {
+struct CoverageMap::Steps {
     // From a texel to the next in its row and in its column [widths].
     float x_column, x_row, y_column, y_row;
     float x_px, y_px;  // width of the finest texels
@@ -49,10 +49,10 @@ struct Mosaic::Steps {
 };
 
 // Returns the part of a level that is about a pixel.
-MosaicWindow Mosaic::window(const Footprint& pixel, const Steps& steps, std::size_t level) const {
+CoverageWindow CoverageMap::window(const Footprint& pixel, const Steps& steps, std::size_t level) const {
     const Level& there = levels_[level];
     const auto size = static_cast<float>(std::size_t{1} << level);
-    MosaicWindow out;
+    CoverageWindow out;
     out.x_column = steps.x_column, out.x_row = steps.x_row;
     out.y_column = steps.y_column, out.y_row = steps.y_row;
     out.x_reach = 0.5f + 0.5f / (size * steps.x_px), out.y_reach = 0.5f + 0.5f / (size * steps.y_px);
@@ -77,17 +77,17 @@ MosaicWindow Mosaic::window(const Footprint& pixel, const Steps& steps, std::siz
     return out;
 }
 
-Mosaic::Look Mosaic::look(const Footprint& pixel, Vec2f way) const {
-    Look out;
+CoverageMap::Coverage CoverageMap::coverage(const Footprint& pixel, Vec2f way) const {
+    Coverage out;
     Steps steps{};
     if (!Steps::find(pixel, steps)) return out;
     std::size_t level = 0;
     for (float widest = 2 * std::max(steps.x_px, steps.y_px);
          widest <= kSharp_px && level + 1 < levels_.size(); widest *= 2)
         ++level;
-    MosaicSums sums;
+    CoverageSums sums;
     for (;; ++level) {
-        MosaicWindow there = window(pixel, steps, level);
+        CoverageWindow there = window(pixel, steps, level);
         there.light_across = std::abs(way.x), there.light_down = std::abs(way.y);
         if (find_sums(there, sums) || level + 1 == levels_.size()) break;
     }
@@ -107,7 +107,7 @@ Mosaic::Look Mosaic::look(const Footprint& pixel, Vec2f way) const {
     return out;
 }
 
-bool Mosaic::covers(const std::array<Vec3d, 3>& corners) const {
+bool CoverageMap::covers(const std::array<Vec3d, 3>& corners) const {
     const auto is_there = [&](Vec3d at_m) {
         const Vec3d at = at_m - to_double(corner_m);
         const Level& finest = levels_.front();
@@ -116,10 +116,10 @@ bool Mosaic::covers(const std::array<Vec3d, 3>& corners) const {
         };
         const int column = texel(dot(at, to_double(across)), finest.columns);
         const int row = texel(dot(at, to_double(down)), finest.rows);
-        const MosaicTexels& there = finest.kinds[finest.eights[finest.eight(column / kEight, row)]];
+        const CoverageTexels& there = finest.kinds[finest.eights[finest.eight(column / kEight, row)]];
         return std::any_of(there.share.begin(), there.share.begin() + layers,
-                           [&](const MosaicTexels::Bytes& share) {
-                               return share[static_cast<std::size_t>(column) % MosaicTexels::kLanes] > 0;
+                           [&](const CoverageTexels::Bytes& share) {
+                               return share[static_cast<std::size_t>(column) % CoverageTexels::kLanes] > 0;
                            });
     };
     const Vec3d middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
@@ -133,7 +133,7 @@ bool Mosaic::covers(const std::array<Vec3d, 3>& corners) const {
            is_there(middle);
 }
 
-bool Mosaic::holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corners) const {
+bool CoverageMap::holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corners) const {
     if (std::find(surface.begin(), surface.begin() + layers, surface_there) == surface.begin() + layers)
         return false;
     const Vec3d facing = cross(corners[1] - corners[0], corners[2] - corners[0]), up = to_double(normal);

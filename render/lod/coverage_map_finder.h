@@ -1,5 +1,5 @@
 #pragma once
-// Finds the mosaics (mosaic.h) of an object's mesh, and what of it they stand for.
+// Finds the coverage maps (coverage_map.h) of an object's mesh, and what of it they stand for.
 //
 // The ground is a flat part of one surface, as large as goes on from one of the largest triangles by common corners; upon it lie
 // flat triangles of up to two other surfaces that lean as it does and are less than a texel above it. What has a picture, colours
@@ -9,20 +9,21 @@
 #include <span>
 #include <vector>
 
-#include "render/lod/mosaic.h"
+#include "render/lod/coverage_map.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
 
 // mesh: a level of detail; error_m: its error, and texels are no finer. Owner thread.
-std::vector<Mosaic> find_mosaics(const Mesh& mesh, std::span<const std::uint8_t> may_be, double error_m);
+std::vector<CoverageMap> find_coverage_maps(const Mesh& mesh, std::span<const std::uint8_t> may_be,
+                                            double error_m);
 
-// The triangles of a mosaic, each kind the largest first.
-struct MosaicParts {
+// The triangles of a coverage map, each kind the largest first.
+struct CoverageMapParts {
     std::vector<std::uint32_t> ground, upon;
 };
-// By mosaic, in another level of detail. Owner thread.
-std::vector<MosaicParts> mosaic_parts(std::span<const Mosaic> mosaics, const Mesh& mesh,
-                                      std::span<const std::uint8_t> may_be);
+// By coverage map, in another level of detail. Owner thread.
+std::vector<CoverageMapParts> coverage_map_parts(std::span<const CoverageMap> coverage_maps, const Mesh& mesh,
+                                                 std::span<const std::uint8_t> may_be);
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-#include "render/lod/mosaic_painter.h"
+#include "render/lod/coverage_map_painter.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -18,7 +18,7 @@ namespace {
 constexpr float kClear = 2;
 
 struct HashOfTexels {
-    std::size_t operator()(const MosaicTexels& texels) const {
+    std::size_t operator()(const CoverageTexels& texels) const {
         Fnv1a hash;
         for (const std::uint64_t word :
              std::bit_cast<std::array<std::uint64_t, sizeof(texels) / sizeof(std::uint64_t)>>(texels))
@@ -92,7 +92,7 @@ std::pair<int, int> full_texels(const std::array<Vec2d, 3>& triangle, int row) {
 
 }  // namespace
 
-void MosaicPainter::Texel::add(const Texel& other, float weight) {
+void CoverageMapPainter::Texel::add(const Texel& other, float weight) {
     for (std::size_t k = 0; k < share.size(); ++k) share[k] += weight * other.share[k];
     for (std::size_t axis = 0; axis < 2; ++axis)
         lean[axis] += weight * other.lean[axis], gap[axis] += weight * other.gap[axis];
@@ -100,36 +100,36 @@ void MosaicPainter::Texel::add(const Texel& other, float weight) {
 }
 
 template <class Row>
-void MosaicPainter::for_each_row(int rows, const Row& row) {
+void CoverageMapPainter::for_each_row(int rows, const Row& row) {
     tbb::parallel_for(tbb::blocked_range<int>(0, rows, kRowsTogether), [&](const auto& range) {
         for (int y = range.begin(); y != range.end(); ++y) row(y);
     });
 }
 
-void MosaicPainter::begin(Mosaic& mosaic) {
-    mosaic_ = &mosaic;
-    columns_ = std::max(1, static_cast<int>(std::ceil(mosaic.width_m / mosaic.texel_m)));
-    rows_ = std::max(1, static_cast<int>(std::ceil(mosaic.height_m / mosaic.texel_m)));
+void CoverageMapPainter::begin(CoverageMap& coverage_map) {
+    coverage_map_ = &coverage_map;
+    columns_ = std::max(1, static_cast<int>(std::ceil(coverage_map.width_m / coverage_map.texel_m)));
+    rows_ = std::max(1, static_cast<int>(std::ceil(coverage_map.height_m / coverage_map.texel_m)));
     pieces_.clear();
 }
 
-void MosaicPainter::add(std::size_t layer, const std::array<Vec3d, 3>& corners) {
-    const Vec3d across = to_double(mosaic_->across), down = to_double(mosaic_->down);
+void CoverageMapPainter::add(std::size_t layer, const std::array<Vec3d, 3>& corners) {
+    const Vec3d across = to_double(coverage_map_->across), down = to_double(coverage_map_->down);
     Piece& piece = pieces_.emplace_back();
     piece.layer = layer;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d from =
-            (1 / static_cast<double>(mosaic_->texel_m)) * (corners[i] - to_double(mosaic_->corner_m));
+        const Vec3d from = (1 / static_cast<double>(coverage_map_->texel_m)) *
+                           (corners[i] - to_double(coverage_map_->corner_m));
         piece.corners[i] = {dot(from, across), dot(from, down)};
     }
     const auto [top, bottom] = std::minmax({piece.corners[0].y, piece.corners[1].y, piece.corners[2].y});
     piece.first_row = texel_of(top, rows_), piece.last_row = texel_of(bottom, rows_);
     Vec3d normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
-    if (dot(normal, to_double(mosaic_->normal)) < 0) normal = -normal;
+    if (dot(normal, to_double(coverage_map_->normal)) < 0) normal = -normal;
     piece.lean = {static_cast<float>(dot(normal, across)), static_cast<float>(dot(normal, down))};
 }
 
-double MosaicPainter::fill() {
+double CoverageMapPainter::fill() {
     texels_.resize(at(0, rows_));
     // By row, so that their sum is the same however rows are shared out.
     std::vector<Ground> ground(static_cast<std::size_t>(rows_));
@@ -145,7 +145,7 @@ double MosaicPainter::fill() {
     return sum.all > 0 ? sum.seen / sum.all : 0;
 }
 
-void MosaicPainter::fill_row(const Piece& piece, int y, std::span<Texel> texels) const {
+void CoverageMapPainter::fill_row(const Piece& piece, int y, std::span<Texel> texels) const {
     Shape whole;
     std::copy(piece.corners.begin(), piece.corners.end(), whole.corner.begin()), whole.count = 3;
     const Shape row = whole.cut([&](Vec2d p) { return p.y - y; }).cut([&](Vec2d p) { return y + 1 - p.y; });
@@ -170,12 +170,12 @@ void MosaicPainter::fill_row(const Piece& piece, int y, std::span<Texel> texels)
 }
 
 // Takes from each layer what those above it cover.
-MosaicPainter::Ground MosaicPainter::hide_lower(std::span<Texel> texels) const {
+CoverageMapPainter::Ground CoverageMapPainter::hide_lower(std::span<Texel> texels) const {
     Ground out;
     for (Texel& texel : texels) {
         const float whole = std::min(texel.share[0], 1.0f);
         float open = whole, upper = 0;
-        for (std::size_t k = mosaic_->layers; k-- > 0;) {
+        for (std::size_t k = coverage_map_->layers; k-- > 0;) {
             if (k > 0) upper += texel.share[k];
             // What lies on it lies on what it covers, as far as there is enough of that.
             texel.share[k] = std::clamp(std::min(texel.share[k], 1.0f) - (whole - open), 0.0f, open);
@@ -188,7 +188,7 @@ MosaicPainter::Ground MosaicPainter::hide_lower(std::span<Texel> texels) const {
     return out;
 }
 
-void MosaicPainter::finish() {
+void CoverageMapPainter::finish() {
     find_gaps();
     for (;;) {
         pack();
@@ -198,7 +198,7 @@ void MosaicPainter::finish() {
 }
 
 // Where gaps cross, lines along both sides are free for long: there the gaps are as narrow as beside.
-void MosaicPainter::find_gaps() {
+void CoverageMapPainter::find_gaps() {
     const std::array<std::vector<float>, 2> narrow{narrowness(0), narrowness(1)};
     const auto find_gap = [&](int x, int y) {
         Texel& texel = texels_[at(x, y)];
@@ -223,8 +223,8 @@ void MosaicPainter::find_gaps() {
 }
 
 // Returns how narrow a gap is that comes from beside, along a column or a row; 0: there is none.
-float MosaicPainter::narrow_beside(const std::vector<float>& of, const std::vector<float>& against,
-                                   int column, int row, bool along_rows) const {
+float CoverageMapPainter::narrow_beside(const std::vector<float>& of, const std::vector<float>& against,
+                                        int column, int row, bool along_rows) const {
     constexpr int kReach = 6;  // texels
     for (int step = 1; step <= kReach; ++step)
         for (const int way : {-step, step}) {
@@ -236,7 +236,7 @@ float MosaicPainter::narrow_beside(const std::vector<float>& of, const std::vect
 }
 
 // Returns by texel how narrow what upper triangles leave free is along an axis, by lengths of lines; 0: it is nowhere free.
-std::vector<float> MosaicPainter::narrowness(std::size_t axis) const {
+std::vector<float> CoverageMapPainter::narrowness(std::size_t axis) const {
     std::vector<float> out(texels_.size());
     const int texels = axis == 0 ? columns_ : rows_, across = axis == 0 ? rows_ : columns_;
     const std::vector<Parts> covered = covered_parts(axis, kLinesEach * across);
@@ -245,9 +245,10 @@ std::vector<float> MosaicPainter::narrowness(std::size_t axis) const {
         std::vector<Vec2f> free(static_cast<std::size_t>(texels));
         const auto take = [&](double from, double until, bool at_end) {
             // At the end nothing shades it from one side.
-            const double width_m = (at_end ? 2 : 1) * (until - from) * static_cast<double>(mosaic_->texel_m);
+            const double width_m =
+                (at_end ? 2 : 1) * (until - from) * static_cast<double>(coverage_map_->texel_m);
             const auto narrow =
-                static_cast<float>(std::min(1.0, static_cast<double>(mosaic_->upper_m) / width_m));
+                static_cast<float>(std::min(1.0, static_cast<double>(coverage_map_->upper_m) / width_m));
             for (int i = texel_of(from, texels); i <= texel_of(until, texels); ++i) {
                 const auto part =
                     static_cast<float>(std::min(until, i + 1.0) - std::max(from, static_cast<double>(i)));
@@ -272,7 +273,7 @@ std::vector<float> MosaicPainter::narrowness(std::size_t axis) const {
 }
 
 // The parts of lines along an axis that upper triangles cover, in order.
-std::vector<MosaicPainter::Parts> MosaicPainter::covered_parts(std::size_t axis, int lines) const {
+std::vector<CoverageMapPainter::Parts> CoverageMapPainter::covered_parts(std::size_t axis, int lines) const {
     std::vector<Parts> out(static_cast<std::size_t>(lines));
     for (const Piece& piece : pieces_) {
         if (piece.layer == 0) continue;
@@ -292,17 +293,18 @@ std::vector<MosaicPainter::Parts> MosaicPainter::covered_parts(std::size_t axis,
     return out;
 }
 
-void MosaicPainter::pack() {
-    Mosaic::Level& level = mosaic_->levels_.emplace_back();
+void CoverageMapPainter::pack() {
+    CoverageMap::Level& level = coverage_map_->levels_.emplace_back();
     level.columns = columns_, level.rows = rows_;
     const std::size_t each = level.row_of_eights();
-    std::vector<MosaicTexels> all(each * static_cast<std::size_t>(rows_));
+    std::vector<CoverageTexels> all(each * static_cast<std::size_t>(rows_));
     for_each_row(rows_, [&](int y) {
         for (std::size_t n = 0; n < each; ++n)
-            all[level.eight(static_cast<int>(n), y)] = packed(static_cast<int>(n * MosaicTexels::kLanes), y);
+            all[level.eight(static_cast<int>(n), y)] =
+                packed(static_cast<int>(n * CoverageTexels::kLanes), y);
     });
-    std::unordered_map<MosaicTexels, std::uint32_t, HashOfTexels> numbers;
-    for (const MosaicTexels& texels : all) {
+    std::unordered_map<CoverageTexels, std::uint32_t, HashOfTexels> numbers;
+    for (const CoverageTexels& texels : all) {
         const auto [found, fresh] =
             numbers.try_emplace(texels, static_cast<std::uint32_t>(level.kinds.size()));
         if (fresh) level.kinds.push_back(texels);
@@ -312,18 +314,18 @@ void MosaicPainter::pack() {
 }
 
 // Eight texels of a row.
-MosaicTexels MosaicPainter::packed(int first, int row) const {
-    MosaicTexels out{};
+CoverageTexels CoverageMapPainter::packed(int first, int row) const {
+    CoverageTexels out{};
     const auto byte = [](float share) {
         return static_cast<std::uint8_t>(std::clamp(255 * share + 0.5f, 0.0f, 255.0f));
     };
-    const auto count = std::min(MosaicTexels::kLanes, static_cast<std::size_t>(columns_ - first));
+    const auto count = std::min(CoverageTexels::kLanes, static_cast<std::size_t>(columns_ - first));
     for (std::size_t lane = 0; lane < count; ++lane) {
         const Texel& texel = texels_[at(first, row) + lane];
         // Rounded so that their sum is.
         float sum = 0;
         int given = 0;
-        for (std::size_t k = 0; k < mosaic_->layers; ++k) {
+        for (std::size_t k = 0; k < coverage_map_->layers; ++k) {
             sum += texel.share[k];
             const int part = byte(sum) - given;
             out.share[k][lane] = static_cast<std::uint8_t>(std::max(part, 0));
@@ -331,7 +333,7 @@ MosaicTexels MosaicPainter::packed(int first, int row) const {
         }
         out.down[lane] = byte(texel.down);
         for (std::size_t axis = 0; axis < 2; ++axis) {
-            const float lean = std::clamp(texel.lean[axis] / Mosaic::kMostLean, -1.0f, 1.0f);
+            const float lean = std::clamp(texel.lean[axis] / CoverageMap::kMostLean, -1.0f, 1.0f);
             out.lean[axis][lane] =
                 static_cast<std::uint8_t>(static_cast<std::int8_t>(std::lround(127 * lean)));
             out.gap[axis][lane] = byte(texel.gap[axis]);
@@ -341,7 +343,7 @@ MosaicTexels MosaicPainter::packed(int first, int row) const {
 }
 
 // The means of four texels.
-void MosaicPainter::halve() {
+void CoverageMapPainter::halve() {
     const int columns = (columns_ + 1) / 2, rows = (rows_ + 1) / 2;
     halved_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     const auto mean = [&](int x, int y) {

@@ -1,4 +1,4 @@
-#include "render/lod/mosaic_finder.h"
+#include "render/lod/coverage_map_finder.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 #include <tuple>
 #include <utility>
 
-#include "render/lod/mosaic_painter.h"
+#include "render/lod/coverage_map_painter.h"
 #include "render/lod/plane_rectangle.h"
 
 namespace hilcam {
 namespace {
 
-// The largest triangles that are looked at as ground; not more mosaics than a byte tells apart (PackedTriangle::patch).
+// The largest triangles that are looked at as ground; not more coverage maps than a byte tells apart (PackedTriangle::patch).
 constexpr std::size_t kMaxGrounds = 64;
 constexpr int kFinest = 1536, kCoarsest = 16;        // texels along the longer side: at most, and at least
 constexpr double kLeastFilled = 0.2;                 // the share of its rectangle that the ground fills
@@ -32,7 +32,7 @@ std::array<Vec3d, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {
     return {to_double(mesh.vertices_m[a]), to_double(mesh.vertices_m[b]), to_double(mesh.vertices_m[c])};
 }
 
-// Triangles that a mosaic may have, the largest first.
+// Triangles that a coverage map may have, the largest first.
 std::vector<GroundTriangle> flat_triangles(const Mesh& mesh, std::span<const std::uint8_t> may_be) {
     std::vector<GroundTriangle> out;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -61,25 +61,25 @@ double radius_m(const Mesh& mesh) {
     return static_cast<double>(std::sqrt(squared));
 }
 
-class MosaicFinder {
+class CoverageMapFinder {
   public:
-    MosaicFinder(const Mesh& mesh, std::span<const std::uint8_t> may_be, double error_m)
+    CoverageMapFinder(const Mesh& mesh, std::span<const std::uint8_t> may_be, double error_m)
         : mesh_(mesh),
           error_m_(error_m),
           rounding_m_(0x1p-20 * radius_m(mesh)),
           flat_(flat_triangles(mesh, may_be)),
           used_(flat_.size()) {}
 
-    std::vector<Mosaic> find() {
-        std::vector<Mosaic> out;
+    std::vector<CoverageMap> find() {
+        std::vector<CoverageMap> out;
         std::size_t seeds = 0;
         for (std::size_t s = 0; s < flat_.size() && seeds < kMaxGrounds; ++s) {
             if (used_[s]) continue;
             // What is left is crumbs.
             if (flat_[s].area_m2 < 8 * error_m_ * error_m_) break;
             ++seeds;
-            Mosaic mosaic;
-            if (make(s, mosaic)) out.push_back(std::move(mosaic));
+            CoverageMap coverage_map;
+            if (make(s, coverage_map)) out.push_back(std::move(coverage_map));
         }
         return out;
     }
@@ -88,12 +88,12 @@ class MosaicFinder {
     const Mesh& mesh_;
     double error_m_, rounding_m_;
     std::vector<GroundTriangle> flat_;
-    std::vector<std::uint8_t> used_;  // in a mosaic, or looked at as ground
-    MosaicPainter painter_;
+    std::vector<std::uint8_t> used_;  // in a coverage map, or looked at as ground
+    CoverageMapPainter painter_;
 
     std::array<Vec3d, 3> corners(std::size_t i) const { return corners_of(mesh_, flat_[i].number); }
 
-    bool make(std::size_t seed, Mosaic& out) {
+    bool make(std::size_t seed, CoverageMap& out) {
         const std::vector<std::size_t> ground = ground_about(seed);
         for (const std::size_t i : ground) used_[i] = 1;
         const std::vector<Vec3d> edges = border(ground);
@@ -132,7 +132,7 @@ class MosaicFinder {
 
     // The rectangle lies along that edge with which it is smallest. False: it is too small, or not filled.
     bool lay_out(const std::vector<std::size_t>& ground, std::span<const Vec3d> edges, Vec3d up,
-                 Mosaic& out) const {
+                 CoverageMap& out) const {
         if (edges.empty()) return false;  // it goes round
         std::vector<std::array<Vec3d, 3>> triangles;
         double area_m2 = 0;
@@ -171,8 +171,8 @@ class MosaicFinder {
     }
 
     // Triangles of other surfaces that lie in the ground's rectangle, less than a texel high.
-    std::vector<std::size_t> upon_ground(const Mosaic& ground) const {
-        Mosaic space = ground;
+    std::vector<std::size_t> upon_ground(const CoverageMap& ground) const {
+        CoverageMap space = ground;
         const Vec3d up = to_double(ground.normal);
         space.above_m = ground.texel_m;
         space.corner_m = to_float(to_double(ground.corner_m) + static_cast<double>(space.above_m) * up);
@@ -188,7 +188,8 @@ class MosaicFinder {
         return out;
     }
 
-    bool paint(const std::vector<std::size_t>& ground, const std::vector<std::size_t>& upon, Mosaic& out) {
+    bool paint(const std::vector<std::size_t>& ground, const std::vector<std::size_t>& upon,
+               CoverageMap& out) {
         struct Layer {
             std::uint16_t surface;
             double area_m2 = 0, height_m3 = 0;
@@ -205,7 +206,7 @@ class MosaicFinder {
         for (const auto& [surface, layer] : found) layers.push_back(layer);
         std::sort(layers.begin(), layers.end(),
                   [](const Layer& a, const Layer& b) { return a.area_m2 > b.area_m2; });
-        layers.resize(std::min(layers.size(), Mosaic::kMaxLayers - 1));
+        layers.resize(std::min(layers.size(), CoverageMap::kMaxLayers - 1));
         std::sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) {
             return a.height_m3 / a.area_m2 < b.height_m3 / b.area_m2;
         });
@@ -240,20 +241,21 @@ class MosaicFinder {
 
 }  // namespace
 
-std::vector<Mosaic> find_mosaics(const Mesh& mesh, std::span<const std::uint8_t> may_be, double error_m) {
-    return MosaicFinder(mesh, may_be, error_m).find();
+std::vector<CoverageMap> find_coverage_maps(const Mesh& mesh, std::span<const std::uint8_t> may_be,
+                                            double error_m) {
+    return CoverageMapFinder(mesh, may_be, error_m).find();
 }
 
-std::vector<MosaicParts> mosaic_parts(std::span<const Mosaic> mosaics, const Mesh& mesh,
-                                      std::span<const std::uint8_t> may_be) {
+std::vector<CoverageMapParts> coverage_map_parts(std::span<const CoverageMap> coverage_maps, const Mesh& mesh,
+                                                 std::span<const std::uint8_t> may_be) {
     const std::vector<GroundTriangle> flat = flat_triangles(mesh, may_be);
-    std::vector<MosaicParts> out;
-    for (const Mosaic& mosaic : mosaics) {
-        MosaicParts& parts = out.emplace_back();
+    std::vector<CoverageMapParts> out;
+    for (const CoverageMap& coverage_map : coverage_maps) {
+        CoverageMapParts& parts = out.emplace_back();
         for (const GroundTriangle& t : flat) {
             const auto three = corners_of(mesh, t.number);
-            if (mosaic.holds(t.surface, three) && mosaic.covers(three))
-                (t.surface == mosaic.surface[0] ? parts.ground : parts.upon).push_back(t.number);
+            if (coverage_map.holds(t.surface, three) && coverage_map.covers(three))
+                (t.surface == coverage_map.surface[0] ? parts.ground : parts.upon).push_back(t.number);
         }
     }
     return out;

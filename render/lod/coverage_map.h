@@ -3,9 +3,9 @@
 // bars, over the gaps between them.
 //
 // Gaps and bars are far thinner than a pixel long before a panel is. A sample meets one or passes it by, and the panel has a
-// moire. A mosaic is a picture of the panel instead, in which each texel knows what share of it each surface fills, by the areas
-// of the mesh's own triangles. A pixel asks for the shares in what it covers (a box filter, as the detector has it), and has a
-// vertex for each surface there with that weight: nothing is found by chance, and no gap is ever lost.
+// moire. A coverage map is an image of the panel instead, in which each texel knows what share of it each surface fills, by the
+// areas of the mesh's own triangles. A pixel asks for the shares in what it covers (a box filter, as the detector has it), and
+// has a shading point for each surface there with that throughput: nothing is found by chance, and no gap is ever lost.
 //
 // The approximation: all of it lies in the plane of the highest part. Surfaces hide what is below them as from straight above, and
 // shade it as long walls along the rectangle's sides would that are as far apart as gaps are wide; parts of one surface do not overlap.
@@ -15,14 +15,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/lod/mosaic_sums.h"
+#include "render/lod/coverage_map_sums.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
 
-class Mosaic {
+class CoverageMap {
   public:
-    static constexpr std::size_t kMaxLayers = MosaicTexels::kLayers;
+    static constexpr std::size_t kMaxLayers = CoverageTexels::kLayers;
     // The most that triangles lean against the ground [rad]: 0.3 degrees.
     static constexpr float kMostLean = 0.00524f;
 
@@ -46,8 +46,8 @@ class Mosaic {
         Vec2f per_x, per_y;
     };
     // The surfaces that are seen in the pixel.
-    struct Look {
-        // Their shares of what there is of the mosaic, which add up to one, or are all zero.
+    struct Coverage {
+        // Their shares of what there is of the coverage map, which add up to one, or are all zero.
         std::array<float, kMaxLayers> share{};
         std::array<Vec2f, kMaxLayers> place{};  // the middle of each [px from the pixel's corner]
         float lit = 0;                          // share of the ground that light reaches past what lies on it
@@ -56,7 +56,7 @@ class Mosaic {
     };
     // way: how far a ray to the light goes along across and down while it rises by one, less what one to the viewer goes. Loop, any
     // thread.
-    Look look(const Footprint& pixel, Vec2f way) const;
+    Coverage coverage(const Footprint& pixel, Vec2f way) const;
 
     // True when a triangle may be part of it: its surface is, and it lies in the rectangle, on the ground or upon it. Owner thread.
     bool holds(std::uint16_t surface_there, const std::array<Vec3d, 3>& corners_m) const;
@@ -64,16 +64,16 @@ class Mosaic {
     bool covers(const std::array<Vec3d, 3>& corners_m) const;
 
   private:
-    friend class MosaicPainter;
+    friend class CoverageMapPainter;
     // Texels of one size, in eights of a row. Cells are alike: a panel has some 5,000 kinds of eights among 73,000, which stay in
     // caches.
     struct Level {
         int columns = 0, rows = 0;
-        std::vector<MosaicTexels> kinds;
+        std::vector<CoverageTexels> kinds;
         std::vector<std::uint32_t> eights;  // the kind of each, row by row
 
         std::uint32_t row_of_eights() const {
-            constexpr auto kLanes = static_cast<std::uint32_t>(MosaicTexels::kLanes);
+            constexpr auto kLanes = static_cast<std::uint32_t>(CoverageTexels::kLanes);
             return (static_cast<std::uint32_t>(columns) + kLanes - 1) / kLanes;
         }
         std::size_t eight(int number, int row) const {
@@ -83,7 +83,7 @@ class Mosaic {
     std::vector<Level> levels_;  // each half as fine as the one before
 
     struct Steps;
-    MosaicWindow window(const Footprint& pixel, const Steps& steps, std::size_t level) const;
+    CoverageWindow window(const Footprint& pixel, const Steps& steps, std::size_t level) const;
 };
 
 }  // namespace hilcam

@@ -1,26 +1,27 @@
 #pragma once
-// Makes the texels of a mosaic (mosaic.h) of triangles, bands of rows on all threads; what they are does not hang on how many these are.
+// Makes the texels of a coverage map (coverage_map.h) of triangles, bands of rows on all threads; what they are does not hang on
+// how many these are.
 
 #include <array>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "render/lod/mosaic.h"
+#include "render/lod/coverage_map.h"
 
 namespace hilcam {
 
-// Owner thread. One painter may make many mosaics after each other.
-class MosaicPainter {
+// Owner thread. One painter may make many coverage maps after each other.
+class CoverageMapPainter {
   public:
-    // Begins a mosaic: its rectangle, texel_m and layers are known; its corner is the ground's.
-    void begin(Mosaic& mosaic);
+    // Begins a coverage map: its rectangle, texel_m and layers are known; its corner is the ground's.
+    void begin(CoverageMap& coverage_map);
     // Adds a triangle of a layer.
     void add(std::size_t layer, const std::array<Vec3d, 3>& corners_m);
     // Fills each texel by the areas of all triangles in it, and takes from each layer what those above it cover. Returns the share of the
     // ground that is left.
     double fill();
-    // Makes the mosaic's levels of that.
+    // Makes the coverage map's levels of that.
     void finish();
 
   private:
@@ -35,7 +36,7 @@ class MosaicPainter {
         Vec2f lean;
     };
     struct Texel {
-        std::array<float, Mosaic::kMaxLayers> share{};  // that each layer fills
+        std::array<float, CoverageMap::kMaxLayers> share{};  // that each layer fills
         // The lean of what lies on the ground, along both sides, times its share.
         std::array<float, 2> lean{};
         // The share of the ground that is in gaps which run down; and how narrow these are, and those that run across, times their
@@ -49,7 +50,7 @@ class MosaicPainter {
     struct Ground {
         double all = 0, seen = 0;
     };
-    Mosaic* mosaic_ = nullptr;
+    CoverageMap* coverage_map_ = nullptr;
     int columns_ = 0, rows_ = 0;
     std::vector<Piece> pieces_;
     std::vector<Texel> texels_, halved_;
@@ -69,7 +70,7 @@ class MosaicPainter {
                         bool along_rows) const;
     std::vector<Parts> covered_parts(std::size_t axis, int lines) const;
     void pack();
-    MosaicTexels packed(int first, int row) const;
+    CoverageTexels packed(int first, int row) const;
     void halve();
 };
 

@@ -1,5 +1,5 @@
-// A panel with gaps thinner than a pixel, as the visibility buffer sees it by its mosaic (render/lod/mosaic.h), against
-// the areas of tiles in each pixel.
+// A panel with gaps thinner than a pixel, as the visibility buffer sees it by its coverage map (render/lod/coverage_map.h),
+// against the areas of tiles in each pixel.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class Panel {
     TiledPanel panel;
     double pixel_m;
 
-    Panel(double pixel_m_in, bool mosaic, Vec3f sun) : pixel_m(pixel_m_in) {
+    Panel(double pixel_m_in, bool coverage_map, Vec3f sun) : pixel_m(pixel_m_in) {
         s.quality.path_model = "direct";
         s.quality.visibility = "buffer";
         s.quality.rays_across = 0;
@@ -34,7 +34,7 @@ class Panel {
         object.mesh = panel.mesh();
         for (Vec3f& at : object.mesh.vertices_m) at = at - Vec3f{1, 1, 0};
         object.materials = {make_material(lambert(kGround), s.grid), make_material(lambert(kTile), s.grid)};
-        if (mosaic) object.levels = {MeshLevel{object.mesh, kError_m, {0, 0}, {}}};
+        if (coverage_map) object.levels = {MeshLevel{object.mesh, kError_m, {0, 0}, {}}};
         s.add(std::move(object), {0, 0, static_cast<float>(kDistance_m)});
         s.render();
     }
@@ -65,20 +65,20 @@ class Panel {
     static constexpr double kError_m = 0.004;
 };
 
-TEST(MosaicPicture, PixelsHaveTheAreasOfGapsAndTiles) {
+TEST(CoverageMapPicture, PixelsHaveTheAreasOfGapsAndTiles) {
     for (const double pixel_m : {0.0191, 0.0283}) {
-        const Panel::Error mosaic = Panel(pixel_m, true, {0, 0, -1}).error(1, 1),
+        const Panel::Error coverage_map = Panel(pixel_m, true, {0, 0, -1}).error(1, 1),
                            samples = Panel(pixel_m, false, {0, 0, -1}).error(1, 1);
-        EXPECT_NEAR(mosaic.mean, 0, 5e-4) << pixel_m;
+        EXPECT_NEAR(coverage_map.mean, 0, 5e-4) << pixel_m;
         // A texel is 0.28 of the larger pixel, over which its sides fall off.
-        EXPECT_LT(mosaic.rms, 0.025) << pixel_m;
+        EXPECT_LT(coverage_map.rms, 0.025) << pixel_m;
         // What sixteen samples meet of them has a moire.
-        EXPECT_GT(samples.rms, 3 * mosaic.rms) << pixel_m;
+        EXPECT_GT(samples.rms, 3 * coverage_map.rms) << pixel_m;
     }
 }
 
 // The Sun 45 degrees aside, along the rows: gaps across its way are lit but for a fifth, the others wholly.
-TEST(MosaicPicture, TilesShadeTheGapsBesideThem) {
+TEST(CoverageMapPicture, TilesShadeTheGapsBesideThem) {
     const double cosine = std::sqrt(0.5);
     const Panel seen(0.0283, true, {1, 0, -1});
     const double gap = seen.panel.gap_m / seen.panel.pitch_m;
@@ -89,7 +89,7 @@ TEST(MosaicPicture, TilesShadeTheGapsBesideThem) {
 }
 
 // Tiles and gaps of a pixel ask for the Sun by one ray, though each is lit by itself.
-TEST(MosaicPicture, OneRayToTheSunTellsForAPixelsLayers) {
+TEST(CoverageMapPicture, OneRayToTheSunTellsForAPixelsLayers) {
     const Panel seen(0.0283, true, {0, 0, -1});
     const double covered_px = seen.s.stats.coverage * kSize_px * kSize_px;
     EXPECT_GT(covered_px, 0.9 * kSize_px * kSize_px);
@@ -97,7 +97,7 @@ TEST(MosaicPicture, OneRayToTheSunTellsForAPixelsLayers) {
 }
 
 // From behind the panel is its ground, and from its edge nothing.
-TEST(MosaicPicture, IsTheGroundFromBehind) {
+TEST(CoverageMapPicture, IsTheGroundFromBehind) {
     Stage s;
     s.quality.path_model = "direct", s.quality.visibility = "buffer", s.quality.rays_across = 0,
     s.quality.lod_error_px = 1;
