@@ -61,8 +61,8 @@ void VisibilityChoice::make_visible_sets() {
         LevelSets sets(objects_.all[first].levels.size());
         for (std::size_t level = 0; level < sets.size(); ++level)
             if (const MeshView mesh = objects_.scene.mesh(first, level); mesh.triangles.size() <= kMostInSets)
-                sets[level] = std::make_unique<VisibleSets>(mesh, objects_.radii_m[first],
-                                                            objects_.all[first].levels[level]->patches);
+                sets[level] = std::make_unique<VisibleSets>(
+                    mesh, objects_.radii_m[first], objects_.all[first].levels[level]->coplanar_groups);
         const auto shared = std::make_shared<const LevelSets>(std::move(sets));
         for (const std::size_t i : objects) visible_sets_[i] = shared;
     }
@@ -114,7 +114,7 @@ VisibilityBuffer::Shown VisibilityChoice::shown(std::size_t i) const {
             objects_.radii_m[i],
             objects_.scene.mesh(i, objects_.levels[i]),
             objects_.surfaces[i]->cluster_bounds_m,
-            objects_.surfaces[i]->patches};
+            objects_.surfaces[i]->coplanar_groups};
 }
 
 // In space, and where its mesh is all there is to see of it.

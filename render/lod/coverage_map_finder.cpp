@@ -13,7 +13,8 @@
 namespace hilcam {
 namespace {
 
-// The largest triangles that are looked at as ground; not more coverage maps than a byte tells apart (PackedTriangle::patch).
+// The largest triangles that are looked at as ground; not more coverage maps than a byte tells apart
+// (PackedTriangle::coplanar_group).
 constexpr std::size_t kMaxGrounds = 64;
 constexpr int kFinest = 1536, kCoarsest = 16;        // texels along the longer side: at most, and at least
 constexpr double kLeastFilled = 0.2;                 // the share of its rectangle that the ground fills

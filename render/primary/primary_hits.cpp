@@ -324,8 +324,9 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
             !find_surface_frame(frame, hits_, static_cast<int>(k), dir, surface_frame))
             continue;
         const ObjectSurfaces& surfaces = *(*frame.objects)[hits_.object[k]];
-        const std::uint8_t patch = surfaces.triangles[hits_.triangle[k]].patch;
-        const CoverageMap* coverage_map = patch > 1 ? &(*surfaces.coverage_maps)[patch - 2u] : nullptr;
+        const std::uint8_t coplanar_group = surfaces.triangles[hits_.triangle[k]].coplanar_group;
+        const CoverageMap* coverage_map =
+            coplanar_group > 1 ? &(*surfaces.coverage_maps)[coplanar_group - 2u] : nullptr;
         const float facing = coverage_map ? dot(shown(*coverage_map).normal, surface_frame.view_dir) : 0.0f;
         if (facing > kFlattest) {
             const std::size_t before = count;

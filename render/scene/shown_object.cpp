@@ -6,7 +6,7 @@
 
 #include "render/lod/coverage_map_finder.h"
 #include "render/lod/triangle_order.h"
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 
 namespace hilcam {
 namespace {
@@ -82,7 +82,7 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         for (Texture& texture : object.mesh.textures) pictures.emplace_back(std::move(texture));
         const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));
         auto finest = std::make_shared<ObjectSurfaces>(object.mesh, object.materials, textures);
-        find_patches(object.mesh, *finest);
+        find_coplanar_groups(object.mesh, *finest);
         out.bounds_m = bounds_of(*finest);
         out.levels.push_back(std::move(finest));
         out.error_m.push_back(0);
@@ -92,7 +92,7 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
                 level.mesh, widened(object.materials, level.flattened_alpha), textures);
             surfaces->flattened_alpha = level.flattened_alpha;
             surfaces->lod_normals = std::move(level.lod_normals);
-            find_patches(level.mesh, *surfaces);
+            find_coplanar_groups(level.mesh, *surfaces);
             if (!coverage_maps && level.error_m >= kFinestCoverageMap * 2 * surfaces->radius_m)
                 coverage_maps = std::make_shared<const std::vector<CoverageMap>>(find_coverage_maps(
                     level.mesh, may_be_in_coverage_maps(level.mesh, *surfaces), level.error_m));

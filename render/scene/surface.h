@@ -23,9 +23,9 @@ struct PackedTriangle {
     std::array<std::uint32_t, 3> corner_normals;  // meaningless when flat
     std::uint16_t surface;
     std::uint8_t flat;  // 1: the mesh has no normals; use the geometric one
-    // 1: it stands for others that go on in its plane (flat_patches.h); 2 and more: for coverage map number 0 and on
+    // 1: it stands for others that go on in its plane (coplanar_groups.h); 2 and more: for coverage map number 0 and on
     // (coverage_map.h).
-    std::uint8_t patch;
+    std::uint8_t coplanar_group;
 };
 static_assert(sizeof(PackedTriangle) == 16);
 
@@ -61,7 +61,7 @@ struct ObjectSurfaces {
     // Least and greatest corner of each kClusterTriangles triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     // By triangle the one that stands for it, or kNotShown; empty: each for itself.
-    std::vector<std::uint32_t> patches;
+    std::vector<std::uint32_t> coplanar_groups;
     std::shared_ptr<const std::vector<CoverageMap>>
         coverage_maps;    // those that triangles stand for; null: none does
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object

@@ -67,9 +67,10 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
 
         const Meeting m = meeting_of(at, origin, dir);
         const V u = m.u, v = m.v;
-        // What stands for a patch is met wherever its plane is.
-        const auto patch = hn::RebindMask(d, hn::Ne(hn::ShiftRight<24>(kind), hn::Zero(di)));
-        const V along = hn::IfThenElse(patch, m.plane_u, u), across = hn::IfThenElse(patch, m.plane_v, v);
+        // What stands for a group is met wherever its plane is.
+        const auto is_group = hn::RebindMask(d, hn::Ne(hn::ShiftRight<24>(kind), hn::Zero(di)));
+        const V along = hn::IfThenElse(is_group, m.plane_u, u),
+                across = hn::IfThenElse(is_group, m.plane_v, v);
         const Vector meets = minus(plus(times(along, m.e1), times(across, m.e2)), m.from_corner);
         hn::Store(hn::Div(dotted(meets, dir), dotted(dir, dir)), d, p.distance.data() + k);
         hn::Store(u, d, p.u.data() + k), hn::Store(v, d, p.v.data() + k);

@@ -10,7 +10,7 @@
 
 #include <hwy/highway.h>
 
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 #include "render/visibility/sixteen_lanes-inl.h"
 #include "render/vocabulary/vec.h"
 
@@ -66,7 +66,7 @@ HWY_INLINE Vector unpacked_long(I packed) {
 struct Meeting {
     Vector e1, e2, from_corner;  // edges, and the way from the first corner to the rays' origin
     V u, v;                      // barycentric, kept to the triangle
-    V plane_u, plane_v;          // where in its plane, kept to kPatchReach
+    V plane_u, plane_v;          // where in its plane, kept to kCoplanarReach
 };
 // Moeller & Trumbore (J. Graphics Tools 2(1), 1997), kept to the triangle: a sample's place may lie beside it by a
 // rounding, and a triangle seen from its edge has no place of its own.
@@ -80,7 +80,7 @@ HWY_INLINE Meeting meeting_of(const Vector (&corners)[3], const Vector& origin, 
     const auto placed = hn::And(hn::IsFinite(u), hn::IsFinite(v));
     const V third = number(1.0f / 3);
     u = hn::IfThenElse(placed, u, third), v = hn::IfThenElse(placed, v, third);
-    const V reach = number(kPatchReach);
+    const V reach = number(kCoplanarReach);
     m.plane_u = hn::Min(hn::Max(u, hn::Neg(reach)), reach);
     m.plane_v = hn::Min(hn::Max(v, hn::Neg(reach)), reach);
     u = hn::Min(hn::Max(u, number(0)), number(1)), v = hn::Min(hn::Max(v, number(0)), number(1));

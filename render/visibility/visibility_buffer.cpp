@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 #include "render/scene/surface.h"
 #include "render/visibility/visible_sets.h"
 
@@ -76,7 +76,7 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
         const MeshView drawn = set ? MeshView{set->vertices_m, set->triangles} : object.mesh;
         placed_.push_back({object,
                            drawn,
-                           set ? std::span<const std::uint32_t>(set->ids) : object.patches,
+                           set ? std::span<const std::uint32_t>(set->ids) : object.coplanar_groups,
                            vertices,
                            drawn_count_,
                            triangles,

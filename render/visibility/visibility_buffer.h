@@ -54,9 +54,9 @@ class VisibilityBuffer {
         MeshView mesh;  // outlives the frame
         // Boxes of its clusters (ObjectSurfaces), likewise: those beside the picture are left out. Empty: all triangles are looked at.
         std::span<const std::array<Vec3f, 2>> cluster_bounds_m{};
-        // They say for each triangle which one's id stands for it, or that it is left out (flat_patches.h), likewise. Empty: each has
-        // its own.
-        std::span<const std::uint32_t> patches{};
+        // They say for each triangle which one's id stands for it, or that it is left out (coplanar_groups.h), likewise. Empty:
+        // each has its own.
+        std::span<const std::uint32_t> coplanar_groups{};
         // All that may be seen of it (visible_sets.h), likewise: the rest is not looked at. Null: all of it may be.
         const VisibleSet* visible = nullptr;
     };

@@ -281,8 +281,9 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
         hn::Store(from(c.y), di, s.y0.data() + k), hn::Store(to(c.y), di, s.y1.data() + k);
         hn::Store(hn::Add(number, hn::Set(di, static_cast<std::int32_t>(mesh.first_id))), di,
                   reinterpret_cast<std::int32_t*>(s.id.data()) + k);
-        if (mesh.patches)
-            for (std::size_t i = k; i < k + lanes; ++i) s.id[i] = mesh.first_id + mesh.patches[numbers[i]];
+        if (mesh.coplanar_groups)
+            for (std::size_t i = k; i < k + lanes; ++i)
+                s.id[i] = mesh.first_id + mesh.coplanar_groups[numbers[i]];
     }
 }
 

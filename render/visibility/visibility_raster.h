@@ -77,8 +77,8 @@ struct ScreenMesh {
     const ScreenVertex* vertices;
     const TriangleCorners* triangles;
     std::uint32_t first_id;  // id of its first triangle
-    // They say for each triangle whose id stands for it (flat_patches.h); null: each has its own.
-    const std::uint32_t* patches = nullptr;
+    // They say for each triangle whose id stands for it (coplanar_groups.h); null: each has its own.
+    const std::uint32_t* coplanar_groups = nullptr;
 };
 // numbers: of triangles; what is beyond count must be a triangle, too. lens: of the tile; null without.
 void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "render/ground/cube_sphere.h"
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/units.h"
 
@@ -53,8 +53,8 @@ Cell cell_at(std::size_t number) {
 // Takes pictures of a mesh from afar.
 class Pictures {
   public:
-    Pictures(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> patches)
-        : shown_{0, {}, radius_m, mesh, {}, patches},
+    Pictures(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> coplanar_groups)
+        : shown_{0, {}, radius_m, mesh, {}, coplanar_groups},
           buffer_(geometry(), {1, mesh.vertices_m.size(), mesh.triangles.size()}) {}
 
     // Marks what is seen from a direction, unit.
@@ -90,11 +90,11 @@ class Pictures {
 
 // By cell, what is seen from one of its directions. Cells side by side have those between them in common.
 std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
-                                std::span<const std::uint32_t> patches) {
+                                std::span<const std::uint32_t> coplanar_groups) {
     // Each triangle by itself, but for what is not shown.
     std::vector<std::uint32_t> own(mesh.triangles.size());
     for (std::uint32_t i = 0; i < own.size(); ++i)
-        own[i] = !patches.empty() && patches[i] == kNotShown ? kNotShown : i;
+        own[i] = !coplanar_groups.empty() && coplanar_groups[i] == kNotShown ? kNotShown : i;
     constexpr int kRow = kFaceCells * kStepsOfRow + 1;
     const auto number = [](int face, int across, int down) {
         return static_cast<std::size_t>((face * kRow + down) * kRow + across);
@@ -118,7 +118,7 @@ std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
     return out;
 }
 
-VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> patches, const Marks& marks) {
+VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> coplanar_groups, const Marks& marks) {
     constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
     VisibleSet out;
     std::vector<std::uint32_t> places(mesh.vertices_m.size(), kNone);
@@ -133,18 +133,19 @@ VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> patches, 
             corner = place;
         }
         out.triangles.push_back(corners);
-        out.ids.push_back(patches.empty() ? i : patches[i]);
+        out.ids.push_back(coplanar_groups.empty() ? i : coplanar_groups[i]);
     }
     return out;
 }
 
 }  // namespace
 
-VisibleSets::VisibleSets(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> patches)
+VisibleSets::VisibleSets(const MeshView& mesh, double radius_m,
+                         std::span<const std::uint32_t> coplanar_groups)
     : radius_m_(radius_m), sets_(kViewCells) {
-    const std::vector<Marks> seen = seen_by_cell(mesh, radius_m, patches);
+    const std::vector<Marks> seen = seen_by_cell(mesh, radius_m, coplanar_groups);
     tbb::parallel_for(std::size_t{0}, sets_.size(),
-                      [&](std::size_t cell) { sets_[cell] = set_of(mesh, patches, seen[cell]); });
+                      [&](std::size_t cell) { sets_[cell] = set_of(mesh, coplanar_groups, seen[cell]); });
 }
 
 bool VisibleSets::serves(double distance_m, double sample_rad) const {

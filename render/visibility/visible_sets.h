@@ -27,9 +27,9 @@ struct VisibleSet {
 
 class VisibleSets {
   public:
-    // patches: ObjectSurfaces::patches, or none. Neither they nor the mesh are needed afterwards. The same for any number of
-    // threads. Owner thread; some seconds of the processor for 5000 triangles.
-    VisibleSets(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> patches);
+    // groups: ObjectSurfaces::coplanar_groups, or none. Neither they nor the mesh are needed afterwards. The same for any number
+    // of threads. Owner thread; some seconds of the processor for 5000 triangles.
+    VisibleSets(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> coplanar_groups);
 
     // True where they hold for a camera at this distance whose samples are so far apart. Loop.
     bool serves(double distance_m, double sample_rad) const;

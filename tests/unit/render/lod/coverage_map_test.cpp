@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/lod/coverage_map_finder.h"
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 #include "render/scene/surface.h"
 #include "tests/support/tiled_panel.h"
 #include "tests/support/vector_widths.h"
@@ -154,18 +154,18 @@ TEST(CoverageMap, GapsAreShadedAsNarrowAsTheyAre) {
 TEST(CoverageMap, TheGroundStandsForAllInALevelOfDetail) {
     const Mesh mesh = leaning(TiledPanel{}.mesh());
     ObjectSurfaces surfaces = surfaces_of(mesh);
-    find_patches(mesh, surfaces);
+    find_coplanar_groups(mesh, surfaces);
     const auto coverage_maps = std::make_shared<const std::vector<CoverageMap>>(coverage_maps_of(mesh));
     attach_coverage_maps(coverage_maps, mesh, 0.24 * kError_m, surfaces);  // too fine a level
     EXPECT_EQ(surfaces.coverage_maps, nullptr);
     attach_coverage_maps(coverage_maps, mesh, 0.26 * kError_m, surfaces);  // a quarter of a texel
     ASSERT_EQ(surfaces.coverage_maps, coverage_maps);
-    const std::uint32_t ground = surfaces.patches[0];
+    const std::uint32_t ground = surfaces.coplanar_groups[0];
     EXPECT_LT(ground, 2u);
-    EXPECT_EQ(surfaces.patches[1], ground);
-    EXPECT_EQ(surfaces.triangles[ground].patch, 2);
-    EXPECT_TRUE(std::all_of(surfaces.patches.begin() + 2, surfaces.patches.end(),
-                            [](std::uint32_t patch) { return patch == kNotShown; }));
+    EXPECT_EQ(surfaces.coplanar_groups[1], ground);
+    EXPECT_EQ(surfaces.triangles[ground].coplanar_group, 2);
+    EXPECT_TRUE(std::all_of(surfaces.coplanar_groups.begin() + 2, surfaces.coplanar_groups.end(),
+                            [](std::uint32_t coplanar_group) { return coplanar_group == kNotShown; }));
 }
 
 // A ground is cut off along a diagonal, and some tiles stand out over the cut: these are shown by themselves.
@@ -174,7 +174,7 @@ TEST(CoverageMap, TilesThatStandOutOfTheGroundAreNoPartOfIt) {
     Mesh mesh = panel.mesh();
     mesh.vertices_m[2] = {static_cast<float>(panel.side_m()), 0.4f, 0};
     ObjectSurfaces surfaces = surfaces_of(mesh);
-    find_patches(mesh, surfaces);
+    find_coplanar_groups(mesh, surfaces);
     const auto coverage_maps = std::make_shared<const std::vector<CoverageMap>>(coverage_maps_of(mesh));
     ASSERT_EQ(coverage_maps->size(), 1u);
     attach_coverage_maps(coverage_maps, mesh, kError_m, surfaces);
@@ -186,13 +186,13 @@ TEST(CoverageMap, TilesThatStandOutOfTheGroundAreNoPartOfIt) {
         };
         const bool above_ground = std::all_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), inside);
         if (above_ground) {
-            EXPECT_EQ(surfaces.patches[t], kNotShown) << t;
+            EXPECT_EQ(surfaces.coplanar_groups[t], kNotShown) << t;
         }
         const Vec3f at = mesh.vertices_m[mesh.triangles[t][2]];
         if (at.y > 2.02f - 0.8f * at.x) {
-            EXPECT_NE(surfaces.patches[t], kNotShown) << t;
+            EXPECT_NE(surfaces.coplanar_groups[t], kNotShown) << t;
         }
-        hidden += surfaces.patches[t] == kNotShown;
+        hidden += surfaces.coplanar_groups[t] == kNotShown;
     }
     EXPECT_GT(hidden, 400u);
     EXPECT_LT(hidden, 600u);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/mesh.h"
 #include "render/vocabulary/units.h"
@@ -126,10 +126,10 @@ TEST(VisibleSets, HaveEdgesOfPlatesThatLieBetweenTwoRowsOfSamples) {
 TEST(VisibleSets, LeaveOutWhatIsNotShownAndNameWhatStandsForIt) {
     Mesh mesh;
     add_box({}, {0.5f, 0.5f, 0.5f}, mesh);
-    std::vector<std::uint32_t> patches(mesh.triangles.size());
-    for (std::uint32_t i = 0; i < patches.size(); ++i) patches[i] = i / 2 * 2;
-    patches[2] = patches[3] = kNotShown;
-    const VisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, patches);
+    std::vector<std::uint32_t> coplanar_groups(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < coplanar_groups.size(); ++i) coplanar_groups[i] = i / 2 * 2;
+    coplanar_groups[2] = coplanar_groups[3] = kNotShown;
+    const VisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, coplanar_groups);
     for (const Vec3d from : directions(20)) {
         const VisibleSet& set = sets.from(from);
         ASSERT_EQ(set.ids.size(), set.triangles.size());

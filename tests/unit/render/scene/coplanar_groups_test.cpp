@@ -1,4 +1,4 @@
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -28,34 +28,34 @@ Mesh leaning_plate(int steps, double amplitude_m = 0) {
 ObjectSurfaces surfaces_of(const Mesh& mesh) {
     ObjectSurfaces out(mesh, std::vector<Material>(mesh.surfaces.size()),
                        std::make_shared<const std::vector<MipTexture>>());
-    find_patches(mesh, out);
+    find_coplanar_groups(mesh, out);
     return out;
 }
 
-std::size_t patch_count(const ObjectSurfaces& surfaces) {
-    return std::set<std::uint32_t>(surfaces.patches.begin(), surfaces.patches.end()).size();
+std::size_t group_count(const ObjectSurfaces& surfaces) {
+    return std::set<std::uint32_t>(surfaces.coplanar_groups.begin(), surfaces.coplanar_groups.end()).size();
 }
 
-TEST(FlatPatches, APlateIsOne) {
+TEST(CoplanarGroups, APlateIsOne) {
     const ObjectSurfaces surfaces = surfaces_of(leaning_plate(16));
-    ASSERT_EQ(surfaces.patches.size(), 512u);
-    EXPECT_EQ(patch_count(surfaces), 1u);
-    const std::uint32_t one = surfaces.patches[0];
-    EXPECT_EQ(surfaces.patches[one], one);
-    for (std::uint32_t t = 0; t < 512; ++t) EXPECT_EQ(surfaces.triangles[t].patch, t == one ? 1 : 0);
+    ASSERT_EQ(surfaces.coplanar_groups.size(), 512u);
+    EXPECT_EQ(group_count(surfaces), 1u);
+    const std::uint32_t one = surfaces.coplanar_groups[0];
+    EXPECT_EQ(surfaces.coplanar_groups[one], one);
+    for (std::uint32_t t = 0; t < 512; ++t) EXPECT_EQ(surfaces.triangles[t].coplanar_group, t == one ? 1 : 0);
 }
 
-TEST(FlatPatches, WhatLiesOtherwiseStaysByItself) {
-    EXPECT_TRUE(surfaces_of(leaning_plate(16, 2e-2)).patches.empty()) << "waves";
+TEST(CoplanarGroups, WhatLiesOtherwiseStaysByItself) {
+    EXPECT_TRUE(surfaces_of(leaning_plate(16, 2e-2)).coplanar_groups.empty()) << "waves";
 
     Mesh mesh = leaning_plate(16);
     mesh.surfaces.resize(2);
     for (std::size_t t = 0; t < 100; ++t) mesh.surface_of_triangle[t] = 1;
-    EXPECT_EQ(patch_count(surfaces_of(mesh)), 2u) << "another surface";
+    EXPECT_EQ(group_count(surfaces_of(mesh)), 2u) << "another surface";
 
     mesh = leaning_plate(16);
     for (std::size_t t = 0; t < 100; ++t) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
-    EXPECT_EQ(patch_count(surfaces_of(mesh)), 2u) << "the other side";
+    EXPECT_EQ(group_count(surfaces_of(mesh)), 2u) << "the other side";
 
     // Another plate 0.1 mm above the first.
     mesh = leaning_plate(4);
@@ -67,43 +67,43 @@ TEST(FlatPatches, WhatLiesOtherwiseStaysByItself) {
         mesh.triangles.push_back({a + count, b + count, c + count});
         mesh.surface_of_triangle.push_back(0);
     }
-    EXPECT_EQ(patch_count(surfaces_of(mesh)), 2u) << "another plane";
+    EXPECT_EQ(group_count(surfaces_of(mesh)), 2u) << "another plane";
 }
 
-TEST(FlatPatches, NormalsColoursAndWrinklesOfTheirOwnKeepTrianglesApart) {
+TEST(CoplanarGroups, NormalsColoursAndWrinklesOfTheirOwnKeepTrianglesApart) {
     Mesh smooth = leaning_plate(4);
     for (const Vec3f& at : smooth.vertices_m) smooth.normals.push_back(normalized(at));
-    EXPECT_TRUE(surfaces_of(smooth).patches.empty());
+    EXPECT_TRUE(surfaces_of(smooth).coplanar_groups.empty());
     smooth.normals.assign(smooth.vertices_m.size(), Vec3f{0, 0, 1});
-    EXPECT_EQ(patch_count(surfaces_of(smooth)), 1u) << "one normal";
+    EXPECT_EQ(group_count(surfaces_of(smooth)), 1u) << "one normal";
 
     Mesh colored = leaning_plate(4);
     colored.colors.assign(colored.vertices_m.size(), Vec3f{1, 1, 1});
-    EXPECT_TRUE(surfaces_of(colored).patches.empty());
+    EXPECT_TRUE(surfaces_of(colored).coplanar_groups.empty());
 
     const Mesh flat = leaning_plate(4);
     ObjectSurfaces level(flat, std::vector<Material>(1), std::make_shared<const std::vector<MipTexture>>());
     level.lod_normals.assign(flat.triangles.size(), LodNormals::of({LodNormals::Normal{{0.1f, 0, 0}, 1}}, 0));
-    find_patches(flat, level);
-    EXPECT_TRUE(level.patches.empty());
+    find_coplanar_groups(flat, level);
+    EXPECT_TRUE(level.coplanar_groups.empty());
 }
 
-TEST(FlatPatches, AreTheSameOnAnyNumberOfThreads) {
+TEST(CoplanarGroups, AreTheSameOnAnyNumberOfThreads) {
     const Mesh mesh = leaning_plate(120);
     const ObjectSurfaces by_many = surfaces_of(mesh);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(surfaces_of(mesh).patches, by_many.patches);
+    EXPECT_EQ(surfaces_of(mesh).coplanar_groups, by_many.coplanar_groups);
     // No farther from what stands for them than rays' places are kept to; so these are several.
-    EXPECT_GT(patch_count(by_many), 1u);
-    EXPECT_LT(patch_count(by_many), 100u);
+    EXPECT_GT(group_count(by_many), 1u);
+    EXPECT_LT(group_count(by_many), 100u);
 }
 
-// What stands for a patch is met where the triangle itself would be, to the rounding of either.
-TEST(FlatPatches, AreMetWhereTheirTrianglesAre) {
+// What stands for a group is met where the triangle itself would be, to the rounding of either.
+TEST(CoplanarGroups, AreMetWhereTheirTrianglesAre) {
     const Mesh mesh = leaning_plate(16);
     const ObjectSurfaces surfaces = surfaces_of(mesh);
     ObjectSurfaces alone = surfaces;
-    for (PackedTriangle& triangle : alone.triangles) triangle.patch = 0;
+    for (PackedTriangle& triangle : alone.triangles) triangle.coplanar_group = 0;
     const Vec3f eye_m{20, 5, -4};
     float most_m = 0;
     for (std::uint32_t first = 0; first < 512; first += FragmentPacket::kSize) {
@@ -114,7 +114,7 @@ TEST(FlatPatches, AreMetWhereTheirTrianglesAre) {
             const Vec3f at = (mesh.vertices_m[a] + mesh.vertices_m[b] + mesh.vertices_m[c]) / 3.0f;
             for (FragmentPacket* packet : {&own, &all})
                 packet->dir.set(k, at - eye_m), packet->origin.set(k, eye_m);
-            own.triangle[k] = first + k, all.triangle[k] = surfaces.patches[first + k];
+            own.triangle[k] = first + k, all.triangle[k] = surfaces.coplanar_groups[first + k];
         }
         const Mat3f still{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         find_surface_frames({mesh.vertices_m.data(), mesh.triangles.data(), alone.triangles.data(), still},
@@ -131,7 +131,7 @@ TEST(FlatPatches, AreMetWhereTheirTrianglesAre) {
     EXPECT_LT(most_m, 1e-5f);
 }
 
-TEST(FlatPatches, AreOneIdOfTheVisibilityBuffer) {
+TEST(CoplanarGroups, AreOneIdOfTheVisibilityBuffer) {
     const Mesh mesh = leaning_plate(16);
     const ObjectSurfaces surfaces = surfaces_of(mesh);
     ImageGeometry geometry;
@@ -140,12 +140,12 @@ TEST(FlatPatches, AreOneIdOfTheVisibilityBuffer) {
     Pose camera;
     camera.position_world_m = {2, 3, -2};
     const std::vector<VisibilityBuffer::Shown> shown = {
-        {0, {}, surfaces.radius_m, {mesh.vertices_m, mesh.triangles}, {}, surfaces.patches}};
+        {0, {}, surfaces.radius_m, {mesh.vertices_m, mesh.triangles}, {}, surfaces.coplanar_groups}};
     ASSERT_TRUE(buffer.place(camera, shown));
     std::set<std::uint32_t> ids;
     VisibilityTile tile;
     buffer.fill_all(tile, [&](int, int) { ids.insert(tile.id.begin(), tile.id.end()); });
-    EXPECT_EQ(ids, (std::set{surfaces.patches[0], VisibilityTile::kNothing}));
+    EXPECT_EQ(ids, (std::set{surfaces.coplanar_groups[0], VisibilityTile::kNothing}));
 }
 
 }  // namespace

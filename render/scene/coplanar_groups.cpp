@@ -1,4 +1,4 @@
-#include "render/scene/flat_patches.h"
+#include "render/scene/coplanar_groups.h"
 
 #include <tbb/parallel_for.h>
 
@@ -14,10 +14,10 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kNeighbours = 4096;  // triangles in memory among which patches are looked for
+constexpr std::size_t kNeighbours = 4096;  // triangles in memory among which groups are looked for
 constexpr int kMostElsewhere = 256;        // that one meets in other planes before it looks no further
 
-// Triangles with equal keys may be of one patch.
+// Triangles with equal keys may be of one group.
 struct Candidate {
     std::uint64_t key;
     float area;  // twice that of the triangle [m^2]
@@ -25,16 +25,16 @@ struct Candidate {
     auto order() const { return std::tuple(key, -area, triangle); }
 };
 
-class PatchFinder {
+class CoplanarGroupFinder {
   public:
-    PatchFinder(const Mesh& mesh, ObjectSurfaces& surfaces)
+    CoplanarGroupFinder(const Mesh& mesh, ObjectSurfaces& surfaces)
         : mesh_(mesh),
           surfaces_(surfaces),
           // Eight times what single precision rounds a corner by where the body is widest: the plane through three such
           // corners is off by some times as much.
           tolerance_m_(0x1p-21 * surfaces.radius_m) {
-        surfaces_.patches.resize(mesh.triangles.size());
-        std::iota(surfaces_.patches.begin(), surfaces_.patches.end(), 0u);
+        surfaces_.coplanar_groups.resize(mesh.triangles.size());
+        std::iota(surfaces_.coplanar_groups.begin(), surfaces_.coplanar_groups.end(), 0u);
     }
 
     void find_among(std::size_t begin, std::size_t end) {
@@ -85,14 +85,14 @@ class PatchFinder {
     void divide(std::span<const Candidate> all) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             const std::uint32_t one = all[i].triangle;
-            if (surfaces_.patches[one] != one) continue;
+            if (surfaces_.coplanar_groups[one] != one) continue;
             const Plane plane(corners(one));
             int elsewhere = 0;
             for (std::size_t j = i + 1; j < all.size() && elsewhere < kMostElsewhere; ++j) {
                 const std::uint32_t other = all[j].triangle;
-                if (surfaces_.patches[other] != other) continue;
+                if (surfaces_.coplanar_groups[other] != other) continue;
                 if (plane.holds(corners(other), tolerance_m_))
-                    surfaces_.patches[other] = one, surfaces_.triangles[one].patch = 1;
+                    surfaces_.coplanar_groups[other] = one, surfaces_.triangles[one].coplanar_group = 1;
                 else
                     ++elsewhere;
             }
@@ -111,7 +111,7 @@ class PatchFinder {
             if (dot(cross(corners[1] - corners[0], corners[2] - corners[0]), normal_) <= 0) return false;
             const double squared = dot(normal_, normal_), off = tolerance_m * std::sqrt(squared);
             constexpr double kReach =
-                static_cast<double>(kPatchReach) - 1;  // less what a place is rounded by
+                static_cast<double>(kCoplanarReach) - 1;  // less what a place is rounded by
             return std::all_of(corners.begin(), corners.end(), [&](Vec3d at) {
                 const Vec3d way = at - corner_;
                 return std::abs(dot(way, normal_)) <= off &&
@@ -127,16 +127,16 @@ class PatchFinder {
 
 }  // namespace
 
-void find_patches(const Mesh& mesh, ObjectSurfaces& surfaces) {
+void find_coplanar_groups(const Mesh& mesh, ObjectSurfaces& surfaces) {
     if (!mesh.colors.empty() || !mesh.hapke.empty()) return;
-    PatchFinder finder(mesh, surfaces);
+    CoplanarGroupFinder finder(mesh, surfaces);
     const std::size_t count = mesh.triangles.size();
     tbb::parallel_for(std::size_t{0}, (count + kNeighbours - 1) / kNeighbours, [&](std::size_t part) {
         finder.find_among(part * kNeighbours, std::min(count, (part + 1) * kNeighbours));
     });
     if (std::none_of(surfaces.triangles.begin(), surfaces.triangles.end(),
-                     [](const PackedTriangle& t) { return t.patch != 0; }))
-        surfaces.patches = {};
+                     [](const PackedTriangle& t) { return t.coplanar_group != 0; }))
+        surfaces.coplanar_groups = {};
 }
 
 std::vector<std::uint8_t> may_be_in_coverage_maps(const Mesh& mesh, const ObjectSurfaces& surfaces) {
@@ -164,7 +164,7 @@ bool reaches_all(const Mesh& mesh, std::uint32_t triangle, const CoverageMap& co
     const auto& [a, b, c] = mesh.triangles[triangle];
     const Vec3f u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
     const float height_m = length(cross(u, v)) / std::max({length(u), length(v), length(u - v)});
-    return kPatchReach * height_m > std::hypot(coverage_map.width_m, coverage_map.height_m);
+    return kCoplanarReach * height_m > std::hypot(coverage_map.width_m, coverage_map.height_m);
 }
 
 }  // namespace
@@ -180,16 +180,16 @@ void attach_coverage_maps(const std::shared_ptr<const std::vector<CoverageMap>>&
             continue;
         const std::uint32_t ground = parts[m].ground.front();
         if (!reaches_all(mesh, ground, coverage_map)) continue;
-        if (surfaces.patches.empty()) {
-            surfaces.patches.resize(mesh.triangles.size());
-            std::iota(surfaces.patches.begin(), surfaces.patches.end(), 0u);
+        if (surfaces.coplanar_groups.empty()) {
+            surfaces.coplanar_groups.resize(mesh.triangles.size());
+            std::iota(surfaces.coplanar_groups.begin(), surfaces.coplanar_groups.end(), 0u);
         }
         // Who goes on in the ground's plane beside the coverage map is by himself.
-        for (std::uint32_t t = 0; t < surfaces.patches.size(); ++t)
-            if (surfaces.patches[t] == ground) surfaces.patches[t] = t;
-        for (const std::uint32_t t : parts[m].ground) surfaces.patches[t] = ground;
-        for (const std::uint32_t t : parts[m].upon) surfaces.patches[t] = kNotShown;
-        surfaces.triangles[ground].patch = static_cast<std::uint8_t>(m + 2);
+        for (std::uint32_t t = 0; t < surfaces.coplanar_groups.size(); ++t)
+            if (surfaces.coplanar_groups[t] == ground) surfaces.coplanar_groups[t] = t;
+        for (const std::uint32_t t : parts[m].ground) surfaces.coplanar_groups[t] = ground;
+        for (const std::uint32_t t : parts[m].upon) surfaces.coplanar_groups[t] = kNotShown;
+        surfaces.triangles[ground].coplanar_group = static_cast<std::uint8_t>(m + 2);
         surfaces.coverage_maps = coverage_maps;
     }
 }
