@@ -29,7 +29,7 @@ void VisibilityChoice::make(const ImageGeometry& geometry, std::span<const Rende
             std::unique_ptr<VisibilityBuffer>& made = samples.quarters() == 1 ? standard_ : fine_;
             if (!made)
                 made = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), room());
-            if (visible_sets_.empty()) make_visible_sets();
+            if (potentially_visible_sets_.empty()) make_potentially_visible_sets();
         }
         if (!level.sees_ground() || ground_triangles == 0) continue;
         const std::size_t most = std::min(kMostTriangles, ground_triangles + ground_triangles / 4);
@@ -50,28 +50,30 @@ void VisibilityChoice::set_quality(const RenderQuality& quality) {
     ground_step_px_ = static_cast<int>(quality.ground_step_px);
 }
 
-void VisibilityChoice::make_visible_sets() {
+void VisibilityChoice::make_potentially_visible_sets() {
     std::map<const ObjectSurfaces*, std::vector<std::size_t>> makes;
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
         makes[objects_.all[i].levels.front().get()].push_back(i);
-    visible_sets_.resize(objects_.all.size());
+    potentially_visible_sets_.resize(objects_.all.size());
     for (const auto& [make, objects] : makes) {
         if (objects.size() < kManyLike) continue;
         const std::size_t first = objects.front();
         LevelSets sets(objects_.all[first].levels.size());
         for (std::size_t level = 0; level < sets.size(); ++level)
             if (const MeshView mesh = objects_.scene.mesh(first, level); mesh.triangles.size() <= kMostInSets)
-                sets[level] = std::make_unique<VisibleSets>(
+                sets[level] = std::make_unique<PotentiallyVisibleSets>(
                     mesh, objects_.radii_m[first], objects_.all[first].levels[level]->coplanar_groups);
         const auto shared = std::make_shared<const LevelSets>(std::move(sets));
-        for (const std::size_t i : objects) visible_sets_[i] = shared;
+        for (const std::size_t i : objects) potentially_visible_sets_[i] = shared;
     }
 }
 
 // Null: all of an object is looked at.
-const VisibleSet* VisibilityChoice::visible_set(const FrameView& frame, std::size_t object) const {
-    if (!visible_sets_[object]) return nullptr;
-    const VisibleSets* const sets = (*visible_sets_[object])[objects_.levels[object]].get();
+const PotentiallyVisibleSet* VisibilityChoice::potentially_visible_set(const FrameView& frame,
+                                                                       std::size_t object) const {
+    if (!potentially_visible_sets_[object]) return nullptr;
+    const PotentiallyVisibleSets* const sets =
+        (*potentially_visible_sets_[object])[objects_.levels[object]].get();
     const double sample_rad = 1 / (frame.geometry.focal_length_px * frame.samples.across());
     if (!sets || !sets->serves(objects_.plans[object].distance_m, sample_rad)) return nullptr;
     const Pose& pose = objects_.world.objects[object];
@@ -138,7 +140,7 @@ void VisibilityChoice::place(FrameView& frame) {
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
         if (objects_.plans[i].use == ObjectUse::kMesh) {
             seen_.push_back(shown(i));
-            seen_.back().visible = visible_set(frame, i);
+            seen_.back().visible = potentially_visible_set(frame, i);
         }
     if (of_objects->place(objects_.world.camera, seen_))
         frame.visibility = of_objects;

@@ -12,8 +12,8 @@
 #include "render/frame/render_quality.h"
 #include "render/scene/shown_object.h"
 #include "render/shading/frame_view.h"
+#include "render/visibility/potentially_visible_sets.h"
 #include "render/visibility/visibility_buffer.h"
-#include "render/visibility/visible_sets.h"
 
 namespace hilcam {
 
@@ -56,13 +56,13 @@ class VisibilityChoice {
     std::array<std::unique_ptr<VisibilityBuffer>, 2> ground_;
     std::vector<VisibilityBuffer::Shown> seen_;
     // Sets of what may be seen from afar of those objects that are many of a make, by its levels; none: of all others.
-    using LevelSets = std::vector<std::unique_ptr<const VisibleSets>>;
-    std::vector<std::shared_ptr<const LevelSets>> visible_sets_;
+    using LevelSets = std::vector<std::unique_ptr<const PotentiallyVisibleSets>>;
+    std::vector<std::shared_ptr<const LevelSets>> potentially_visible_sets_;
     std::optional<VisibilityBuffer::Room> picture_room_;
     bool uses_buffer_ = false, sees_ground_ = false;
     int ground_step_px_ = 1;
 
-    void make_visible_sets();
+    void make_potentially_visible_sets();
     VisibilityBuffer::Room room() const;
     std::optional<VisibilityBuffer::Room> room_for_pictures() const;
     VisibilityBuffer* buffer(const PixelSamples& samples) const {
@@ -71,7 +71,7 @@ class VisibilityChoice {
     // The buffer of ground of the quality in use; null: none.
     VisibilityBuffer* ground() const { return ground_[static_cast<std::size_t>(ground_step_px_ - 1)].get(); }
     bool ground_is_alone(const FrameView& frame) const;
-    const VisibleSet* visible_set(const FrameView& frame, std::size_t object) const;
+    const PotentiallyVisibleSet* potentially_visible_set(const FrameView& frame, std::size_t object) const;
     void light_by_rays(FrameView& frame);
 };
 

@@ -9,7 +9,7 @@
 
 #include "render/scene/coplanar_groups.h"
 #include "render/scene/surface.h"
-#include "render/visibility/visible_sets.h"
+#include "render/visibility/potentially_visible_sets.h"
 
 namespace hilcam {
 namespace {
@@ -72,7 +72,7 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
         const Vec3d offset_m = object.pose.position_world_m - camera.position_world_m;
         const Mat3d camera_from_body = camera_from_world * to_matrix(object.pose.world_from_body);
         const Vec3d origin_camera_m = camera_from_world * offset_m;
-        const VisibleSet* const set = object.visible;
+        const PotentiallyVisibleSet* const set = object.visible;
         const MeshView drawn = set ? MeshView{set->vertices_m, set->triangles} : object.mesh;
         placed_.push_back({object,
                            drawn,

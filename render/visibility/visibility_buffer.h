@@ -28,7 +28,7 @@
 
 namespace hilcam {
 
-struct VisibleSet;
+struct PotentiallyVisibleSet;
 
 class VisibilityBuffer {
   public:
@@ -57,8 +57,8 @@ class VisibilityBuffer {
         // They say for each triangle which one's id stands for it, or that it is left out (coplanar_groups.h), likewise. Empty:
         // each has its own.
         std::span<const std::uint32_t> coplanar_groups{};
-        // All that may be seen of it (visible_sets.h), likewise: the rest is not looked at. Null: all of it may be.
-        const VisibleSet* visible = nullptr;
+        // All that may be seen of it (potentially_visible_sets.h), likewise: the rest is not looked at. Null: all of it may be.
+        const PotentiallyVisibleSet* visible = nullptr;
     };
     // Sorts the triangles of a frame. False: there is no room for them. Loop.
     bool place(const Pose& camera, std::span<const Shown> shown);

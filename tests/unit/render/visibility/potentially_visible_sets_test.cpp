@@ -1,4 +1,4 @@
-#include "render/visibility/visible_sets.h"
+#include "render/visibility/potentially_visible_sets.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ class Views {
         : shown_{0, {}, 1, {mesh.vertices_m, mesh.triangles}},
           buffer_(geometry(), {1, mesh.vertices_m.size(), mesh.triangles.size()}) {}
 
-    std::vector<std::uint32_t> seen(Vec3d from, const VisibleSet* set) {
+    std::vector<std::uint32_t> seen(Vec3d from, const PotentiallyVisibleSet* set) {
         shown_.visible = set;
         EXPECT_TRUE(
             buffer_.place({kFrom_radii * from, look_along(-1.0 * from, {0.3, 0.5, 0.8})}, {&shown_, 1}));
@@ -84,15 +84,15 @@ std::vector<Vec3d> directions(int count) {
     return out;
 }
 
-TEST(VisibleSets, ShowWhatTheWholeMeshShows) {
+TEST(PotentiallyVisibleSets, ShowWhatTheWholeMeshShows) {
     const Mesh mesh = boxes();
-    const VisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, {});
+    const PotentiallyVisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, {});
     ASSERT_TRUE(sets.serves(kFrom_radii, 2.0 / (4 * kSide_px) / kFrom_radii));
     Views views(mesh);
     double seen = 0, other = 0, triangles = 0;
     const std::vector<Vec3d> all = directions(60);
     for (const Vec3d from : all) {
-        const VisibleSet& set = sets.from(from);
+        const PotentiallyVisibleSet& set = sets.from(from);
         triangles += static_cast<double>(set.triangles.size());
         const auto whole = views.seen(from, nullptr), part = views.seen(from, &set);
         for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -110,12 +110,12 @@ TEST(VisibleSets, ShowWhatTheWholeMeshShows) {
 
 // A plate's edge of 0.2 mm, a fifth of what pictures' samples are apart, is all that is seen of it along its plane. Samples in rows along
 // it would be met by it all at once, or not at all.
-TEST(VisibleSets, HaveEdgesOfPlatesThatLieBetweenTwoRowsOfSamples) {
+TEST(PotentiallyVisibleSets, HaveEdgesOfPlatesThatLieBetweenTwoRowsOfSamples) {
     Mesh mesh;
     add_box({}, {0.9f, 0.3f, 0.0001f}, mesh);
-    const VisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, {});
+    const PotentiallyVisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, {});
     for (double angle_rad = 0.1; angle_rad < 2 * kPi; angle_rad += 0.2) {
-        const VisibleSet& set = sets.from({std::cos(angle_rad), std::sin(angle_rad), 1e-5});
+        const PotentiallyVisibleSet& set = sets.from({std::cos(angle_rad), std::sin(angle_rad), 1e-5});
         // Two sides' triangles of the rim are turned to the camera.
         const auto of_rim =
             std::count_if(set.ids.begin(), set.ids.end(), [](std::uint32_t id) { return id >= 4; });
@@ -123,15 +123,15 @@ TEST(VisibleSets, HaveEdgesOfPlatesThatLieBetweenTwoRowsOfSamples) {
     }
 }
 
-TEST(VisibleSets, LeaveOutWhatIsNotShownAndNameWhatStandsForIt) {
+TEST(PotentiallyVisibleSets, LeaveOutWhatIsNotShownAndNameWhatStandsForIt) {
     Mesh mesh;
     add_box({}, {0.5f, 0.5f, 0.5f}, mesh);
     std::vector<std::uint32_t> coplanar_groups(mesh.triangles.size());
     for (std::uint32_t i = 0; i < coplanar_groups.size(); ++i) coplanar_groups[i] = i / 2 * 2;
     coplanar_groups[2] = coplanar_groups[3] = kNotShown;
-    const VisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, coplanar_groups);
+    const PotentiallyVisibleSets sets({mesh.vertices_m, mesh.triangles}, 1, coplanar_groups);
     for (const Vec3d from : directions(20)) {
-        const VisibleSet& set = sets.from(from);
+        const PotentiallyVisibleSet& set = sets.from(from);
         ASSERT_EQ(set.ids.size(), set.triangles.size());
         for (std::size_t i = 0; i < set.ids.size(); ++i) {
             EXPECT_NE(set.ids[i], kNotShown);
@@ -140,14 +140,14 @@ TEST(VisibleSets, LeaveOutWhatIsNotShownAndNameWhatStandsForIt) {
         }
     }
     // The side of triangles 2 and 3 is open: what lies behind is seen through it.
-    const VisibleSet& set = sets.from({0.1, 0.2, 1});
+    const PotentiallyVisibleSet& set = sets.from({0.1, 0.2, 1});
     EXPECT_NE(std::count(set.ids.begin(), set.ids.end(), 0u), 0);
 }
 
-TEST(VisibleSets, AreForCamerasFarAwayAndPicturesCoarserThanTheirs) {
+TEST(PotentiallyVisibleSets, AreForCamerasFarAwayAndPicturesCoarserThanTheirs) {
     Mesh mesh;
     add_box({}, {0.5f, 0.5f, 0.5f}, mesh);
-    const VisibleSets sets({mesh.vertices_m, mesh.triangles}, 2, {});
+    const PotentiallyVisibleSets sets({mesh.vertices_m, mesh.triangles}, 2, {});
     EXPECT_TRUE(sets.serves(1000, 4.0 / 500 / 1000));
     EXPECT_FALSE(sets.serves(1000, 4.0 / 600 / 1000));
     EXPECT_TRUE(sets.serves(81, 1));
@@ -171,7 +171,7 @@ RadianceImage picture_of_cubes(bool alike) {
     return std::move(s.radiance);
 }
 
-TEST(VisibleSets, ManyOfAMakeAreSeenAsEachByItself) {
+TEST(PotentiallyVisibleSets, ManyOfAMakeAreSeenAsEachByItself) {
     const RadianceImage alike = picture_of_cubes(true), each = picture_of_cubes(false);
     double light = 0;
     for (std::size_t i = 0; i < each.all().size(); ++i) {

@@ -1,4 +1,4 @@
-#include "render/visibility/visible_sets.h"
+#include "render/visibility/potentially_visible_sets.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -118,9 +118,10 @@ std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
     return out;
 }
 
-VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> coplanar_groups, const Marks& marks) {
+PotentiallyVisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> coplanar_groups,
+                             const Marks& marks) {
     constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-    VisibleSet out;
+    PotentiallyVisibleSet out;
     std::vector<std::uint32_t> places(mesh.vertices_m.size(), kNone);
     for (std::uint32_t i = 0; i < marks.size(); ++i) {
         if (!marks[i]) continue;
@@ -140,20 +141,20 @@ VisibleSet set_of(const MeshView& mesh, std::span<const std::uint32_t> coplanar_
 
 }  // namespace
 
-VisibleSets::VisibleSets(const MeshView& mesh, double radius_m,
-                         std::span<const std::uint32_t> coplanar_groups)
+PotentiallyVisibleSets::PotentiallyVisibleSets(const MeshView& mesh, double radius_m,
+                                               std::span<const std::uint32_t> coplanar_groups)
     : radius_m_(radius_m), sets_(kViewCells) {
     const std::vector<Marks> seen = seen_by_cell(mesh, radius_m, coplanar_groups);
     tbb::parallel_for(std::size_t{0}, sets_.size(),
                       [&](std::size_t cell) { sets_[cell] = set_of(mesh, coplanar_groups, seen[cell]); });
 }
 
-bool VisibleSets::serves(double distance_m, double sample_rad) const {
+bool PotentiallyVisibleSets::serves(double distance_m, double sample_rad) const {
     constexpr double kMost =
         kPicture_px * kVisibilitySamplesAcross / kFinerPictures;  // samples across the mesh
     return distance_m >= kLeast_radii * radius_m_ && 2 * radius_m_ <= kMost * sample_rad * distance_m;
 }
 
-const VisibleSet& VisibleSets::from(Vec3d dir) const { return sets_[cell_of(dir)]; }
+const PotentiallyVisibleSet& PotentiallyVisibleSets::from(Vec3d dir) const { return sets_[cell_of(dir)]; }
 
 }  // namespace hilcam

@@ -19,26 +19,27 @@
 namespace hilcam {
 
 // The triangles of a mesh that may be seen, as a mesh of its own.
-struct VisibleSet {
+struct PotentiallyVisibleSet {
     std::vector<Vec3f> vertices_m;
     std::vector<TriangleCorners> triangles;
     std::vector<std::uint32_t> ids;  // by triangle the one of the whole mesh that it stands for
 };
 
-class VisibleSets {
+class PotentiallyVisibleSets {
   public:
     // groups: ObjectSurfaces::coplanar_groups, or none. Neither they nor the mesh are needed afterwards. The same for any number
     // of threads. Owner thread; some seconds of the processor for 5000 triangles.
-    VisibleSets(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> coplanar_groups);
+    PotentiallyVisibleSets(const MeshView& mesh, double radius_m,
+                           std::span<const std::uint32_t> coplanar_groups);
 
     // True where they hold for a camera at this distance whose samples are so far apart. Loop.
     bool serves(double distance_m, double sample_rad) const;
     // Returns what may be seen from this direction; body axes, of any length. Loop.
-    const VisibleSet& from(Vec3d dir) const;
+    const PotentiallyVisibleSet& from(Vec3d dir) const;
 
   private:
     double radius_m_;
-    std::vector<VisibleSet> sets_;  // by cell
+    std::vector<PotentiallyVisibleSet> sets_;  // by cell
 };
 
 }  // namespace hilcam
