@@ -205,7 +205,7 @@ void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
 // Where a body may stand before the object, something is seen through it, or it is seen through air, the camera has to find its light.
 RayDensity FramePlacer::density_for(std::size_t i) const {
     RayDensity out = density_;
-    out.pictures_of_points = visibility_.takes_picture_of(i);
+    out.pictures_of_points = visibility_.takes_impostor_of(i);
     out.pictures_of_meshes = out.pictures_of_points && density_.rays_across > 0 &&
                              visibility_.has_buffer(frame_.samples) && rays_->is_still() &&
                              !frame_.has_glass && !frame_.bodies_may_hide && !background_.camera_in_air();

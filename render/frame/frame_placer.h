@@ -82,7 +82,9 @@ class FramePlacer {
     // Returns the object as the placed frame shows it.
     VisibilityBuffer::Shown shown(std::size_t object) const;
     // Returns what pictures of single objects need (object_picture.h); empty: there are none.
-    const std::optional<VisibilityBuffer::Room>& picture_room() const { return visibility_.picture_room(); }
+    const std::optional<VisibilityBuffer::Capacity>& impostor_capacity() const {
+        return visibility_.impostor_capacity();
+    }
     double radius_m(std::size_t object) const { return radii_m_[object]; }
     const ShownObject& object(std::size_t object) const { return objects_[object]; }
     // The last of the objects is the ground.

@@ -21,9 +21,9 @@ ImageGeometry buffer_geometry() {
 
 }  // namespace
 
-ObjectPicture::ObjectPicture(const FrameView& frame, const VisibilityBuffer::Room& room)
+ObjectPicture::ObjectPicture(const FrameView& frame, const VisibilityBuffer::Capacity& capacity)
     : camera_(frame, kPicture_px),
-      buffer_(buffer_geometry(), room),
+      buffer_(buffer_geometry(), capacity),
       picture_(static_cast<std::size_t>(kPicture_px) * kPicture_px) {
     for (int slot = 0; slot < tbb::this_task_arena::max_concurrency(); ++slot)
         slots_.push_back(std::make_unique<Slot>());

@@ -21,7 +21,7 @@ class FrameTracer;
 class ObjectPicture {
   public:
     // room: for one object. The frame's view must have its pointers and sizes by now. Owner thread.
-    ObjectPicture(const FrameView& frame, const VisibilityBuffer::Room& room);
+    ObjectPicture(const FrameView& frame, const VisibilityBuffer::Capacity& capacity);
 
     // Takes over what a frame has placed. Loop, as all that follows.
     void begin(const FrameView& frame) { camera_.begin(frame); }

@@ -13,13 +13,13 @@ namespace hilcam {
 ObjectProbes::ObjectProbes(const FramePlacer& placer, int samples) {
     for (int slot = 0; slot < tbb::this_task_arena::max_concurrency(); ++slot)
         probes_.push_back(std::make_unique<ObjectProbe>(placer.frame(), samples));
-    if (placer.picture_room()) picture_.emplace(placer.frame(), *placer.picture_room());
+    if (placer.impostor_capacity()) picture_.emplace(placer.frame(), *placer.impostor_capacity());
     seen_.reserve(placer.objects());
     glimpses_.reserve(placer.objects() * most_points(placer));
 }
 
 std::size_t ObjectProbes::most_points(const FramePlacer& placer) {
-    const double size_px = placer.picture_room() ? kPictured_px : kPoints_px;
+    const double size_px = placer.impostor_capacity() ? kPictured_px : kPoints_px;
     const auto cells = static_cast<std::size_t>(std::ceil(2 * size_px));
     return cells * cells;
 }

@@ -28,7 +28,7 @@ void VisibilityChoice::make(const ImageGeometry& geometry, std::span<const Rende
             const PixelSamples samples = level.pixel_samples();
             std::unique_ptr<VisibilityBuffer>& made = samples.quarters() == 1 ? standard_ : fine_;
             if (!made)
-                made = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), room());
+                made = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), capacity());
             if (potentially_visible_sets_.empty()) make_potentially_visible_sets();
         }
         if (!level.sees_ground() || ground_triangles == 0) continue;
@@ -37,12 +37,12 @@ void VisibilityChoice::make(const ImageGeometry& geometry, std::span<const Rende
         if (!made)
             made = std::make_unique<VisibilityBuffer>(
                 ground_geometry(geometry, static_cast<int>(level.ground_step_px)),
-                VisibilityBuffer::Room{1, most, most});
+                VisibilityBuffer::Capacity{1, most, most});
     }
     seen_.reserve(objects_.all.size());
     const bool buffer =
         std::any_of(levels.begin(), levels.end(), [](const RenderQuality& q) { return q.uses_buffer(); });
-    if (buffer && !has_terrain) picture_room_ = room_for_pictures();
+    if (buffer && !has_terrain) impostor_capacity_ = capacity_for_impostors();
 }
 
 void VisibilityChoice::set_quality(const RenderQuality& quality) {
@@ -81,8 +81,8 @@ const PotentiallyVisibleSet* VisibilityChoice::potentially_visible_set(const Fra
                        (objects_.world.camera.position_world_m - pose.position_world_m));
 }
 
-VisibilityBuffer::Room VisibilityChoice::room() const {
-    VisibilityBuffer::Room out{objects_.all.size(), 0, 0};
+VisibilityBuffer::Capacity VisibilityChoice::capacity() const {
+    VisibilityBuffer::Capacity out{objects_.all.size(), 0, 0};
     for (std::size_t i = 0; i < objects_.all.size(); ++i) {
         const MeshView mesh = objects_.scene.mesh(i, 0);
         out.vertices = std::min(kMostTriangles, out.vertices + mesh.vertices_m.size());
@@ -91,9 +91,9 @@ VisibilityBuffer::Room VisibilityChoice::room() const {
     return out;
 }
 
-std::optional<VisibilityBuffer::Room> VisibilityChoice::room_for_pictures() const {
+std::optional<VisibilityBuffer::Capacity> VisibilityChoice::capacity_for_impostors() const {
     if (objects_.all.empty() || objects_.all.size() > kMostPictured) return {};
-    VisibilityBuffer::Room out{1, 0, 0};
+    VisibilityBuffer::Capacity out{1, 0, 0};
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
         for (std::size_t level = 0; level < objects_.all[i].levels.size(); ++level) {
             const MeshView mesh = objects_.scene.mesh(i, level);
@@ -104,10 +104,10 @@ std::optional<VisibilityBuffer::Room> VisibilityChoice::room_for_pictures() cons
     return out.triangles > 0 ? std::optional(out) : std::nullopt;
 }
 
-bool VisibilityChoice::takes_picture_of(std::size_t i) const {
+bool VisibilityChoice::takes_impostor_of(std::size_t i) const {
     const MeshView mesh = objects_.scene.mesh(i, objects_.levels[i]);
-    return uses_buffer_ && picture_room_ && mesh.triangles.size() <= picture_room_->triangles &&
-           mesh.vertices_m.size() <= picture_room_->vertices;
+    return uses_buffer_ && impostor_capacity_ && mesh.triangles.size() <= impostor_capacity_->triangles &&
+           mesh.vertices_m.size() <= impostor_capacity_->vertices;
 }
 
 VisibilityBuffer::Shown VisibilityChoice::shown(std::size_t i) const {

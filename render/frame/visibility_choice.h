@@ -39,9 +39,9 @@ class VisibilityChoice {
     void set_quality(const RenderQuality& quality);
 
     // Returns what pictures of single objects need (object_picture.h); empty: there are none.
-    const std::optional<VisibilityBuffer::Room>& picture_room() const { return picture_room_; }
+    const std::optional<VisibilityBuffer::Capacity>& impostor_capacity() const { return impostor_capacity_; }
     // True when an object may have a picture of its own where it is drawn as points; when objects that are not may have one, too.
-    bool takes_picture_of(std::size_t object) const;
+    bool takes_impostor_of(std::size_t object) const;
     bool has_buffer(const PixelSamples& samples) const { return buffer(samples) != nullptr; }
     // Returns the object as the placed frame shows it.
     VisibilityBuffer::Shown shown(std::size_t object) const;
@@ -58,13 +58,13 @@ class VisibilityChoice {
     // Sets of what may be seen from afar of those objects that are many of a make, by its levels; none: of all others.
     using LevelSets = std::vector<std::unique_ptr<const PotentiallyVisibleSets>>;
     std::vector<std::shared_ptr<const LevelSets>> potentially_visible_sets_;
-    std::optional<VisibilityBuffer::Room> picture_room_;
+    std::optional<VisibilityBuffer::Capacity> impostor_capacity_;
     bool uses_buffer_ = false, sees_ground_ = false;
     int ground_step_px_ = 1;
 
     void make_potentially_visible_sets();
-    VisibilityBuffer::Room room() const;
-    std::optional<VisibilityBuffer::Room> room_for_pictures() const;
+    VisibilityBuffer::Capacity capacity() const;
+    std::optional<VisibilityBuffer::Capacity> capacity_for_impostors() const;
     VisibilityBuffer* buffer(const PixelSamples& samples) const {
         return (samples.quarters() == 1 ? standard_ : fine_).get();
     }

@@ -43,19 +43,19 @@ ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_
 
 }  // namespace
 
-VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Room& room)
+VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity)
     : geometry_(geometry),
       lens_(geometry),
-      room_(room),
+      capacity_(capacity),
       tiles_across_((geometry.padded_width() + kVisibilityTile_px - 1) / kVisibilityTile_px),
       tiles_down_((geometry.padded_height() + kVisibilityTile_px - 1) / kVisibilityTile_px) {
     const auto tiles = static_cast<std::size_t>(tiles_across_ * tiles_down_);
-    placed_.reserve(room.objects);
-    vertices_.resize(room.vertices);
+    placed_.reserve(capacity.objects);
+    vertices_.resize(capacity.vertices);
     first_.resize(tiles * kGroups);
     // Most triangles are met by one tile or none; of a block's sixteen places half are taken.
     constexpr std::size_t kMin = 1 << 16;  // for few that fill the screen many times
-    const std::size_t blocks = room.triangles / 4 + 32 * tiles + kMin;
+    const std::size_t blocks = capacity.triangles / 4 + 32 * tiles + kMin;
     blocks_.resize(blocks);
     heads_.resize(blocks);
 }
@@ -68,7 +68,7 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
     std::size_t vertices = 0, triangles = 0;
     depth_origin_m_ = 0;
     for (const Shown& object : shown) {
-        if (placed_.size() == room_.objects) return false;
+        if (placed_.size() == capacity_.objects) return false;
         const Vec3d offset_m = object.pose.position_world_m - camera.position_world_m;
         const Mat3d camera_from_body = camera_from_world * to_matrix(object.pose.world_from_body);
         const Vec3d origin_camera_m = camera_from_world * offset_m;
@@ -87,7 +87,7 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
         vertices += drawn.vertices_m.size();
         drawn_count_ += drawn.triangles.size();
         triangles += object.mesh.triangles.size();
-        if (vertices > room_.vertices || triangles > room_.triangles) return false;
+        if (vertices > capacity_.vertices || triangles > capacity_.triangles) return false;
         const double near_m = std::max(length(offset_m), object.radius_m);
         if (depth_origin_m_ == 0 || near_m < depth_origin_m_) depth_origin_m_ = near_m;
     }

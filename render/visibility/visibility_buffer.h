@@ -33,12 +33,12 @@ struct PotentiallyVisibleSet;
 class VisibilityBuffer {
   public:
     // The most that a frame may show.
-    struct Room {
+    struct Capacity {
         std::size_t objects = 0, vertices = 0, triangles = 0;
     };
     static bool takes(const ImageGeometry& geometry) { return LensTiles::takes(geometry); }
     // Owner thread. The geometry is one that it takes.
-    VisibilityBuffer(const ImageGeometry& geometry, const Room& room);
+    VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity);
 
     // Looks through another lens, that leaves straight lines straight, from the next place() on. Loop.
     void set_focal_length(double focal_length_px) {
@@ -126,7 +126,7 @@ class VisibilityBuffer {
     ImageGeometry geometry_;
     LensTiles lens_;
     Mat3d world_from_camera_;
-    Room room_;
+    Capacity capacity_;
     int tiles_across_, tiles_down_;
     std::vector<Placed> placed_;
     double depth_origin_m_ = 1;

@@ -39,7 +39,7 @@ struct BufferAndRays {
 
     bool place() {
         std::vector<std::vector<const Mesh*>> levels;
-        VisibilityBuffer::Room room{meshes.size(), 0, 0};
+        VisibilityBuffer::Capacity room{meshes.size(), 0, 0};
         for (const Mesh& mesh : meshes) {
             levels.push_back({&mesh});
             room.vertices += mesh.vertices_m.size(), room.triangles += mesh.triangles.size();
