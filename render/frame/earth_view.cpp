@@ -11,8 +11,8 @@ namespace hilcam {
 EarthView::EarthView(const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um,
                      const ImageGeometry& geometry, double top_m, bool keeps_picture) {
     if (earth && keeps_picture)
-        picture_ = std::make_unique<KeptEarth>(*earth, sun_irradiance_1au_w_m2_um,
-                                               1 / geometry.focal_length_px, top_m);
+        picture_ = std::make_unique<EarthImpostorCache>(*earth, sun_irradiance_1au_w_m2_um,
+                                                        1 / geometry.focal_length_px, top_m);
     if (earth && earth->detail())
         detail_ =
             std::make_unique<DetailStream>(earth->detail(), earth->ground().first(), earth->detail_bytes());
@@ -32,14 +32,14 @@ void EarthView::place_picture(const Background& background, FrameView& frame) {
     if (!picture_ || !frame.rays->is_still() || !background.earth_in_patches()) return;
     const PlacedBody& earth = background.disks().front();
     if (picture_->place(earth.camera_m, earth.sun_dir, background.map_numbers()))
-        frame.earth_picture = &picture_->picture();
+        frame.earth_impostor = &picture_->picture();
     const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
-    frame.earth_picture_factor = static_cast<float>(au * au);
+    frame.earth_impostor_factor = static_cast<float>(au * au);
 }
 
 // A kept picture is of the map that memory holds, which is finer than its pixels.
 void EarthView::place_detail(const WorldSnapshot& world, Background& background, const FrameView& frame) {
-    if (!detail_ || frame.earth_picture) return;
+    if (!detail_ || frame.earth_impostor) return;
     const auto disks = background.disks();
     const auto earth =
         std::find_if(disks.begin(), disks.end(), [](const PlacedBody& b) { return b.id == BodyId::kEarth; });

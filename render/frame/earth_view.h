@@ -7,7 +7,7 @@
 
 #include "render/background/background.h"
 #include "render/earth/detail_stream.h"
-#include "render/earth/kept_earth.h"
+#include "render/earth/earth_impostor_cache.h"
 #include "render/shading/frame_view.h"
 
 namespace hilcam {
@@ -25,7 +25,7 @@ class EarthView {
     const DetailStream* detail() const { return detail_.get(); }  // null: the Earth's map is in memory
 
   private:
-    std::unique_ptr<KeptEarth> picture_;  // null: none
+    std::unique_ptr<EarthImpostorCache> picture_;  // null: none
     std::unique_ptr<DetailStream> detail_;
 
     void place_picture(const Background& background, FrameView& frame);

@@ -253,7 +253,7 @@ void FramePlacer::place_background() {
         frame_.body_boxes[i] = bounds(body.world_dir, body.cone_cosine);
     }
     frame_.sun_box = bounds(background_.sun_camera_dir(), background_.sun_disk_cosine());
-    frame_.earth_picture = nullptr;
+    frame_.earth_impostor = nullptr;
 }
 
 VisibilityBuffer::Shown FramePlacer::shown(std::size_t object) const { return visibility_.shown(object); }

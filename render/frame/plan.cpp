@@ -93,7 +93,7 @@ std::string body_line(const FrameView& f, std::size_t i, std::span<const double>
     if (body.may_be_eclipsed) line << "; another body may shadow it";
     const std::string look = f.background->describe(body);
     if (!look.empty()) line << "; " << look;
-    if (f.earth_picture && i == 0) line << "; seen as a kept picture";
+    if (f.earth_impostor && i == 0) line << "; seen as a kept picture";
     if (!costs_ms.empty() && !f.body_boxes[i].empty())
         line << "; its pixels take " << std::round(10 * costs_ms[i]) / 10 << " ms of a core";
     return line.str();

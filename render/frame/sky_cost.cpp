@@ -106,7 +106,7 @@ std::vector<SkyPart> sky_parts(const FrameView& frame) {
         if (variants.empty() && !earth) continue;
         // A picture that is kept has all parts in it.
         const bool told =
-            frame.rays->linear() && !frame.body_boxes[i].empty() && !(frame.earth_picture && i == 0);
+            frame.rays->linear() && !frame.body_boxes[i].empty() && !(frame.earth_impostor && i == 0);
         std::vector<double> saved_ms(variants.size());
         double whole_ms = 0;
         if (told) {

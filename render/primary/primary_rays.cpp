@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "render/earth/earth_impostor_view.h"
 #include "render/earth/earth_patch.h"
-#include "render/earth/pictured_earth.h"
 #include "render/primary/earth_limbs.h"
 #include "render/shading/sample_offsets.h"
 #include "render/visibility/place_sequence.h"
@@ -37,10 +37,10 @@ class PrimaryRays {
             // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
             corner_ = linear_->corner + tile.box.x0 * linear_->right + tile.box.y0 * linear_->down;
         }
-        if (frame_.sees_earth_picture_only(tile.box)) place_picture();
+        if (frame_.sees_earth_impostor_only(tile.box)) place_picture();
         picture_weight_ =
-            frame_.earth_picture_factor * (frame_.samples.weight(frame_.samples.all()) * weight_);
-        patched_ = bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches();
+            frame_.earth_impostor_factor * (frame_.samples.weight(frame_.samples.all()) * weight_);
+        patched_ = bodies_ && linear_ && !by_impostor_ && frame_.background->earth_in_patches();
     }
 
     // uncovered: samples of each pixel that see no object; null: rays find the objects.
@@ -53,15 +53,15 @@ class PrimaryRays {
             for (int bx = box.x0; bx < box.x1; bx += 4) {
                 const bool objects = !uncovered_ && frame_.object_mask->at(bx, by);
                 if (!objects && !bodies_ && !sun_) continue;
-                if (pictured_) earth_.expect(bx, by);
-                if (pictured_ && sees_nothing_else(bx, by)) {
+                if (by_impostor_) earth_.expect(bx, by);
+                if (by_impostor_ && sees_nothing_else(bx, by)) {
                     add_picture_block(bx, by);
                     continue;
                 }
                 if (!gather(bx, by, kAllPixels)) continue;
-                const Block block = !uncovered_ ? Block::kUneven
-                                    : pictured_ ? Block::kEven
-                                                : block_at(bx, by);
+                const Block block = !uncovered_    ? Block::kUneven
+                                    : by_impostor_ ? Block::kEven
+                                                   : block_at(bx, by);
                 if (block == Block::kRim) {
                     const std::uint32_t limb = limb_pixels(bx, by);
                     if (gather(bx, by, kAllPixels & ~limb)) trace_block(objects, true);
@@ -81,11 +81,11 @@ class PrimaryRays {
     bool even_ = false;  // one ray a pixel
     bool bodies_, sun_;
     const LinearRays* linear_;
-    bool plain_;               // the one body in view is done sixteen rays at a time
-    bool pictured_ = false;    // the Earth alone is in view, and its picture is kept
-    bool patched_;             // the Earth is seen in patches, where that is good enough
-    PicturedEarth earth_;      // looked at for the packet's samples
-    Spectrum picture_weight_;  // the weight of a pixel that sees nothing else
+    bool plain_;                // the one body in view is done sixteen rays at a time
+    bool by_impostor_ = false;  // the Earth alone is in view, and its picture is kept
+    bool patched_;              // the Earth is seen in patches, where that is good enough
+    EarthImpostorView earth_;   // looked at for the packet's samples
+    Spectrum picture_weight_;   // the weight of a pixel that sees nothing else
     std::optional<EarthPatch> patch_;
     RayWidth width_;  // width of each ray, and the angle between neighbouring ones
     Spectrum weight_;
@@ -159,16 +159,16 @@ class PrimaryRays {
     }
 
     void place_picture() {
-        std::array<CameraRay, PicturedEarth::kNodes> rays;
-        frame_.rays->generate(PicturedEarth::nodes(tile_.box), rays);
-        std::array<Vec3d, PicturedEarth::kNodes> dirs;
+        std::array<CameraRay, EarthImpostorView::kNodes> rays;
+        frame_.rays->generate(EarthImpostorView::nodes(tile_.box), rays);
+        std::array<Vec3d, EarthImpostorView::kNodes> dirs;
         for (std::size_t i = 0; i < dirs.size(); ++i) dirs[i] = rays[i].dir;
         const PlacedBody& earth = frame_.background->disks()[0];
-        const PicturedEarth::Seen seen =
-            earth_.place(*frame_.earth_picture, tile_.box,
+        const EarthImpostorView::Seen seen =
+            earth_.place(*frame_.earth_impostor, tile_.box,
                          {earth.camera_m, earth.fixed_from_world, earth.world_dir, earth.cone_cosine}, dirs);
-        bodies_ = seen != PicturedEarth::Seen::kNothing;
-        pictured_ = seen == PicturedEarth::Seen::kPicture;
+        bodies_ = seen != EarthImpostorView::Seen::kNothing;
+        by_impostor_ = seen == EarthImpostorView::Seen::kPicture;
     }
 
     // No object hides anything of a block's 4 x 4 pixels, all of which the tile has.
@@ -299,8 +299,8 @@ class PrimaryRays {
     }
 
     void add_backdrop(std::size_t k, float sun_cosine, Spectrum weight, Spectrum& pixel) {
-        if (pictured_) {
-            pixel += frame_.earth_picture_factor * weight * earth_.light(k);
+        if (by_impostor_) {
+            pixel += frame_.earth_impostor_factor * weight * earth_.light(k);
             return;
         }
         if (plain_) {
@@ -325,8 +325,8 @@ class PrimaryRays {
     }
 
     void trace_packet(bool objects, std::uint16_t sample) {
-        if (!pictured_ || objects) aim();
-        if (pictured_) look_at_picture(uncovered_ != nullptr);
+        if (!by_impostor_ || objects) aim();
+        if (by_impostor_) look_at_picture(uncovered_ != nullptr);
         if (objects) {
             frame_.scene->intersect(rays_, Coherence::kCoherent, hits_);
             tile_.stats.primary_rays += static_cast<std::uint64_t>(rays_.count);

@@ -21,7 +21,7 @@
 
 namespace hilcam {
 
-class EarthPicture;
+class EarthImpostor;
 class IndirectCache;
 class Lamps;
 class RadianceModel;
@@ -46,10 +46,10 @@ struct FrameView {
     PixelSamples samples;    // those of the visibility buffer, or that it would have
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
-    const Lamps* lamps = nullptr;                 // lamp_light.h; null: none
-    const IndirectCache* indirect = nullptr;      // indirect_cache.h; null: the path model does without
-    const EarthPicture* earth_picture = nullptr;  // the first body's; null: it is worked out pixel by pixel
-    float earth_picture_factor = 1;               // on its radiance, by the Sun's distance
+    const Lamps* lamps = nullptr;                   // lamp_light.h; null: none
+    const IndirectCache* indirect = nullptr;        // indirect_cache.h; null: the path model does without
+    const EarthImpostor* earth_impostor = nullptr;  // the first body's; null: it is worked out pixel by pixel
+    float earth_impostor_factor = 1;                // on its radiance, by the Sun's distance
     const ColorBands* bands = nullptr;
     const RayGenerator* rays = nullptr;
     ImageGeometry geometry;
@@ -86,9 +86,9 @@ struct FrameView {
         }
         return plain;
     }
-    // Nothing but the kept picture of the Earth can be met in the box.
-    bool sees_earth_picture_only(const PixelBox& box) const {
-        if (!earth_picture || box.overlaps(sun_box)) return false;
+    // Nothing but the impostor of the Earth can be met in the box.
+    bool sees_earth_impostor_only(const PixelBox& box) const {
+        if (!earth_impostor || box.overlaps(sun_box)) return false;
         for (std::size_t i = 1; i < body_box_count; ++i)
             if (box.overlaps(body_boxes[i])) return false;
         return box.overlaps(body_boxes[0]);

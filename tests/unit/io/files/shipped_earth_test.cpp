@@ -14,8 +14,8 @@
 #include "io/cache/atmosphere_cache.h"
 #include "io/files/earth_map_file.h"
 #include "render/earth/earth_albedo.h"
+#include "render/earth/earth_impostor.h"
 #include "render/earth/earth_patch.h"
-#include "render/earth/earth_picture.h"
 #include "render/sky/air_by_place.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/atmosphere_models.h"
@@ -275,7 +275,7 @@ struct NoiseErrors {
     }
 };
 
-// A place and a Sun so many steps beside those for which a picture is kept (earth_picture.cpp: 1 and 2 mrad, 0.4 % of distance),
+// A place and a Sun so many steps beside those for which a picture is kept (earth_impostor.cpp: 1 and 2 mrad, 0.4 % of distance),
 // on the equator 10 degrees east in geostationary height.
 struct KeptView {
     Vec3d camera_m, sun_dir;
@@ -299,7 +299,7 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
         5.19e-4;  // of inspector_1k with a lens of 10.6 mm: the disk fills a quarter
     constexpr int kTile_px = 32, kHalf_px = 320;
     constexpr float kShare = 1.0f / kTile_px;
-    EarthPicture picture(kPixel_rad, earth().air->top_m());
+    EarthImpostor picture(kPixel_rad, earth().air->top_m());
     for (const double sun_longitude_deg : {40.0, 88.0}) {
         const KeptView kept(sun_longitude_deg, 0), view(sun_longitude_deg, 0.49);
         const Vec3d out = normalized(view.camera_m), east = normalized(cross(Vec3d{0, 0, 1}, out)),
@@ -314,7 +314,7 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
             earth().model->add(ray, weight, sum);
             return static_cast<double>(sum[2]);
         };
-        picture.begin(EarthPicture::key_of(view.camera_m, view.sun_dir));
+        picture.begin(EarthImpostor::key_of(view.camera_m, view.sun_dir));
         picture.make_rest(*earth().model, earth().sun);
         struct Pixel {
             double kept, one_ray, mean, step;
@@ -328,7 +328,7 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
             for (int k = 0; k < 9; ++k)
                 dirs[static_cast<std::size_t>(k)] =
                     dir_at(x0 + 0.5 * kTile_px * (k % 3), y0 + 0.5 * kTile_px * (k / 3));
-            const EarthPicture::Tile tile = picture.tile(view.camera_m, dirs);
+            const EarthImpostor::Tile tile = picture.tile(view.camera_m, dirs);
             for (int k = i % 13; k < kTile_px * kTile_px; k += 13) {
                 const double x = x0 + k % kTile_px + 0.5, y = y0 + k / kTile_px + 0.5;
                 const Vec3d dir = dir_at(x, y);
@@ -343,8 +343,8 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
                         light(view.camera_m, dir_at(x + (s % n + 0.5) / n - 0.5, y + (s / n + 0.5) / n - 0.5),
                               view.sun_dir, kPixel_rad / n) /
                         (n * n);
-                EarthPicture::Floats in_x{}, in_y{};
-                std::array<Spectrum, EarthPicture::kCount> seen;
+                EarthImpostor::Floats in_x{}, in_y{};
+                std::array<Spectrum, EarthImpostor::kCount> seen;
                 in_x[0] = kShare * static_cast<float>(x - x0), in_y[0] = kShare * static_cast<float>(y - y0);
                 picture.look(tile, in_x, in_y, 1, 1, seen);
                 // The same place on the ground from where the picture is kept, under its Sun.

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "render/earth/kept_earth.h"
+#include "render/earth/earth_impostor_cache.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/config_field.h"
 #include "tests/support/earth_stage.h"

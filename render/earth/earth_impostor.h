@@ -1,6 +1,6 @@
 #pragma once
-// A picture of the whole Earth from one place under one Sun, kept to be seen by cameras of any attitude about there: a few tens
-// of nanoseconds a pixel instead of microseconds.
+// An impostor: a picture of the whole Earth from one place under one Sun, kept to be seen by cameras of any attitude about there:
+// a few tens of nanoseconds a pixel instead of microseconds.
 //
 // Light lies in rings about the Earth's middle, somewhat closer than the camera's pixels, and three times as close
 // where ground ends and air goes on, linear between them. In space with z stretched so that the Earth is a sphere of radius R, a ring is told by
@@ -22,7 +22,7 @@
 
 namespace hilcam {
 
-class EarthPicture {
+class EarthImpostor {
   public:
     // Steps from zero.
     struct Key {
@@ -38,14 +38,14 @@ class EarthPicture {
     static bool is_for(Vec3d camera_m, double pixel_rad);
 
     // pixel_rad: the camera's. top_m: the height up to which there is light.
-    EarthPicture(double pixel_rad, double top_m);
+    EarthImpostor(double pixel_rad, double top_m);
     // Begins a picture: begun, none of its pieces is made. Loop; allocates nothing.
     void begin(const Key& key);
     // Works out, on all threads of the arena, the pieces that nobody is at; the picture is there when all who called this
     // have returned. Loop, any thread; allocates nothing. sun_irradiance_1au: [W m^-2 um^-1].
     void make_rest(const EarthModel& earth, const Spectrum& sun_irradiance_1au_w_m2_um);
     // Takes as much memory as a picture that is made, so that making one like it needs none. Loop; allocates nothing.
-    void take_memory_as(const EarthPicture& other) { take_memory(other.used_); }
+    void take_memory_as(const EarthImpostor& other) { take_memory(other.used_); }
     std::size_t bytes() const { return light_.size() * sizeof(Coded); }
 
     // A square of a camera's picture. Places in it are parabolas, both ways, through those of its corners, middles and centre.

@@ -1,11 +1,11 @@
-#include "render/earth/pictured_earth.h"
+#include "render/earth/earth_impostor_view.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace hilcam {
 
-std::array<Vec2d, PicturedEarth::kNodes> PicturedEarth::nodes(const PixelBox& box) {
+std::array<Vec2d, EarthImpostorView::kNodes> EarthImpostorView::nodes(const PixelBox& box) {
     std::array<Vec2d, kNodes> out;
     for (std::size_t i = 0; i < kNodes; ++i)
         out[i] = {box.x0 + 0.5 * static_cast<double>(i % 3) * (box.x1 - box.x0),
@@ -13,8 +13,8 @@ std::array<Vec2d, PicturedEarth::kNodes> PicturedEarth::nodes(const PixelBox& bo
     return out;
 }
 
-PicturedEarth::Seen PicturedEarth::place(const EarthPicture& picture, const PixelBox& box, const View& earth,
-                                         const std::array<Vec3d, kNodes>& dirs) {
+EarthImpostorView::Seen EarthImpostorView::place(const EarthImpostor& picture, const PixelBox& box,
+                                                 const View& earth, const std::array<Vec3d, kNodes>& dirs) {
     picture_ = &picture, box_ = box, squares_y_ = -1;
     per_x_ = 1 / static_cast<float>(box.x1 - box.x0), per_y_ = 1 / static_cast<float>(box.y1 - box.y0);
     const auto angle_rad = [](Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); };
@@ -27,17 +27,17 @@ PicturedEarth::Seen PicturedEarth::place(const EarthPicture& picture, const Pixe
     }
     // The box of a body beside the field may be all of the picture: a tile that the Earth is not in has nothing of it.
     if (angle_rad(middle, earth.world_dir) > std::acos(earth.cone_cosine) + reach_rad) return Seen::kNothing;
-    // One that is wide against the sky is no parabola (EarthPicture::Tile).
+    // One that is wide against the sky is no parabola (EarthImpostor::Tile).
     constexpr double kWidest_rad = 0.2;
     if (reach_rad > kWidest_rad) return Seen::kRays;
     tile_ = picture_->tile(earth.camera_m, fixed_dirs);
     return Seen::kPicture;
 }
 
-void PicturedEarth::expect(int block_x, int block_y) {
+void EarthImpostorView::expect(int block_x, int block_y) {
     const int column = (block_x - box_.x0) / 4, here = column % kSquares;
     if (here == 0 || block_y != squares_y_) {
-        EarthPicture::Floats x, y;
+        EarthImpostor::Floats x, y;
         y.fill(per_y_ * static_cast<float>(block_y - box_.y0 + 2));
         for (int i = 0; i < kSquares; ++i)
             x[static_cast<std::size_t>(i)] = per_x_ * static_cast<float>(4 * (column - here + i) + 2);
@@ -48,23 +48,24 @@ void PicturedEarth::expect(int block_x, int block_y) {
     if (here + 1 < kSquares && block_x + 4 < box_.x1) squares_.fetch(static_cast<std::size_t>(here) + 1);
 }
 
-void PicturedEarth::look(const EarthPicture::Floats& x_px, const EarthPicture::Floats& y_px,
-                         std::size_t count, float share) {
-    EarthPicture::Floats x, y;
-    for (std::size_t k = 0; k < EarthPicture::kCount; ++k) x[k] = per_x_ * x_px[k], y[k] = per_y_ * y_px[k];
+void EarthImpostorView::look(const EarthImpostor::Floats& x_px, const EarthImpostor::Floats& y_px,
+                             std::size_t count, float share) {
+    EarthImpostor::Floats x, y;
+    for (std::size_t k = 0; k < EarthImpostor::kCount; ++k) x[k] = per_x_ * x_px[k], y[k] = per_y_ * y_px[k];
     picture_->look(tile_, x, y, count, share, light_);
 }
 
-void PicturedEarth::add_block(int block_x, int block_y, const Spectrum& weight, std::span<Spectrum> pixels) {
-    EarthPicture::Floats x, y;
-    for (std::size_t k = 0; k < EarthPicture::kCount; ++k) {
+void EarthImpostorView::add_block(int block_x, int block_y, const Spectrum& weight,
+                                  std::span<Spectrum> pixels) {
+    EarthImpostor::Floats x, y;
+    for (std::size_t k = 0; k < EarthImpostor::kCount; ++k) {
         x[k] = static_cast<float>(block_x - box_.x0) + static_cast<float>(k % 4) + 0.5f;
         y[k] = static_cast<float>(block_y - box_.y0) + static_cast<float>(k / 4) + 0.5f;
     }
-    look(x, y, EarthPicture::kCount, 1);
+    look(x, y, EarthImpostor::kCount, 1);
     const int width = box_.x1 - box_.x0;
     Spectrum* row = pixels.data() + (block_y - box_.y0) * width + block_x - box_.x0;
-    for (std::size_t k = 0; k < EarthPicture::kCount; k += 4, row += width)
+    for (std::size_t k = 0; k < EarthImpostor::kCount; k += 4, row += width)
         for (std::size_t i = 0; i < 4; ++i) row[i] += weight * light_[k + i];
 }
 

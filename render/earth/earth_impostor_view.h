@@ -1,14 +1,14 @@
 #pragma once
-// The Earth in a tile of a frame, as the picture of it that is kept has it (render/earth/earth_picture.h).
+// The Earth in a tile of a frame, as the picture of it that is kept has it (render/earth/earth_impostor.h).
 
 #include <span>
 
-#include "render/earth/earth_picture.h"
+#include "render/earth/earth_impostor.h"
 #include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {
 
-class PicturedEarth {
+class EarthImpostorView {
   public:
     enum class Seen {
         kNothing,  // the Earth is not in the tile
@@ -22,16 +22,16 @@ class PicturedEarth {
         Vec3d world_dir;
         double cone_cosine;
     };
-    static constexpr std::size_t kNodes = EarthPicture::kNodes * EarthPicture::kNodes;
+    static constexpr std::size_t kNodes = EarthImpostor::kNodes * EarthImpostor::kNodes;
     // The places of a tile whose directions place() needs [px], row by row.
     static std::array<Vec2d, kNodes> nodes(const PixelBox& box);
     // Places the picture, which outlives this, in a tile. dirs: the nodes', in the world, of any length. Loop.
-    Seen place(const EarthPicture& picture, const PixelBox& box, const View& earth,
+    Seen place(const EarthImpostor& picture, const PixelBox& box, const View& earth,
                const std::array<Vec3d, kNodes>& dirs);
     // Has the memory of the block of 4 x 4 px that follows this one in its row on its way. Loop.
     void expect(int block_x, int block_y);
     // Looks at places of the tile, from its corner [px], each of which stands for a share of a pixel's width. Loop.
-    void look(const EarthPicture::Floats& x_px, const EarthPicture::Floats& y_px, std::size_t count,
+    void look(const EarthImpostor::Floats& x_px, const EarthImpostor::Floats& y_px, std::size_t count,
               float share);
     // Looks at the middles of a block's 4 x 4 pixels, all of them the tile's, and adds what is there. pixels: the tile's, row by row.
     // Loop.
@@ -40,13 +40,13 @@ class PicturedEarth {
     const Spectrum& light(std::size_t place) const { return light_[place]; }
 
   private:
-    const EarthPicture* picture_ = nullptr;
+    const EarthImpostor* picture_ = nullptr;
     PixelBox box_{};
     float per_x_ = 0, per_y_ = 0;
-    EarthPicture::Tile tile_{};
-    std::array<Spectrum, EarthPicture::kCount> light_;
-    static constexpr int kSquares = static_cast<int>(EarthPicture::kCount);
-    EarthPicture::Squares squares_{};  // a row of blocks
+    EarthImpostor::Tile tile_{};
+    std::array<Spectrum, EarthImpostor::kCount> light_;
+    static constexpr int kSquares = static_cast<int>(EarthImpostor::kCount);
+    EarthImpostor::Squares squares_{};  // a row of blocks
     int squares_y_ = -1;
 };
 

@@ -1,6 +1,6 @@
 // Kept pictures of the Earth: a frame's depends on its own place and Sun alone, and far cameras alone have one.
 
-#include "render/earth/kept_earth.h"
+#include "render/earth/earth_impostor_cache.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -16,26 +16,26 @@
 namespace hilcam {
 namespace {
 
-constexpr double kKeptPixel_rad = 1.2e-2;  // the disk from geostationary height is 25 pixels wide
+constexpr double kImpostorPixel_rad = 1.2e-2;  // the disk from geostationary height is 25 pixels wide
 
 Vec3d on_equator(double distance_m, double longitude_rad) {
     return {distance_m * std::cos(longitude_rad), distance_m * std::sin(longitude_rad), 0};
 }
 
-struct KeptEarthTest : testing::Test {
+struct EarthImpostorCacheTest : testing::Test {
     SpectralGrid grid{std::vector<double>{0.4, 0.55, 0.7}};
     EarthModel earth{EarthConfig{}, seeded_clouds(3, 64), EarthMap(), nullptr, grid};
     Spectrum sun = solar_irradiance_1au_w_m2_um(grid);
 
     // A row of looks across the disk.
-    static std::array<Spectrum, 16> looks(const EarthPicture& picture, Vec3d camera_m) {
+    static std::array<Spectrum, 16> looks(const EarthImpostor& picture, Vec3d camera_m) {
         const Vec3d ahead = -normalized(camera_m), right = normalized(cross(ahead, Vec3d{0, 0, 1})),
                     down = cross(ahead, right);
         std::array<Vec3d, 9> dirs;
         for (int i = 0; i < 9; ++i)
             dirs[static_cast<std::size_t>(i)] =
                 ahead + (i % 3 - 1) * 0.18 * right + (i / 3 - 1) * 0.18 * down;
-        EarthPicture::Floats x, y;
+        EarthImpostor::Floats x, y;
         for (std::size_t i = 0; i < 16; ++i) x[i] = static_cast<float>(i) / 15, y[i] = 0.45f;
         std::array<Spectrum, 16> out;
         picture.look(picture.tile(camera_m, dirs), x, y, 16, 1, out);
@@ -43,14 +43,14 @@ struct KeptEarthTest : testing::Test {
     }
 };
 
-TEST_F(KeptEarthTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
+TEST_F(EarthImpostorCacheTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
     const Vec3d here = on_equator(42164e3, 0.5), sun_dir = on_equator(1, 1.1);
-    KeptEarth fresh(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
+    EarthImpostorCache fresh(earth, sun, kImpostorPixel_rad, EarthModel::kHighest_m);
     ASSERT_TRUE(fresh.place(here, sun_dir));
     const std::array<Spectrum, 16> wanted = looks(fresh.picture(), here);
     EXPECT_GT(wanted[8][0], 10);
     EXPECT_EQ(wanted[0][0], 0);
-    KeptEarth moved(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
+    EarthImpostorCache moved(earth, sun, kImpostorPixel_rad, EarthModel::kHighest_m);
     // The Sun goes on by less than a step a frame, so that pictures are made ahead as well as at once; then both jump back.
     for (int i = 0; i < 80; ++i)
         ASSERT_TRUE(moved.place(on_equator(42164e3, 0.45 + 1e-5 * i), on_equator(1, 0.9 + 3e-4 * i)));
@@ -60,11 +60,11 @@ TEST_F(KeptEarthTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
 }
 
 // A frame that needs a picture which is being made ahead makes the rest of it.
-TEST_F(KeptEarthTest, SeveralThreadsMakeOnePicture) {
+TEST_F(EarthImpostorCacheTest, SeveralThreadsMakeOnePicture) {
     const Vec3d here = on_equator(42164e3, 0.5), sun_dir = on_equator(1, 1.1);
     const auto lights = [&](int threads) {
-        EarthPicture picture(kKeptPixel_rad, EarthModel::kHighest_m);
-        picture.begin(EarthPicture::key_of(here, sun_dir));
+        EarthImpostor picture(kImpostorPixel_rad, EarthModel::kHighest_m);
+        picture.begin(EarthImpostor::key_of(here, sun_dir));
         std::vector<std::thread> team;
         for (int i = 0; i < threads; ++i) team.emplace_back([&] { picture.make_rest(earth, sun); });
         for (std::thread& one : team) one.join();
@@ -83,9 +83,9 @@ long faults() {
     return usage.ru_minflt;
 }
 
-TEST_F(KeptEarthTest, LaterPicturesAreMadeInMemoryThatTheFirstHasTaken) {
+TEST_F(EarthImpostorCacheTest, LaterPicturesAreMadeInMemoryThatTheFirstHasTaken) {
     constexpr double kFinePixel_rad = 1e-3;
-    KeptEarth kept(earth, sun, kFinePixel_rad, EarthModel::kHighest_m);
+    EarthImpostorCache kept(earth, sun, kFinePixel_rad, EarthModel::kHighest_m);
     const auto show = [&](double longitude_rad) {
         ASSERT_TRUE(kept.place(on_equator(42164e3, longitude_rad), on_equator(1, 1.1)));
     };
@@ -98,8 +98,8 @@ TEST_F(KeptEarthTest, LaterPicturesAreMadeInMemoryThatTheFirstHasTaken) {
     EXPECT_LT(faults() - before, picture_pages / 4);
 }
 
-TEST_F(KeptEarthTest, FarCamerasAloneHaveOne) {
-    KeptEarth kept(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
+TEST_F(EarthImpostorCacheTest, FarCamerasAloneHaveOne) {
+    EarthImpostorCache kept(earth, sun, kImpostorPixel_rad, EarthModel::kHighest_m);
     const Vec3d sun_dir = on_equator(1, 0);
     EXPECT_FALSE(kept.place(on_equator(3.9 * kEarthEquatorialRadius_m, 0), sun_dir));
     EXPECT_TRUE(kept.place(on_equator(4.1 * kEarthEquatorialRadius_m, 0), sun_dir));
@@ -118,13 +118,13 @@ double light_at(double off_rad, bool kept) {
 }
 
 // The last shows a rim of it, with whatever cloud is there.
-TEST(KeptEarth, IsAsBrightAsByManyRays) {
+TEST(EarthImpostorCache, IsAsBrightAsByManyRays) {
     for (const double off_rad : {0.0, 0.2, 0.4})
         EXPECT_NEAR(light_at(off_rad, true) / light_at(off_rad, false), 1, 0.02) << off_rad;
 }
 
 // Beside the field, across it, and behind the camera. About a right angle it has no projection.
-TEST(KeptEarth, IsNowhereElse) {
+TEST(EarthImpostorCache, IsNowhereElse) {
     for (double off_rad = 0.8; off_rad < 3.15; off_rad += 0.05)
         EXPECT_EQ(light_at(off_rad, true), 0) << off_rad;
 }

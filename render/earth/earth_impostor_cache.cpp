@@ -1,25 +1,26 @@
-#include "render/earth/kept_earth.h"
+#include "render/earth/earth_impostor_cache.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace hilcam {
 
-KeptEarth::KeptEarth(const EarthModel& earth, const Spectrum& sun_irradiance, double pixel_rad, double top_m)
+EarthImpostorCache::EarthImpostorCache(const EarthModel& earth, const Spectrum& sun_irradiance,
+                                       double pixel_rad, double top_m)
     : earth_(earth), sun_irradiance_1au_(sun_irradiance), pixel_rad_(pixel_rad) {
-    for (Kept& kept : pictures_) kept.picture = std::make_unique<EarthPicture>(pixel_rad, top_m);
+    for (Kept& kept : pictures_) kept.picture = std::make_unique<EarthImpostor>(pixel_rad, top_m);
     ahead_.start([this] { make_rest(asked_); });
 }
 
-std::size_t KeptEarth::bytes() const {
+std::size_t EarthImpostorCache::bytes() const {
     std::size_t sum = 0;
     for (const Kept& kept : pictures_) sum += kept.picture->bytes();
     return sum;
 }
 
-bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
-    if (!EarthPicture::is_for(camera_m, pixel_rad_)) return false;
-    const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir, numbers);
+bool EarthImpostorCache::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
+    if (!EarthImpostor::is_for(camera_m, pixel_rad_)) return false;
+    const EarthImpostor::Key key = EarthImpostor::key_of(camera_m, sun_dir, numbers);
     std::size_t at = find(key);
     if (is_being_made(at)) {
         make_rest(at);
@@ -38,14 +39,14 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
     return true;
 }
 
-std::size_t KeptEarth::find(const EarthPicture::Key& key) const {
+std::size_t EarthImpostorCache::find(const EarthImpostor::Key& key) const {
     const auto found = std::find_if(pictures_.begin(), pictures_.end(),
                                     [&](const Kept& kept) { return kept.made && kept.key == key; });
     return static_cast<std::size_t>(found - pictures_.begin());
 }
 
 // Takes the place of the one that was not shown for longest, but not of one that is being made.
-std::size_t KeptEarth::room_for(const EarthPicture::Key& key) {
+std::size_t EarthImpostorCache::room_for(const EarthImpostor::Key& key) {
     std::size_t oldest = is_being_made(0) ? 1 : 0;
     for (std::size_t i = oldest + 1; i < pictures_.size(); ++i)
         if (pictures_[i].last_shown < pictures_[oldest].last_shown && !is_being_made(i)) oldest = i;
@@ -55,10 +56,12 @@ std::size_t KeptEarth::room_for(const EarthPicture::Key& key) {
     return oldest;
 }
 
-void KeptEarth::make_rest(std::size_t at) { pictures_[at].picture->make_rest(earth_, sun_irradiance_1au_); }
+void EarthImpostorCache::make_rest(std::size_t at) {
+    pictures_[at].picture->make_rest(earth_, sun_irradiance_1au_);
+}
 
 // Has the first picture made that the next frames will ask for, if everything moves on as it did.
-void KeptEarth::look_ahead(const Place& now) {
+void EarthImpostorCache::look_ahead(const Place& now) {
     if (frames_ % kStride == 1) long_before_ = before_, before_ = now;
     if (frames_ <= 2 * kStride || ahead_.is_busy()) return;
     const auto past = static_cast<double>(kStride + (frames_ - 1) % kStride);  // frames since long_before_
@@ -67,13 +70,13 @@ void KeptEarth::look_ahead(const Place& now) {
     };
     for (double ahead = 1; ahead <= 128; ahead *= 2) {
         const Vec3d camera_m = on(long_before_.camera_m, now.camera_m, ahead);
-        if (!EarthPicture::is_for(camera_m, pixel_rad_)) return;
+        if (!EarthImpostor::is_for(camera_m, pixel_rad_)) return;
         const auto number_on = [&](double before, double here) {
             return here + ahead / past * (here - before);
         };
         const MapNumbers numbers{number_on(long_before_.numbers.clouds, now.numbers.clouds),
                                  number_on(long_before_.numbers.ground, now.numbers.ground)};
-        const EarthPicture::Key key = EarthPicture::key_of(
+        const EarthImpostor::Key key = EarthImpostor::key_of(
             camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)), earth_.nearest(numbers));
         if (key == pictures_[shown_].key) continue;
         if (find(key) < pictures_.size()) return;

@@ -1,23 +1,23 @@
 #pragma once
-// Has the picture of the Earth (earth_picture.h) that frames ask for: at once where one needs it, and ahead of time, on a
+// Has the impostor of the Earth (earth_impostor.h) that frames ask for: at once where one needs it, and ahead of time, on a
 // thread of its own, where the camera and the Sun move on as they did. What a picture shows is the same either way.
 
 #include <array>
 #include <cstdint>
 #include <memory>
 
-#include "render/earth/earth_picture.h"
+#include "render/earth/earth_impostor.h"
 #include "render/vocabulary/ahead_thread.h"
 
 namespace hilcam {
 
-class KeptEarth {
+class EarthImpostorCache {
   public:
     // The Earth outlives this. Owner thread.
-    KeptEarth(const EarthModel& earth, const Spectrum& sun_irradiance_1au_w_m2_um, double pixel_rad,
-              double top_m);
-    KeptEarth(const KeptEarth&) = delete;
-    KeptEarth& operator=(const KeptEarth&) = delete;
+    EarthImpostorCache(const EarthModel& earth, const Spectrum& sun_irradiance_1au_w_m2_um, double pixel_rad,
+                       double top_m);
+    EarthImpostorCache(const EarthImpostorCache&) = delete;
+    EarthImpostorCache& operator=(const EarthImpostorCache&) = delete;
 
     // Ends the thread (AheadThread). Owner thread.
     void stop_looking_ahead() { ahead_.stop(); }
@@ -27,14 +27,14 @@ class KeptEarth {
     // is not there yet.
     bool place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers = {});
     // The one that was placed last. Any thread.
-    const EarthPicture& picture() const { return *pictures_[shown_].picture; }
+    const EarthImpostor& picture() const { return *pictures_[shown_].picture; }
     // Returns the memory of all pictures. The first that is made has all of them take as much.
     std::size_t bytes() const;
 
   private:
     struct Kept {
-        std::unique_ptr<EarthPicture> picture;
-        EarthPicture::Key key;
+        std::unique_ptr<EarthImpostor> picture;
+        EarthImpostor::Key key;
         bool made = false;
         std::uint64_t last_shown = 0;
     };
@@ -56,8 +56,8 @@ class KeptEarth {
 
     bool is_being_made(std::size_t at) const { return at == asked_ && ahead_.is_at_work(); }
     void make_rest(std::size_t at);
-    std::size_t find(const EarthPicture::Key& key) const;
-    std::size_t room_for(const EarthPicture::Key& key);
+    std::size_t find(const EarthImpostor::Key& key) const;
+    std::size_t room_for(const EarthImpostor::Key& key);
     void look_ahead(const Place& now);
 };
 

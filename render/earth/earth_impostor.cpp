@@ -1,4 +1,4 @@
-#include "render/earth/earth_picture.h"
+#include "render/earth/earth_impostor.h"
 
 #include <tbb/parallel_for.h>
 
@@ -38,10 +38,10 @@ std::int32_t steps(double value, double step) { return static_cast<std::int32_t>
 
 // Where 16 places of a tile lie: closest approach over the radius, and turns about the Earth's middle, 0..1. The arc tangent is a
 // polynomial (Abramowitz & Stegun, 4.4.49, to 2e-8), its angle brought below an eighth of a turn first.
-HILCAM_CLONES void place_looks(const EarthPicture::Tile& tile, const float* x, const float* y, float distance,
-                               float* approach, float* turn) {
+HILCAM_CLONES void place_looks(const EarthImpostor::Tile& tile, const float* x, const float* y,
+                               float distance, float* approach, float* turn) {
     const std::array<float, 9>&a = tile.across, &d = tile.down;
-    for (std::size_t i = 0; i < EarthPicture::kCount; ++i) {
+    for (std::size_t i = 0; i < EarthImpostor::kCount; ++i) {
         const float s = x[i], t = y[i];
         const float right = a[0] + s * (a[1] + s * a[2]) + t * (a[3] + s * (a[4] + s * a[5])) +
                             t * t * (a[6] + s * (a[7] + s * a[8]));
@@ -80,12 +80,12 @@ std::uint16_t coded(float value) {
 
 // Sixteen looks: where they begin in the picture's columns, and their weights.
 struct Looks {
-    static constexpr std::size_t kCount = EarthPicture::kCount;
+    static constexpr std::size_t kCount = EarthImpostor::kCount;
     std::array<const std::uint16_t*, kCount> light;  // place in the row before and the column before
     std::array<std::size_t, kCount> stride;          // places to the next column; the next row is beside it
-    EarthPicture::Floats in_row, in_column;          // from there, 0..1
+    EarthImpostor::Floats in_row, in_column;         // from there, 0..1
     std::array<bool, kCount> at_limb;
-    std::array<EarthPicture::LimbRows, kCount> by_row;  // where it is at the limb, instead of in_row
+    std::array<EarthImpostor::LimbRows, kCount> by_row;  // where it is at the limb, instead of in_row
 };
 
 using Bins = float __attribute__((vector_size(32), may_alias));
@@ -108,7 +108,7 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
         Bins sum;
         if (looks.at_limb[i]) {
             sum = looks.by_row[i][0] * row(0);
-            for (std::size_t r = 1; r < EarthPicture::kLimbRows; ++r) sum += looks.by_row[i][r] * row(r);
+            for (std::size_t r = 1; r < EarthImpostor::kLimbRows; ++r) sum += looks.by_row[i][r] * row(r);
         } else {
             const Bins before = row(0);
             sum = before + looks.in_row[i] * (row(1) - before);
@@ -119,7 +119,7 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
 
 }  // namespace
 
-EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
+EarthImpostor::Key EarthImpostor::key_of(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
     const double distance_m = length(camera_m);
     return {{steps(std::atan2(camera_m.y, camera_m.x), kCameraStep_rad),
              steps(std::asin(camera_m.z / distance_m), kCameraStep_rad),
@@ -129,13 +129,13 @@ EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir, MapNumbers
             {steps(numbers.clouds, kMapStep), steps(numbers.ground, kMapStep)}};
 }
 
-bool EarthPicture::is_for(Vec3d camera_m, double pixel_rad) {
+bool EarthImpostor::is_for(Vec3d camera_m, double pixel_rad) {
     const double distance = length(camera_m) / kEarthRadius_m;
     const double radius_px = 1 / (distance * pixel_rad);
     return distance > kNearest && radius_px > kSmallest_px && radius_px < kLargest_px;
 }
 
-EarthPicture::EarthPicture(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
+EarthImpostor::EarthImpostor(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
     bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kPictureRings + 4);
     // Addresses for the widest disk; its pages are taken by take_memory(). A step of the grid nearer, and half of one.
     distance_m_ =
@@ -145,9 +145,9 @@ EarthPicture::EarthPicture(double pixel_rad, double top_m) : pixel_rad_(pixel_ra
 }
 
 // Turns a vector into the picture's axes.
-Vec3d EarthPicture::to_place(Vec3d v) const { return {dot(v, right_), dot(v, down_), dot(v, ahead_)}; }
+Vec3d EarthImpostor::to_place(Vec3d v) const { return {dot(v, right_), dot(v, down_), dot(v, ahead_)}; }
 
-void EarthPicture::place_bands() {
+void EarthImpostor::place_bands() {
     bands_.clear();
     const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // a pixel's part of the radius
     const double step = kSpacing_px * pixel, fine = step / kFinerSteps;
@@ -173,10 +173,10 @@ void EarthPicture::place_bands() {
     dark_from_ = static_cast<float>(1 + top_m_ / kEarthRadius_m + 0.5 * pixel + fine);
 }
 
-int EarthPicture::Band::runs() const { return (columns + kRunColumns - 1) / kRunColumns; }
+int EarthImpostor::Band::runs() const { return (columns + kRunColumns - 1) / kRunColumns; }
 
-void EarthPicture::fill_run(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row,
-                            int first) {
+void EarthImpostor::fill_run(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row,
+                             int first) {
     const bool limb = &band == &bands_.back();
     const int looks = limb ? kLimbLooks : 1;
     const double spacing = 1 / static_cast<double>(band.per_step);
@@ -211,12 +211,12 @@ void EarthPicture::fill_run(const EarthModel& earth, const Spectrum& irradiance,
     if (first == 0) ring[static_cast<std::size_t>(band.columns) * rows] = ring[0];
 }
 
-void EarthPicture::take_memory(std::size_t used) {
+void EarthImpostor::take_memory(std::size_t used) {
     HILCAM_CHECK(used <= light_.capacity());
     if (light_.size() < used) light_.resize(used);
 }
 
-void EarthPicture::begin(const Key& key) {
+void EarthImpostor::begin(const Key& key) {
     camera_m_ = kEarthRadius_m * std::exp(key.camera[2] * kDistanceStep) *
                 from_steps(key.camera[0] * kCameraStep_rad, key.camera[1] * kCameraStep_rad);
     sun_dir_ = from_steps(key.sun[0] * kPictureSunStep_rad, key.sun[1] * kPictureSunStep_rad);
@@ -233,7 +233,7 @@ void EarthPicture::begin(const Key& key) {
     next_piece_.store(0, std::memory_order_relaxed);
 }
 
-void EarthPicture::make_rest(const EarthModel& earth, const Spectrum& sun_irradiance) {
+void EarthImpostor::make_rest(const EarthModel& earth, const Spectrum& sun_irradiance) {
     const int left = pieces_ - next_piece_.load(std::memory_order_relaxed);
     tbb::parallel_for(0, left, [&](int) {
         const int piece = next_piece_.fetch_add(1, std::memory_order_relaxed);
@@ -241,14 +241,15 @@ void EarthPicture::make_rest(const EarthModel& earth, const Spectrum& sun_irradi
     });
 }
 
-void EarthPicture::make_piece(const EarthModel& earth, const Spectrum& sun_irradiance, int piece) {
+void EarthImpostor::make_piece(const EarthModel& earth, const Spectrum& sun_irradiance, int piece) {
     std::size_t i = 0;
     while (piece >= bands_[i].rows * bands_[i].runs()) piece -= bands_[i].rows * bands_[i].runs(), ++i;
     const int runs = bands_[i].runs();
     fill_run(earth, sun_irradiance, bands_[i], piece / runs, kRunColumns * (piece % runs));
 }
 
-EarthPicture::Tile EarthPicture::tile(Vec3d camera_m, const std::array<Vec3d, kNodes * kNodes>& dirs) const {
+EarthImpostor::Tile EarthImpostor::tile(Vec3d camera_m,
+                                        const std::array<Vec3d, kNodes * kNodes>& dirs) const {
     const Vec3d from_m = stretched(kEarthFigure, camera_m), kept_m = -distance_m_ * ahead_;
     std::array<double, 9> across{}, down{};
     for (std::size_t i = 0; i < dirs.size(); ++i) {
@@ -275,8 +276,8 @@ EarthPicture::Tile EarthPicture::tile(Vec3d camera_m, const std::array<Vec3d, kN
     return {powers(across), powers(down)};
 }
 
-void EarthPicture::look(const Tile& tile, const Floats& x, const Floats& y, std::size_t count, float share,
-                        std::array<Spectrum, kCount>& radiance) const {
+void EarthImpostor::look(const Tile& tile, const Floats& x, const Floats& y, std::size_t count, float share,
+                         std::array<Spectrum, kCount>& radiance) const {
     Floats approach, turn;
     place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / kEarthRadius_m), approach.data(),
                 turn.data());
@@ -293,7 +294,7 @@ void EarthPicture::look(const Tile& tile, const Floats& x, const Floats& y, std:
     mix_looks(looks, count, radiance.data());
 }
 
-EarthPicture::Spot EarthPicture::spot_of(float b, float turn) const {
+EarthImpostor::Spot EarthImpostor::spot_of(float b, float turn) const {
     const float ring = b * inner_per_b_;
     const bool limb = !(b < limb_from_);
     const auto row = static_cast<std::size_t>(ring);
@@ -309,7 +310,7 @@ EarthPicture::Spot EarthPicture::spot_of(float b, float turn) const {
     return out;
 }
 
-void EarthPicture::find_squares(const Tile& tile, const Floats& x, const Floats& y, Squares& squares) const {
+void EarthImpostor::find_squares(const Tile& tile, const Floats& x, const Floats& y, Squares& squares) const {
     Floats approach, turn;
     place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / kEarthRadius_m), approach.data(),
                 turn.data());
@@ -321,7 +322,7 @@ void EarthPicture::find_squares(const Tile& tile, const Floats& x, const Floats&
 }
 
 // Three places to either side: seven columns, of each the two lines of 64 bytes that its places are in.
-void EarthPicture::Squares::fetch(std::size_t square) const {
+void EarthImpostor::Squares::fetch(std::size_t square) const {
     constexpr std::uintptr_t kReach = 3, kLine_bytes = 64;
     const auto at = reinterpret_cast<std::uintptr_t>(middle[square]);
     for (std::uintptr_t c = 0; c <= 2 * kReach; ++c) {
@@ -333,7 +334,7 @@ void EarthPicture::Squares::fetch(std::size_t square) const {
 }
 
 // A pixel's mean across the limb: four places have its variance, at any angle. Returns the first of the rows.
-std::size_t EarthPicture::weigh_limb(float b, float share, LimbRows& by_row) const {
+std::size_t EarthImpostor::weigh_limb(float b, float share, LimbRows& by_row) const {
     const Band& band = bands_.back();
     const float middle = (b - band.first) * band.per_step, reach = share * pixel_ * band.per_step;
     const int row = std::clamp(static_cast<int>(middle - 0.375f * reach), 0, band.rows - kLimbRows);
