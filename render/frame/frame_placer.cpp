@@ -76,7 +76,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.world_from_body.resize(objects_.size());
     frame_.is_point.resize(objects_.size());
     frame_.is_cached.resize(objects_.size());
-    frame_.lit_apart.resize(objects_.size());
+    frame_.has_impostor.resize(objects_.size());
     frame_.background = &background_;
     frame_.radiance = radiance_model_.get();
     frame_.lamps = &lamps_;
@@ -222,7 +222,7 @@ void FramePlacer::place_objects() {
             std::max(farthest_m, length(world_.objects[i].position_world_m - world_.camera.position_world_m) +
                                      radii_m_[i]);
     frame_.bodies_may_hide = farthest_m > background_.nearest_m();
-    frame_.has_lit_apart = false;
+    frame_.has_impostors = false;
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const Mat3d m = to_matrix(world_.objects[i].world_from_body);
         frame_.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
@@ -235,8 +235,8 @@ void FramePlacer::place_objects() {
             plans_[i].use = ObjectUse::kHidden;
         if (!frame_.is_point[i] && plans_[i].samples_per_axis > density_.samples_per_axis)
             object_boxes_[i] = box_of(i);
-        frame_.lit_apart[i] = plans_[i].use == ObjectUse::kMesh && plans_[i].picture_px > 0;
-        frame_.has_lit_apart = frame_.has_lit_apart || frame_.lit_apart[i];
+        frame_.has_impostor[i] = plans_[i].use == ObjectUse::kMesh && plans_[i].picture_px > 0;
+        frame_.has_impostors = frame_.has_impostors || frame_.has_impostor[i];
     }
     frame_.object_mask = still ? &object_mask_ : &full_mask_;
 }

@@ -81,7 +81,7 @@ class FramePlacer {
     std::uint64_t left_out() const { return possible_.left_out(); }
     // Returns the object as the placed frame shows it.
     VisibilityBuffer::Shown shown(std::size_t object) const;
-    // Returns what pictures of single objects need (object_picture.h); empty: there are none.
+    // Returns what pictures of single objects need (object_impostor.h); empty: there are none.
     const std::optional<VisibilityBuffer::Capacity>& impostor_capacity() const {
         return visibility_.impostor_capacity();
     }

@@ -24,8 +24,8 @@ struct ObjectPlan {
     std::size_t level = 0;     // level of detail; 0 is the mesh itself
     int samples_per_axis = 1;  // rays along a pixel of a traced object; a small one has more
     int point_samples = 0;     // rays along its little picture, of one that is drawn as points
-    // Pixels across a picture of its own (object_picture.h) from which its light comes; 0: none. Of a traced one the camera finds what is
-    // seen and what it hides, and the light comes as points.
+    // Pixels across a picture of its own (object_impostor.h) from which its light comes; 0: none. Of a traced one the camera
+    // finds what is seen and what it hides, and the light comes as points.
     int picture_px = 0;
 };
 

@@ -12,10 +12,10 @@
 #include "render/frame/finite_light.h"
 #include "render/frame/frame_placer.h"
 #include "render/frame/frame_tracer.h"
-#include "render/frame/object_probes.h"
 #include "render/frame/points_part.h"
 #include "render/frame/render_bench.h"
 #include "render/frame/truth_probe.h"
+#include "render/frame/unresolved_objects.h"
 #include "render/shading/point_field.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/stopwatch.h"
@@ -36,7 +36,7 @@ struct Renderer::Implementation {
     FrameTracer tracer;
     PartsBuffer* parts = nullptr;              // for the parts of the light; null: nobody asks
     PixelRecord* record = nullptr;             // likewise
-    ObjectProbes probes;                       // for objects of a few pixels
+    UnresolvedObjects unresolved_objects;      // for objects of a few pixels
     std::atomic<std::uint64_t> not_finite{0};  // pixels and points of all frames whose light was no number
     std::atomic<std::uint64_t> left_out{0};    // places and attitudes that could not be
 
@@ -45,7 +45,7 @@ struct Renderer::Implementation {
                    const Modules& modules)
         : placer(std::move(scene), grid, geometry, levels, models, modules),
           tracer(geometry, modules, levels),
-          probes(placer, static_cast<int>(levels.front().point_samples)) {
+          unresolved_objects(placer, static_cast<int>(levels.front().point_samples)) {
         use_level(0);
     }
 
@@ -60,7 +60,7 @@ struct Renderer::Implementation {
         field.add_stars(placer.stars(), points);
         add_body_points(placer.frame(), field, points);
         add_lamps_seen(placer.frame(), field, points);
-        TileStats stats = probes.add_points(placer, tracer, field, points);
+        TileStats stats = unresolved_objects.add_points(placer, tracer, field, points);
         stats.not_finite += std::erase_if(
             points, [](const PointSource& point) { return !is_finite(point.irradiance_w_m2_um); });
         return stats;
@@ -116,7 +116,7 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 
 std::size_t Renderer::max_points() const {
     const FramePlacer& placer = implementation_->placer;
-    return placer.max_stars() + placer.objects() * ObjectProbes::most_points(placer) +
+    return placer.max_stars() + placer.objects() * UnresolvedObjects::most_points(placer) +
            kMaxBodies * kMostBodyPoints + kMostRingedPoints + placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }

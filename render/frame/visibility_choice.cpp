@@ -150,9 +150,9 @@ void VisibilityChoice::place(FrameView& frame) {
 
 // The camera's rays find the light of all that they meet.
 void VisibilityChoice::light_by_rays(FrameView& frame) {
-    frame.has_lit_apart = false;
+    frame.has_impostors = false;
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
-        if (frame.lit_apart[i]) frame.lit_apart[i] = 0, objects_.plans[i].picture_px = 0;
+        if (frame.has_impostor[i]) frame.has_impostor[i] = 0, objects_.plans[i].picture_px = 0;
 }
 
 }  // namespace hilcam

@@ -38,7 +38,7 @@ class VisibilityChoice {
     // Loop.
     void set_quality(const RenderQuality& quality);
 
-    // Returns what pictures of single objects need (object_picture.h); empty: there are none.
+    // Returns what pictures of single objects need (object_impostor.h); empty: there are none.
     const std::optional<VisibilityBuffer::Capacity>& impostor_capacity() const { return impostor_capacity_; }
     // True when an object may have a picture of its own where it is drawn as points; when objects that are not may have one, too.
     bool takes_impostor_of(std::size_t object) const;

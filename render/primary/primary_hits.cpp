@@ -106,7 +106,7 @@ void PrimaryHits::take_pixel(int x, int y) {
     uncovered_[static_cast<std::size_t>(pixel)] = seen.nothing;
     if (seen.count == 0) return;
     for (const PixelFragments::Fragment& found : std::span(seen.fragments).first(seen.count)) {
-        if (tile_.frame.has_lit_apart && is_lit_apart(found.id)) continue;
+        if (tile_.frame.has_impostors && has_impostor(found.id)) continue;
         fragments_[fragment_count_++] = {found.id, static_cast<std::uint16_t>(pixel), left, top,
                                          found.samples};
     }
@@ -115,9 +115,9 @@ void PrimaryHits::take_pixel(int x, int y) {
         static_cast<double>(grid.weight(grid.all() & ~seen.nothing)) * (1.0 / kVisibilitySamples);
 }
 
-bool PrimaryHits::is_lit_apart(std::uint32_t id) const {
+bool PrimaryHits::has_impostor(std::uint32_t id) const {
     const FrameView& frame = tile_.frame;
-    return frame.lit_apart[frame.visibility->seen(id).shown->object] != 0;
+    return frame.has_impostor[frame.visibility->seen(id).shown->object] != 0;
 }
 
 // True when a body stands before what the samples see: they see the body then.

@@ -69,7 +69,7 @@ class PrimaryHits {
     bool open_next_part();
     void take_next_pixel();
     void take_pixel(int x, int y);
-    bool is_lit_apart(std::uint32_t id) const;
+    bool has_impostor(std::uint32_t id) const;
     bool leave_to_body(std::size_t k);
     struct Aim {
         Vec3d dir;

@@ -34,9 +34,9 @@ struct FrameView {
     std::vector<Mat3f> world_from_body;                           // per object
     std::vector<std::uint8_t> is_point;   // per object: drawn as a point, the camera's rays pass it
     std::vector<std::uint8_t> is_cached;  // per object: light from other surfaces and bodies is cached on it
-    // Per object: where the frame's visibility buffer sees it, it is dark, as its light comes as points (object_picture.h).
-    std::vector<std::uint8_t> lit_apart;
-    bool has_lit_apart = false;               // any of them
+    // Per object: where the frame's visibility buffer sees it, it is dark, as its light comes as points (object_impostor.h).
+    std::vector<std::uint8_t> has_impostor;
+    bool has_impostors = false;               // any of them
     const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const VisibilityBuffer* visibility =
         nullptr;  // visibility_buffer.h; null: rays find what the camera sees

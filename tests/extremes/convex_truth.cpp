@@ -82,7 +82,7 @@ double ray_step_px(const Stage& s, double radius_m) {
     const ObjectPlan plan =
         plan_object(s.geometry, s.world, s.world.objects[0], radius_m,
                     {static_cast<int>(s.quality.samples_per_axis), static_cast<int>(s.quality.rays_across)});
-    // Points: a picture of its own, as wide as the sphere and 2 % more (probe_camera.cpp).
+    // Points: a picture of its own, as wide as the sphere and 2 % more (impostor_camera.cpp).
     if (plan.use == ObjectUse::kPoints)
         return 1.02 * plan.size_px / static_cast<double>(s.quality.point_samples);
     return 1.0 / plan.samples_per_axis;

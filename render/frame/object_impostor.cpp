@@ -1,4 +1,4 @@
-#include "render/frame/object_picture.h"
+#include "render/frame/object_impostor.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -21,7 +21,7 @@ ImageGeometry buffer_geometry() {
 
 }  // namespace
 
-ObjectPicture::ObjectPicture(const FrameView& frame, const VisibilityBuffer::Capacity& capacity)
+ObjectImpostor::ObjectImpostor(const FrameView& frame, const VisibilityBuffer::Capacity& capacity)
     : camera_(frame, kPicture_px),
       buffer_(buffer_geometry(), capacity),
       picture_(static_cast<std::size_t>(kPicture_px) * kPicture_px) {
@@ -31,8 +31,8 @@ ObjectPicture::ObjectPicture(const FrameView& frame, const VisibilityBuffer::Cap
     camera_.view().samples = kSamples;
 }
 
-bool ObjectPicture::look(const FramePlacer& placer, std::size_t i, const FrameTracer& tracer,
-                         Glimpse* glimpses, std::size_t& count, TileStats& stats) {
+bool ObjectImpostor::look(const FramePlacer& placer, std::size_t i, const FrameTracer& tracer,
+                          Glimpse* glimpses, std::size_t& count, TileStats& stats) {
     const ObjectPlan& plan = placer.plan(i);
     camera_.aim(placer.world(), i, plan.distance_m, placer.radius_m(i), kPicture_px, plan.picture_px);
     buffer_.set_focal_length(kSamples.buffer_px() * camera_.view().geometry.focal_length_px);
@@ -48,13 +48,14 @@ bool ObjectPicture::look(const FramePlacer& placer, std::size_t i, const FrameTr
             trace_tile({x, y, x + edge, y + edge}, *slots_[slot], tracer.paths(slot));
         });
         for (const auto& slot : slots_) stats += slot->stats;
-        count = camera_.find_glimpses(picture_, plan.picture_px, ProbeCamera::cells_across(plan), glimpses);
+        count =
+            camera_.find_glimpses(picture_, plan.picture_px, ImpostorCamera::cells_across(plan), glimpses);
     }
     camera_.look_away(i);
     return fits;
 }
 
-void ObjectPicture::trace_tile(const PixelBox& box, Slot& slot, PathModel& paths) {
+void ObjectImpostor::trace_tile(const PixelBox& box, Slot& slot, PathModel& paths) {
     if (!camera_.view().object_mask->any(box)) return;
     const int width = box.x1 - box.x0;
     const std::span<Spectrum> pixels(slot.tile.data(), static_cast<std::size_t>(width * (box.y1 - box.y0)));

@@ -1,4 +1,4 @@
-#include "render/frame/object_picture.h"
+#include "render/frame/object_impostor.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ void use_buffer(Stage& s) {
     s.quality.samples_per_axis = 1, s.quality.max_depth = 1;
 }
 
-TEST(ObjectPicture, HasTheLightOfWhatIsThinnerThanThePixelsSamples) {
+TEST(ObjectImpostor, HasTheLightOfWhatIsThinnerThanThePixelsSamples) {
     constexpr double kDistance_m = 30;
     Stage s;
     s.camera(64, 64 / 2 * 0.1 / kDistance_m);
@@ -41,7 +41,7 @@ TEST(ObjectPicture, HasTheLightOfWhatIsThinnerThanThePixelsSamples) {
 }
 
 // It is one of many in the scene: the others are behind the camera, beside its sunlight.
-TEST(ObjectPicture, IsMadeInScenesOfManyObjects) {
+TEST(ObjectImpostor, IsMadeInScenesOfManyObjects) {
     constexpr double kDistance_m = 30;
     Stage s;
     s.camera(64, 64 / 2 * 0.1 / kDistance_m);
@@ -57,7 +57,7 @@ TEST(ObjectPicture, IsMadeInScenesOfManyObjects) {
 }
 
 // What it hides is hidden, as where the camera's pixels find its light.
-TEST(ObjectPicture, HidesWhatIsBehind) {
+TEST(ObjectImpostor, HidesWhatIsBehind) {
     Stage s;
     s.camera(64, 0.05);
     s.sun({0.3, 0, -1});
@@ -78,7 +78,7 @@ TEST(ObjectPicture, HidesWhatIsBehind) {
 }
 
 // It is there once, and as large, at the size at which a mesh is no longer pictured, and at that at which it is no more than points.
-TEST(ObjectPicture, IsAsBrightAtAllSizes) {
+TEST(ObjectImpostor, IsAsBrightAtAllSizes) {
     Stage s;
     s.camera(256, 0.1);
     use_buffer(s);

@@ -17,10 +17,10 @@ struct Glimpse {
     Spectrum irradiance_w_m2_um;  // at the camera, per bin
 };
 
-class ProbeCamera {
+class ImpostorCamera {
   public:
     // picture_px: sides of its largest picture. The frame's view must have its pointers and sizes by now. Owner thread.
-    ProbeCamera(const FrameView& frame, int picture_px);
+    ImpostorCamera(const FrameView& frame, int picture_px);
 
     // Takes over what a frame has placed. Loop, as all that follows.
     void begin(const FrameView& frame);

@@ -1,4 +1,4 @@
-#include "render/frame/object_probes.h"
+#include "render/frame/unresolved_objects.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -10,22 +10,22 @@
 
 namespace hilcam {
 
-ObjectProbes::ObjectProbes(const FramePlacer& placer, int samples) {
+UnresolvedObjects::UnresolvedObjects(const FramePlacer& placer, int samples) {
     for (int slot = 0; slot < tbb::this_task_arena::max_concurrency(); ++slot)
-        probes_.push_back(std::make_unique<ObjectProbe>(placer.frame(), samples));
+        by_rays_.push_back(std::make_unique<UnresolvedObject>(placer.frame(), samples));
     if (placer.impostor_capacity()) picture_.emplace(placer.frame(), *placer.impostor_capacity());
     seen_.reserve(placer.objects());
     glimpses_.reserve(placer.objects() * most_points(placer));
 }
 
-std::size_t ObjectProbes::most_points(const FramePlacer& placer) {
+std::size_t UnresolvedObjects::most_points(const FramePlacer& placer) {
     const double size_px = placer.impostor_capacity() ? kPictured_px : kPoints_px;
     const auto cells = static_cast<std::size_t>(std::ceil(2 * size_px));
     return cells * cells;
 }
 
 // Those whose middle is in the padded image, and whatever the camera's own rays may meet.
-void ObjectProbes::find_seen(const FramePlacer& placer, const PointField& field) {
+void UnresolvedObjects::find_seen(const FramePlacer& placer, const PointField& field) {
     seen_.clear();
     std::size_t room = 0;
     for (std::size_t i = 0; i < placer.objects(); ++i) {
@@ -34,28 +34,28 @@ void ObjectProbes::find_seen(const FramePlacer& placer, const PointField& field)
             const Vec3d to_object_m =
                 placer.world().objects[i].position_world_m - placer.world().camera.position_world_m;
             if (!field.sees(to_object_m / plan.distance_m, plan.distance_m)) continue;
-        } else if (!placer.frame().lit_apart[i]) {
+        } else if (!placer.frame().has_impostor[i]) {
             continue;
         }
         seen_.push_back({i, room, picture_ && plan.picture_px > 0, 0, {}});
-        const auto cells = static_cast<std::size_t>(ProbeCamera::cells_across(plan));
+        const auto cells = static_cast<std::size_t>(ImpostorCamera::cells_across(plan));
         room += cells * cells;
     }
     glimpses_.resize(room);
 }
 
-void ObjectProbes::look(const FramePlacer& placer, const FrameTracer& tracer, Seen& seen) {
+void UnresolvedObjects::look(const FramePlacer& placer, const FrameTracer& tracer, Seen& seen) {
     const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-    seen.count = probes_[slot]->look(placer.world(), seen.object, placer.plan(seen.object),
-                                     placer.radius_m(seen.object), tracer.paths(slot),
-                                     glimpses_.data() + seen.first, seen.stats);
+    seen.count = by_rays_[slot]->look(placer.world(), seen.object, placer.plan(seen.object),
+                                      placer.radius_m(seen.object), tracer.paths(slot),
+                                      glimpses_.data() + seen.first, seen.stats);
 }
 
-TileStats ObjectProbes::add_points(const FramePlacer& placer, const FrameTracer& tracer,
-                                   const PointField& field, std::vector<PointSource>& points) {
+TileStats UnresolvedObjects::add_points(const FramePlacer& placer, const FrameTracer& tracer,
+                                        const PointField& field, std::vector<PointSource>& points) {
     find_seen(placer, field);
     if (seen_.empty()) return {};
-    for (const auto& probe : probes_) probe->begin(placer.frame());
+    for (const auto& probe : by_rays_) probe->begin(placer.frame());
     tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t k) {
         if (!seen_[k].pictured) look(placer, tracer, seen_[k]);
     });
@@ -68,7 +68,7 @@ TileStats ObjectProbes::add_points(const FramePlacer& placer, const FrameTracer&
     for (const Seen& seen : seen_) {
         sum += seen.stats;
         const double distance_m =
-            ProbeCamera::before_m(placer.plan(seen.object), placer.radius_m(seen.object));
+            ImpostorCamera::before_m(placer.plan(seen.object), placer.radius_m(seen.object));
         for (std::size_t g = seen.first; g < seen.first + seen.count; ++g)
             field.add(glimpses_[g].world_dir, distance_m, glimpses_[g].irradiance_w_m2_um, points,
                       static_cast<std::uint32_t>(seen.object));

@@ -1,13 +1,13 @@
 #pragma once
-// The objects that a frame draws as points, or lights so, all of them: each has an ObjectPicture, or is traced by an ObjectProbe of
-// the thread that takes it, and its points are added in the objects' order, whatever the number of threads.
+// The objects that a frame draws as points, or lights so, all of them: each has an ObjectImpostor, or is traced by an
+// UnresolvedObject of the thread that takes it, and its points are added in the objects' order, whatever the number of threads.
 
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "render/frame/object_picture.h"
-#include "render/frame/object_probe.h"
+#include "render/frame/object_impostor.h"
+#include "render/frame/unresolved_object.h"
 #include "render/shading/point_field.h"
 #include "render/vocabulary/point_source.h"
 
@@ -16,11 +16,11 @@ namespace hilcam {
 class FramePlacer;
 class FrameTracer;
 
-class ObjectProbes {
+class UnresolvedObjects {
   public:
     // samples: the most rays along an axis of an object's picture. The frame's view must have its pointers and sizes
     // by now. Owner thread.
-    ObjectProbes(const FramePlacer& placer, int samples);
+    UnresolvedObjects(const FramePlacer& placer, int samples);
     // Returns the most points that an object gives.
     static std::size_t most_points(const FramePlacer& placer);
 
@@ -40,9 +40,9 @@ class ObjectProbes {
     void find_seen(const FramePlacer& placer, const PointField& field);
     void look(const FramePlacer& placer, const FrameTracer& tracer, Seen& seen);
 
-    std::vector<std::unique_ptr<ObjectProbe>> probes_;  // by slot of the thread pool
+    std::vector<std::unique_ptr<UnresolvedObject>> by_rays_;  // by slot of the thread pool
     std::vector<Seen> seen_;
-    std::optional<ObjectPicture> picture_;
+    std::optional<ObjectImpostor> picture_;
     std::vector<Glimpse> glimpses_;  // glimpses of all objects, with room for the most
 };
 

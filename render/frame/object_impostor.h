@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/frame/probe_camera.h"
+#include "render/frame/impostor_camera.h"
 #include "render/shading/path_model.h"
 #include "render/sunlight/penumbra_sampler.h"
 #include "render/visibility/visibility_buffer.h"
@@ -18,14 +18,15 @@ namespace hilcam {
 class FramePlacer;
 class FrameTracer;
 
-class ObjectPicture {
+class ObjectImpostor {
   public:
     // room: for one object. The frame's view must have its pointers and sizes by now. Owner thread.
-    ObjectPicture(const FrameView& frame, const VisibilityBuffer::Capacity& capacity);
+    ObjectImpostor(const FrameView& frame, const VisibilityBuffer::Capacity& capacity);
 
     // Takes over what a frame has placed. Loop, as all that follows.
     void begin(const FrameView& frame) { camera_.begin(frame); }
-    // Finds the light of object `i` cell by cell. glimpses: room for ProbeCamera::cells_across()^2. False: the buffer has no room for it.
+    // Finds the light of object `i` cell by cell. glimpses: room for ImpostorCamera::cells_across()^2. False: the buffer has no
+    // room for it.
     bool look(const FramePlacer& placer, std::size_t i, const FrameTracer& tracer, Glimpse* glimpses,
               std::size_t& count, TileStats& stats);
 
@@ -38,7 +39,7 @@ class ObjectPicture {
         NormalClusters clusters;
         TileStats stats;
     };
-    ProbeCamera camera_;
+    ImpostorCamera camera_;
     VisibilityBuffer buffer_;
     std::vector<std::unique_ptr<Slot>> slots_;
     std::vector<Spectrum> picture_;

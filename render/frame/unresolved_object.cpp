@@ -1,15 +1,15 @@
-#include "render/frame/object_probe.h"
+#include "render/frame/unresolved_object.h"
 
 #include <algorithm>
 
 namespace hilcam {
 
-ObjectProbe::ObjectProbe(const FrameView& frame, int most_samples)
+UnresolvedObject::UnresolvedObject(const FrameView& frame, int most_samples)
     : camera_(frame, most_samples),
       tile_(PathModel::kMaxSamples),
       picture_(static_cast<std::size_t>(most_samples * most_samples)) {}
 
-TileStats ObjectProbe::trace(int samples, PathModel& paths) {
+TileStats UnresolvedObject::trace(int samples, PathModel& paths) {
     const int edge = tile_edge_px(1);
     TileStats stats;
     for (int y = 0; y < samples; y += edge)
@@ -29,13 +29,13 @@ TileStats ObjectProbe::trace(int samples, PathModel& paths) {
     return stats;
 }
 
-std::size_t ObjectProbe::look(const WorldSnapshot& world, std::size_t i, const ObjectPlan& plan,
-                              double radius_m, PathModel& paths, Glimpse* glimpses, TileStats& stats) {
+std::size_t UnresolvedObject::look(const WorldSnapshot& world, std::size_t i, const ObjectPlan& plan,
+                                   double radius_m, PathModel& paths, Glimpse* glimpses, TileStats& stats) {
     const int samples = plan.point_samples;
     camera_.aim(world, i, plan.distance_m, radius_m, samples, samples);
     stats += trace(samples, paths);
     camera_.look_away(i);
-    return camera_.find_glimpses(picture_, samples, std::min(ProbeCamera::cells_across(plan), samples),
+    return camera_.find_glimpses(picture_, samples, std::min(ImpostorCamera::cells_across(plan), samples),
                                  glimpses);
 }
 

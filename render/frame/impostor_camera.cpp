@@ -1,4 +1,4 @@
-#include "render/frame/probe_camera.h"
+#include "render/frame/impostor_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +21,15 @@ constexpr double kProbeMargin = 1.01;  // on the object's radius
 
 }  // namespace
 
-ProbeCamera::ProbeCamera(const FrameView& frame, int picture_px)
+ImpostorCamera::ImpostorCamera(const FrameView& frame, int picture_px)
     : rays_(make_pinhole_rays()), mask_(picture_of(picture_px, picture_px, 1, 2)), view_(frame) {
     view_.rays = rays_.get();
     view_.object_mask = &mask_;
     view_.visibility = nullptr;
-    view_.has_lit_apart = false;
+    view_.has_impostors = false;
 }
 
-void ProbeCamera::begin(const FrameView& frame) {
+void ImpostorCamera::begin(const FrameView& frame) {
     view_.indirect = frame.indirect;
     std::copy(frame.is_cached.begin(), frame.is_cached.end(), view_.is_cached.begin());
     view_.key = frame.key;
@@ -44,8 +44,8 @@ void ProbeCamera::begin(const FrameView& frame) {
     std::fill(view_.is_point.begin(), view_.is_point.end(), std::uint8_t{1});
 }
 
-void ProbeCamera::aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m,
-                      int picture_px, int sphere_px) {
+void ImpostorCamera::aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m,
+                         int picture_px, int sphere_px) {
     const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
     // Turned against the camera's rows, so that an edge along them does not fall on a row of rays.
     const Vec3d up = std::abs(to_object_m.z) < 0.9 * distance_m ? Vec3d{0.31, 0.17, 1} : Vec3d{1, 0.31, 0.17};
@@ -61,7 +61,7 @@ void ProbeCamera::aim(const WorldSnapshot& world, std::size_t i, double distance
 }
 
 // Unless there are so many boxes that rays cost less.
-void ProbeCamera::mark(const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m) {
+void ImpostorCamera::mark(const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m) {
     mask_.place(view_.geometry);
     const auto side = static_cast<std::size_t>(view_.geometry.width_px);
     if (boxes_m.size() > side * side / kPacketSize)
@@ -70,8 +70,8 @@ void ProbeCamera::mark(const Pose& object, std::span<const std::array<Vec3f, 2>>
         mask_.add(camera_, object, boxes_m);
 }
 
-std::size_t ProbeCamera::find_glimpses(std::span<const Spectrum> picture, int sphere_px, int cells,
-                                       Glimpse* glimpses) const {
+std::size_t ImpostorCamera::find_glimpses(std::span<const Spectrum> picture, int sphere_px, int cells,
+                                          Glimpse* glimpses) const {
     const int side = view_.geometry.width_px, first = (side - sphere_px) / 2;
     // A pixel's solid angle; the picture is a few pixels of the camera, so cosines are 1.
     const double pixel_rad = 1 / view_.geometry.focal_length_px;
@@ -100,11 +100,11 @@ std::size_t ProbeCamera::find_glimpses(std::span<const Spectrum> picture, int sp
     return count;
 }
 
-int ProbeCamera::cells_across(const ObjectPlan& plan) {
+int ImpostorCamera::cells_across(const ObjectPlan& plan) {
     return std::max(1, static_cast<int>(std::ceil(2 * plan.size_px)));
 }
 
-double ProbeCamera::before_m(const ObjectPlan& plan, double radius_m) {
+double ImpostorCamera::before_m(const ObjectPlan& plan, double radius_m) {
     return plan.distance_m - kProbeMargin * radius_m;
 }
 

@@ -1,4 +1,4 @@
-#include "render/frame/object_probe.h"
+#include "render/frame/unresolved_object.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 // A bar of 2 by 0.2 m, 300 m away. The probe's picture is a square of 2.05 m, by whose rows the bar leans by 17
 // degrees: its box there is 1.97 by 0.78 m, 0.36 of the square.
-TEST(ObjectProbe, SendsRaysWhereTheObjectIs) {
+TEST(UnresolvedObject, SendsRaysWhereTheObjectIs) {
     constexpr double kDistance_m = 300, kArea_m2 = 0.4, kAlbedo = 0.5;
     Stage s;
     SceneObject bar = plate(lambert(kAlbedo), s.grid);
