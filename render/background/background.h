@@ -27,7 +27,7 @@ class Background {
                const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
                const SpectralGrid& grid);
 
-    // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
+    // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_context.h).
     // pixel_rad: bodies smaller than this are points, not here. Bodies are where a camera in motion sees
     // them, but for the one whose ground is among the objects, which stays with it.
     void place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad,

@@ -9,7 +9,7 @@ namespace hilcam {
 
 AdaptiveSampler::AdaptiveSampler() : pass_(kMax), mean_(kMax) {}
 
-std::span<const Spectrum> AdaptiveSampler::trace(const FrameView& frame, const PixelBox& box,
+std::span<const Spectrum> AdaptiveSampler::trace(const FrameContext& frame, const PixelBox& box,
                                                  int samples_per_axis, const NoiseBudget& budget,
                                                  PathModel& paths, TileStats& stats) {
     begin(box);

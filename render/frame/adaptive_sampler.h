@@ -44,7 +44,7 @@ class AdaptiveSampler {
 
     // Traces the box, of at most PathModel::kMaxSamples rays a pass. Gives the mean radiance of its pixels,
     // row by row, until the next call. What comes out depends on frame, box, n and budget alone. Loop.
-    std::span<const Spectrum> trace(const FrameView& frame, const PixelBox& box, int samples_per_axis,
+    std::span<const Spectrum> trace(const FrameContext& frame, const PixelBox& box, int samples_per_axis,
                                     const NoiseBudget& budget, PathModel& paths, TileStats& stats);
 
   private:

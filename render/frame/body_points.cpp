@@ -11,7 +11,7 @@ namespace {
 class LittlePicture {
   public:
     // rays_across: the least number of rays across the cone of that cosine about the body's middle.
-    LittlePicture(const FrameView& frame, const PlacedBody& body, double cone_cosine, int rays_across)
+    LittlePicture(const FrameContext& frame, const PlacedBody& body, double cone_cosine, int rays_across)
         : background_(*frame.background),
           body_(body),
           right_(normalized(
@@ -68,7 +68,7 @@ class LittlePicture {
 // Across the body: the light of a Lambertian sphere at half phase is right to 0.2 %.
 constexpr int kRaysAcross = 64;
 
-void add_cells(const FrameView& frame, const PlacedBody& body, const PointField& field,
+void add_cells(const FrameContext& frame, const PlacedBody& body, const PointField& field,
                std::vector<PointSource>& points) {
     const LittlePicture picture(frame, body, body.cone_cosine, kRaysAcross);
     const std::uint32_t thing = PointSource::kFirstBody + static_cast<std::uint32_t>(index_of(body.id));
@@ -84,7 +84,7 @@ void add_cells(const FrameView& frame, const PlacedBody& body, const PointField&
 
 // Returns the direction from which the light of a body below a pixel comes: of a crescent not that of the body's middle. Rays
 // lie as close as in a body of a pixel.
-Vec3d light_dir(const FrameView& frame, const PlacedBody& body, const PointField& field) {
+Vec3d light_dir(const FrameContext& frame, const PlacedBody& body, const PointField& field) {
     const double sine = std::sqrt(1 - body.disk_cosine * body.disk_cosine);
     const double size_px = 2 * sine / body.disk_cosine * frame.geometry.focal_length_px;
     // The light of a smaller one is less than a hundredth of a pixel from its middle.
@@ -100,7 +100,7 @@ Vec3d light_dir(const FrameView& frame, const PlacedBody& body, const PointField
 
 }  // namespace
 
-void add_body_points(const FrameView& frame, const PointField& field, std::vector<PointSource>& points) {
+void add_body_points(const FrameContext& frame, const PointField& field, std::vector<PointSource>& points) {
     const Background& background = *frame.background;
     for (const PlacedBody& body : background.points())
         if (field.sees(body.world_dir, body.distance_m))

@@ -13,6 +13,6 @@ namespace hilcam {
 inline constexpr std::size_t kMostBodyPoints = 16 * 16, kMostRingedPoints = 37 * 37;
 
 // Adds the points of the placed frame's bodies. Loop; no allocation while the vector has room.
-void add_body_points(const FrameView& frame, const PointField& field, std::vector<PointSource>& points);
+void add_body_points(const FrameContext& frame, const PointField& field, std::vector<PointSource>& points);
 
 }  // namespace hilcam

@@ -22,7 +22,7 @@ class CacheHandover {
     }
     // Returns the light when it fits the frame that was placed last; null until then. Loop: no lock, nothing
     // is allocated.
-    std::unique_ptr<IndirectCache> take(const FrameView& last, const WorldSnapshot& world) {
+    std::unique_ptr<IndirectCache> take(const FrameContext& last, const WorldSnapshot& world) {
         if (!coming_) coming_.reset(given_.exchange(nullptr, std::memory_order_acquire));
         if (!coming_ || !coming_->prepare(last, world)) return nullptr;
         return std::move(coming_);

@@ -23,12 +23,12 @@ void EarthView::stop_looking_ahead() {
     if (detail_) detail_->stop_looking_ahead();
 }
 
-void EarthView::place(const WorldSnapshot& world, Background& background, FrameView& frame) {
+void EarthView::place(const WorldSnapshot& world, Background& background, FrameContext& frame) {
     place_picture(background, frame);
     place_detail(world, background, frame);
 }
 
-void EarthView::place_picture(const Background& background, FrameView& frame) {
+void EarthView::place_picture(const Background& background, FrameContext& frame) {
     if (!picture_ || !frame.rays->is_still() || !background.earth_in_patches()) return;
     const PlacedBody& earth = background.disks().front();
     if (picture_->place(earth.camera_m, earth.sun_dir, background.map_numbers()))
@@ -38,7 +38,7 @@ void EarthView::place_picture(const Background& background, FrameView& frame) {
 }
 
 // A kept picture is of the map that memory holds, which is finer than its pixels.
-void EarthView::place_detail(const WorldSnapshot& world, Background& background, const FrameView& frame) {
+void EarthView::place_detail(const WorldSnapshot& world, Background& background, const FrameContext& frame) {
     if (!detail_ || frame.earth_impostor) return;
     const auto disks = background.disks();
     const auto earth =

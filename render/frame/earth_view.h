@@ -8,7 +8,7 @@
 #include "render/background/background.h"
 #include "render/earth/detail_stream.h"
 #include "render/earth/earth_impostor_cache.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 
 namespace hilcam {
 
@@ -19,7 +19,7 @@ class EarthView {
               const ImageGeometry& geometry, double top_m, bool keeps_picture);
 
     // Once per frame, when the background is placed. Loop.
-    void place(const WorldSnapshot& world, Background& background, FrameView& frame);
+    void place(const WorldSnapshot& world, Background& background, FrameContext& frame);
     void stop_looking_ahead();
 
     const DetailStream* detail() const { return detail_.get(); }  // null: the Earth's map is in memory
@@ -28,8 +28,8 @@ class EarthView {
     std::unique_ptr<EarthImpostorCache> picture_;  // null: none
     std::unique_ptr<DetailStream> detail_;
 
-    void place_picture(const Background& background, FrameView& frame);
-    void place_detail(const WorldSnapshot& world, Background& background, const FrameView& frame);
+    void place_picture(const Background& background, FrameContext& frame);
+    void place_detail(const WorldSnapshot& world, Background& background, const FrameContext& frame);
 };
 
 }  // namespace hilcam

@@ -33,7 +33,7 @@ std::size_t samples_of(double cone_cosine) {
 }
 
 // Dims `light` by what stands between an object-free sky and the camera.
-bool passes_objects(const FrameView& frame, Vec3d dir, Spectrum& light) {
+bool passes_objects(const FrameContext& frame, Vec3d dir, Spectrum& light) {
     if (frame.objects->empty()) return true;
     const Vec3f start = frame.start_of(dir);
     RayPacket ray;
@@ -47,7 +47,7 @@ bool passes_objects(const FrameView& frame, Vec3d dir, Spectrum& light) {
 
 }  // namespace
 
-void find_side_light(const FrameView& frame, const WorldSnapshot& world, std::vector<SideLight>& lights) {
+void find_side_light(const FrameContext& frame, const WorldSnapshot& world, std::vector<SideLight>& lights) {
     const Background& sky = *frame.background;
     const PointField field(frame, world);
     const Mat3d camera_from_world = transposed(to_matrix(world.camera.world_from_body));

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "render/scene/scene.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/vocabulary/side_light.h"
 
 namespace hilcam {
 
 // Finds it for the frame that was placed last. lights: cleared first. Loop; nothing is allocated while there is room for
 // kMaxSideLights; runs on oneTBB, and gives the same on any number of threads.
-void find_side_light(const FrameView& frame, const WorldSnapshot& world, std::vector<SideLight>& lights);
+void find_side_light(const FrameContext& frame, const WorldSnapshot& world, std::vector<SideLight>& lights);
 
 }  // namespace hilcam

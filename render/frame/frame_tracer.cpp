@@ -138,27 +138,27 @@ double FrameTracer::share_done() const {
     return all > 0 ? 1.0 * tiles_done_.load(std::memory_order_relaxed) / all : 0;
 }
 
-TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance) {
+TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
     // Tiles smaller than the image's blocks share a mark: it stays off.
     const bool marks = levels_[level_].tiles.edge_px() == RadianceImage::kBlock_px;
     if (!marks) radiance.clear_marks();
-    find_halves(placer, marks, radiance);
+    find_halves(setup, marks, radiance);
     for (GroundSeen& seen : ground_seen_) seen.x_px = seen.y_px = -1;
     if (parts_) parts_->parts.clear();
     if (record_) record_->entries.clear();
-    TileStats sum = trace_places(placer.frame(), radiance);
+    TileStats sum = trace_places(setup.frame(), radiance);
     const int all = levels_[level_].tiles.size();
     tiles_done_.store(0, std::memory_order_relaxed);
     tiles_all_.store(all, std::memory_order_relaxed);
     for_each_tile([&](int index, const PixelBox& tile, std::size_t slot) {
         TileStats& stats = tile_stats_[static_cast<std::size_t>(index)];
-        const bool anything = placer.can_see_anything(tile);
+        const bool anything = setup.can_see_anything(tile);
         const bool was_dark = radiance.dark(tile.x0, tile.y0);
         if (marks) radiance.mark_dark(tile.x0, tile.y0, !anything);
         stats = {};
         if (halves_) halves_->mark_unknown(tile.x0, tile.y0, true);
         if (anything)
-            trace_tile(placer, tile, slot, stats, radiance);
+            trace_tile(setup, tile, slot, stats, radiance);
         else if (!was_dark)
             fill_zero(radiance, tile);
         tiles_done_.fetch_add(1, std::memory_order_relaxed);
@@ -174,9 +174,9 @@ TileStats FrameTracer::sum_of_stats(int tiles) const {
 }
 
 // Frames that the visibility buffer makes know where in their pixels light falls.
-void FrameTracer::find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance) {
+void FrameTracer::find_halves(const FrameSetup& setup, bool marks, RadianceImage& radiance) {
     HalfLight* const halves = radiance.halves();
-    halves_ = halves && marks && quality().uses_buffer() && placer.frame().visibility ? halves : nullptr;
+    halves_ = halves && marks && quality().uses_buffer() && setup.frame().visibility ? halves : nullptr;
     if (halves) halves->set_used(halves_ != nullptr);
     if (!halves_) return;
     const std::size_t floats = PathModel::kMaxSamples * HalfLight::kDifferences * halves->responses().size();
@@ -184,19 +184,19 @@ void FrameTracer::find_halves(const FramePlacer& placer, bool marks, RadianceIma
     for (std::vector<HalfKind>& of_tile : tile_kinds_) of_tile.resize(PathModel::kMaxSamples);
 }
 
-void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot,
-                             TileStats& stats, RadianceImage& radiance) {
-    if (placer.frame().ground && placer.frame().ground_step_px > 1 && places_->give(box, radiance)) {
+void FrameTracer::trace_tile(const FrameSetup& setup, const PixelBox& box, std::size_t slot, TileStats& stats,
+                             RadianceImage& radiance) {
+    if (setup.frame().ground && setup.frame().ground_step_px > 1 && places_->give(box, radiance)) {
         stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
         if (parts_ && parts_->parts.has(LightPart::kSun))
             copy(radiance, box, parts_->parts.of(LightPart::kSun));
         return;
     }
-    int n = placer.samples_in(box);
+    int n = setup.samples_in(box);
     VisibilityTile* seen = nullptr;
     if (quality().uses_buffer() && n <= quality().pixel_samples().across()) {
         n = kVisibilitySamplesAcross;
-        if (placer.frame().visibility) seen = &seen_[slot];
+        if (setup.frame().visibility) seen = &seen_[slot];
     }
     const int edge = tile_edge_px(seen ? 1 : n);
     const bool once = quality().noise_budget == 0;
@@ -204,14 +204,15 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
         for (int x = box.x0; x < box.x1; x += edge) {
             const PixelBox part{x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)};
             if (once)
-                trace_once(placer.frame(), part, n, slot, seen, stats, radiance);
+                trace_once(setup.frame(), part, n, slot, seen, stats, radiance);
             else
-                trace_to_budget(placer.frame(), part, n, slot, stats, radiance);
+                trace_to_budget(setup.frame(), part, n, slot, stats, radiance);
         }
 }
 
 // Null: nothing of the ground is there.
-const VisibilityTile* FrameTracer::ground_at(const FrameView& frame, const PixelBox& box, std::size_t slot) {
+const VisibilityTile* FrameTracer::ground_at(const FrameContext& frame, const PixelBox& box,
+                                             std::size_t slot) {
     GroundSeen& seen = ground_seen_[slot];
     const int x = box.x0 / kGroundTile * kVisibilityTile_px, y = box.y0 / kGroundTile * kVisibilityTile_px;
     if (seen.x_px != x || seen.y_px != y)
@@ -221,7 +222,7 @@ const VisibilityTile* FrameTracer::ground_at(const FrameView& frame, const Pixel
 
 // Finds what the frame's buffer of the ground sees, where its places are not the picture's pixels. The first frame makes the room,
 // whatever its level.
-TileStats FrameTracer::trace_places(const FrameView& frame, const RadianceImage& radiance) {
+TileStats FrameTracer::trace_places(const FrameContext& frame, const RadianceImage& radiance) {
     if (ground_has_steps_ && !(places_ && places_->has_room_for(radiance))) places_.emplace(radiance);
     if (!frame.ground || frame.ground_step_px == 1) return {};
     const TileGrid tiles(places_->light().width(), places_->light().height(), GroundPlaces::kTile);
@@ -231,7 +232,7 @@ TileStats FrameTracer::trace_places(const FrameView& frame, const RadianceImage&
     return sum_of_stats(tiles.size());
 }
 
-void FrameTracer::trace_places_of(const FrameView& frame, const PixelBox& box, std::size_t slot,
+void FrameTracer::trace_places_of(const FrameContext& frame, const PixelBox& box, std::size_t slot,
                                   TileStats& stats) {
     stats = {};
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(),
@@ -246,7 +247,7 @@ void FrameTracer::trace_places_of(const FrameView& frame, const PixelBox& box, s
     stats.covered_px = 0;  // pixels are counted where they are made of it
 }
 
-void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                              VisibilityTile* seen, TileStats& stats, RadianceImage& radiance) {
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
@@ -290,7 +291,7 @@ void FrameTracer::write_parts(const TileParts& tile, float share) const {
     }
 }
 
-void FrameTracer::trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+void FrameTracer::trace_to_budget(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                                   TileStats& stats, RadianceImage& radiance) {
     const NoiseBudget budget{quality().noise_budget, static_cast<int>(quality().most_passes), noise_};
     write(samplers_[slot]->trace(frame, box, n, budget, *paths()[slot], stats), 1, box, radiance);

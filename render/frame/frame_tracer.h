@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "render/frame/adaptive_sampler.h"
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/parts_buffer.h"
 #include "render/frame/render_quality.h"
 #include "render/ground_shading/ground_places.h"
@@ -57,7 +57,7 @@ class FrameTracer {
     double share_done() const;
 
     // Fills the image. Loop.
-    TileStats trace(const FramePlacer& placer, RadianceImage& radiance);
+    TileStats trace(const FrameSetup& setup, RadianceImage& radiance);
 
     // Runs work(tile index, tile, slot of the thread) over all tiles.
     template <class Work>
@@ -114,16 +114,16 @@ class FrameTracer {
             });
     }
     TileStats sum_of_stats(int tiles) const;
-    void find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance);
-    void trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot, TileStats& stats,
+    void find_halves(const FrameSetup& setup, bool marks, RadianceImage& radiance);
+    void trace_tile(const FrameSetup& setup, const PixelBox& box, std::size_t slot, TileStats& stats,
                     RadianceImage& radiance);
-    const VisibilityTile* ground_at(const FrameView& frame, const PixelBox& box, std::size_t slot);
-    TileStats trace_places(const FrameView& frame, const RadianceImage& radiance);
-    void trace_places_of(const FrameView& frame, const PixelBox& box, std::size_t slot, TileStats& stats);
-    void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+    const VisibilityTile* ground_at(const FrameContext& frame, const PixelBox& box, std::size_t slot);
+    TileStats trace_places(const FrameContext& frame, const RadianceImage& radiance);
+    void trace_places_of(const FrameContext& frame, const PixelBox& box, std::size_t slot, TileStats& stats);
+    void trace_once(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                     VisibilityTile* seen, TileStats& stats, RadianceImage& radiance);
     void write_parts(const TileParts& tile, float share) const;
-    void trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+    void trace_to_budget(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                          TileStats& stats, RadianceImage& radiance);
 };
 

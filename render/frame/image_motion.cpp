@@ -60,7 +60,7 @@ class Follower {
 };
 
 // Finds what a ray of the camera at the frame's time meets first.
-Seen look(const FrameView& frame, const WorldSnapshot& world, Vec3d dir) {
+Seen look(const FrameContext& frame, const WorldSnapshot& world, Vec3d dir) {
     Seen seen{Seen::Thing::kSky, 0, dir};
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const PlacedBody& body : frame.background->disks()) {

@@ -15,7 +15,7 @@
 
 #include "render/frame/plan.h"
 #include "render/scene/scene.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/vocabulary/point_source.h"
 
 namespace hilcam {
@@ -29,7 +29,7 @@ struct ImageMotion {
 
 // A frame that is placed, and what has to be known of its things.
 struct MovingFrame {
-    const FrameView& frame;
+    const FrameContext& frame;
     std::span<const ObjectPlan> plans;  // per object, as radii_m
     std::span<const double> radii_m;
     std::optional<BodyId> terrain_body;  // body with which the last object, a terrain, turns

@@ -21,7 +21,7 @@ constexpr double kProbeMargin = 1.01;  // on the object's radius
 
 }  // namespace
 
-ImpostorCamera::ImpostorCamera(const FrameView& frame, int picture_px)
+ImpostorCamera::ImpostorCamera(const FrameContext& frame, int picture_px)
     : rays_(make_pinhole_rays()), mask_(picture_of(picture_px, picture_px, 1, 2)), view_(frame) {
     view_.rays = rays_.get();
     view_.object_mask = &mask_;
@@ -29,7 +29,7 @@ ImpostorCamera::ImpostorCamera(const FrameView& frame, int picture_px)
     view_.has_impostors = false;
 }
 
-void ImpostorCamera::begin(const FrameView& frame) {
+void ImpostorCamera::begin(const FrameContext& frame) {
     view_.indirect = frame.indirect;
     std::copy(frame.is_cached.begin(), frame.is_cached.end(), view_.is_cached.begin());
     view_.key = frame.key;

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "render/frame/plan.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 
 namespace hilcam {
 
@@ -20,18 +20,18 @@ struct Glimpse {
 class ImpostorCamera {
   public:
     // picture_px: sides of its largest picture. The frame's view must have its pointers and sizes by now. Owner thread.
-    ImpostorCamera(const FrameView& frame, int picture_px);
+    ImpostorCamera(const FrameContext& frame, int picture_px);
 
     // Takes over what a frame has placed. Loop, as all that follows.
-    void begin(const FrameView& frame);
+    void begin(const FrameContext& frame);
     // Looks at object `i`, of a sphere of radius_m, in the middle of a picture of picture_px, of which the sphere fills sphere_px. Only
     // where the boxes of the object's triangles are anything is marked as seen.
     void aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m, int picture_px,
              int sphere_px);
     void look_away(std::size_t i) { view_.is_point[i] = 1; }
 
-    FrameView& view() { return view_; }
-    const FrameView& view() const { return view_; }
+    FrameContext& view() { return view_; }
+    const FrameContext& view() const { return view_; }
     const Pose& camera() const { return camera_; }
 
     // Adds up a picture, row by row, in cells x cells parts of the middle where the sphere is; room for as many glimpses. Returns how many
@@ -46,7 +46,7 @@ class ImpostorCamera {
   private:
     std::unique_ptr<RayGenerator> rays_;
     ScreenMask mask_;
-    FrameView view_;
+    FrameContext view_;
     Pose camera_;
     Mat3d world_from_view_;
 

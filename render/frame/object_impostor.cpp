@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/frame_tracer.h"
 
 namespace hilcam {
@@ -21,7 +21,7 @@ ImageGeometry buffer_geometry() {
 
 }  // namespace
 
-ObjectImpostor::ObjectImpostor(const FrameView& frame, const VisibilityBuffer::Capacity& capacity)
+ObjectImpostor::ObjectImpostor(const FrameContext& frame, const VisibilityBuffer::Capacity& capacity)
     : camera_(frame, kPicture_px),
       buffer_(buffer_geometry(), capacity),
       picture_(static_cast<std::size_t>(kPicture_px) * kPicture_px) {
@@ -31,12 +31,12 @@ ObjectImpostor::ObjectImpostor(const FrameView& frame, const VisibilityBuffer::C
     camera_.view().samples = kSamples;
 }
 
-bool ObjectImpostor::look(const FramePlacer& placer, std::size_t i, const FrameTracer& tracer,
+bool ObjectImpostor::look(const FrameSetup& setup, std::size_t i, const FrameTracer& tracer,
                           Glimpse* glimpses, std::size_t& count, TileStats& stats) {
-    const ObjectPlan& plan = placer.plan(i);
-    camera_.aim(placer.world(), i, plan.distance_m, placer.radius_m(i), kPicture_px, plan.picture_px);
+    const ObjectPlan& plan = setup.plan(i);
+    camera_.aim(setup.world(), i, plan.distance_m, setup.radius_m(i), kPicture_px, plan.picture_px);
     buffer_.set_focal_length(kSamples.buffer_px() * camera_.view().geometry.focal_length_px);
-    const VisibilityBuffer::Shown shown = placer.shown(i);
+    const VisibilityBuffer::Shown shown = setup.shown(i);
     const bool fits = buffer_.place(camera_.camera(), {&shown, 1});
     if (fits) {
         for (const auto& slot : slots_) slot->stats = {};

@@ -15,19 +15,19 @@
 
 namespace hilcam {
 
-class FramePlacer;
+class FrameSetup;
 class FrameTracer;
 
 class ObjectImpostor {
   public:
     // room: for one object. The frame's view must have its pointers and sizes by now. Owner thread.
-    ObjectImpostor(const FrameView& frame, const VisibilityBuffer::Capacity& capacity);
+    ObjectImpostor(const FrameContext& frame, const VisibilityBuffer::Capacity& capacity);
 
     // Takes over what a frame has placed. Loop, as all that follows.
-    void begin(const FrameView& frame) { camera_.begin(frame); }
+    void begin(const FrameContext& frame) { camera_.begin(frame); }
     // Finds the light of object `i` cell by cell. glimpses: room for ImpostorCamera::cells_across()^2. False: the buffer has no
     // room for it.
-    bool look(const FramePlacer& placer, std::size_t i, const FrameTracer& tracer, Glimpse* glimpses,
+    bool look(const FrameSetup& setup, std::size_t i, const FrameTracer& tracer, Glimpse* glimpses,
               std::size_t& count, TileStats& stats);
 
   private:

@@ -82,7 +82,7 @@ const char* reason(ObjectUse use) {
     return "";
 }
 
-std::string body_line(const FrameView& f, std::size_t i, std::span<const double> costs_ms) {
+std::string body_line(const FrameContext& f, std::size_t i, std::span<const double> costs_ms) {
     const PlacedBody& body = f.background->disks()[i];
     std::ostringstream line;
     line << f.background->name_of(body.id) << ", " << body.distance_m * 1e-3 << " km away, "
@@ -99,7 +99,7 @@ std::string body_line(const FrameView& f, std::size_t i, std::span<const double>
     return line.str();
 }
 
-std::string sun_line(const FrameView& f, const WorldSnapshot& world) {
+std::string sun_line(const FrameContext& f, const WorldSnapshot& world) {
     std::ostringstream line;
     line << "Sun, " << length(world.bodies.sun_world_m - world.camera.position_world_m) / kAstronomicalUnit_m
          << " au away: "
@@ -111,7 +111,7 @@ std::string sun_line(const FrameView& f, const WorldSnapshot& world) {
     return line.str();
 }
 
-std::string lamp_line(const FrameView& f, std::size_t i) {
+std::string lamp_line(const FrameContext& f, std::size_t i) {
     std::ostringstream line;
     line << "lamp " << i + 1 << " '" << f.lamps->all()[i].name << "': ";
     for (const PlacedLamp& lamp : f.lamps->lit()) {
@@ -147,7 +147,7 @@ std::string air_line(const Background& background) {
 }  // namespace
 
 std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapshot& world) {
-    const FrameView& f = planned.frame;
+    const FrameContext& f = planned.frame;
     std::vector<std::string> lines;
     const auto add = [&](const auto&... parts) {
         std::ostringstream line;

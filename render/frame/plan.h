@@ -7,7 +7,7 @@
 
 #include "render/frame/render_quality.h"
 #include "render/scene/scene.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 
 namespace hilcam {
 
@@ -29,7 +29,7 @@ struct ObjectPlan {
     int picture_px = 0;
 };
 
-// Distances of which the camera sees the objects; decides where ray space begins (frame_view.h).
+// Distances of which the camera sees the objects; decides where ray space begins (frame_context.h).
 struct RaySpace {
     Vec3d origin_world_m;
     double start_before_m = 0;  // 0: rays begin at the camera
@@ -59,7 +59,7 @@ ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world
 
 // A frame that is planned, and what its plan is about.
 struct PlannedFrame {
-    const FrameView& frame;
+    const FrameContext& frame;
     std::span<const ObjectPlan> plans;  // per object, as the next two
     std::span<const std::string> names;
     std::span<const std::size_t> triangles;

@@ -26,7 +26,7 @@ struct PluginInfo {
     void (*add)(Modules& modules);
 };
 inline constexpr std::uint32_t kPluginSizes =
-    static_cast<std::uint32_t>(sizeof(ShadingPoint) * 31 + sizeof(FrameView) * 37 + sizeof(Material) * 41 +
+    static_cast<std::uint32_t>(sizeof(ShadingPoint) * 31 + sizeof(FrameContext) * 37 + sizeof(Material) * 41 +
                                sizeof(Tile) * 43 + sizeof(Modules) * 47);
 
 // Loads the libraries and adds their models; they stay loaded. Throws InputError with file and reason when

@@ -1,14 +1,14 @@
 #include "render/frame/recorded_surface.h"
 
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 
 namespace hilcam {
 
-RecordedSurface recorded_surface(const FramePlacer& placer, const PixelRecord::Entry& entry) {
-    const FrameView& frame = placer.frame();
-    const ShownObject& object = placer.object(entry.object);
+RecordedSurface recorded_surface(const FrameSetup& setup, const PixelRecord::Entry& entry) {
+    const FrameContext& frame = setup.frame();
+    const ShownObject& object = setup.object(entry.object);
     RecordedSurface out;
-    out.level = placer.plan(entry.object).level;
+    out.level = setup.plan(entry.object).level;
     out.level_error_m = out.level < object.error_m.size() ? object.error_m[out.level] : 0.0;
     out.triangles = (*frame.objects)[entry.object]->triangles.size();
     out.distance_m = length(to_double(entry.point_m) - frame.camera_m);

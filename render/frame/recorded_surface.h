@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-class FramePlacer;
+class FrameSetup;
 
 struct RecordedSurface {
     std::size_t level = 0;      // level of detail, from 0, the mesh itself
@@ -22,6 +22,6 @@ struct RecordedSurface {
 };
 
 // Not for the loop.
-RecordedSurface recorded_surface(const FramePlacer& placer, const PixelRecord::Entry& entry);
+RecordedSurface recorded_surface(const FrameSetup& setup, const PixelRecord::Entry& entry);
 
 }  // namespace hilcam

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/frame_tracer.h"
 
 namespace hilcam {
@@ -21,10 +21,10 @@ struct PathModelSpeed {
 
 // Time that bare Embree needs for the primary and shadow rays that the placed frame traces, the same packets
 // on the same threads with nothing around them [ms]: the floor that no renderer built on it can go below.
-double bare_rays_ms(FramePlacer& placer, FrameTracer& tracer);
+double bare_rays_ms(FrameSetup& setup, FrameTracer& tracer);
 
 // The placed frame with every path model of the registry, medians of `runs`.
-std::vector<PathModelSpeed> path_model_speeds(FramePlacer& placer, FrameTracer& tracer,
-                                              const Modules& modules, int runs);
+std::vector<PathModelSpeed> path_model_speeds(FrameSetup& setup, FrameTracer& tracer, const Modules& modules,
+                                              int runs);
 
 }  // namespace hilcam

@@ -10,7 +10,7 @@
 #include "render/frame/body_points.h"
 #include "render/frame/find_side_light.h"
 #include "render/frame/finite_light.h"
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/frame_tracer.h"
 #include "render/frame/points_part.h"
 #include "render/frame/render_bench.h"
@@ -32,7 +32,7 @@ std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<co
 }  // namespace
 
 struct Renderer::Implementation {
-    FramePlacer placer;
+    FrameSetup setup;
     FrameTracer tracer;
     PartsBuffer* parts = nullptr;              // for the parts of the light; null: nobody asks
     PixelRecord* record = nullptr;             // likewise
@@ -43,24 +43,24 @@ struct Renderer::Implementation {
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const std::vector<RenderQuality>& levels, const RenderModels& models,
                    const Modules& modules)
-        : placer(std::move(scene), grid, geometry, levels, models, modules),
+        : setup(std::move(scene), grid, geometry, levels, models, modules),
           tracer(geometry, modules, levels),
-          unresolved_objects(placer, static_cast<int>(levels.front().point_samples)) {
+          unresolved_objects(setup, static_cast<int>(levels.front().point_samples)) {
         use_level(0);
     }
 
     void use_level(std::size_t level) {
         tracer.use_level(level);
-        placer.set_quality(tracer.quality(), tracer.paths(0));
+        setup.set_quality(tracer.quality(), tracer.paths(0));
     }
 
     // Stars, bodies, lamps and objects that are drawn as points. Gives what it took to trace.
     TileStats add_points(std::vector<PointSource>& points) {
-        const PointField field(placer.frame(), placer.world());
-        field.add_stars(placer.stars(), points);
-        add_body_points(placer.frame(), field, points);
-        add_lamps_seen(placer.frame(), field, points);
-        TileStats stats = unresolved_objects.add_points(placer, tracer, field, points);
+        const PointField field(setup.frame(), setup.world());
+        field.add_stars(setup.stars(), points);
+        add_body_points(setup.frame(), field, points);
+        add_lamps_seen(setup.frame(), field, points);
+        TileStats stats = unresolved_objects.add_points(setup, tracer, field, points);
         stats.not_finite += std::erase_if(
             points, [](const PointSource& point) { return !is_finite(point.irradiance_w_m2_um); });
         return stats;
@@ -68,19 +68,19 @@ struct Renderer::Implementation {
 
     // Says how many stars the placed frame has and what finding them takes, the shortest of three times; empty without a catalogue.
     std::string stars_line() const {
-        if (placer.stars().empty()) return {};
+        if (setup.stars().empty()) return {};
         std::vector<PointSource> points;
-        points.reserve(placer.max_stars());
+        points.reserve(setup.max_stars());
         double least_ms = std::numeric_limits<double>::infinity();
         for (int time = 0; time < 3; ++time) {
             points.clear();
             const Stopwatch watch;
-            PointField(placer.frame(), placer.world()).add_stars(placer.stars(), points);
+            PointField(setup.frame(), setup.world()).add_stars(setup.stars(), points);
             least_ms = std::min(least_ms, watch.ms());
         }
         std::ostringstream line;
         line << "stars: " << points.size() << " in the picture, found in " << std::round(100 * least_ms) / 100
-             << " ms; " << std::round(1e-5 * static_cast<double>(placer.stars().size() * sizeof(Star))) / 10
+             << " ms; " << std::round(1e-5 * static_cast<double>(setup.stars().size() * sizeof(Star))) / 10
              << " MB";
         return line.str();
     }
@@ -101,43 +101,41 @@ PartsBuffer Renderer::make_parts_buffer(const RadianceImage& like, std::optional
     return {like, implementation_->tracer.slots(), only};
 }
 RecordedSurface Renderer::surface_of(const PixelRecord::Entry& entry) const {
-    return recorded_surface(implementation_->placer, entry);
+    return recorded_surface(implementation_->setup, entry);
 }
 
 void Renderer::use_level(std::size_t level) { implementation_->use_level(level); }
 void Renderer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
-    implementation_->placer.give_tables(tables);
+    implementation_->setup.give_tables(tables);
 }
-bool Renderer::take_light() { return implementation_->placer.take_light(); }
+bool Renderer::take_light() { return implementation_->setup.take_light(); }
 
-void Renderer::stop_looking_ahead() { implementation_->placer.stop_looking_ahead(); }
+void Renderer::stop_looking_ahead() { implementation_->setup.stop_looking_ahead(); }
 const RenderQuality& Renderer::quality() const { return implementation_->tracer.quality(); }
 void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->tracer.set_pixel_noise(noise); }
 
 std::size_t Renderer::max_points() const {
-    const FramePlacer& placer = implementation_->placer;
-    return placer.max_stars() + placer.objects() * UnresolvedObjects::most_points(placer) +
-           kMaxBodies * kMostBodyPoints + kMostRingedPoints + placer.lamps().all().size();
+    const FrameSetup& setup = implementation_->setup;
+    return setup.max_stars() + setup.objects() * UnresolvedObjects::most_points(setup) +
+           kMaxBodies * kMostBodyPoints + kMostRingedPoints + setup.lamps().all().size();
 }
-std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
-double Renderer::object_radius_m(std::size_t object) const {
-    return implementation_->placer.radius_m(object);
-}
-const ImageGeometry& Renderer::geometry() const { return implementation_->placer.frame().geometry; }
+std::size_t Renderer::triangles() const { return implementation_->setup.triangles(); }
+double Renderer::object_radius_m(std::size_t object) const { return implementation_->setup.radius_m(object); }
+const ImageGeometry& Renderer::geometry() const { return implementation_->setup.frame().geometry; }
 
 void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& radiance,
                       std::vector<PointSource>& points, RenderStats& stats) {
     Implementation& my = *implementation_;
     const ImageGeometry& g = geometry();
     HILCAM_CHECK(radiance.width() == g.padded_width() && radiance.height() == g.padded_height() &&
-                 (!radiance.responses().empty() || radiance.planes() == my.placer.frame().bins));
-    const Stopwatch setup;
-    my.placer.place(world, key);
-    my.placer.place_visibility();
-    stats.setup_ms = setup.ms();
+                 (!radiance.responses().empty() || radiance.planes() == my.setup.frame().bins));
+    const Stopwatch set_up;
+    my.setup.place(world, key);
+    my.setup.place_visibility();
+    stats.setup_ms = set_up.ms();
 
     const Stopwatch trace;
-    TileStats sum = my.tracer.trace(my.placer, radiance);
+    TileStats sum = my.tracer.trace(my.setup, radiance);
     stats.trace_ms = trace.ms();
 
     const Stopwatch adding;
@@ -152,60 +150,58 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     stats.lit_px = sum.lit_px;
     stats.within_budget_px = sum.within_budget_px;
     stats.not_finite = sum.not_finite;
-    my.left_out.fetch_add(my.placer.left_out(), std::memory_order_relaxed);
+    my.left_out.fetch_add(my.setup.left_out(), std::memory_order_relaxed);
     my.not_finite.fetch_add(sum.not_finite, std::memory_order_relaxed);
 }
 
 ImageMotion Renderer::motion(const WorldSnapshot& middle, const WorldSnapshot& before,
                              const WorldSnapshot& after) {
-    implementation_->placer.place(middle, {});
+    implementation_->setup.place(middle, {});
     return motion_of_last(before, after);
 }
 
 ImageMotion Renderer::motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after) {
-    const FramePlacer& placer = implementation_->placer;
-    return image_motion(placer.moving(), {placer.world(), before, after});
+    const FrameSetup& setup = implementation_->setup;
+    return image_motion(setup.moving(), {setup.world(), before, after});
 }
 
 void Renderer::set_drifts(const WorldSnapshot& before, const WorldSnapshot& after, double per_s,
                           std::span<PointSource> points) {
-    const FramePlacer& placer = implementation_->placer;
-    hilcam::set_drifts(placer.moving(), {placer.world(), before, after}, per_s, points);
+    const FrameSetup& setup = implementation_->setup;
+    hilcam::set_drifts(setup.moving(), {setup.world(), before, after}, per_s, points);
 }
 
-bool Renderer::last_shows_body() const { return implementation_->placer.shows_body(); }
+bool Renderer::last_shows_body() const { return implementation_->setup.shows_body(); }
 
-void Renderer::place_for_truth(const WorldSnapshot& world) {
-    implementation_->placer.place_shapes(world, {});
-}
+void Renderer::place_for_truth(const WorldSnapshot& world) { implementation_->setup.place_shapes(world, {}); }
 
 void Renderer::make_ground_ahead(const WorldSnapshot& world) {
-    implementation_->placer.make_ground_ahead(world);
+    implementation_->setup.make_ground_ahead(world);
 }
 
 FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int height_px) const {
-    return hilcam::make_truth(implementation_->placer, wishes, width_px, height_px);
+    return hilcam::make_truth(implementation_->setup, wishes, width_px, height_px);
 }
 
-void Renderer::report_truth(FrameTruth& truth) const { TruthProbe(implementation_->placer, truth).report(); }
+void Renderer::report_truth(FrameTruth& truth) const { TruthProbe(implementation_->setup, truth).report(); }
 
 void Renderer::find_side_light(std::vector<SideLight>& lights) const {
-    const FramePlacer& placer = implementation_->placer;
-    hilcam::find_side_light(placer.frame(), placer.world(), lights);
+    const FrameSetup& setup = implementation_->setup;
+    hilcam::find_side_light(setup.frame(), setup.world(), lights);
 }
 
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
-    my.placer.place(world, {});
-    std::vector<std::string> lines = my.placer.explain(quality());
+    my.setup.place(world, {});
+    std::vector<std::string> lines = my.setup.explain(quality());
     if (const std::string stars = my.stars_line(); !stars.empty()) lines.push_back(stars);
     return lines;
 }
 
 void Renderer::require_air(const WorldSnapshot& world) {
-    FramePlacer& placer = implementation_->placer;
-    if (!placer.air()) return;
-    placer.place(world, {});
+    FrameSetup& setup = implementation_->setup;
+    if (!setup.air()) return;
+    setup.place(world, {});
     const ImageGeometry& g = geometry();
     const Mat3d world_from_camera = to_matrix(world.camera.world_from_body);
     constexpr int kSteps = 48;
@@ -214,7 +210,7 @@ void Renderer::require_air(const WorldSnapshot& world) {
             const Vec3d dir = world_from_camera *
                               normalized(g.direction_camera(x * g.width_px / static_cast<double>(kSteps),
                                                             y * g.height_px / static_cast<double>(kSteps)));
-            const std::string missing = placer.background().air_missing(dir);
+            const std::string missing = setup.background().air_missing(dir);
             if (!missing.empty()) throw InputError("atmosphere: the camera sees a " + missing);
         }
 }
@@ -222,12 +218,12 @@ void Renderer::require_air(const WorldSnapshot& world) {
 double Renderer::share_traced() const { return implementation_->tracer.share_done(); }
 
 std::uint64_t Renderer::rays_outside_air() const {
-    const Atmosphere* air = implementation_->placer.air();
+    const Atmosphere* air = implementation_->setup.air();
     return air ? air->rays_outside() : 0;
 }
 
 std::string Renderer::fault() const {
-    const DetailStream* const detail = implementation_->placer.earth_detail();
+    const DetailStream* const detail = implementation_->setup.earth_detail();
     std::string fault = detail ? detail->fault() : std::string();
     if (const std::uint64_t count = implementation_->not_finite.load(std::memory_order_relaxed); count > 0)
         fault += (fault.empty() ? "" : "; ") + std::to_string(count) +
@@ -240,17 +236,17 @@ std::string Renderer::fault() const {
 
 double Renderer::floor_ms(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
-    my.placer.place(world, {});
-    my.placer.place_visibility();
-    return bare_rays_ms(my.placer, my.tracer);
+    my.setup.place(world, {});
+    my.setup.place_visibility();
+    return bare_rays_ms(my.setup, my.tracer);
 }
 
 std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& world, const Modules& modules,
                                                         int runs) {
     Implementation& my = *implementation_;
-    my.placer.place(world, {});
-    my.placer.place_visibility();
-    return hilcam::path_model_speeds(my.placer, my.tracer, modules, runs);
+    my.setup.place(world, {});
+    my.setup.place_visibility();
+    return hilcam::path_model_speeds(my.setup, my.tracer, modules, runs);
 }
 
 }  // namespace hilcam

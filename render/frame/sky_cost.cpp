@@ -19,7 +19,7 @@ constexpr int kTile_px = 32, kTimes = 3;
 // The tiles of a frame, of which a stride is taken, and what one takes to fill.
 class TileCost {
   public:
-    TileCost(const FrameView& frame, int most_tiles)
+    TileCost(const FrameContext& frame, int most_tiles)
         : width_(frame.geometry.padded_width()),
           height_(frame.geometry.padded_height()),
           across_((width_ + kTile_px - 1) / kTile_px),
@@ -37,7 +37,7 @@ class TileCost {
             if (box.overlaps(within)) use(box);
         }
     }
-    void fill(const FrameView& frame, const PixelBox& box) {
+    void fill(const FrameContext& frame, const PixelBox& box) {
         TileStats stats;
         Tile tile{frame, box, kVisibilitySamplesAcross, pixels_, stats, *clusters_};
         add_backdrop(tile, uncovered_.data());
@@ -79,7 +79,7 @@ std::vector<Variant> variants_of(const Background& background, const PlacedBody&
 
 }  // namespace
 
-std::vector<double> sky_costs_ms(const FrameView& frame) {
+std::vector<double> sky_costs_ms(const FrameContext& frame) {
     if (!frame.rays->linear()) return {};
     constexpr double kLong_ms = 200;  // long enough to be measured once
     TileCost tiles(frame, 1024);
@@ -97,7 +97,7 @@ std::vector<double> sky_costs_ms(const FrameView& frame) {
     return out;
 }
 
-std::vector<SkyPart> sky_parts(const FrameView& frame) {
+std::vector<SkyPart> sky_parts(const FrameContext& frame) {
     std::vector<SkyPart> out;
     for (std::size_t i = 0; i < frame.body_box_count; ++i) {
         const PlacedBody& body = frame.background->disks()[i];
@@ -112,7 +112,7 @@ std::vector<SkyPart> sky_parts(const FrameView& frame) {
         if (told) {
             std::vector<Background> backgrounds;
             backgrounds.reserve(variants.size());
-            std::vector<FrameView> views;
+            std::vector<FrameContext> views;
             for (const Variant& v : variants) {
                 backgrounds.push_back(
                     frame.background->with(v.bodies ? *v.bodies : frame.background->bodies(),

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 
 namespace hilcam {
 
 // Returns the processor time of one frame's background [ms] over the tiles that each body of Background::disks() may be seen in, one
 // thread, the shortest of three times, by a thousand tiles of a large one; empty where rays are not straight. Tiles of two bodies count for both. Nothing is
 // counted that objects cover, as if there were none. The frame is placed. Not for the loop.
-std::vector<double> sky_costs_ms(const FrameView& frame);
+std::vector<double> sky_costs_ms(const FrameContext& frame);
 
 // A part of how a body looks.
 struct SkyPart {
@@ -25,6 +25,6 @@ struct SkyPart {
 // Returns the parts of all bodies that have some, in the order of disks(). Each is measured against the same tiles without it,
 // in turns, the shortest of three times a tile, by 256 tiles; the Earth's surface is what is left without its other
 // parts. The same conditions.
-std::vector<SkyPart> sky_parts(const FrameView& frame);
+std::vector<SkyPart> sky_parts(const FrameContext& frame);
 
 }  // namespace hilcam

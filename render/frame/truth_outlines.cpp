@@ -102,7 +102,7 @@ std::uint32_t TruthOutlines::meets_alone(const SeenThing& thing, std::span<const
         for (const PlacedBody& body : frame_.background->disks())
             if (truth_id(body.id) == thing.id) met = rays_.meets_body(image_px, body);
     } else {
-        for (std::size_t i = 0; i < placer_.objects(); ++i)
+        for (std::size_t i = 0; i < setup_.objects(); ++i)
             if (owner_of(truth_, i) + 1 == thing.id) met |= rays_.meets_object(image_px, i);
     }
     for (std::size_t k = 0; k < image_px.size(); ++k)
@@ -198,7 +198,7 @@ bool TruthOutlines::has_outline(const SeenThing& thing) const {
     if (thing.is_body)
         return std::any_of(disks.begin(), disks.end(),
                            [&](const PlacedBody& body) { return truth_id(body.id) == thing.id; });
-    return !placer_.has_terrain() || thing.id != 1 + owner_of(truth_, placer_.objects() - 1);
+    return !setup_.has_terrain() || thing.id != 1 + owner_of(truth_, setup_.objects() - 1);
 }
 
 PixelSilhouette TruthOutlines::silhouette_of(const SeenThing& thing, std::vector<std::uint8_t>& marks) const {

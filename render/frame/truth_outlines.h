@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/frame_truth.h"
 #include "render/frame/truth_rays.h"
 
@@ -18,8 +18,8 @@ namespace hilcam {
 class TruthOutlines {
   public:
     // truth: whose pixels are traced and counted; all outlives this.
-    TruthOutlines(const FramePlacer& placer, const TruthRays& rays, FrameTruth& truth)
-        : placer_(placer), frame_(placer.frame()), world_(placer.world()), rays_(rays), truth_(truth) {}
+    TruthOutlines(const FrameSetup& setup, const TruthRays& rays, FrameTruth& truth)
+        : setup_(setup), frame_(setup.frame()), world_(setup.world()), rays_(rays), truth_(truth) {}
 
     // Fills the silhouettes of the truth. This comes before measure(), which has other boxes of small things than their pixels'. Runs on
     // oneTBB, as the next.
@@ -53,8 +53,8 @@ class TruthOutlines {
     PixelSilhouette silhouette_of(const SeenThing& thing, std::vector<std::uint8_t>& marks) const;
     void measure_small(SeenThing& thing, const PixelBox& bounds) const;
 
-    const FramePlacer& placer_;
-    const FrameView& frame_;
+    const FrameSetup& setup_;
+    const FrameContext& frame_;
     const WorldSnapshot& world_;
     const TruthRays& rays_;
     FrameTruth& truth_;

@@ -36,16 +36,16 @@ double phase_of(Vec3d to_sun_m, Vec3d to_camera_m) {
 
 }  // namespace
 
-FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int width_px, int height_px) {
+FrameTruth make_truth(const FrameSetup& setup, const TruthWishes& wishes, int width_px, int height_px) {
     FrameTruth truth;
     truth.wishes = wishes;
-    const std::size_t objects = placer.objects();
+    const std::size_t objects = setup.objects();
     truth.things.reserve(objects + 1 + kMaxBodies);
     truth.parts.reserve(objects);
     truth.point_boxes.reserve(objects);
     if (wishes.stars) {
-        truth.stars.reserve(std::min(placer.max_stars(), kMaxTruthStars));
-        truth.star_field.reserve(placer.max_stars());
+        truth.stars.reserve(std::min(setup.max_stars(), kMaxTruthStars));
+        truth.star_field.reserve(setup.max_stars());
     }
     if (wishes.rays()) truth.layers.object = IdImage(width_px, height_px);
     if (wishes.part) truth.layers.part = IdImage(width_px, height_px);
@@ -56,13 +56,13 @@ FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int 
     return truth;
 }
 
-TruthProbe::TruthProbe(const FramePlacer& placer, FrameTruth& truth)
-    : placer_(placer),
-      frame_(placer.frame()),
-      world_(placer.world()),
+TruthProbe::TruthProbe(const FrameSetup& setup, FrameTruth& truth)
+    : setup_(setup),
+      frame_(setup.frame()),
+      world_(setup.world()),
       truth_(truth),
-      rays_(placer),
-      camera_from_world_(transposed(to_matrix(placer.world().camera.world_from_body))) {}
+      rays_(setup),
+      camera_from_world_(transposed(to_matrix(setup.world().camera.world_from_body))) {}
 
 void TruthProbe::report() {
     const Stopwatch watch;
@@ -71,7 +71,7 @@ void TruthProbe::report() {
     truth_.camera_velocity_m_s = world_.camera_velocity_m_s;
     truth_.camera_rate_rad_s = world_.camera_rate_rad_s;
     truth_.geometry = frame_.geometry;
-    truth_.height_above_ground_m = placer_.height_above_ground_m();
+    truth_.height_above_ground_m = setup_.height_above_ground_m();
     truth_.things.clear();
     truth_.parts.clear();
     report_objects();
@@ -79,7 +79,7 @@ void TruthProbe::report() {
     if (truth_.wishes.rays()) trace_pixels();
     if (truth_.wishes.visibility) {
         count_pixels();
-        TruthOutlines outlines(placer_, rays_, truth_);
+        TruthOutlines outlines(setup_, rays_, truth_);
         if (truth_.wishes.silhouettes) outlines.find_silhouettes();
         for (SeenThing& thing : truth_.things) outlines.measure(thing);
     }
@@ -118,8 +118,8 @@ SeenThing TruthProbe::described(std::uint32_t id, const Pose& world, Vec3d from_
 
 void TruthProbe::report_objects() {
     HILCAM_CHECK(truth_.wishes.thing_of_object.empty() ||
-                 truth_.wishes.thing_of_object.size() == placer_.objects());
-    for (std::size_t i = 0; i < placer_.objects(); ++i) {
+                 truth_.wishes.thing_of_object.size() == setup_.objects());
+    for (std::size_t i = 0; i < setup_.objects(); ++i) {
         const std::uint32_t owner = owner_of(truth_, i), id = owner + 1;
         const Pose& pose = world_.objects[i];
         if (owner < truth_.things.size()) {
@@ -129,11 +129,11 @@ void TruthProbe::report_objects() {
             SeenThing& whole = truth_.things[owner];
             whole.radius_m =
                 std::max(whole.radius_m,
-                         length(pose.position_world_m - whole.world.position_world_m) + placer_.radius_m(i));
+                         length(pose.position_world_m - whole.world.position_world_m) + setup_.radius_m(i));
             continue;
         }
         SeenThing thing = described(id, pose);
-        thing.radius_m = placer_.radius_m(i);
+        thing.radius_m = setup_.radius_m(i);
         const Spectrum seen = frame_.background->sun_seen_from(pose.position_world_m, kNoBody);
         double sum = 0;
         for (int b = 0; b < frame_.bins; ++b) sum += static_cast<double>(seen[b]);
@@ -174,7 +174,7 @@ void TruthProbe::report_stars() {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     // In the catalogue's order: where there is no room for all, the fainter ones are left out.
     truth_.star_field.clear();
-    field.each_star(placer_.stars(), [&](const Star& star, Vec3d dir) {
+    field.each_star(setup_.stars(), [&](const Star& star, Vec3d dir) {
         if (static_cast<double>(star.magnitude_v) <= truth_.wishes.faintest_magnitude)
             truth_.star_field.push_back({&star, dir});
     });
@@ -215,8 +215,8 @@ void TruthProbe::size_layers() {
 void TruthProbe::trace_pixels() {
     size_layers();
     truth_.point_boxes.clear();
-    for (std::size_t i = 0; i < placer_.objects(); ++i)
-        if (placer_.is_point(i)) truth_.point_boxes.push_back(placer_.box_of(i));
+    for (std::size_t i = 0; i < setup_.objects(); ++i)
+        if (setup_.is_point(i)) truth_.point_boxes.push_back(setup_.box_of(i));
     const int rows = (truth_.raster.height_px + kBlock_px - 1) / kBlock_px;
     tbb::parallel_for(tbb::blocked_range<int>(0, rows), [&](const tbb::blocked_range<int>& range) {
         for (int row = range.begin(); row < range.end(); ++row)
@@ -241,7 +241,7 @@ PixelBox TruthProbe::padded_box(int x0, int y0, int x1, int y1) const {
 // The picture has no rays for objects that it draws as points.
 bool TruthProbe::can_see(const PixelBox& padded) const {
     if (padded.empty()) return false;
-    return placer_.can_see_anything(padded) ||
+    return setup_.can_see_anything(padded) ||
            std::any_of(truth_.point_boxes.begin(), truth_.point_boxes.end(),
                        [&](const PixelBox& box) { return box.overlaps(padded); });
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/frame_truth.h"
 #include "render/frame/truth_rays.h"
 #include "render/shading/point_field.h"
@@ -15,14 +15,14 @@ namespace hilcam {
 // The greatest number of stars that a frame's truth holds.
 inline constexpr std::size_t kMaxTruthStars = 16384;
 
-// A record with room for all that TruthProbe tells of the placer's frames, up to a size. Owner thread.
-FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int width_px, int height_px);
+// A record with room for all that TruthProbe tells of the set-up's frames, up to a size. Owner thread.
+FrameTruth make_truth(const FrameSetup& setup, const TruthWishes& wishes, int width_px, int height_px);
 
 class TruthProbe {
   public:
-    // Fills `truth`, which make_truth() made for this placer; its raster is set. Loop: nothing is allocated.
+    // Fills `truth`, which make_truth() made for this set-up; its raster is set. Loop: nothing is allocated.
     // Runs on oneTBB; the result does not depend on the thread count.
-    TruthProbe(const FramePlacer& placer, FrameTruth& truth);
+    TruthProbe(const FrameSetup& setup, FrameTruth& truth);
     void report();
 
   private:
@@ -43,8 +43,8 @@ class TruthProbe {
     void count_pixels();
     SeenThing* thing_of(std::uint32_t id);
 
-    const FramePlacer& placer_;
-    const FrameView& frame_;
+    const FrameSetup& setup_;
+    const FrameContext& frame_;
     const WorldSnapshot& world_;
     FrameTruth& truth_;
     TruthRays rays_;

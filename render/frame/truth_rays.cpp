@@ -14,10 +14,10 @@ constexpr float kNoEnd = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-TruthRays::TruthRays(const FramePlacer& placer)
-    : placer_(placer),
-      frame_(placer.frame()),
-      pixel_rad_(static_cast<float>(1 / placer.frame().geometry.focal_length_px)) {}
+TruthRays::TruthRays(const FrameSetup& setup)
+    : setup_(setup),
+      frame_(setup.frame()),
+      pixel_rad_(static_cast<float>(1 / setup.frame().geometry.focal_length_px)) {}
 
 // Directions become unit vectors.
 void TruthRays::generate(std::span<const Vec2d> points_px, std::span<CameraRay> rays) const {
@@ -74,8 +74,7 @@ void TruthRays::trace(std::span<const Vec2d> points_px, bool normals, std::span<
             if (normals) out.normal_dir = body.normal_world_dir;
         } else if (frame_.background->meets_sun_disk(dir)) {
             out.kind = RayMet::Kind::kSun;
-            out.range_m =
-                length(placer_.world().bodies.sun_world_m - placer_.world().camera.position_world_m);
+            out.range_m = length(setup_.world().bodies.sun_world_m - setup_.world().camera.position_world_m);
             out.from_camera_m = out.range_m * dir;
         }
     }
@@ -85,17 +84,17 @@ std::uint32_t TruthRays::meets_object(std::span<const Vec2d> points_px, std::siz
     const std::size_t count = points_px.size();
     std::array<CameraRay, kPacketSize> rays;
     generate(points_px, std::span(rays).first(count));
-    const Pose& pose = placer_.world().objects[object];
+    const Pose& pose = setup_.world().objects[object];
     const Mat3d object_from_world = transposed(to_matrix(pose.world_from_body));
     const Vec3d camera_m =
-        object_from_world * (placer_.world().camera.position_world_m - pose.position_world_m);
+        object_from_world * (setup_.world().camera.position_world_m - pose.position_world_m);
     RayPacket packet;
     packet.count = static_cast<int>(count);
     for (std::size_t k = 0; k < count; ++k) {
         const Vec3d dir = object_from_world * rays[k].dir;
         const Vec3d eye_m = camera_m + object_from_world * rays[k].from_camera_m;
         // From just before it, so that it keeps its digits at any distance.
-        const double before_m = std::max(0.0, -dot(eye_m, dir) - 1.01 * placer_.radius_m(object));
+        const double before_m = std::max(0.0, -dot(eye_m, dir) - 1.01 * setup_.radius_m(object));
         packet.set(static_cast<int>(k), to_float(eye_m + before_m * dir), to_float(dir), 0, kNoEnd);
     }
     return frame_.scene->occluded_by(object, packet);

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/frame_truth.h"
 
 namespace hilcam {
@@ -23,7 +23,7 @@ struct RayMet {
 class TruthRays {
   public:
     // Looks through the camera of the frame that was placed last. Loop.
-    explicit TruthRays(const FramePlacer& placer);
+    explicit TruthRays(const FrameSetup& setup);
 
     // points_px: of the radiance image without its guard band, kPacketSize at most. Loop, any thread.
     void trace(std::span<const Vec2d> points_px, bool normals, std::span<RayMet> met) const;
@@ -38,8 +38,8 @@ class TruthRays {
   private:
     void generate(std::span<const Vec2d> points_px, std::span<CameraRay> rays) const;
 
-    const FramePlacer& placer_;
-    const FrameView& frame_;
+    const FrameSetup& setup_;
+    const FrameContext& frame_;
     float pixel_rad_;
 };
 

@@ -4,7 +4,7 @@
 
 namespace hilcam {
 
-UnresolvedObject::UnresolvedObject(const FrameView& frame, int most_samples)
+UnresolvedObject::UnresolvedObject(const FrameContext& frame, int most_samples)
     : camera_(frame, most_samples),
       tile_(PathModel::kMaxSamples),
       picture_(static_cast<std::size_t>(most_samples * most_samples)) {}

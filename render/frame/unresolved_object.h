@@ -15,10 +15,10 @@ class UnresolvedObject {
   public:
     // most_samples: rays along an axis of the largest picture. The frame's view must have its pointers and sizes by
     // now. Owner thread.
-    UnresolvedObject(const FrameView& frame, int most_samples);
+    UnresolvedObject(const FrameContext& frame, int most_samples);
 
     // Takes over what a frame has placed. Loop, as all that follows.
-    void begin(const FrameView& frame) { camera_.begin(frame); }
+    void begin(const FrameContext& frame) { camera_.begin(frame); }
     // Finds the light of object `i`, of a sphere of radius_m, cell by cell. glimpses: room for
     // ImpostorCamera::cells_across()^2. Returns how many have any; adds to stats what it took to trace.
     std::size_t look(const WorldSnapshot& world, std::size_t i, const ObjectPlan& plan, double radius_m,

@@ -5,36 +5,36 @@
 
 #include <cmath>
 
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 #include "render/frame/frame_tracer.h"
 
 namespace hilcam {
 
-UnresolvedObjects::UnresolvedObjects(const FramePlacer& placer, int samples) {
+UnresolvedObjects::UnresolvedObjects(const FrameSetup& setup, int samples) {
     for (int slot = 0; slot < tbb::this_task_arena::max_concurrency(); ++slot)
-        by_rays_.push_back(std::make_unique<UnresolvedObject>(placer.frame(), samples));
-    if (placer.impostor_capacity()) picture_.emplace(placer.frame(), *placer.impostor_capacity());
-    seen_.reserve(placer.objects());
-    glimpses_.reserve(placer.objects() * most_points(placer));
+        by_rays_.push_back(std::make_unique<UnresolvedObject>(setup.frame(), samples));
+    if (setup.impostor_capacity()) picture_.emplace(setup.frame(), *setup.impostor_capacity());
+    seen_.reserve(setup.objects());
+    glimpses_.reserve(setup.objects() * most_points(setup));
 }
 
-std::size_t UnresolvedObjects::most_points(const FramePlacer& placer) {
-    const double size_px = placer.impostor_capacity() ? kPictured_px : kPoints_px;
+std::size_t UnresolvedObjects::most_points(const FrameSetup& setup) {
+    const double size_px = setup.impostor_capacity() ? kPictured_px : kPoints_px;
     const auto cells = static_cast<std::size_t>(std::ceil(2 * size_px));
     return cells * cells;
 }
 
 // Those whose middle is in the padded image, and whatever the camera's own rays may meet.
-void UnresolvedObjects::find_seen(const FramePlacer& placer, const PointField& field) {
+void UnresolvedObjects::find_seen(const FrameSetup& setup, const PointField& field) {
     seen_.clear();
     std::size_t room = 0;
-    for (std::size_t i = 0; i < placer.objects(); ++i) {
-        const ObjectPlan& plan = placer.plan(i);
-        if (placer.is_point(i)) {
+    for (std::size_t i = 0; i < setup.objects(); ++i) {
+        const ObjectPlan& plan = setup.plan(i);
+        if (setup.is_point(i)) {
             const Vec3d to_object_m =
-                placer.world().objects[i].position_world_m - placer.world().camera.position_world_m;
+                setup.world().objects[i].position_world_m - setup.world().camera.position_world_m;
             if (!field.sees(to_object_m / plan.distance_m, plan.distance_m)) continue;
-        } else if (!placer.frame().has_impostor[i]) {
+        } else if (!setup.frame().has_impostor[i]) {
             continue;
         }
         seen_.push_back({i, room, picture_ && plan.picture_px > 0, 0, {}});
@@ -44,31 +44,31 @@ void UnresolvedObjects::find_seen(const FramePlacer& placer, const PointField& f
     glimpses_.resize(room);
 }
 
-void UnresolvedObjects::look(const FramePlacer& placer, const FrameTracer& tracer, Seen& seen) {
+void UnresolvedObjects::look(const FrameSetup& setup, const FrameTracer& tracer, Seen& seen) {
     const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-    seen.count = by_rays_[slot]->look(placer.world(), seen.object, placer.plan(seen.object),
-                                      placer.radius_m(seen.object), tracer.paths(slot),
-                                      glimpses_.data() + seen.first, seen.stats);
+    seen.count =
+        by_rays_[slot]->look(setup.world(), seen.object, setup.plan(seen.object), setup.radius_m(seen.object),
+                             tracer.paths(slot), glimpses_.data() + seen.first, seen.stats);
 }
 
-TileStats UnresolvedObjects::add_points(const FramePlacer& placer, const FrameTracer& tracer,
+TileStats UnresolvedObjects::add_points(const FrameSetup& setup, const FrameTracer& tracer,
                                         const PointField& field, std::vector<PointSource>& points) {
-    find_seen(placer, field);
+    find_seen(setup, field);
     if (seen_.empty()) return {};
-    for (const auto& probe : by_rays_) probe->begin(placer.frame());
+    for (const auto& probe : by_rays_) probe->begin(setup.frame());
     tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t k) {
-        if (!seen_[k].pictured) look(placer, tracer, seen_[k]);
+        if (!seen_[k].pictured) look(setup, tracer, seen_[k]);
     });
-    if (picture_) picture_->begin(placer.frame());
+    if (picture_) picture_->begin(setup.frame());
     for (Seen& seen : seen_)
-        if (seen.pictured && !picture_->look(placer, seen.object, tracer, glimpses_.data() + seen.first,
+        if (seen.pictured && !picture_->look(setup, seen.object, tracer, glimpses_.data() + seen.first,
                                              seen.count, seen.stats))
-            look(placer, tracer, seen);
+            look(setup, tracer, seen);
     TileStats sum;
     for (const Seen& seen : seen_) {
         sum += seen.stats;
         const double distance_m =
-            ImpostorCamera::before_m(placer.plan(seen.object), placer.radius_m(seen.object));
+            ImpostorCamera::before_m(setup.plan(seen.object), setup.radius_m(seen.object));
         for (std::size_t g = seen.first; g < seen.first + seen.count; ++g)
             field.add(glimpses_[g].world_dir, distance_m, glimpses_[g].irradiance_w_m2_um, points,
                       static_cast<std::uint32_t>(seen.object));

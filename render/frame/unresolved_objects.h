@@ -13,20 +13,20 @@
 
 namespace hilcam {
 
-class FramePlacer;
+class FrameSetup;
 class FrameTracer;
 
 class UnresolvedObjects {
   public:
     // samples: the most rays along an axis of an object's picture. The frame's view must have its pointers and sizes
     // by now. Owner thread.
-    UnresolvedObjects(const FramePlacer& placer, int samples);
+    UnresolvedObjects(const FrameSetup& setup, int samples);
     // Returns the most points that an object gives.
-    static std::size_t most_points(const FramePlacer& placer);
+    static std::size_t most_points(const FrameSetup& setup);
 
     // Adds the points of the placed frame's objects. Loop; no allocation while the vector has room. Returns what it
     // took to trace.
-    TileStats add_points(const FramePlacer& placer, const FrameTracer& tracer, const PointField& field,
+    TileStats add_points(const FrameSetup& setup, const FrameTracer& tracer, const PointField& field,
                          std::vector<PointSource>& points);
 
   private:
@@ -37,8 +37,8 @@ class UnresolvedObjects {
         std::size_t count = 0;  // number of its glimpses
         TileStats stats;
     };
-    void find_seen(const FramePlacer& placer, const PointField& field);
-    void look(const FramePlacer& placer, const FrameTracer& tracer, Seen& seen);
+    void find_seen(const FrameSetup& setup, const PointField& field);
+    void look(const FrameSetup& setup, const FrameTracer& tracer, Seen& seen);
 
     std::vector<std::unique_ptr<UnresolvedObject>> by_rays_;  // by slot of the thread pool
     std::vector<Seen> seen_;

@@ -69,7 +69,7 @@ void VisibilityChoice::make_potentially_visible_sets() {
 }
 
 // Null: all of an object is looked at.
-const PotentiallyVisibleSet* VisibilityChoice::potentially_visible_set(const FrameView& frame,
+const PotentiallyVisibleSet* VisibilityChoice::potentially_visible_set(const FrameContext& frame,
                                                                        std::size_t object) const {
     if (!potentially_visible_sets_[object]) return nullptr;
     const PotentiallyVisibleSets* const sets =
@@ -120,13 +120,13 @@ VisibilityBuffer::Shown VisibilityChoice::shown(std::size_t i) const {
 }
 
 // In space, and where its mesh is all there is to see of it.
-bool VisibilityChoice::ground_is_alone(const FrameView& frame) const {
+bool VisibilityChoice::ground_is_alone(const FrameContext& frame) const {
     return ground() && sees_ground_ && !frame.background->camera_in_air() && frame.start_before_m <= 0 &&
            objects_.plans.back().use == ObjectUse::kMesh && objects_.plans.back().samples_per_axis == 1 &&
            frame.rays->linear();
 }
 
-void VisibilityChoice::place(FrameView& frame) {
+void VisibilityChoice::place(FrameContext& frame) {
     seen_.clear();
     if (ground_is_alone(frame)) {
         seen_.push_back({0, objects_.world.objects.back(), objects_.radii_m.back(), objects_.scene.mesh(0, 0),
@@ -149,7 +149,7 @@ void VisibilityChoice::place(FrameView& frame) {
 }
 
 // The camera's rays find the light of all that they meet.
-void VisibilityChoice::light_by_rays(FrameView& frame) {
+void VisibilityChoice::light_by_rays(FrameContext& frame) {
     frame.has_impostors = false;
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
         if (frame.has_impostor[i]) frame.has_impostor[i] = 0, objects_.plans[i].picture_px = 0;

@@ -11,7 +11,7 @@
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
 #include "render/scene/shown_object.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/visibility/potentially_visible_sets.h"
 #include "render/visibility/visibility_buffer.h"
 
@@ -47,7 +47,7 @@ class VisibilityChoice {
     VisibilityBuffer::Shown shown(std::size_t object) const;
 
     // Sorts the triangles of the placed frame into the buffer that it uses, and lets the frame know. Loop.
-    void place(FrameView& frame);
+    void place(FrameContext& frame);
 
   private:
     Objects objects_;
@@ -70,9 +70,9 @@ class VisibilityChoice {
     }
     // The buffer of ground of the quality in use; null: none.
     VisibilityBuffer* ground() const { return ground_[static_cast<std::size_t>(ground_step_px_ - 1)].get(); }
-    bool ground_is_alone(const FrameView& frame) const;
-    const PotentiallyVisibleSet* potentially_visible_set(const FrameView& frame, std::size_t object) const;
-    void light_by_rays(FrameView& frame);
+    bool ground_is_alone(const FrameContext& frame) const;
+    const PotentiallyVisibleSet* potentially_visible_set(const FrameContext& frame, std::size_t object) const;
+    void light_by_rays(FrameContext& frame);
 };
 
 }  // namespace hilcam

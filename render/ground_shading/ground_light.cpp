@@ -59,7 +59,7 @@ class GroundTileLight {
 
   private:
     Tile& tile_;
-    const FrameView& view_;
+    const FrameContext& view_;
     Shadow& shadow_;
     const Mat3f& world_from_body_;
     const Material& material_;
@@ -175,7 +175,7 @@ bool is_plain_ground(const Material& material) {
 
 bool add_ground_light(Tile& tile) {
     const PixelBox& box = tile.box;
-    const FrameView& frame = tile.frame;
+    const FrameContext& frame = tile.frame;
     const int step_px = frame.ground_step_px;
     const PixelBox box_px{box.x0 * step_px, box.y0 * step_px, box.x1 * step_px, box.y1 * step_px};
     if (frame.bodies_may_hide && frame.may_see_body(box_px)) return false;

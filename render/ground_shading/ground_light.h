@@ -4,7 +4,7 @@
 // samples a pixel are the middles of 4 x 4 pixels of the picture, which are then worked out side by side. Or a buffer with as few
 // pixels again has the middles of 4 x 4 squares of step x step pixels (ground_places.h).
 //
-// FramePlacer says which frames that is for. Tiles that see something else than ground are left to rays.
+// FrameSetup says which frames that is for. Tiles that see something else than ground are left to rays.
 
 #include "render/shading/tile.h"
 #include "render/vocabulary/image_geometry.h"

@@ -43,7 +43,7 @@ bool is_alike(const ShadingPoint& a, const ShadingPoint& b, float near_m) {
 }  // namespace
 
 // Something may stand in the mirror's direction.
-bool IndirectCache::is_near(const FrameView& frame, const Place& place) const {
+bool IndirectCache::is_near(const FrameContext& frame, const Place& place) const {
     if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
     const ShadingPoint& at = *place.at;
     return objects_[at.object].light->is_near(
@@ -99,7 +99,7 @@ std::size_t IndirectCache::gather(const Tile& tile, std::span<const ShadingPoint
     return next;
 }
 
-void IndirectCache::reflect_clusters(const FrameView& frame, Lobes& lobes, Place& place) const {
+void IndirectCache::reflect_clusters(const FrameContext& frame, Lobes& lobes, Place& place) const {
     const ShadingPoint& at = *place.at;
     place.met = {}, place.bodies = {}, place.directions = 0;
     place.mirrors_near = true, place.has_bodies = false;
@@ -156,7 +156,7 @@ void IndirectCache::follow_together(std::uint32_t number, Place& place, std::spa
     requests[number].next = requests[place.follower].next, requests[place.follower].next = number;
 }
 
-void IndirectCache::find(const FrameView& frame, std::span<Place> places) const {
+void IndirectCache::find(const FrameContext& frame, std::span<Place> places) const {
     for (Place& place : places) {
         const ShadingPoint& at = *place.at;
         const Mat3f& axes = frame.world_from_body[at.object];
@@ -179,7 +179,7 @@ void IndirectCache::find(const FrameView& frame, std::span<Place> places) const 
 
 // The irradiance of all sources but the Sun by way of other surfaces, at a probe or about a place.
 template <class Where>
-Spectrum IndirectCache::others(const FrameView& frame, const IrradianceCache& light,
+Spectrum IndirectCache::others(const FrameContext& frame, const IrradianceCache& light,
                                const Where& where) const {
     Spectrum sum;
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
@@ -193,7 +193,7 @@ Spectrum IndirectCache::others(const FrameView& frame, const IrradianceCache& li
 }
 
 // This is what a surface of the material's own colour reflects without its facets.
-Spectrum IndirectCache::reflect_diffuse(const FrameView& frame, const Place& place) const {
+Spectrum IndirectCache::reflect_diffuse(const FrameContext& frame, const Place& place) const {
     const ShadingPoint& at = *place.at;
     const Object& object = objects_[at.object];
     const IrradianceCache& light = *object.light;
@@ -230,7 +230,7 @@ Spectrum IndirectCache::radiance_of(const Place& place, const Spectrum& irradian
     return (1 / kPiF) * (objects_[at.object].light->albedo(at.surface_number).base(no) * irradiance);
 }
 
-void IndirectCache::reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const {
+void IndirectCache::reflect_lobe(const FrameContext& frame, Lobes& lobes, Place& place) const {
     const ShadingPoint& at = *place.at;
     // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
     // does, it has all of them.
@@ -260,7 +260,7 @@ void IndirectCache::reflect_far_bodies(Place& place) const {
     if (place.has_bodies) place.bodies = sent_of_bodies(at);
 }
 
-std::optional<std::uint32_t> IndirectCache::nearest_probe(const FrameView& frame, std::size_t object,
+std::optional<std::uint32_t> IndirectCache::nearest_probe(const FrameContext& frame, std::size_t object,
                                                           Vec3f point_m, const SurfaceSide& side) const {
     const Mat3f& axes = frame.world_from_body[object];
     SurfaceSide in_body = side;
@@ -273,7 +273,7 @@ std::optional<std::uint32_t> IndirectCache::nearest_probe(const FrameView& frame
     return about.nearest();
 }
 
-IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameView& frame, const Place& place,
+IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameContext& frame, const Place& place,
                                                     bool whole) const {
     const ShadingPoint& at = *place.at;
     const IrradianceCache& light = *objects_[at.object].light;
@@ -392,7 +392,7 @@ Spectrum IndirectCache::sum_of_bodies(const ShadingPoint& at, const SentOfBodies
     return sum;
 }
 
-void IndirectCache::add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror,
+void IndirectCache::add_bodies_in_lobe(const FrameContext& frame, const ShadingPoint& at, Vec3f mirror,
                                        Spectrum weight, Spectrum& radiance) const {
     bool meets = false;
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) {

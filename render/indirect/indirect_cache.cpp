@@ -69,7 +69,7 @@ std::string IndirectCache::describe(std::size_t i) const {
     return text.str();
 }
 
-void IndirectCache::take_inputs(const FrameView& frame, const WorldSnapshot& world) {
+void IndirectCache::take_inputs(const FrameContext& frame, const WorldSnapshot& world) {
     std::copy(world.objects.begin(), world.objects.end(), now_.objects.begin());
     now_.sun = largest(frame.background->sun_irradiance_w_m2_um()) > 0;
     if (now_.sun) now_.sun_dir = to_float(frame.background->sun_world_dir());
@@ -83,7 +83,7 @@ void IndirectCache::take_inputs(const FrameView& frame, const WorldSnapshot& wor
                 {lamp.number, lamp.position_m + frame.rays_world_m, to_float(lamp.axis), lamp.beam});
 }
 
-void IndirectCache::set_key(const FrameView& frame, const WorldSnapshot& world) {
+void IndirectCache::set_key(const FrameContext& frame, const WorldSnapshot& world) {
     // One place stands for a square of four pixels, which is 2.8 across, and its mirrors lean by 2 mrad against each other.
     constexpr float kSquare_px = 3, kLean_rad = 0.002f;
     planetshine_.place(*frame.background,
@@ -92,7 +92,7 @@ void IndirectCache::set_key(const FrameView& frame, const WorldSnapshot& world) 
     key_.set(now_, lights_, terms_);
 }
 
-void IndirectCache::place(const FrameView& frame, const WorldSnapshot& world) {
+void IndirectCache::place(const FrameContext& frame, const WorldSnapshot& world) {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
     mirror_sunlight_.place(frame, world);
@@ -101,7 +101,7 @@ void IndirectCache::place(const FrameView& frame, const WorldSnapshot& world) {
     look_ahead();
 }
 
-bool IndirectCache::prepare(const FrameView& frame, const WorldSnapshot& world) {
+bool IndirectCache::prepare(const FrameContext& frame, const WorldSnapshot& world) {
     if (!is_asked_) {
         set_key(frame, world);
         updates_->look_ahead(key_);

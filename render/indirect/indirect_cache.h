@@ -37,11 +37,11 @@ class IndirectCache {
 
     // Prepares a frame, after everything else is placed; solves for what has moved by a step, where that was
     // not done ahead. Loop.
-    void place(const FrameView& frame, const WorldSnapshot& world);
+    void place(const FrameContext& frame, const WorldSnapshot& world);
     // Has the light of a frame that is placed solved by the thread that looks ahead, for who can do without
     // it meanwhile. True: that is done, and place() has no more to solve than what has moved since the first
     // call. Before the first place(); loop, nothing is allocated and nobody waited for.
-    bool prepare(const FrameView& frame, const WorldSnapshot& world);
+    bool prepare(const FrameContext& frame, const WorldSnapshot& world);
     // From now on nothing is made before a frame asks for it, and no thread is left that would. Owner thread.
     void stop_looking_ahead() { updates_->stop_looking_ahead(); }
 
@@ -49,7 +49,7 @@ class IndirectCache {
     const IrradianceCache& light(std::size_t object) const { return *objects_[object].light; }
     // Returns the probe whose light is looked up at a point of an object, the nearest of those about it; none: there are none.
     // side: its normal by world axes. Any thread.
-    std::optional<std::uint32_t> nearest_probe(const FrameView& frame, std::size_t object, Vec3f point_m,
+    std::optional<std::uint32_t> nearest_probe(const FrameContext& frame, std::size_t object, Vec3f point_m,
                                                const SurfaceSide& side) const;
     // Says in words what is cached on an object.
     std::string describe(std::size_t object) const;
@@ -97,7 +97,7 @@ class IndirectCache {
     Spectrum plain_lobe_albedo(const ShadingPoint& at) const;
     Spectrum lobe_tint(const ShadingPoint& at) const;
     // Adds what a lobe too narrow to be cached reflects of the bodies; mirror: its middle. Loop, any thread.
-    void add_bodies_in_lobe(const FrameView& frame, const ShadingPoint& at, Vec3f mirror, Spectrum weight,
+    void add_bodies_in_lobe(const FrameContext& frame, const ShadingPoint& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
 
   private:
@@ -118,8 +118,8 @@ class IndirectCache {
     std::uint64_t frames_ = 0;
     bool is_asked_ = false;  // prepare() has been called
 
-    void set_key(const FrameView& frame, const WorldSnapshot& world);
-    void take_inputs(const FrameView& frame, const WorldSnapshot& world);
+    void set_key(const FrameContext& frame, const WorldSnapshot& world);
+    void take_inputs(const FrameContext& frame, const WorldSnapshot& world);
     void look_ahead();
 
     // The radiance that a lobe sends of each body, if nothing is in the way; where a texture colours facets
@@ -171,19 +171,19 @@ class IndirectCache {
     std::size_t gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
                        Together& block) const;
     Place* shared_place(std::span<Place> places, const ShadingPoint& at, std::uint32_t quad) const;
-    void find(const FrameView& frame, std::span<Place> places) const;
+    void find(const FrameContext& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
-    bool is_near(const FrameView& frame, const Place& place) const;
+    bool is_near(const FrameContext& frame, const Place& place) const;
     template <class Where>
-    Spectrum others(const FrameView& frame, const IrradianceCache& light, const Where& where) const;
-    Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
+    Spectrum others(const FrameContext& frame, const IrradianceCache& light, const Where& where) const;
+    Spectrum reflect_diffuse(const FrameContext& frame, const Place& place) const;
     Spectrum direct_irradiance(std::size_t body, const Place& place) const;
     Spectrum reflect_bodies(const Place& place) const;
     Spectrum radiance_of(const Place& place, const Spectrum& irradiance) const;
-    void reflect_clusters(const FrameView& frame, Lobes& lobes, Place& place) const;
-    void reflect_lobe(const FrameView& frame, Lobes& lobes, Place& place) const;
+    void reflect_clusters(const FrameContext& frame, Lobes& lobes, Place& place) const;
+    void reflect_lobe(const FrameContext& frame, Lobes& lobes, Place& place) const;
     void reflect_far_bodies(Place& place) const;
-    MetByLobe met_by_lobe(const FrameView& frame, const Place& place, bool whole) const;
+    MetByLobe met_by_lobe(const FrameContext& frame, const Place& place, bool whole) const;
     SentOfBodies sent_of_bodies(const ShadingPoint& at) const;
     void add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const;
     static void follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests);

@@ -49,7 +49,7 @@ struct Scattered {
     Vec3f start_m;
     bool none = true;
 };
-Scattered scatter(const FrameView& frame, const ShadingPoint& at, Vec3f dir, float alpha) {
+Scattered scatter(const FrameContext& frame, const ShadingPoint& at, Vec3f dir, float alpha) {
     Bsdf surface = at.surface;
     const bool facets = surface.material->has_facets();
     // Slopes of independent causes add by their squares; rays follow narrow lobes to the mirror.
@@ -122,7 +122,7 @@ class Asker {
 
   private:
     Tile& tile_;
-    const FrameView& frame_;
+    const FrameContext& frame_;
     const MirrorSunlight::Shown& shown_;
     const FlatMirror& shape_;
     std::uint32_t object_;
@@ -255,7 +255,7 @@ void find_beam(Vec3f sun, float least, MirrorSunlight::Shown& out) {
 
 }  // namespace
 
-void MirrorSunlight::place(const FrameView& frame, const WorldSnapshot& world) {
+void MirrorSunlight::place(const FrameContext& frame, const WorldSnapshot& world) {
     shown_.clear(), beams_.clear();
     if (!(largest(frame.background->sun_irradiance_w_m2_um()) > 0)) return;
     const Vec3f sun = to_float(frame.background->sun_world_dir());

@@ -56,7 +56,7 @@ class MirrorSunlight {
              std::span<const MaterialAlbedo> albedos);
 
     // Takes the mirrors that the Sun shines on. The frame's objects and background are placed. Loop.
-    void place(const FrameView& frame, const WorldSnapshot& world);
+    void place(const FrameContext& frame, const WorldSnapshot& world);
 
     // Adds to the tile's pixels what shading points reflect of it. Loop, any thread.
     void add_light(Tile& tile, std::span<const ShadingPoint> points) const;

@@ -54,7 +54,7 @@ HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer
 // before, a multiple of kPacketSize.
 void send(Tile& tile, const ShadingPoint& at, SampleMask& left, std::size_t first, std::size_t count,
           MirrorRays::Packet& out) {
-    const FrameView& frame = tile.frame;
+    const FrameContext& frame = tile.frame;
     const float distance_m = at.footprint_m * static_cast<float>(frame.geometry.focal_length_px);
     const SampleOffsets way(tile, at);
     Lanes ways_m, dirs;
@@ -76,7 +76,7 @@ void send(Tile& tile, const ShadingPoint& at, SampleMask& left, std::size_t firs
 
 // True when all that these meet is dark and faces away from the Sun: against the sensor's noise it matters little how much of a
 // pixel shows it. What a mirror throws of the Sun on such a thing is not asked for.
-bool meet_the_dark(const FrameView& frame, const MirrorRays::Packet& packet) {
+bool meet_the_dark(const FrameContext& frame, const MirrorRays::Packet& packet) {
     // Reflectance. An edge that sixteen rays see is off by a thirtieth of a pixel; of what has a tenth of the light of white paint
     // for its own, and reflects a tenth of it, that is a third of a thousandth of the paint's light.
     constexpr float kDark = 0.1f;
@@ -99,7 +99,7 @@ bool meet_the_dark(const FrameView& frame, const MirrorRays::Packet& packet) {
 
 }  // namespace
 
-bool meets_object(const FrameView& frame, const HitPacket& hits, std::size_t lane, Vec3f origin_m,
+bool meets_object(const FrameContext& frame, const HitPacket& hits, std::size_t lane, Vec3f origin_m,
                   Vec3f dir) {
     return hits.object[lane] != HitPacket::kMiss &&
            !(frame.bodies_may_hide &&

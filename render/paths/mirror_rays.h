@@ -11,7 +11,8 @@
 namespace hilcam {
 
 // True when a lane's ray has met an object before which no body stands. origin_m: ray space. Loop, any thread.
-bool meets_object(const FrameView& frame, const HitPacket& hits, std::size_t lane, Vec3f origin_m, Vec3f dir);
+bool meets_object(const FrameContext& frame, const HitPacket& hits, std::size_t lane, Vec3f origin_m,
+                  Vec3f dir);
 
 class MirrorRays {
   public:

@@ -13,7 +13,7 @@ void add_background(Tile& tile, const NextRay& ray) {
     tile.add(*ray.from, ray.part == LightPart::kPath ? direct : ray.part, light);
 }
 
-bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light) {
+bool add_background_seen(const FrameContext& frame, const NextRay& ray, Spectrum& light) {
     const Background& background = *frame.background;
     if (ray.whole_lobe) {
         if (ray.sees_bodies)

@@ -50,6 +50,6 @@ struct NextRays {
 // Adds the background that a ray sees to what its shading point sends. Loop, any thread.
 void add_background(Tile& tile, const NextRay& ray);
 // Adds the share of that light which next-event estimation has not counted. True: a body has been met. Loop, any thread.
-bool add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light);
+bool add_background_seen(const FrameContext& frame, const NextRay& ray, Spectrum& light);
 
 }  // namespace hilcam

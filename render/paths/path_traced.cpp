@@ -56,7 +56,7 @@ class TracedPaths final : public PathModel {
     MirrorRays many_;
 
     void trace_on(Tile& tile, std::size_t count) {
-        const FrameView& frame = tile.frame;
+        const FrameContext& frame = tile.frame;
         glossy_rays_.clear();
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
@@ -82,7 +82,7 @@ class TracedPaths final : public PathModel {
 
     // Draws a direction at each shading point. At the last surface only exact ones go on: no lamp has been counted in them.
     static void choose(const Tile& tile, std::span<const ShadingPoint> points, bool last, NextRays& rays) {
-        const FrameView& frame = tile.frame;
+        const FrameContext& frame = tile.frame;
         const float least = frame.contribution_threshold;
         for (const ShadingPoint& at : points) {
             if (rays.full()) return;
@@ -164,7 +164,7 @@ class TracedPaths final : public PathModel {
     }
 
     // Makes what a ray has met the shading point after those that are found. False where there is nothing to see.
-    bool add_met(const FrameView& frame, const HitPacket& hits, std::size_t k, const NextRay& ray,
+    bool add_met(const FrameContext& frame, const HitPacket& hits, std::size_t k, const NextRay& ray,
                  std::size_t found) {
         ShadingPoint& point = following_[found];
         if (!make_shading_point(frame, hits, static_cast<int>(k), ray.origin_m, ray.dir, ray.alpha_least,
@@ -246,7 +246,7 @@ class TracedPaths final : public PathModel {
     // Follows the chosen rays; what they meet becomes the next wave's shading points (none after the last), the rest
     // sees the background.
     std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
-        const FrameView& frame = tile.frame;
+        const FrameContext& frame = tile.frame;
         HitPacket own_hits;
         std::size_t found = 0, count = 0;
         const std::size_t mirrors = last ? 0 : trace_mirrors(tile, ray_count);

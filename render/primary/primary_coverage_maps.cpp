@@ -69,7 +69,7 @@ PrimaryHits::CoverageMapPixel PrimaryHits::look_at_coverage_map(std::size_t k, V
 // many shading points there are then.
 std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& surface_frame,
                                              std::span<ShadingPoint> points, std::size_t count) {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const CoverageMap& coverage_map = *coverage_map_.is;
     const CoverageMapPixel pixel = look_at_coverage_map(k, surface_frame.view_dir);
     const CoverageMap::Coverage& coverage = pixel.coverage;
@@ -117,7 +117,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
 
 // The directions through a fragment's pixel: its middle, and a step to the right and down.
 PrimaryHits::PixelRays PrimaryHits::rays_of(const Fragment& fragment) const {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const int x = tile_.box.x0 + fragment.x, y = tile_.box.y0 + fragment.y;
     if (const LinearRays* rays = frame.rays->linear())
         return {rays->corner + (x + 0.5) * rays->right + (y + 0.5) * rays->down, rays->right, rays->down};

@@ -116,13 +116,13 @@ void PrimaryHits::take_pixel(int x, int y) {
 }
 
 bool PrimaryHits::has_impostor(std::uint32_t id) const {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     return frame.has_impostor[frame.visibility->seen(id).shown->object] != 0;
 }
 
 // True when a body stands before what the samples see: they see the body then.
 bool PrimaryHits::leave_to_body(std::size_t k) {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];
     if (!frame.background->hides_seen(normalized(dirs_[k]), length(point - frame.camera_m))) return false;
     uncovered_[fragments_[k].pixel] |= fragments_[k].samples;
@@ -143,7 +143,7 @@ ShadingPoint* PrimaryHits::join(std::span<ShadingPoint> so_far, std::uint32_t pi
 
 // The ray through a place in a fragment's pixel.
 PrimaryHits::Aim PrimaryHits::aim_at(const Fragment& fragment, Vec2f place_px) const {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const Vec3d dir =
         direction_through(frame, tile_.box.x0 + fragment.x, tile_.box.y0 + fragment.y, place_px);
     return {dir, frame.start_before_m > 0 ? frame.start_of(normalized(dir)) : to_float(frame.camera_m)};
@@ -151,7 +151,7 @@ PrimaryHits::Aim PrimaryHits::aim_at(const Fragment& fragment, Vec2f place_px) c
 
 // The first fragments, as many as are of one object.
 std::size_t PrimaryHits::look_at_fragments() {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
     const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
     body_m_ = to_float(shown.pose.position_world_m - frame.rays_world_m);
@@ -192,7 +192,7 @@ std::size_t PrimaryHits::look_at_fragments() {
 bool PrimaryHits::turns_much(std::size_t k) const {
     const float turn = packet_.turn[k];  // within the triangle, squared
     if (turn == 0) return false;
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const ObjectSurfaces& object = *(*frame.objects)[hits_.object[k]];
     const Material& material = object.materials[object.triangles[hits_.triangle[k]].surface];
     const float own = object.unflattened(object.triangles[hits_.triangle[k]].surface, material.ggx_alpha);
@@ -307,7 +307,7 @@ void PrimaryHits::mix_colors(std::size_t k, float share, ShadingPoint& point) co
 }
 
 std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std::size_t count) {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const std::size_t n = look_at_fragments();
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
     const auto from_m = static_cast<float>(frame.way_to_start_m());
@@ -360,7 +360,7 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
 
 // Makes fragment k, which is alike, a part of a shading point.
 void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, ShadingPoint& point) {
-    const FrameView& frame = tile_.frame;
+    const FrameContext& frame = tile_.frame;
     const SampleMask seen_by = fragments_[k].samples;
     const float samples = frame.samples.weight(seen_by);
     const Vec3f point_m = origins_[k] + hits_.distance[k] * packet_.dir.at(k);

@@ -75,7 +75,7 @@ class PrimaryRays {
 
   private:
     Tile& tile_;
-    const FrameView& frame_;
+    const FrameContext& frame_;
     std::span<ShadingPoint> points_;
     const SampleMask* uncovered_ = nullptr;
     bool even_ = false;  // one ray a pixel
@@ -402,7 +402,7 @@ class PrimaryRays {
 }  // namespace
 
 void add_air_before(Tile& tile, Vec3d dir, ShadingPoint& point) {
-    const FrameView& frame = tile.frame;
+    const FrameContext& frame = tile.frame;
     if (!frame.background->camera_in_air()) return;
     const double distance_m = length(to_double(point.point_m) - frame.camera_m);
     const Atmosphere::Sight sight = frame.background->air_before(dir, distance_m);

@@ -2,7 +2,7 @@
 // The acceleration structure: meshes once, instances of them placed anew each frame, rays in packets of
 // sixteen. The one unit that knows Embree (3 or 4).
 //
-// Ray space (frame_view.h): axes parallel to the world, metres, single precision. Placing an object
+// Ray space (frame_context.h): axes parallel to the world, metres, single precision. Placing an object
 // subtracts its origin in double precision first, so that near things keep their digits wherever in the world
 // they are. Precision: a hit's distance is good to a few 1e-7 of the distance to the object; objects many
 // times farther than large (10^4 and more) lose shape. Hits of shared edges: see watertight.

@@ -24,7 +24,7 @@ double free_length_m(double distance_m) { return std::max(0.0, (1 - 1e-6) * dist
 
 // True when an object hides it, also one that is points itself: a PointField looks for those that are traced,
 // and dims what is behind their glass.
-bool is_hidden(const FrameView& frame, Vec3d dir, double distance_m) {
+bool is_hidden(const FrameContext& frame, Vec3d dir, double distance_m) {
     const Vec3f start_m = frame.start_of(dir);
     const double until_m = distance_m - length(to_double(start_m) - frame.camera_m);
     if (!(until_m > 0)) return false;
@@ -66,7 +66,7 @@ void Lamps::place(const WorldSnapshot& world, Vec3d ray_space_world_m) {
 }
 
 void add_lamps_reflected(Tile& tile, std::span<const ShadingPoint> points) {
-    const FrameView& frame = tile.frame;
+    const FrameContext& frame = tile.frame;
     if (!frame.lamps || frame.lamps->lit().empty()) return;
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
         tile.add(*by.at, LightPart::kLamps, glass ? by.weight * *glass : by.weight);
@@ -89,7 +89,7 @@ void add_lamps_reflected(Tile& tile, std::span<const ShadingPoint> points) {
         }
 }
 
-void add_lamps_seen(const FrameView& frame, const PointField& field, std::vector<PointSource>& points) {
+void add_lamps_seen(const FrameContext& frame, const PointField& field, std::vector<PointSource>& points) {
     if (!frame.lamps) return;
     for (const PlacedLamp& lamp : frame.lamps->lit()) {
         LampRay ray;

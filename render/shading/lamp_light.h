@@ -33,7 +33,7 @@ struct LampRay {
 // A lamp that is lit, in one frame.
 struct PlacedLamp {
     std::size_t number = 0;      // in Lamps::all()
-    Vec3d position_m;            // ray space (frame_view.h)
+    Vec3d position_m;            // ray space (frame_context.h)
     Vec3d axis;                  // unit
     Spectrum intensity_w_sr_um;  // on the axis, at its level
     const LampBeam* beam = nullptr;
@@ -66,6 +66,6 @@ class Lamps {
 // Adds to the tile's pixels what shading points reflect of lamps. Loop, any thread.
 void add_lamps_reflected(Tile& tile, std::span<const ShadingPoint> points);
 // Lamps that shine into the camera: points. Loop.
-void add_lamps_seen(const FrameView& frame, const PointField& field, std::vector<PointSource>& points);
+void add_lamps_seen(const FrameContext& frame, const PointField& field, std::vector<PointSource>& points);
 
 }  // namespace hilcam

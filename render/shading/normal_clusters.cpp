@@ -18,7 +18,7 @@ const LodNormals kItself = LodNormals::flat();
 // Clusters of shading points on their way through packets, those of one material of an object at a time.
 class Reflection {
   public:
-    Reflection(const FrameView& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out)
+    Reflection(const FrameContext& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out)
         : frame_(frame), points_(points), out_(out) {}
 
     void of_all() {
@@ -37,7 +37,7 @@ class Reflection {
     }
 
   private:
-    const FrameView& frame_;
+    const FrameContext& frame_;
     std::span<const SunlitPoint> points_;
     std::span<ClusterLight> out_;
     ClusterPacket packet_;
@@ -152,7 +152,7 @@ void NormalClusters::push(const NormalCluster& part, ShadingPoint& point) {
     point.clusters = &added;
 }
 
-void NormalClusters::add(const FrameView& frame, NormalCluster part, std::uint32_t triangle, bool first,
+void NormalClusters::add(const FrameContext& frame, NormalCluster part, std::uint32_t triangle, bool first,
                          std::span<const Vec3f> turns, ShadingPoint& point) {
     const ObjectSurfaces& object = *(*frame.objects)[point.object];
     bool has_flattened = false;
@@ -175,7 +175,8 @@ void NormalClusters::add(const FrameView& frame, NormalCluster part, std::uint32
     }
 }
 
-void lit_clusters(const FrameView& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out) {
+void lit_clusters(const FrameContext& frame, std::span<const SunlitPoint> points,
+                  std::span<ClusterLight> out) {
     if (!points.empty()) Reflection(frame, points, out).of_all();
 }
 

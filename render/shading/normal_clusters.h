@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/shading/shading_point.h"
 
 namespace hilcam {
@@ -23,7 +23,7 @@ class NormalClusters {
     // Adds a part to a shading point, whose own is the first. Clusters are made where there is more than one, and of
     // what a level has flattened: its own lobe is wider than theirs. turns: normals of the part in place of
     // its one, each of as many of its samples; empty: that one. Loop, any thread.
-    void add(const FrameView& frame, NormalCluster part, std::uint32_t triangle, bool first,
+    void add(const FrameContext& frame, NormalCluster part, std::uint32_t triangle, bool first,
              std::span<const Vec3f> turns, ShadingPoint& point);
 
   private:
@@ -55,6 +55,7 @@ struct SunlitPoint {
 };
 // Finds what the normal clusters of shading points reflect, SunlitPoint::kMost at most. out: one for each, as they are made.
 // Loop, any thread.
-void lit_clusters(const FrameView& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out);
+void lit_clusters(const FrameContext& frame, std::span<const SunlitPoint> points,
+                  std::span<ClusterLight> out);
 
 }  // namespace hilcam

@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-PointField::PointField(const FrameView& frame, const WorldSnapshot& world)
+PointField::PointField(const FrameContext& frame, const WorldSnapshot& world)
     : frame_(frame),
       world_(world),
       boresight_dir_(to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1}),

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/scene/scene.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/sky/star_sky.h"
 #include "render/vocabulary/point_source.h"
 
@@ -19,7 +19,7 @@ double half_field_rad(const ImageGeometry& geometry);
 // has room. Loop; no allocation while the vector has room.
 class PointField {
   public:
-    PointField(const FrameView& frame, const WorldSnapshot& world);
+    PointField(const FrameContext& frame, const WorldSnapshot& world);
 
     void add_stars(const StarSky& stars, std::vector<PointSource>& points) const;
     // Calls use(star, apparent direction) for each star that can be in the image.
@@ -42,7 +42,7 @@ class PointField {
               Spectrum& seen_w_m2_um) const;
 
   private:
-    const FrameView& frame_;
+    const FrameContext& frame_;
     const WorldSnapshot& world_;
     Vec3d boresight_dir_;
     double field_rad_;   // from the boresight at the frame's time, of what can be in the image

@@ -6,7 +6,7 @@
 
 namespace hilcam {
 
-Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px) {
+Vec3d direction_seen(const FrameContext& frame, int x_px, int y_px, Vec2f within_px) {
     const int n = frame.samples.buffer_px();
     const auto scale = static_cast<float>(n);
     const Vec2f at{scale * within_px.x, scale * within_px.y};
@@ -16,7 +16,7 @@ Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px
                                        {at.x - static_cast<float>(right), at.y - static_cast<float>(down)});
 }
 
-Vec3d direction_through(const FrameView& frame, int x_px, int y_px, Vec2f within_px) {
+Vec3d direction_through(const FrameContext& frame, int x_px, int y_px, Vec2f within_px) {
     const LinearRays* const rays = frame.rays->linear();
     return rays ? rays->corner + (x_px + static_cast<double>(within_px.x)) * rays->right +
                       (y_px + static_cast<double>(within_px.y)) * rays->down

@@ -7,9 +7,9 @@
 namespace hilcam {
 
 // Returns the direction through a place in a pixel, as the frame's visibility buffer has it; world axes, of any length.
-Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px);
+Vec3d direction_seen(const FrameContext& frame, int x_px, int y_px, Vec2f within_px);
 // The same by the camera's own rays, where these are linear.
-Vec3d direction_through(const FrameView& frame, int x_px, int y_px, Vec2f within_px);
+Vec3d direction_through(const FrameContext& frame, int x_px, int y_px, Vec2f within_px);
 
 // The ways from a shading point that samples see to where each of them meets its plane, and up by ShadingPoint::lift_m [m, ray
 // space]; none where the plane is seen from its edge. Loop, any thread.
@@ -23,7 +23,7 @@ class SampleOffsets {
     Vec3f on(const NormalCluster& cluster, int sample) const;
 
   private:
-    const FrameView& frame_;
+    const FrameContext& frame_;
     const ShadingPoint& at_;
     int x_px_, y_px_;
     float facing_;  // cosine of the plane's normal to the viewer

@@ -6,7 +6,7 @@
 
 namespace hilcam {
 
-void prefetch_shading_points(const FrameView& frame, const HitPacket& hits, int count) {
+void prefetch_shading_points(const FrameContext& frame, const HitPacket& hits, int count) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
         if (hits.object[k] == HitPacket::kMiss) continue;
         const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
@@ -32,12 +32,12 @@ void set_material(const Material& material, float alpha_least, ShadingPoint& poi
 
 }  // namespace
 
-void set_surface(const FrameView& frame, std::uint16_t surface_number, ShadingPoint& point) {
+void set_surface(const FrameContext& frame, std::uint16_t surface_number, ShadingPoint& point) {
     point.surface_number = surface_number;
     set_material((*frame.objects)[point.object]->materials[surface_number], 0, point);
 }
 
-bool find_surface_frame(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir,
+bool find_surface_frame(const FrameContext& frame, const HitPacket& hits, int lane, Vec3f dir,
                         SurfaceFrame& surface_frame) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
@@ -79,7 +79,7 @@ float rounding_m(Vec3f p, Vec3f o) {
     return 16 * std::numeric_limits<float>::epsilon() * greatest;
 }
 
-bool make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+bool make_shading_point(const FrameContext& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                         float alpha_least, RayWidth width, ShadingPoint& point) {
     SurfaceFrame surface_frame;
     if (!find_surface_frame(frame, hits, lane, dir, surface_frame)) return false;
@@ -90,7 +90,7 @@ bool make_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
     return true;
 }
 
-void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+void place_shading_point(const FrameContext& frame, const HitPacket& hits, int lane,
                          const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, RayWidth width,
                          ShadingPoint& point) {
     const auto k = static_cast<std::size_t>(lane);
@@ -115,7 +115,7 @@ void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane
                                : object.sun_visibility[hits.triangle[k]];
 }
 
-void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+void make_shading_point(const FrameContext& frame, const HitPacket& hits, int lane,
                         const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, float alpha_least,
                         RayWidth width, ShadingPoint& point) {
     const auto k = static_cast<std::size_t>(lane);
@@ -132,7 +132,7 @@ void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
     if (!object.corner_hapke.empty()) point.surface.hapke = object.hapke_at(hits.triangle[k], u, v);
 }
 
-Spectrum texture_at(const FrameView& frame, const ShadingPoint& point, std::uint32_t triangle, Vec2f at,
+Spectrum texture_at(const FrameContext& frame, const ShadingPoint& point, std::uint32_t triangle, Vec2f at,
                     float share) {
     const ObjectSurfaces& object = *(*frame.objects)[point.object];
     const auto& corner = object.corner_uvs[triangle];

@@ -6,7 +6,7 @@
 
 #include "render/scene/brdf.h"
 #include "render/scene/embree_scene.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/shading/glossy_lobe.h"
 #include "render/vocabulary/half_light.h"
 #include "render/vocabulary/light_part.h"
@@ -89,7 +89,7 @@ struct SurfaceFrame {
 };
 // Finds it for a lane that met an object. False where there is nothing to see: a triangle without an area.
 // Loop, any thread.
-bool find_surface_frame(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir,
+bool find_surface_frame(const FrameContext& frame, const HitPacket& hits, int lane, Vec3f dir,
                         SurfaceFrame& surface_frame);
 
 // Returns how far above a surface a ray must start that was met at a point by a ray from another. The point's rounding grows with
@@ -103,26 +103,26 @@ struct RayWidth {
     float footprint_m = 0;
     float spread_rad = 0;
 };
-bool make_shading_point(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+bool make_shading_point(const FrameContext& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                         float alpha_least, RayWidth width, ShadingPoint& point);
 // The same where it is known how the surface lies, but for textures (texture_at()).
-void make_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+void make_shading_point(const FrameContext& frame, const HitPacket& hits, int lane,
                         const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, float alpha_least,
                         RayWidth width, ShadingPoint& point);
 // The same but for the surface, for set_surface().
-void place_shading_point(const FrameView& frame, const HitPacket& hits, int lane,
+void place_shading_point(const FrameContext& frame, const HitPacket& hits, int lane,
                          const SurfaceFrame& surface_frame, Vec3f origin_m, Vec3f dir, RayWidth width,
                          ShadingPoint& point);
 // Gives a shading point one of its object's surfaces, without colours or textures of its own.
-void set_surface(const FrameView& frame, std::uint16_t surface_number, ShadingPoint& point);
+void set_surface(const FrameContext& frame, std::uint16_t surface_number, ShadingPoint& point);
 // Returns the colours that a texture has about a place of a shading point's triangle, as a factor on those of its material. Loop,
 // any thread. share: how much of the shading point's width is looked at, 0..1.
-Spectrum texture_at(const FrameView& frame, const ShadingPoint& point, std::uint32_t triangle, Vec2f uv,
+Spectrum texture_at(const FrameContext& frame, const ShadingPoint& point, std::uint32_t triangle, Vec2f uv,
                     float share);
 inline bool is_textured(const ShadingPoint& point) { return point.surface.material->texture >= 0; }
 // Gives a shading point such colours.
 void paint(const Spectrum& colors, ShadingPoint& point);
 // Asks for the memory that make_shading_point() reads, of all lanes that met an object.
-void prefetch_shading_points(const FrameView& frame, const HitPacket& hits, int count);
+void prefetch_shading_points(const FrameContext& frame, const HitPacket& hits, int count);
 
 }  // namespace hilcam

@@ -11,7 +11,7 @@ namespace hilcam {
 
 // Returns the share that sheets of glass within `until_m` let pass; zero where something else is met. dir:
 // unit. Loop, any thread.
-inline Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir,
+inline Spectrum passed_through_glass(const FrameContext& frame, Vec3f origin_m, Vec3f dir,
                                      float until_m = std::numeric_limits<float>::infinity()) {
     constexpr int kMaxSheets = 64;
     Spectrum passed;
@@ -38,7 +38,7 @@ inline Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec
 template <class Payload, class Lit>
 class ShadowRays {
   public:
-    ShadowRays(const FrameView& frame, std::uint64_t& counter, Lit lit)
+    ShadowRays(const FrameContext& frame, std::uint64_t& counter, Lit lit)
         : frame_(frame), counter_(counter), lit_(std::move(lit)) {
         rays_.count = 0;
     }
@@ -55,7 +55,7 @@ class ShadowRays {
     }
 
   private:
-    const FrameView& frame_;
+    const FrameContext& frame_;
     std::uint64_t& counter_;
     Lit lit_;
     RayPacket rays_;

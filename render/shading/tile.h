@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/shading/normal_clusters.h"
 #include "render/shading/shading_point.h"
 #include "render/shading/tile_parts.h"
@@ -35,7 +35,7 @@ struct TileStats : RayCounts {
 };
 
 struct Tile {
-    const FrameView& frame;
+    const FrameContext& frame;
     PixelBox box;
     int samples_per_axis;        // n: an n x n grid of rays in each pixel
     std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row

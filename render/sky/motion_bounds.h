@@ -2,7 +2,7 @@
 // The bounds of motion hold for every place, velocity, attitude and rate, wherever they come from: files, kernels, commands,
 // configured poses, motions, joints. Beyond them a number is a mistake.
 //
-// They keep arithmetic safe. Ray space is single precision (frame_view.h), and the acceleration structure ends the program at
+// They keep arithmetic safe. Ray space is single precision (frame_context.h), and the acceleration structure ends the program at
 // places from 1.8e18 m on, the root of the largest float. Things at opposite bounds are 3e15 m apart, whose square is 1e31.
 // What is no number lies outside of all bounds. Any thread; loop.
 

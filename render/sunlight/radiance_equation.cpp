@@ -26,13 +26,13 @@ float cone_density(const PlanetshineSource& lamp) {
 }
 
 // The path's own next direction may meet the lamp as well.
-bool is_weighed(const FrameView& frame, const ShadingPoint& at) {
+bool is_weighed(const FrameContext& frame, const ShadingPoint& at) {
     return frame.paths_sample_lobes && !frame.is_cached[at.object] && at.depth < frame.max_depth;
 }
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool body_light_counts(const FrameView& frame, const ShadingPoint& at, const PlanetshineSource& lamp) {
+bool body_light_counts(const FrameContext& frame, const ShadingPoint& at, const PlanetshineSource& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
     if (at.importance(at.throughput) * largest(lamp.max_over_sun) * solid_angle <
         frame.contribution_threshold)
@@ -47,7 +47,7 @@ Vec3f in_cone_at(const Frame& axis, float one_minus_cosine, float u1, float u2) 
 }
 
 // Density of the directions that are drawn to all bodies but one [sr^-1].
-float density_of_others(const FrameView& frame, const ShadingPoint& at, Vec3f dir,
+float density_of_others(const FrameContext& frame, const ShadingPoint& at, Vec3f dir,
                         const PlanetshineSource* one) {
     float density = 0;
     for (const PlanetshineSource& lamp : frame.background->planetshine_sources())
@@ -68,7 +68,7 @@ class ClusterLights {
     static constexpr std::size_t kMost = SunlitPoint::kMost;
 
     // shading points: kMost at most.
-    void find(const FrameView& frame, const SunSampler& sun, std::span<const ShadingPoint> points) {
+    void find(const FrameContext& frame, const SunSampler& sun, std::span<const ShadingPoint> points) {
         std::size_t count = 0;
         for (const ShadingPoint& at : points) {
             if (!at.clusters || !at.surface.has_lobes()) continue;
@@ -89,7 +89,7 @@ class ClusterLights {
 };
 
 void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
-    const FrameView& frame = tile.frame;
+    const FrameContext& frame = tile.frame;
     const Background& background = *frame.background;
     if (largest(background.sun_irradiance_w_m2_um()) <= 0 || points.empty()) return;
     const SunSampler sun(tile);
@@ -144,7 +144,7 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
 
 // A random direction to each of the bodies, over its cone.
 void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
-    const FrameView& frame = tile.frame;
+    const FrameContext& frame = tile.frame;
     const Background& background = *frame.background;
     const auto lit = [&](const SunlitBy& by, const Spectrum* glass) {
         Spectrum weight = glass ? by.weight * *glass : by.weight;
@@ -199,11 +199,11 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission) {
     return std::make_unique<RadianceEquation>(emission);
 }
 
-float planetshine_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
+float planetshine_density(const FrameContext& frame, const ShadingPoint& at, Vec3f dir) {
     return density_of_others(frame, at, dir, nullptr);
 }
 
-float sun_density(const FrameView& frame, Vec3f dir) {
+float sun_density(const FrameContext& frame, Vec3f dir) {
     if (!frame.sun_is_disk) return 0;
     const Vec3f across = cross(dir, to_float(frame.background->sun_world_dir()));
     const double cosine = frame.background->sun_disk_cosine();

@@ -15,9 +15,9 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission);
 
 // Density [sr^-1] of the directions that kSampled draws to all bodies together, for a shading point; what a path's
 // own direction is weighed against.
-float planetshine_density(const FrameView& frame, const ShadingPoint& at, Vec3f dir);
+float planetshine_density(const FrameContext& frame, const ShadingPoint& at, Vec3f dir);
 // The same for the Sun's disk; 0 where the Sun is a point or the direction is off its disk.
-float sun_density(const FrameView& frame, Vec3f dir);
+float sun_density(const FrameContext& frame, Vec3f dir);
 
 // Chooses where the Sun shines from on a shading point: from the middle of its disk, or from a place on it that is
 // drawn. Loop, any thread.

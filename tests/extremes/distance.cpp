@@ -127,7 +127,7 @@ Group distance_of_origin() {
 }
 
 // A ray to a point 0.3 of the way up a face of a 1 m cube, in the ray space that the plan chooses
-// (frame_view.h).
+// (frame_context.h).
 Group distance_of_rays() {
     Group group{
         "DistanceOfRays",

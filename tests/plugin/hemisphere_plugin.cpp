@@ -89,14 +89,14 @@ float lobe_share(const Bsdf& at, float no) {
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool counts(const FrameView& frame, const ShadingPoint& at, const PlanetshineSource& body) {
+bool counts(const FrameContext& frame, const ShadingPoint& at, const PlanetshineSource& body) {
     const float solid_angle = 2 * kPiF * body.one_minus_cosine;
     return at.importance(at.throughput) * largest(body.max_over_sun) * solid_angle >=
                frame.contribution_threshold &&
            dot(at.geometric_normal, to_float(body.world_dir)) >= -std::sqrt(body.cone_sine_squared);
 }
 
-bool is_in_a_body(const FrameView& frame, const ShadingPoint& at, Vec3f dir) {
+bool is_in_a_body(const FrameContext& frame, const ShadingPoint& at, Vec3f dir) {
     const auto bodies = frame.background->planetshine_sources();
     return std::any_of(bodies.begin(), bodies.end(), [&](const PlanetshineSource& body) {
         const Vec3f axis = to_float(body.world_dir), across = cross(axis, dir);
@@ -121,7 +121,7 @@ struct FromBody {
 };
 
 void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
-    const FrameView& frame = tile.frame;
+    const FrameContext& frame = tile.frame;
     const auto lit = [&](const FromBody& from, const Spectrum* glass) {
         Spectrum weight = glass ? from.weight * *glass : from.weight, light;
         frame.background->add_bodies(from.at->start(), to_double(from.dir), weight, light);
@@ -193,7 +193,7 @@ class HemispherePaths final : public PathModel {
         }
     }
 
-    std::size_t choose(const FrameView& frame, const ShadingPoint& at) {
+    std::size_t choose(const FrameContext& frame, const ShadingPoint& at) {
         const float least = frame.contribution_threshold;
         std::size_t count = 0;
         const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
@@ -228,7 +228,7 @@ class HemispherePaths final : public PathModel {
     }
 
     std::span<const ShadingPoint> children(Tile& tile, const ShadingPoint& at) {
-        const FrameView& frame = tile.frame;
+        const FrameContext& frame = tile.frame;
         const std::size_t ray_count = choose(frame, at);
         const bool last = at.depth >= frame.max_depth;
         Level& level = levels_[at.depth - 1];

@@ -30,7 +30,7 @@ struct Foil {
     std::vector<Material> materials = {material_of(kModel<brdf::Metal>), material_of(kModel<brdf::Lambert>),
                                        material_of(kModel<brdf::Dielectric>),
                                        material_of(kModel<brdf::OrenNayar>)};
-    FrameView frame;
+    FrameContext frame;
     std::vector<LodNormals> flattened;
     std::vector<NormalCluster> facets;
     std::vector<ShadingPoint> points;
@@ -153,7 +153,7 @@ TEST(NormalClusters, EveryWidthOfVectorsReflectsTheSame) {
 // light comes from, and where rays begin that ask for shadows.
 TEST(NormalClusters, LightComesFromTheFacetThatReflectsIt) {
     const Material metal = material_of(kModel<brdf::Metal>);
-    FrameView frame;
+    FrameContext frame;
     frame.world_from_body = {Mat3f{}};
     frame.samples = PixelSamples(8);
     constexpr SampleMask kLeft = 0x0000FFFF0000FFFF, kRight = ~kLeft;

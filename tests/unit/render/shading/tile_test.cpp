@@ -17,7 +17,7 @@ Spectrum of(float value) {
 
 // A lobe whose rays serve two pixels: each has its share, where in the pixel its own samples are.
 TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
-    const FrameView frame;
+    const FrameContext frame;
     std::array<Spectrum, 4> pixels{};
     std::array<float, 12> halves{};
     const std::array<Spectrum, 1> responses{of(10)};

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/shading/shading_point.h"
 
 namespace hilcam {
@@ -46,7 +46,7 @@ TEST(FragmentPacket, FindsWhatRaysFindOneByOne) {
                                   std::make_shared<const std::vector<MipTexture>>());
     const std::vector<const ObjectSurfaces*> objects = {&surfaces};
     const Mat3d m = to_matrix(pose.world_from_body);
-    FrameView frame;
+    FrameContext frame;
     frame.objects = &objects;
     frame.world_from_body = {{to_float(m.x), to_float(m.y), to_float(m.z)}};
     int compared = 0;

@@ -28,7 +28,7 @@ class RadianceModel;
 class VisibilityBuffer;
 
 // Constant while a frame's tiles are traced.
-struct FrameView {
+struct FrameContext {
     const EmbreeScene* scene = nullptr;
     const std::vector<const ObjectSurfaces*>* objects = nullptr;  // each at its level of detail
     std::vector<Mat3f> world_from_body;                           // per object

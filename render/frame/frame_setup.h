@@ -3,7 +3,7 @@
 // terrain, the plan, and the bounds on the screen inside which rays have something to meet. What of the world cannot be is in
 // possible_world.h, which visibility buffer a frame uses in visibility_choice.h, how it sees the Earth in earth_view.h.
 //
-// Owns the scene; what it has placed is a FrameView, which those who trace only read.
+// Owns the scene; what it has placed is a FrameContext, which those who trace only read.
 
 #include <array>
 #include <memory>
@@ -25,7 +25,7 @@
 #include "render/scene/scene.h"
 #include "render/scene/shown_object.h"
 #include "render/scene/shown_terrain.h"
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 #include "render/shading/lamp_light.h"
 #include "render/shading/path_model.h"
 #include "render/shading/radiance_model.h"
@@ -35,14 +35,14 @@
 
 namespace hilcam {
 
-class FramePlacer {
+class FrameSetup {
   public:
     // Takes the scene over; builds the acceleration structures. levels: qualities that frames may have, the first until
     // set_quality(). Throws InputError. Owner thread.
-    FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-                std::span<const RenderQuality> levels, const RenderModels& models, const Modules& modules);
-    FramePlacer(const FramePlacer&) = delete;  // the view points into it
-    FramePlacer& operator=(const FramePlacer&) = delete;
+    FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+               std::span<const RenderQuality> levels, const RenderModels& models, const Modules& modules);
+    FrameSetup(const FrameSetup&) = delete;  // the view points into it
+    FrameSetup& operator=(const FrameSetup&) = delete;
 
     // Takes over those values of the quality that may change, and its path model, from the next place() on.
     // Loop.
@@ -72,7 +72,7 @@ class FramePlacer {
 
     // --- the frame that was placed last
 
-    const FrameView& frame() const { return frame_; }
+    const FrameContext& frame() const { return frame_; }
     const WorldSnapshot& world() const { return world_; }  // includes the terrain among its objects
     MovingFrame moving() const;
     const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
@@ -148,7 +148,7 @@ class FramePlacer {
     RayDensity density_;
     EarthView earth_view_;
     VisibilityChoice visibility_;
-    FrameView frame_;
+    FrameContext frame_;
 
     std::unique_ptr<IndirectCache> make_indirect_cache() const;
     void use_indirect_cache();

@@ -1,4 +1,4 @@
-#include "render/frame/frame_placer.h"
+#include "render/frame/frame_setup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +26,9 @@ RayDensity density_of(const RenderQuality& quality) {
 
 }  // namespace
 
-FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-                         std::span<const RenderQuality> levels, const RenderModels& models,
-                         const Modules& modules)
+FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+                       std::span<const RenderQuality> levels, const RenderModels& models,
+                       const Modules& modules)
     : embree_(ordered_meshes(with_terrain_object(scene)), levels.front().watertight),
       objects_(shown_objects(scene)),
       possible_(objects_.size()),
@@ -90,7 +90,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
 }
 
 // Triangles of terrain that is all there is, and that the buffer of ground can show; 0: there is none.
-std::size_t FramePlacer::plain_ground_triangles(const ImageGeometry& geometry) const {
+std::size_t FrameSetup::plain_ground_triangles(const ImageGeometry& geometry) const {
     const bool is_all = terrain_ && objects_.size() == 1 && lamps_.all().empty() &&
                         geometry.distortion.none() && rays_->is_still();
     const bool is_plain =
@@ -98,17 +98,17 @@ std::size_t FramePlacer::plain_ground_triangles(const ImageGeometry& geometry) c
     return is_plain ? terrain_->most_triangles() : 0;
 }
 
-std::unique_ptr<IndirectCache> FramePlacer::make_indirect_cache() const {
+std::unique_ptr<IndirectCache> FrameSetup::make_indirect_cache() const {
     return std::make_unique<IndirectCache>(objects_, embree_, bands_, indirect_settings_);
 }
 
-void FramePlacer::use_indirect_cache() {
+void FrameSetup::use_indirect_cache() {
     frame_.indirect = uses_indirect_cache_ ? indirect_.get() : nullptr;
     for (std::size_t i = 0; i < objects_.size(); ++i)
         frame_.is_cached[i] = frame_.indirect && frame_.indirect->keeps(i);
 }
 
-void FramePlacer::set_paths(const PathModel& paths) {
+void FrameSetup::set_paths(const PathModel& paths) {
     frame_.paths_sample_lobes = paths.samples_lobes();
     uses_indirect_cache_ = paths.uses_indirect_cache();
     use_indirect_cache();
@@ -116,19 +116,19 @@ void FramePlacer::set_paths(const PathModel& paths) {
 }
 
 // Nothing is touched that the loop reads of the objects meanwhile.
-void FramePlacer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
+void FrameSetup::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
     for (std::size_t i = 0; i < tables.size(); ++i)
         if (tables[i]) objects_[i].transfer = tables[i];
     handover_.give(make_indirect_cache());
 }
 
-bool FramePlacer::take_light() {
+bool FrameSetup::take_light() {
     if (!indirect_ && any_placed_) indirect_ = handover_.take(frame_, world_);
     use_indirect_cache();
     return indirect_ || !uses_indirect_cache_;
 }
 
-void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& paths) {
+void FrameSetup::set_quality(const RenderQuality& quality, const PathModel& paths) {
     lod_error_px_ = quality.lod_error_px;
     density_.samples_per_axis = static_cast<int>(quality.samples_per_axis);
     frame_.max_depth = static_cast<int>(quality.max_depth);
@@ -140,7 +140,7 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
 }
 
 // The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
-void FramePlacer::choose_levels() {
+void FrameSetup::choose_levels() {
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const ShownObject& object = objects_[i];
         const auto level_from = [&](double distance_m) {
@@ -161,20 +161,20 @@ void FramePlacer::choose_levels() {
 }
 
 // The box is that of the sphere that holds the object.
-PixelBox FramePlacer::box_of(std::size_t i) const {
+PixelBox FrameSetup::box_of(std::size_t i) const {
     const Vec3d to_object_m = world_.objects[i].position_world_m - world_.camera.position_world_m;
     const double sine = std::min(1.0, radii_m_[i] / plans_[i].distance_m);
     return screen_bounds_of_cone(frame_.geometry, world_.camera, to_object_m / plans_[i].distance_m,
                                  std::sqrt(1 - sine * sine));
 }
 
-void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
+void FrameSetup::place(const WorldSnapshot& world, RandomKey key) {
     place_shapes(world, key);
     earth_view_.place(world_, background_, frame_);
     if (frame_.indirect) indirect_->place(frame_, world_);
 }
 
-void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
+void FrameSetup::place_shapes(const WorldSnapshot& world, RandomKey key) {
     HILCAM_CHECK(world.objects.size() + (terrain_ ? 1 : 0) == objects_.size());
     possible_.take(world);
     if (terrain_) {
@@ -203,7 +203,7 @@ void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
 }
 
 // Where a body may stand before the object, something is seen through it, or it is seen through air, the camera has to find its light.
-RayDensity FramePlacer::density_for(std::size_t i) const {
+RayDensity FrameSetup::density_for(std::size_t i) const {
     RayDensity out = density_;
     out.pictures_of_points = visibility_.takes_impostor_of(i);
     out.pictures_of_meshes = out.pictures_of_points && density_.rays_across > 0 &&
@@ -213,7 +213,7 @@ RayDensity FramePlacer::density_for(std::size_t i) const {
 }
 
 // Rows with poses of their own meet objects anywhere: no mask, no boxes; here and below.
-void FramePlacer::place_objects() {
+void FrameSetup::place_objects() {
     const bool still = rays_->is_still();
     object_mask_.clear();
     double farthest_m = 0;
@@ -241,7 +241,7 @@ void FramePlacer::place_objects() {
     frame_.object_mask = still ? &object_mask_ : &full_mask_;
 }
 
-void FramePlacer::place_background() {
+void FrameSetup::place_background() {
     const PixelBox everything{0, 0, frame_.geometry.padded_width(), frame_.geometry.padded_height()};
     const auto bounds = [&](Vec3d dir, double cosine) {
         return rays_->is_still() ? screen_bounds_of_cone(frame_.geometry, world_.camera, dir, cosine)
@@ -256,11 +256,11 @@ void FramePlacer::place_background() {
     frame_.earth_impostor = nullptr;
 }
 
-VisibilityBuffer::Shown FramePlacer::shown(std::size_t object) const { return visibility_.shown(object); }
+VisibilityBuffer::Shown FrameSetup::shown(std::size_t object) const { return visibility_.shown(object); }
 
-void FramePlacer::place_visibility() { visibility_.place(frame_); }
+void FrameSetup::place_visibility() { visibility_.place(frame_); }
 
-MovingFrame FramePlacer::moving() const {
+MovingFrame FrameSetup::moving() const {
     return {frame_,
             plans_,
             radii_m_,
@@ -269,12 +269,12 @@ MovingFrame FramePlacer::moving() const {
             !stars_.empty() || !background_.points().empty()};
 }
 
-bool FramePlacer::shows_body() const {
+bool FrameSetup::shows_body() const {
     const PixelBox everything{0, 0, frame_.geometry.padded_width(), frame_.geometry.padded_height()};
     return (terrain_ && terrain_->body()) || frame_.may_see_body(everything);
 }
 
-int FramePlacer::samples_in(const PixelBox& box) const {
+int FrameSetup::samples_in(const PixelBox& box) const {
     int n = density_.samples_per_axis;
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh && plans_[i].samples_per_axis > n &&
@@ -283,7 +283,7 @@ int FramePlacer::samples_in(const PixelBox& box) const {
     return n;
 }
 
-std::vector<std::string> FramePlacer::explain(const RenderQuality& quality) const {
+std::vector<std::string> FrameSetup::explain(const RenderQuality& quality) const {
     std::vector<std::size_t> triangles;
     std::vector<std::string> names;
     for (const ShownObject& object : objects_) names.push_back(object.name);

@@ -1,4 +1,4 @@
-#include "render/shading/frame_view.h"
+#include "render/shading/frame_context.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@ namespace hilcam {
 namespace {
 
 // Footprints are as wide as the whole way says, from the camera to where a ray begins and on from there.
-TEST(FrameView, RaysHaveComeFromTheCameraToWhereTheyBegin) {
-    FrameView frame;
+TEST(FrameContext, RaysHaveComeFromTheCameraToWhereTheyBegin) {
+    FrameContext frame;
     frame.camera_m = {3, 0, -1000};
     frame.start_at_m = {3, 0, 200};
     EXPECT_EQ(frame.way_to_start_m(), 0);
