@@ -225,7 +225,7 @@ const VisibilityTile* FrameTracer::ground_at(const FrameContext& frame, const Pi
 TileStats FrameTracer::trace_places(const FrameContext& frame, const RadianceImage& radiance) {
     if (ground_has_steps_ && !(places_ && places_->has_room_for(radiance))) places_.emplace(radiance);
     if (!frame.ground || frame.ground_step_px == 1) return {};
-    const TileGrid tiles(places_->light().width(), places_->light().height(), GroundPlaces::kTile);
+    const TileGrid tiles(places_->light().width(), places_->light().height(), GroundUpsampler::kTile);
     for_each(tiles, [&](int index, const PixelBox& tile, std::size_t slot) {
         trace_places_of(frame, tile, slot, tile_stats_[static_cast<std::size_t>(index)]);
     });

@@ -21,7 +21,7 @@
 #include "render/frame/frame_setup.h"
 #include "render/frame/parts_buffer.h"
 #include "render/frame/render_quality.h"
-#include "render/ground_shading/ground_places.h"
+#include "render/ground_shading/ground_upsampler.h"
 #include "render/sunlight/penumbra_sampler.h"
 #include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/tile_grid.h"
@@ -94,11 +94,11 @@ class FrameTracer {
         int x_px = -1, y_px = -1;
         bool any = false;
     };
-    std::vector<GroundSeen> ground_seen_;  // one per slot; none where rays see
-    bool ground_has_steps_ = false;        // at some level
-    std::optional<GroundPlaces> places_;   // none before the first frame, and where no level has them
-    std::vector<VisibilityTile> seen_;     // likewise
-    std::vector<PenumbraSampler> edges_;   // likewise
+    std::vector<GroundSeen> ground_seen_;    // one per slot; none where rays see
+    bool ground_has_steps_ = false;          // at some level
+    std::optional<GroundUpsampler> places_;  // none before the first frame, and where no level has them
+    std::vector<VisibilityTile> seen_;       // likewise
+    std::vector<PenumbraSampler> edges_;     // likewise
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
     std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame

@@ -17,7 +17,7 @@ struct RenderQuality {
     std::int64_t samples_per_axis = 1;  // n: a regular n x n grid of rays in each pixel
     std::string visibility = "rays";    // or "buffer": buffer_samples a pixel where it can
     std::int64_t buffer_samples = 16;   // or 64; 1: of ground alone
-    std::int64_t ground_step_px = 1;    // or 2: of ground alone, by every second pixel (ground_places.h)
+    std::int64_t ground_step_px = 1;    // or 2: of ground alone, by every second pixel (ground_upsampler.h)
     std::string path_model = "path";
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h

@@ -2,7 +2,7 @@
 // The light of ground that alone is in the scene and lit by the Sun alone, a sample in each pixel's middle: what rays would find, for
 // a third of what they cost. A visibility buffer with a sixteenth of the picture's pixels finds the triangles, so that its sixteen
 // samples a pixel are the middles of 4 x 4 pixels of the picture, which are then worked out side by side. Or a buffer with as few
-// pixels again has the middles of 4 x 4 squares of step x step pixels (ground_places.h).
+// pixels again has the middles of 4 x 4 squares of step x step pixels (ground_upsampler.h).
 //
 // FrameSetup says which frames that is for. Tiles that see something else than ground are left to rays.
 

@@ -13,13 +13,13 @@
 
 namespace hilcam {
 
-class GroundPlaces {
+class GroundUpsampler {
   public:
     static constexpr int kStep_px = 2;
     static constexpr int kTile = 32;  // places on an edge of a tile, whose light is known or not
 
     // Has room for a picture's. Owner thread.
-    explicit GroundPlaces(const RadianceImage& picture);
+    explicit GroundUpsampler(const RadianceImage& picture);
     bool has_room_for(const RadianceImage& picture) const;
 
     // The light at the places, whose corner is the picture's. A tile's is known from set_known() on. Loop, any thread, one a tile.

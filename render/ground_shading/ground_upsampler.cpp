@@ -1,4 +1,4 @@
-#include "render/ground_shading/ground_places.h"
+#include "render/ground_shading/ground_upsampler.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kStep_px = GroundPlaces::kStep_px;
+constexpr int kStep_px = GroundUpsampler::kStep_px;
 constexpr int kRing = 2;  // places beside a box that its pixels take
 constexpr int kMostPlaces = RadianceImage::kBlock_px / kStep_px + 2 * kRing;
 
@@ -34,19 +34,19 @@ RadianceImage room_for(const RadianceImage& picture) {
 
 }  // namespace
 
-GroundPlaces::GroundPlaces(const RadianceImage& picture)
+GroundUpsampler::GroundUpsampler(const RadianceImage& picture)
     : light_(room_for(picture)),
       tiles_across_((light_.width() + kTile - 1) / kTile),
       tiles_down_((light_.height() + kTile - 1) / kTile),
       known_(index(0, tiles_down_), 0) {}
 
-bool GroundPlaces::has_room_for(const RadianceImage& picture) const {
+bool GroundUpsampler::has_room_for(const RadianceImage& picture) const {
     return light_.width() == places(picture.width()) && light_.height() == places(picture.height()) &&
            light_.planes() == picture.planes() &&
            std::ranges::equal(light_.responses(), picture.responses(), {}, &Spectrum::bin, &Spectrum::bin);
 }
 
-bool GroundPlaces::knows(const PixelBox& b) const {
+bool GroundUpsampler::knows(const PixelBox& b) const {
     const int x1 = std::min((b.x1 - 1) / kTile, tiles_across_ - 1),
               y1 = std::min((b.y1 - 1) / kTile, tiles_down_ - 1);
     for (int y = std::max(0, b.y0 / kTile); y <= y1; ++y)
@@ -56,7 +56,7 @@ bool GroundPlaces::knows(const PixelBox& b) const {
 }
 
 // A pixel's middle lies a quarter of the way between two places, or three quarters.
-bool GroundPlaces::give(const PixelBox& box, RadianceImage& picture) const {
+bool GroundUpsampler::give(const PixelBox& box, RadianceImage& picture) const {
     const int x0 = box.x0 / kStep_px - kRing, y0 = box.y0 / kStep_px - kRing;
     const int across = places(box.x1) + kRing - x0, down = places(box.y1) + kRing - y0;
     if (!knows({x0, y0, x0 + across, y0 + down})) return false;
