@@ -13,7 +13,7 @@ namespace hilcam {
 // random.
 using RayGrid = int;
 inline constexpr RayGrid kScatteredRays = 0;
-// A grid of n x n, n even, of which it is known in which half of a pixel light falls (half_light.h).
+// A grid of n x n, n even, of which it is known in which half of a pixel light falls (subpixel_light.h).
 constexpr RayGrid halved(int n) { return -n; }
 constexpr bool is_halved(RayGrid rays) { return rays < 0; }
 

@@ -11,7 +11,7 @@
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
 #include "sensor/convolution/bright_pixels.h"
-#include "sensor/convolution/half_light_adder.h"
+#include "sensor/convolution/subpixel_light_adder.h"
 #include "sensor/mtf.h"
 #include "sensor/point_light.h"
 #include "sensor/stray/far_wings.h"
@@ -71,7 +71,7 @@ struct FocalPlane::Implementation {
     std::vector<std::vector<float>> zone_weights;  // over the FFT's image, by zone; empty with one zone
     std::vector<double> cell_sums;                 // sums of a ghost's cells
     std::vector<float> row_peaks;                  // brightest pixel of each row of a channel
-    HalfLightAdder half_adder{illumination, zone_weights};
+    SubpixelLightAdder subpixel_adder{illumination, zone_weights};
     BrightPixels bright{{view.image.padded_width(), view.image.padded_height(), view.sampling.guard_px,
                          view.sampling.oversampling},
                         view.camera.full_well_e,
@@ -137,9 +137,9 @@ struct FocalPlane::Implementation {
         return exposure.ray_grid.value_or(view.sampling.samples_per_axis);
     }
     // Null: it is not known of the frame where in its pixels light falls.
-    const HalfLight* halves_of(const RadianceImage& radiance, const Exposure& exposure) const {
-        const HalfLight* const halves = radiance.halves();
-        return is_halved(rays_of(exposure)) && halves && halves->used() ? halves : nullptr;
+    const SubpixelLight* moments_of(const RadianceImage& radiance, const Exposure& exposure) const {
+        const SubpixelLight* const moments = radiance.moments();
+        return is_halved(rays_of(exposure)) && moments && moments->used() ? moments : nullptr;
     }
 
     // --- radiance to electrons
@@ -184,7 +184,7 @@ struct FocalPlane::Implementation {
         const auto number = static_cast<std::size_t>(&channel - channels.data());
         const std::size_t before = bright.all().size();
         channel.most_e = bright.take_out({*channel.convolver, row_peaks, static_cast<int>(number),
-                                          halves_of(radiance, exposure), exposure.exposure_s});
+                                          moments_of(radiance, exposure), exposure.exposure_s});
         for (const BrightPixel& pixel : bright.all().subspan(before))
             wings[number].collect(pixel.position_px.x, pixel.position_px.y, pixel.electrons);
     }
@@ -372,10 +372,10 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
             kernel->run(*channel.convolver);
         else
             channel.convolver->run(blur);
-        if (my.halves_of(radiance, exposure))
-            my.half_adder.add(radiance,
-                              {static_cast<int>(c), channel.halves, channel.per_radiance, channel.most_e},
-                              blur, exposure.exposure_s, *channel.convolver);
+        if (my.moments_of(radiance, exposure))
+            my.subpixel_adder.add(
+                radiance, {static_cast<int>(c), channel.moments, channel.per_radiance, channel.most_e}, blur,
+                exposure.exposure_s, *channel.convolver);
     }
 }
 

@@ -3,9 +3,10 @@
 // were alike.
 //
 // Radiance is weighted by S (optics.h), convolved by MTF_sys (system_mtf.h) and sampled at the pixels'
-// centres; where light falls in its pixel moves it (convolution/half_light_adder.h); points get their PSF (convolution/psf.h). A colour filter array makes a channel of each filter: an
-// image of its own, of which only that filter's pixels are read. Ringing of a band-limited edge can dip below
-// zero and overflow could leave infinities; charge is neither, so results are cut off at 0 and 1e9 e-.
+// centres; where light falls in its pixel moves it (convolution/subpixel_light_adder.h); points get their PSF
+// (convolution/psf.h). A colour filter array makes a channel of each filter: an image of its own, of which only that filter's
+// pixels are read. Ringing of a band-limited edge can dip below zero and overflow could leave infinities; charge is neither, so
+// results are cut off at 0 and 1e9 e-.
 
 #include <memory>
 #include <span>

@@ -57,7 +57,7 @@ class HaloInTable {
 
 double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
-// MTF_sys for light in halves of pixels, to 1 cycle per pixel. Its rays have averaged over halves already.
+// MTF_sys for light in parts of pixels, to 1 cycle per pixel. Its rays have averaged over halves already.
 Transfer transfer_of_halves(const SystemMtf& mtf, RayGrid rays) {
     return [&mtf, rays](double u, double v) {
         return mtf.at(u, v) / (half_rays_mtf(u, rays) * half_rays_mtf(v, rays));
@@ -120,7 +120,7 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
     }
     if (is_halved(sampling.samples_per_axis))
         for (const SystemMtf& mtf : mtfs)
-            halves.emplace_back(transfer_of_halves(mtf, sampling.samples_per_axis));
+            moments.emplace_back(transfer_of_halves(mtf, sampling.samples_per_axis));
     if (view.camera.stray_light.ghost_fraction > 0) ghost.emplace(view.camera.stray_light, view.detector);
 }
 

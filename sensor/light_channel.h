@@ -7,7 +7,7 @@
 
 #include "sensor/convolution/compact_kernel.h"
 #include "sensor/convolution/convolve.h"
-#include "sensor/convolution/half_kernels.h"
+#include "sensor/convolution/moment_kernels.h"
 #include "sensor/convolution/psf.h"
 #include "sensor/exposure.h"
 #include "sensor/mosaic.h"
@@ -55,8 +55,8 @@ struct LightChannel {
         CompactKernel kernel;
     };
     std::vector<GridKernel> kernels;
-    std::vector<HalfKernels> halves;  // by zone; none where no frame has halves
-    float most_e = 0;                 // the limit to which the present frame's brighter pixels were cut
+    std::vector<MomentKernels> moments;  // by zone; none where no frame has moments
+    float most_e = 0;                    // the limit to which the present frame's brighter pixels were cut
     std::optional<Ghost> ghost;
 
     // Null: there is none.

@@ -33,7 +33,7 @@ double crosstalk_mtf(double u, double v, double fraction);
 // Returns what sampling each pixel on a regular grid of n rays along an axis has already done to the image:
 // sin(pi f) / (n sin(pi f / n)), the Dirichlet kernel; 1 for n = 1, the unit box for n to infinity and for
 // kScatteredRays. MTF_sys divides by it, so that ray grid and pixel aperture together count once. Of halved(n) as
-// of n; the rest is half_kernels.h's.
+// of n; the rest is moment_kernels.h's.
 double ray_grid_mtf(double frequency_cy_px, RayGrid rays);
 // Returns the same of half a pixel, which has n / 2 of the rays of halved(n) along it.
 double half_rays_mtf(double frequency_cy_px, RayGrid rays);

@@ -87,7 +87,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
       noise_(camera, grid, config.sampling),
       responses_(channel_responses(camera, grid)),
       for_detector_(config.for_detector),
-      has_halves_(is_halved(config.sampling.samples_per_axis)),
+      has_moments_(is_halved(config.sampling.samples_per_axis)),
       bins_(static_cast<std::size_t>(grid.size())) {
     if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
         motion_ = MotionQuality::kFast;
@@ -100,7 +100,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
 
 RadianceImage ExposureRenderer::make_image() const {
     RadianceImage image = make_part();
-    if (has_halves_) image.keep_halves(responses_);
+    if (has_moments_) image.keep_moments(responses_);
     return image;
 }
 
@@ -171,7 +171,7 @@ void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSourc
     });
     for (int y = 0; y < radiance.height(); y += RadianceImage::kBlock_px)
         for (int x = 0; x < radiance.width(); x += RadianceImage::kBlock_px) radiance.mark_dark(x, y, true);
-    if (radiance.halves()) radiance.halves()->set_used(false);
+    if (radiance.moments()) radiance.moments()->set_used(false);
     points.clear();
     exposure.image_rate_px_s = {};
     exposure.camera_rate_rad_s = {};
@@ -213,7 +213,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     report_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
-    if (radiance.halves() && radiance.halves()->used())
+    if (radiance.moments() && radiance.moments()->used())
         exposure.ray_grid = halved(ray_grid_of(renderer_.quality()));
     if (truth && motion_ != MotionQuality::kExact) report_truth(*truth);
     if (motion_ == MotionQuality::kOff) return result;
@@ -265,7 +265,7 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
         accumulate(stats, share, result.stats);
     }
     scale(share, radiance);
-    if (radiance.halves()) radiance.halves()->set_used(false);
+    if (radiance.moments()) radiance.moments()->set_used(false);
 }
 
 // Returns the motion of the picture along its columns that the sensor does not expect. The line time goes

@@ -105,7 +105,7 @@ class ExposureRenderer {
     PointingJitter jitter_;
     ExpectedNoise noise_;
     std::vector<Spectrum> responses_;  // those of the detector's channels
-    bool for_detector_, has_halves_;
+    bool for_detector_, has_moments_;
     WorldSnapshot middle_, before_, after_, part_world_;
     double told_moving_ = 1;  // speed of the world in the camera's time
     RadianceImage part_;      // a part of exact motion

@@ -94,7 +94,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
     const auto seed = static_cast<std::uint64_t>(s.seed);
     ReferencePicture out;
     out.dark = camera.dark();
-    PictureSum halves[] = {PictureSum(out.dark), PictureSum(out.dark)};
+    PictureSum moments[] = {PictureSum(out.dark), PictureSum(out.dark)};
     Progress progress("reference");
     for (int goal = 4; goal <= limits.max_frames; goal *= 2) {
         for (; out.frames < goal; ++out.frames) {
@@ -104,7 +104,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
             camera.render({seed, kFirstReferenceFrame + static_cast<std::uint64_t>(out.frames)});
             ElectronImage picture = clone(camera.expose());
             saturate(picture, saturation_of(s.camera));
-            halves[out.frames % 2].add(picture);
+            moments[out.frames % 2].add(picture);
             if (out.frames > 0) continue;
             const double frame_s = watch.seconds();
             log(fmt::format("a frame of the reference takes {}: {} for 4, up to {} for {}",
@@ -116,7 +116,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
                     "picture, "
                     "--set objects.0.mesh=... a simpler one, --reference-set a cheaper reference");
         }
-        out.standard_error = noise_error(halves[0].mean(), halves[1].mean(), out.dark, noise);
+        out.standard_error = noise_error(moments[0].mean(), moments[1].mean(), out.dark, noise);
         out.standard_error.p99 *= 0.5, out.standard_error.rms *= 0.5;
         log(fmt::format(
             "reference of {} frames: standard error {:.4f} of the sensor's noise or less in 99 % of {} "
@@ -124,8 +124,8 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
             out.frames, out.standard_error.p99, out.standard_error.lit_px, out.standard_error.rms));
         if (out.standard_error.p99 <= limits.standard_error_sigma) break;
     }
-    halves[0].add(halves[1]);
-    out.mean = halves[0].mean();
+    moments[0].add(moments[1]);
+    out.mean = moments[0].mean();
     out.seconds = watch.seconds();
     return out;
 }

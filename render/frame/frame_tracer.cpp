@@ -50,22 +50,22 @@ void copy(const RadianceImage& from, const PixelBox& box, RadianceImage& to) {
 }
 
 // Writes a part of a block. False: nothing, as no pixel's differences are known, and it may be left.
-bool write(const Tile& tile, float share, bool may_leave, HalfLight& halves) {
+bool write(const Tile& tile, float share, bool may_leave, SubpixelLight& moments) {
     if (may_leave && std::all_of(tile.kinds.begin(), tile.kinds.end(),
-                                 [](HalfKind kind) { return kind == HalfKind::kSmooth; }))
+                                 [](SubpixelKind kind) { return kind == SubpixelKind::kSmooth; }))
         return false;
     const PixelBox& box = tile.box;
     const auto width = static_cast<std::size_t>(box.x1 - box.x0);
-    const float* in = tile.halves.data();
-    for (int channel = 0; channel < static_cast<int>(tile.half_responses.size()); ++channel)
-        for (int difference = 0; difference < HalfLight::kDifferences; ++difference)
+    const float* in = tile.moments.data();
+    for (int channel = 0; channel < static_cast<int>(tile.moment_responses.size()); ++channel)
+        for (int difference = 0; difference < SubpixelLight::kDifferences; ++difference)
             for (int y = box.y0; y < box.y1; ++y, in += width) {
-                float* out = halves.row(y, difference, channel).data() + box.x0;
+                float* out = moments.row(y, difference, channel).data() + box.x0;
                 for (std::size_t x = 0; x < width; ++x) out[x] = share * in[x];
             }
     for (int y = box.y0; y < box.y1; ++y)
         std::copy_n(tile.kinds.begin() + (y - box.y0) * static_cast<std::ptrdiff_t>(width), width,
-                    halves.kinds(y).begin() + box.x0);
+                    moments.kinds(y).begin() + box.x0);
     return true;
 }
 
@@ -101,7 +101,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
     tile_pixels_.resize(pool_slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
     if (buffer)
-        seen_.resize(pool_slots()), edges_.resize(pool_slots()), tile_halves_.resize(pool_slots()),
+        seen_.resize(pool_slots()), edges_.resize(pool_slots()), tile_moments_.resize(pool_slots()),
             tile_kinds_.resize(pool_slots());
     if (ground) ground_seen_.resize(pool_slots());
     clusters_.resize(pool_slots());
@@ -156,7 +156,7 @@ TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
         const bool was_dark = radiance.dark(tile.x0, tile.y0);
         if (marks) radiance.mark_dark(tile.x0, tile.y0, !anything);
         stats = {};
-        if (halves_) halves_->mark_unknown(tile.x0, tile.y0, true);
+        if (moments_) moments_->mark_unknown(tile.x0, tile.y0, true);
         if (anything)
             trace_tile(setup, tile, slot, stats, radiance);
         else if (!was_dark)
@@ -175,13 +175,14 @@ TileStats FrameTracer::sum_of_stats(int tiles) const {
 
 // Frames that the visibility buffer makes know where in their pixels light falls.
 void FrameTracer::find_halves(const FrameSetup& setup, bool marks, RadianceImage& radiance) {
-    HalfLight* const halves = radiance.halves();
-    halves_ = halves && marks && quality().uses_buffer() && setup.frame().visibility ? halves : nullptr;
-    if (halves) halves->set_used(halves_ != nullptr);
-    if (!halves_) return;
-    const std::size_t floats = PathModel::kMaxSamples * HalfLight::kDifferences * halves->responses().size();
-    for (std::vector<float>& of_tile : tile_halves_) of_tile.resize(floats);
-    for (std::vector<HalfKind>& of_tile : tile_kinds_) of_tile.resize(PathModel::kMaxSamples);
+    SubpixelLight* const moments = radiance.moments();
+    moments_ = moments && marks && quality().uses_buffer() && setup.frame().visibility ? moments : nullptr;
+    if (moments) moments->set_used(moments_ != nullptr);
+    if (!moments_) return;
+    const std::size_t floats =
+        PathModel::kMaxSamples * SubpixelLight::kDifferences * moments->responses().size();
+    for (std::vector<float>& of_tile : tile_moments_) of_tile.resize(floats);
+    for (std::vector<SubpixelKind>& of_tile : tile_kinds_) of_tile.resize(PathModel::kMaxSamples);
 }
 
 void FrameTracer::trace_tile(const FrameSetup& setup, const PixelBox& box, std::size_t slot, TileStats& stats,
@@ -256,13 +257,13 @@ void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int
     tile.seen = seen;
     if (seen) tile.penumbra = &edges_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
-    if (halves_) {
-        tile.half_responses = halves_->responses();
-        tile.halves =
-            std::span(tile_halves_[slot]).first(count * HalfLight::kDifferences * tile.half_responses.size());
-        std::fill(tile.halves.begin(), tile.halves.end(), 0.0f);
+    if (moments_) {
+        tile.moment_responses = moments_->responses();
+        tile.moments = std::span(tile_moments_[slot])
+                           .first(count * SubpixelLight::kDifferences * tile.moment_responses.size());
+        std::fill(tile.moments.begin(), tile.moments.end(), 0.0f);
         tile.kinds = std::span(tile_kinds_[slot]).first(count);
-        std::fill(tile.kinds.begin(), tile.kinds.end(), HalfKind::kSmooth);
+        std::fill(tile.kinds.begin(), tile.kinds.end(), SubpixelKind::kSmooth);
     }
     const float share = 1 / static_cast<float>(n * n);
     TileParts parts{box, {}, record_, share};
@@ -276,12 +277,13 @@ void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int
     if (const std::uint64_t left_out = leave_out_not_finite(pixels); left_out > 0) {
         stats.not_finite += left_out;
         std::replace_if(
-            tile.halves.begin(), tile.halves.end(), [](float light) { return !std::isfinite(light); }, 0.0f);
+            tile.moments.begin(), tile.moments.end(), [](float light) { return !std::isfinite(light); },
+            0.0f);
     }
     write(pixels, share, box, radiance);
     // A block of several tiles has one mark.
     const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;
-    if (halves_ && write(tile, share, alone, *halves_)) halves_->mark_unknown(box.x0, box.y0, false);
+    if (moments_ && write(tile, share, alone, *moments_)) moments_->mark_unknown(box.x0, box.y0, false);
 }
 
 void FrameTracer::write_parts(const TileParts& tile, float share) const {

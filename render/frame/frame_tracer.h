@@ -80,13 +80,13 @@ class FrameTracer {
     std::size_t level_ = 0;
     std::vector<PathSet> path_sets_;
     PixelNoise noise_;
-    HalfLight* halves_ = nullptr;  // the present frame's; null: it is made without
+    SubpixelLight* moments_ = nullptr;  // the present frame's; null: it is made without
     // The pixels of the tile in work, one list per slot.
     std::vector<std::vector<Spectrum>> tile_pixels_;
-    std::vector<std::vector<HalfKind>> tile_kinds_;  // likewise
-    std::vector<std::vector<float>> tile_halves_;    // likewise; none where rays see
-    PartsBuffer* parts_ = nullptr;                   // null: nobody asks for them
-    PixelRecord* record_ = nullptr;                  // likewise
+    std::vector<std::vector<SubpixelKind>> tile_kinds_;  // likewise
+    std::vector<std::vector<float>> tile_moments_;       // likewise; none where rays see
+    PartsBuffer* parts_ = nullptr;                       // null: nobody asks for them
+    PixelRecord* record_ = nullptr;                      // likewise
     std::vector<NormalClusters> clusters_;
     // A tile of the frame's buffer of the ground, of which several of the picture's are parts.
     struct GroundSeen {

@@ -100,7 +100,7 @@ GlossyRays::Followers GlossyRays::share_rays(const Tile& tile, const Asking& ask
         out.point[out.count++] = &at;
         out.samples += at.weight_samples;
         const float samples = at.weight_samples / first.weight_samples;
-        shares_[share_count_++] = {at.pixel, at.halves, samples * tile.frame.indirect->lobe_tint(at)};
+        shares_[share_count_++] = {at.pixel, at.moments, samples * tile.frame.indirect->lobe_tint(at)};
     }
     out.lobe = &lobes_[lobe_count_++];
     *out.lobe = {

@@ -171,7 +171,7 @@ class TracedPaths final : public PathModel {
                                 ray.width(), point))
             return false;
         point.pixel = ray.from->pixel, point.sample = ray.from->sample;
-        point.halves = ray.from->halves;
+        point.moments = ray.from->moments;
         point.lobe = ray.from->lobe ? ray.from->lobe : ray.lobe;
         point.lobe_ray = ray.from->lobe ? ray.from->lobe_ray : ray.lobe_ray;
         point.depth = static_cast<std::uint16_t>(ray.from->depth + 1);

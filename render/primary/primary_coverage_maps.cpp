@@ -13,7 +13,7 @@ namespace {
 constexpr float kLeastShare = 0.002f;
 
 // The halves of light whose middle is `off_px` from that of light with these halves.
-HalfShares moved(const HalfShares& from, Vec2f off_px) {
+SubpixelMoments moved(const SubpixelMoments& from, Vec2f off_px) {
     // An even pixel's half has its middle a quarter of a pixel away.
     return {std::clamp(from.across + 4 * off_px.x, -1.0f, 1.0f),
             std::clamp(from.down + 4 * off_px.y, -1.0f, 1.0f), from.crossed};
@@ -82,7 +82,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
     }
     const SampleMask seen_by = fragments_[k].samples;
     const float samples = frame.samples.weight(seen_by);
-    const HalfShares halves = frame.samples.halves(seen_by);
+    const SubpixelMoments moments = frame.samples.moments(seen_by);
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
     const RayWidth width{pixel_rad * static_cast<float>(frame.way_to_start_m()), pixel_rad};
     const auto lane = static_cast<int>(k);
@@ -110,7 +110,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
             to_float(frame.camera_m + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
                      static_cast<double>(off.y) * pixel.per_y_m);
         finish(k, coverage.share[layer] / shown * samples,
-               moved(halves, {place.x - middle_px.x, place.y - middle_px.y}), place, point);
+               moved(moments, {place.x - middle_px.x, place.y - middle_px.y}), place, point);
     }
     return count;
 }

@@ -110,7 +110,7 @@ void PrimaryHits::take_pixel(int x, int y) {
         fragments_[fragment_count_++] = {found.id, static_cast<std::uint16_t>(pixel), left, top,
                                          found.samples};
     }
-    tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
+    tile_.set_kind(static_cast<std::uint32_t>(pixel), SubpixelKind::kObject);
     tile_.stats.covered_px +=
         static_cast<double>(grid.weight(grid.all() & ~seen.nothing)) * (1.0 / kVisibilitySamples);
 }
@@ -346,7 +346,7 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
         // Seen from its edge, what lies on the ground hides it.
         if (facing > 0) set_surface(frame, coverage_map->surface[1], point);
         if (is_textured(k)) paint(texture_of(k, point), point);
-        finish(k, samples, frame.samples.halves(fragment.samples), places_px_[k], point);
+        finish(k, samples, frame.samples.moments(fragment.samples), places_px_[k], point);
         tile_.clusters.add(
             frame,
             {surface_frame.geometric_normal, surface_frame.normal, point.start(), samples, fragment.samples},
@@ -383,13 +383,13 @@ void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, Shad
     const float all = point.weight_samples + samples;
     mix_colors(k, samples / all, point);
     point.throughput = (all / point.weight_samples) * point.throughput;
-    point.halves = (point.weight_samples / all) * point.halves;
-    point.halves += (samples / all) * frame.samples.halves(seen_by);
+    point.moments = (point.weight_samples / all) * point.moments;
+    point.moments += (samples / all) * frame.samples.moments(seen_by);
     point.weight_samples = all;
 }
 
 // The pixel of fragment k, for a shading point that is part of what is seen in it.
-void PrimaryHits::finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px,
+void PrimaryHits::finish(std::size_t k, float samples, SubpixelMoments moments, Vec2f place_px,
                          ShadingPoint& point) {
     const Fragment& fragment = fragments_[k];
     point.pixel = fragment.pixel;
@@ -401,7 +401,7 @@ void PrimaryHits::finish(std::size_t k, float samples, HalfShares halves, Vec2f 
     point.throughput = {};
     std::fill_n(point.throughput.bin.begin(), tile_.frame.bins, samples);
     point.weight_samples = samples;
-    point.halves = halves;
+    point.moments = moments;
     add_air_before(tile_, dirs_[k], point);
 }
 

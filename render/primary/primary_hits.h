@@ -107,7 +107,7 @@ class PrimaryHits {
     CoverageMapPixel look_at_coverage_map(std::size_t k, Vec3f view_dir) const;
     std::size_t make_covered_points(std::size_t k, const SurfaceFrame& surface_frame,
                                     std::span<ShadingPoint> points, std::size_t count);
-    void finish(std::size_t k, float samples, HalfShares halves, Vec2f place_px, ShadingPoint& point);
+    void finish(std::size_t k, float samples, SubpixelMoments moments, Vec2f place_px, ShadingPoint& point);
     void take_in(std::size_t k, const SurfaceFrame& surface_frame, ShadingPoint& point);
     static ShadingPoint* join(std::span<ShadingPoint> so_far, std::uint32_t pixel, std::uint32_t object,
                               std::uint16_t surface, const SurfaceFrame& surface_frame);

@@ -366,18 +366,18 @@ class PrimaryRays {
             }
             return add_backdrop(k, sun_cosine, weight, tile_.pixels[pixel]);
         }
-        if (!even_) tile_.set_kind(pixel, HalfKind::kBackground);
+        if (!even_) tile_.set_kind(pixel, SubpixelKind::kBackground);
         float samples = 1;
-        HalfShares halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
+        SubpixelMoments moments = subpixel_moments_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         if (uncovered_) {
             const SampleMask seen = uncovered_[pixel] & (even_ ? grid.all() : grid.about(sample));
             if (seen == 0) return;
             samples = grid.weight(seen);
-            halves = grid.halves(seen);
+            moments = grid.moments(seen);
         }
         Spectrum light;
         add_backdrop(k, sun_cosine, samples * weight_, light);
-        tile_.add(pixel, LightPart::kBackground, halves, light);
+        tile_.add(pixel, LightPart::kBackground, moments, light);
     }
 
     void add_vertex(int lane, std::uint32_t pixel, std::uint16_t sample) {
@@ -390,8 +390,8 @@ class PrimaryRays {
         point.sample = sample;
         point.depth = 1;
         point.throughput = weight_;
-        point.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
-        tile_.set_kind(pixel, HalfKind::kObject);
+        point.moments = subpixel_moments_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
+        tile_.set_kind(pixel, SubpixelKind::kObject);
         tile_.clusters.add(frame_, {point.geometric_normal, point.normal, point.start(), 1},
                            hits_.triangle[k], true, {}, point);
         ++count_;

@@ -7,16 +7,16 @@
 #include <cstdint>
 #include <span>
 
-#include "render/vocabulary/half_light.h"
 #include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/subpixel_light.h"
 
 namespace hilcam {
 
 // A pixel that has part of the light of one lobe's rays.
 struct PixelShare {
-    std::uint32_t pixel;  // in the tile
-    HalfShares halves;    // where in the pixel it is
-    Spectrum share;       // part of the light as the shading point sends it, with the pixel's own colour
+    std::uint32_t pixel;      // in the tile
+    SubpixelMoments moments;  // where in the pixel it is
+    Spectrum share;           // part of the light as the shading point sends it, with the pixel's own colour
 };
 
 // The light that rays find which follow one shading point's lobe, until all have come back.

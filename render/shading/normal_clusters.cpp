@@ -48,9 +48,9 @@ class Reflection {
         float samples;
         // By a cluster's lobe alone: depends on the angle between viewer and light, and on nothing else.
         Spectrum mirrored;
-        float light;        // over all bins together
-        float going_on;     // light of the clusters so far that one triangle's normals make
-        HalfShares halves;  // times the light
+        float light;              // over all bins together
+        float going_on;           // light of the clusters so far that one triangle's normals make
+        SubpixelMoments moments;  // times the light
     };
     std::array<Sum, SunlitPoint::kMost> sums_;
 
@@ -100,12 +100,12 @@ class Reflection {
 
     void take(std::uint16_t v, const NormalCluster& cluster, const Spectrum& reflected) {
         const float light = lane_sum(reflected.bin);
-        const HalfShares halves =
-            cluster.seen_by != 0 ? frame_.samples.halves(cluster.seen_by) : points_[v].at->halves;
+        const SubpixelMoments moments =
+            cluster.seen_by != 0 ? frame_.samples.moments(cluster.seen_by) : points_[v].at->moments;
         out_[v].reflected += reflected;
         Sum& sum = sums_[v];
         sum.light += light, sum.going_on += light;
-        sum.halves += light * halves;
+        sum.moments += light * moments;
         // For shadows these are one.
         if (!cluster.goes_on) out_[v].add(cluster, std::exchange(sum.going_on, 0.0f));
     }
@@ -124,7 +124,7 @@ class Reflection {
         const ShadingPoint& at = *points_[v].at;
         const Sum& sum = sums_[v];
         out_[v].reflected = (1 / sum.samples) * (at.throughput * out_[v].reflected);
-        out_[v].halves = sum.light > 0 ? (1 / sum.light) * sum.halves : at.halves;
+        out_[v].moments = sum.light > 0 ? (1 / sum.light) * sum.moments : at.moments;
     }
 };
 

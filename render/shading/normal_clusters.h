@@ -41,7 +41,7 @@ struct ClusterLight {
     // The clusters that reflect most, most first, and how much, over all bins together.
     std::array<const NormalCluster*, kStarts> brightest{};
     std::array<float, kStarts> share{};
-    HalfShares halves;  // the light of all clusters is there
+    SubpixelMoments moments;  // the light of all clusters is there
 
     bool none() const { return !(share[0] > 0); }
     void add(const NormalCluster& cluster, float light);

@@ -8,9 +8,9 @@
 #include "render/scene/embree_scene.h"
 #include "render/shading/frame_context.h"
 #include "render/shading/glossy_lobe.h"
-#include "render/vocabulary/half_light.h"
 #include "render/vocabulary/light_part.h"
 #include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/subpixel_light.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
@@ -71,12 +71,12 @@ struct PathThroughput {
 
 // Where in the picture it is seen, or the first shading point of its path.
 struct PixelCoverage {
-    std::uint32_t pixel;   // in the tile
-    std::uint16_t sample;  // in the pixel
-    SampleMask samples;    // those of the pixel that see its plane; 0: one of a ray
-    Vec2f place_px;        // where in the pixel it is seen, where samples see it
-    float lift_m;          // where samples see it, rays start further above: planes differ
-    HalfShares halves;     // where in the pixel they are
+    std::uint32_t pixel;      // in the tile
+    std::uint16_t sample;     // in the pixel
+    SampleMask samples;       // those of the pixel that see its plane; 0: one of a ray
+    Vec2f place_px;           // where in the pixel it is seen, where samples see it
+    float lift_m;             // where samples see it, rays start further above: planes differ
+    SubpixelMoments moments;  // where in the pixel they are
 };
 
 // A stage of its light that finds something for a later one returns it as a value: it is no member here.

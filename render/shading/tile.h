@@ -11,9 +11,9 @@
 #include "render/shading/shading_point.h"
 #include "render/shading/tile_parts.h"
 #include "render/visibility/visibility_tile.h"
-#include "render/vocabulary/half_light.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/ray_counts.h"
+#include "render/vocabulary/subpixel_light.h"
 
 namespace hilcam {
 
@@ -50,20 +50,20 @@ struct Tile {
         nullptr;                          // for what the frame's buffer of the ground finds; null: likewise
     PenumbraSampler* penumbra = nullptr;  // where that is so, to find shadows' edges; null: they are hard
 
-    // Charge rates by channel, difference and pixel (half_light.h), and what makes them of radiance; empty: nobody
+    // Charge rates by channel, difference and pixel (subpixel_light.h), and what makes them of radiance; empty: nobody
     // asks where in its pixel light falls.
-    std::span<float> halves{};
-    std::span<const Spectrum> half_responses{};
-    std::span<HalfKind> kinds{};  // by pixel; likewise
+    std::span<float> moments{};
+    std::span<const Spectrum> moment_responses{};
+    std::span<SubpixelKind> kinds{};  // by pixel; likewise
 
     const TileParts* parts = nullptr;  // for the parts of the light; null: nobody asks
 
     // Adds light that a shading point sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for
     // which it stands. part: of light that the camera sees there; what a ray has met is of the ray's part.
     void add(const ShadingPoint& at, LightPart part, const Spectrum& light) {
-        add(at, part, at.halves, light);
+        add(at, part, at.moments, light);
     }
-    void add(const ShadingPoint& at, LightPart part, const HalfShares& shares, const Spectrum& light) {
+    void add(const ShadingPoint& at, LightPart part, const SubpixelMoments& shares, const Spectrum& light) {
         if (parts) note(at, part, light);
         if (at.lobe) return at.lobe->add(at.lobe_ray, light);
         add(at.pixel, shares, light);
@@ -76,17 +76,17 @@ struct Tile {
     void add(const GlossyLobe& lobe, float light_believed) {
         const Spectrum light = lobe.sum(light_believed);
         for (const PixelShare& share : lobe.pixels)
-            add(share.pixel, LightPart::kGlossyRays, share.halves, share.share * light);
+            add(share.pixel, LightPart::kGlossyRays, share.moments, share.share * light);
     }
     // Notes light that somebody adds to a pixel by himself, where parts are asked for.
     void note(std::uint32_t pixel, LightPart part, const Spectrum& light) const;
     // Adds light that no shading point sends.
-    void add(std::uint32_t pixel, LightPart part, const HalfShares& shares, const Spectrum& light) {
+    void add(std::uint32_t pixel, LightPart part, const SubpixelMoments& shares, const Spectrum& light) {
         if (parts) note(pixel, part, light);
         add(pixel, shares, light);
     }
-    void set_kind(std::uint32_t pixel, HalfKind kind) {
-        if (!kinds.empty() && kinds[pixel] != HalfKind::kObject) kinds[pixel] = kind;
+    void set_kind(std::uint32_t pixel, SubpixelKind kind) {
+        if (!kinds.empty() && kinds[pixel] != SubpixelKind::kObject) kinds[pixel] = kind;
     }
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];
@@ -104,15 +104,15 @@ struct Tile {
     }
 
   private:
-    void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
+    void add(std::uint32_t pixel, const SubpixelMoments& shares, const Spectrum& light) {
         pixels[pixel] += light;
-        if (!halves.empty()) add_halves(pixel, shares, light);
+        if (!moments.empty()) add_moments(pixel, shares, light);
     }
     void note(const ShadingPoint& at, LightPart part, const Spectrum& light) const;
     void note_move(const ShadingPoint& at, LightPart from, LightPart to, const Spectrum& light) const;
-    void add_halves(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
-        float* at = halves.data() + pixel;
-        for (const Spectrum& response : half_responses) {
+    void add_moments(std::uint32_t pixel, const SubpixelMoments& shares, const Spectrum& light) {
+        float* at = moments.data() + pixel;
+        for (const Spectrum& response : moment_responses) {
             const float rate_e_s = sum_of_products(response, light);
             for (const float share : {shares.across, shares.down, shares.crossed}) {
                 *at += share * rate_e_s;

@@ -18,7 +18,7 @@ void PenumbraSampler::add_light(Tile& tile, const SunSampler& sun) {
     ask_again(tile, sun);
     for (const Asked& a : std::span(asked_).first(count_))
         if (a.lit > 0)
-            tile.add(*a.at, LightPart::kSun, a.lit < a.of ? (1 / a.lit) * a.halves : a.halves_of_all,
+            tile.add(*a.at, LightPart::kSun, a.lit < a.of ? (1 / a.lit) * a.moments : a.moments_of_all,
                      (a.lit / a.of) * a.light);
     count_ = 0;
 }
@@ -56,7 +56,7 @@ void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
     };
     const auto gets_through = [](const Use& use, const Spectrum*) {
         use.asked->lit += 1;
-        use.asked->halves += use.halves;
+        use.asked->moments += use.moments;
     };
     using Rays = ShadowRays<Use, decltype(gets_through)>;
     {
@@ -83,21 +83,21 @@ void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, 
     const float light = std::accumulate(a.shares.begin(), a.shares.end(), 0.0f);
     std::size_t k = 0;
     float until = a.shares[0];  // sum of shares with the cluster's
-    a.lit = 0, a.of = count, a.halves = {};
+    a.lit = 0, a.of = count, a.moments = {};
     for (std::uint32_t i = 0; static_cast<float>(i) < count; ++i) {
         while ((static_cast<float>(i) + 0.5f) * light > until * count && k + 1 < a.shares.size())
             until += a.shares[++k];
         const NormalCluster* const cluster = a.clusters[k];
         Vec3f start_m = a.first_m;
-        HalfShares halves = at.halves;
+        SubpixelMoments moments = at.moments;
         if (const SampleMask seen_by = cluster ? cluster->seen_by : at.samples; seen_by != 0) {
             const int sample = next_sample_across(tile.frame.samples, left[k], seen_by);
             const Vec2f at_px = tile.frame.samples.place(sample);
-            halves = half_shares_at(at_px.x, at_px.y);
+            moments = subpixel_moments_at(at_px.x, at_px.y);
             start_m = cluster ? way.on(*cluster, sample) : start_m + way.to(sample);
         }
         rays.add(start_m, sun.on_disk(4 * i + in_square, 4 * static_cast<std::uint32_t>(count)),
-                 {&a, halves});
+                 {&a, moments});
     }
 }
 

@@ -27,14 +27,14 @@ class PenumbraSampler {
     void add(const ShadingPoint& at, const Spectrum& light) {
         Asked& asked = next(at, light);
         asked.clusters[0] = nullptr, asked.shares = {1};
-        asked.halves_of_all = at.halves;
+        asked.moments_of_all = at.moments;
         asked.first_m = at.start();
     }
     // The same of a shading point with clusters: its rays begin at these.
     void add(const ShadingPoint& at, const Spectrum& light, const ClusterLight& clusters) {
         Asked& asked = next(at, light);
         asked.clusters = clusters.brightest, asked.shares = clusters.share;
-        asked.halves_of_all = clusters.halves;
+        asked.moments_of_all = clusters.moments;
         asked.first_m = clusters.brightest[0]->start_m;
     }
     // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
@@ -57,10 +57,10 @@ class PenumbraSampler {
         // Those that have the most of the light, and how much; null: it has none.
         std::array<const NormalCluster*, ClusterLight::kStarts> clusters;
         std::array<float, ClusterLight::kStarts> shares;
-        float lit, of;             // rays that have got through, and that were asked
-        HalfShares halves_of_all;  // the light is there if no ray is held up
-        HalfShares halves;         // sum of those that have got through, one by one
-        std::uint8_t kind;         // below kKinds
+        float lit, of;                   // rays that have got through, and that were asked
+        SubpixelMoments moments_of_all;  // the light is there if no ray is held up
+        SubpixelMoments moments;         // sum of those that have got through, one by one
+        std::uint8_t kind;               // below kKinds
     };
     using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
     // Pixels with a shading point of a kind that is lit, or dark.
@@ -75,7 +75,7 @@ class PenumbraSampler {
     Asked& next(const ShadingPoint& at, const Spectrum& light) {
         Asked& a = asked_[count_++];
         a.at = &at, a.light = light, a.like = layer_below(a);
-        a.lit = 0, a.of = 1, a.halves = {}, a.kind = 0;
+        a.lit = 0, a.of = 1, a.moments = {}, a.kind = 0;
         return a;
     }
     const Asked* layer_below(const Asked& a) const;
@@ -84,7 +84,7 @@ class PenumbraSampler {
     // Is told of a ray that gets through.
     struct Use {
         Asked* asked;
-        HalfShares halves;  // where in the pixel it begins
+        SubpixelMoments moments;  // where in the pixel it begins
     };
     template <class Rays>
     static void ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays);

@@ -64,7 +64,7 @@ Vec2f PixelSamples::middle(SampleMask samples) const {
     return samples >> about & 1u ? place(about) : nearest_to(*this, samples, middle);
 }
 
-HalfShares PixelSamples::halves(SampleMask samples) const {
+SubpixelMoments PixelSamples::moments(SampleMask samples) const {
     // The crossed difference has the upper left and the lower right.
     constexpr SampleMask kRight = 0xCCCC, kLower = 0xFF00, kCrossed = 0xCC33;
     constexpr SampleMask kRightFine = 0xFFFF0000FFFF0000, kLowerFine = 0xFFFFFFFF00000000,

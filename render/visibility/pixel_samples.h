@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "render/visibility/visibility_samples.h"
-#include "render/vocabulary/half_light.h"
+#include "render/vocabulary/subpixel_light.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
@@ -46,7 +46,7 @@ class PixelSamples {
     // itself may see something else. At least one sample.
     Vec2f middle(SampleMask samples) const;
     // Returns which halves of the pixel they are in.
-    HalfShares halves(SampleMask samples) const;
+    SubpixelMoments moments(SampleMask samples) const;
 
   private:
     int quarters_;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/vocabulary/half_light.h"
 #include "render/vocabulary/image.h"
+#include "render/vocabulary/subpixel_light.h"
 
 namespace hilcam {
 
@@ -43,13 +43,13 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
     void mark_dark(int x, int y, bool dark) { dark_[block(x, y)] = dark ? 1 : 0; }
     void clear_marks() { std::fill(dark_.begin(), dark_.end(), std::uint8_t{0}); }
 
-    // Gives the image room for where in its pixels light falls, for channels of these responses (half_light.h).
-    void keep_halves(std::vector<Spectrum> responses) {
-        halves_.emplace(width(), height(), kBlock_px, std::move(responses));
+    // Gives the image room for where in its pixels light falls, for channels of these responses (subpixel_light.h).
+    void keep_moments(std::vector<Spectrum> responses) {
+        moments_.emplace(width(), height(), kBlock_px, std::move(responses));
     }
     // Null: there is no room.
-    HalfLight* halves() { return halves_ ? &*halves_ : nullptr; }
-    const HalfLight* halves() const { return halves_ ? &*halves_ : nullptr; }
+    SubpixelLight* moments() { return moments_ ? &*moments_ : nullptr; }
+    const SubpixelLight* moments() const { return moments_ ? &*moments_ : nullptr; }
 
   private:
     std::size_t block(int x, int y) const {
@@ -58,7 +58,7 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
     int blocks_across_ = 0;
     std::vector<std::uint8_t> dark_;
     std::vector<Spectrum> responses_;
-    std::optional<HalfLight> halves_;
+    std::optional<SubpixelLight> moments_;
 };
 
 }  // namespace hilcam

@@ -49,9 +49,10 @@ bool BrightPixels::find_over(const Picture& picture, float limit_e, std::size_t 
 // The middle of a pixel's light, as far as its halves tell [px of the detector's frame].
 Vec2d BrightPixels::place_of(const Picture& picture, int x, int y, float charge_e) const {
     const Vec2d middle_px{detector_px(x), detector_px(y)};
-    const HalfLight* const halves = picture.halves;
+    const SubpixelLight* const moments = picture.moments;
     const auto at = static_cast<std::size_t>(x);
-    if (!halves || halves->unknown(x, y) || halves->kinds(y)[at] == HalfKind::kSmooth) return middle_px;
+    if (!moments || moments->unknown(x, y) || moments->kinds(y)[at] == SubpixelKind::kSmooth)
+        return middle_px;
     const float lens =
         illumination_[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width) + at];
     const double share_per_rate =
@@ -59,7 +60,7 @@ Vec2d BrightPixels::place_of(const Picture& picture, int x, int y, float charge_
     constexpr double kHalfsMiddle_px = 0.25;  // from that of the pixel
     const auto way_px = [&](int difference) {
         const double share =
-            share_per_rate * static_cast<double>(halves->row(y, difference, picture.channel)[at]);
+            share_per_rate * static_cast<double>(moments->row(y, difference, picture.channel)[at]);
         return kHalfsMiddle_px * std::clamp(share, -1.0, 1.0);
     };
     return {middle_px.x + way_px(0), middle_px.y + way_px(1)};

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "render/vocabulary/half_light.h"
+#include "render/vocabulary/subpixel_light.h"
 #include "sensor/convolution/convolve.h"
 
 namespace hilcam {
@@ -31,7 +31,7 @@ class BrightPixels {
         Convolver& charge_e;
         std::span<const float> row_peaks_e;
         int channel;
-        const HalfLight* halves;  // where in them light falls; null: nobody knows
+        const SubpixelLight* moments;  // where in them light falls; null: nobody knows
         double exposure_s;
     };
     // Forgets the last frame's. Loop, as all from here on.

@@ -105,7 +105,7 @@ TEST(Visibility, TheEarthBehindACubeIsWhatRaysSee) {
 
 // The same scene by rays, in a picture of twice as many pixels through the same places: which half has how much, of a
 // cube before the Earth by sixteen samples and of bars by 64.
-void expect_halves_as_by_rays(int across) {
+void expect_moments_as_by_rays(int across) {
     const auto stage = [&] {
         Stage s;
         s.quality.path_model = "direct";
@@ -129,10 +129,10 @@ void expect_halves_as_by_rays(int across) {
     Stage s = stage();
     s.quality.visibility = "buffer";
     s.quality.buffer_samples = across * across;
-    s.radiance.keep_halves({Spectrum{{1}}, Spectrum{{0, 2}}});
+    s.radiance.keep_moments({Spectrum{{1}}, Spectrum{{0, 2}}});
     s.render();
-    const HalfLight& halves = *s.radiance.halves();
-    ASSERT_TRUE(halves.used());
+    const SubpixelLight& moments = *s.radiance.moments();
+    ASSERT_TRUE(moments.used());
     double brightest = 0, uneven = 0;
     for (const float value : fine.radiance.plane(0))
         brightest = std::max(brightest, static_cast<double>(value));
@@ -148,10 +148,10 @@ void expect_halves_as_by_rays(int across) {
                 const double expected[] = {b + d - a - c, c + d - a - b, a + d - b - c};
                 for (const int i : {0, 1, 2}) {
                     const double found =
-                        halves.unknown(x, y) ||
-                                halves.kinds(y)[static_cast<std::size_t>(x)] == HalfKind::kSmooth
+                        moments.unknown(x, y) ||
+                                moments.kinds(y)[static_cast<std::size_t>(x)] == SubpixelKind::kSmooth
                             ? 0
-                            : static_cast<double>(halves.row(y, i, channel)[static_cast<std::size_t>(x)]);
+                            : static_cast<double>(moments.row(y, i, channel)[static_cast<std::size_t>(x)]);
                     // One sample may see the other of two, and within the disk a pixel has one ray.
                     ASSERT_NEAR(found, expected[i], (channel + 1) * 0.02 * brightest)
                         << x << ' ' << y << ' ' << i;
@@ -161,8 +161,8 @@ void expect_halves_as_by_rays(int across) {
     EXPECT_GT(uneven, 0.5 * brightest);
 }
 TEST(Visibility, HalvesAreWhatRaysSeeInPicturesOfTwiceThePixels) {
-    expect_halves_as_by_rays(4);
-    expect_halves_as_by_rays(8);
+    expect_moments_as_by_rays(4);
+    expect_moments_as_by_rays(8);
 }
 
 // A frame with more triangles than there is room for, or no room at all, is for rays: terrain, lenses that

@@ -55,7 +55,7 @@ ONLY_IN = {
             "render/lod/coverage_map_sums.cpp", "render/ground_shading/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
             "render/visibility/lane_vectors-inl.h", "render/visibility/sixteen_lanes-inl.h",
             "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp",
-            "sensor/convolution/half_rows.cpp", "sensor/convolution/point_tables.cpp"},
+            "sensor/convolution/moment_rows.cpp", "sensor/convolution/point_tables.cpp"},
     "gdal": GDAL_FILES,
     "ogr_": GDAL_FILES,
     "cpl_": GDAL_FILES,

@@ -254,7 +254,7 @@ class HemispherePaths final : public PathModel {
                 if (!make_shading_point(frame, hits, i, ray.origin_m, ray.dir, 0,
                                         {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, point))
                     continue;
-                point.pixel = at.pixel, point.sample = at.sample, point.halves = at.halves;
+                point.pixel = at.pixel, point.sample = at.sample, point.moments = at.moments;
                 point.depth = static_cast<std::uint16_t>(at.depth + 1);
                 point.throughput = ray.throughput;
                 point.ray_part = at.depth > 1 ? at.ray_part : ray.part;

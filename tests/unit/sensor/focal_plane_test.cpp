@@ -85,11 +85,11 @@ TEST(FocalPlane, AnEdgeIsItsClosedFormWhereverItFallsInAPixel) {
 // The same edge by four samples across a pixel, without and with which half of it they are in.
 TEST(FocalPlane, AnEdgeIsItsClosedFormByHalvesOfPixels) {
     constexpr double kSigma_px = 0.5;
-    const auto worst_error = [](double edge_px, bool halves) {
-        Bench bench(gaussian_camera(kSigma_px), {16, halves ? halved(4) : RayGrid{4}, 1});
-        bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
-        HalfLight& light = *bench.radiance.halves();
-        light.set_used(halves);
+    const auto worst_error = [](double edge_px, bool moments) {
+        Bench bench(gaussian_camera(kSigma_px), {16, moments ? halved(4) : RayGrid{4}, 1});
+        bench.radiance.keep_moments({electrons_per_s_per_radiance(bench.camera, bench.grid)});
+        SubpixelLight& light = *bench.radiance.moments();
+        light.set_used(moments);
         const double one = per_radiance(bench.camera, bench.grid);
         for (int y = 0; y < bench.radiance.height(); ++y)
             for (int x = 0; x < bench.radiance.width(); ++x) {
@@ -101,7 +101,7 @@ TEST(FocalPlane, AnEdgeIsItsClosedFormByHalvesOfPixels) {
                 light.row(y, 0, 0)[static_cast<std::size_t>(x)] =
                     static_cast<float>(one * (half[1] - half[0]) / 2);
                 light.mark_unknown(x, y, false);
-                light.kinds(y)[static_cast<std::size_t>(x)] = HalfKind::kObject;
+                light.kinds(y)[static_cast<std::size_t>(x)] = SubpixelKind::kObject;
             }
         const ElectronImage& e = bench.expose({.exposure_s = 1});
         const auto integral = [&](double x) {
@@ -132,8 +132,8 @@ TEST(FocalPlane, LightInAQuarterOfAPixelIsSeenThere) {
     for (const float electrons : {1e5f, 1e8f})
         for (const Vec2d smear_px : {Vec2d{0, 0}, Vec2d{0.8, -0.4}}) {
             Bench bench(gaussian_camera(0.7), {16, halved(4), 1});
-            bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
-            HalfLight& light = *bench.radiance.halves();
+            bench.radiance.keep_moments({electrons_per_s_per_radiance(bench.camera, bench.grid)});
+            SubpixelLight& light = *bench.radiance.moments();
             light.set_used(true);
             // Next to a block's corner: its image lies in four of them.
             const int x = 31 + 32, y = 32;
@@ -143,9 +143,9 @@ TEST(FocalPlane, LightInAQuarterOfAPixelIsSeenThere) {
             ElectronImage about(64, 64);
             bench.chain.expose(bench.radiance, {}, {.exposure_s = 1}, about);
             bench.radiance.row(y)[x] += electrons / one;
-            for (int d = 0; d < HalfLight::kDifferences; ++d) light.row(y, d, 0)[x] = electrons;
+            for (int d = 0; d < SubpixelLight::kDifferences; ++d) light.row(y, d, 0)[x] = electrons;
             light.mark_unknown(x, y, false);
-            light.kinds(y)[static_cast<std::size_t>(x)] = HalfKind::kObject;
+            light.kinds(y)[static_cast<std::size_t>(x)] = SubpixelKind::kObject;
             const ElectronImage& e = bench.expose({.exposure_s = 1, .image_rate_px_s = smear_px});
             Vec2d middle_px{};
             double sum_e = 0;

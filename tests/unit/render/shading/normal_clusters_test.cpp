@@ -171,8 +171,8 @@ TEST(NormalClusters, LightComesFromTheFacetThatReflectsIt) {
     lit_clusters(frame, {&sunny, 1}, {&light, 1});
     EXPECT_EQ(light.brightest[0], &right);
     EXPECT_GT(light.share[0], 100 * light.share[1]);
-    EXPECT_NEAR(light.halves.across, 1, 0.02);
-    EXPECT_NEAR(light.halves.down, 0, 1e-6);
+    EXPECT_NEAR(light.moments.across, 1, 0.02);
+    EXPECT_NEAR(light.moments.down, 0, 1e-6);
 }
 
 }  // namespace

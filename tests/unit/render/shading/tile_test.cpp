@@ -19,16 +19,16 @@ Spectrum of(float value) {
 TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     const FrameContext frame;
     std::array<Spectrum, 4> pixels{};
-    std::array<float, 12> halves{};
+    std::array<float, 12> moments{};
     const std::array<Spectrum, 1> responses{of(10)};
     TileStats stats;
     NormalClusters clusters;
     Tile tile{frame, {0, 0, 2, 2}, 1, pixels, stats, clusters};
-    tile.halves = halves, tile.half_responses = responses;
+    tile.moments = moments, tile.moment_responses = responses;
     const std::array<PixelShare, 2> parts{PixelShare{1, {1, 0, 0}, of(1)}, {2, {0, -1, 0}, of(0.25f)}};
     ShadingPoint at{};
     at.pixel = 3;
-    at.halves = {1, 1, 1};
+    at.moments = {1, 1, 1};
     tile.add(at, LightPart::kSun, of(2));
     GlossyLobe lobe;
     lobe.pixels = parts;
@@ -42,7 +42,7 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     EXPECT_EQ(pixels[3][0], 2);
     // By difference, then by pixel.
     const std::array<float, 12> expected{0, 40, 0, 20, 0, 0, -10, 20, 0, 0, 0, 20};
-    EXPECT_EQ(halves, expected);
+    EXPECT_EQ(moments, expected);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "sensor/convolution/half_light_adder.h"
+#include "sensor/convolution/subpixel_light_adder.h"
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
@@ -10,7 +10,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kAddedBlock_px = HalfKernels::kBlock_px, kReach_px = HalfKernels::kMaxReach_px;
+constexpr int kAddedBlock_px = MomentKernels::kBlock_px, kReach_px = MomentKernels::kMaxReach_px;
 static_assert(kAddedBlock_px == RadianceImage::kBlock_px);
 
 // --- rows of pixels
@@ -65,12 +65,12 @@ HILCAM_CLONES bool take(const float* smooth, const std::uint8_t* sharp, std::siz
 }  // namespace
 
 // True when there are differences in the block that holds the pixel, which may lie beside the picture.
-bool HalfLightAdder::Source::knows(int x, int y) const {
+bool SubpixelLightAdder::Source::knows(int x, int y) const {
     return x >= 0 && y >= 0 && x < light.width() && y < light.height() && !light.unknown(x, y) &&
            !radiance.dark(x, y);
 }
 // Returns charge rates of pixels from (x, y) on, which `room` may hold [e-/s].
-const float* HalfLightAdder::Source::rates_e_s(int x, int y, std::size_t count, float* room) const {
+const float* SubpixelLightAdder::Source::rates_e_s(int x, int y, std::size_t count, float* room) const {
     const auto from = [&](int plane) { return radiance.row(y, plane).data() + x; };
     if (!response) return from(number);
     std::fill_n(room, count, 0.0f);
@@ -78,15 +78,15 @@ const float* HalfLightAdder::Source::rates_e_s(int x, int y, std::size_t count, 
     return room;
 }
 
-void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, const FrameBlur& blur,
-                         double exposure_s, Convolver& image) const {
+void SubpixelLightAdder::add(const RadianceImage& radiance, const Channel& channel, const FrameBlur& blur,
+                             double exposure_s, Convolver& image) const {
     const int width = radiance.width(), height = radiance.height();
     const auto stride = static_cast<std::size_t>(image.row(1).data() - image.row(0).data());
     for (std::size_t zone = 0; zone < channel.kernels.size(); ++zone) {
-        HalfKernels& kernels = channel.kernels[zone];
+        MomentKernels& kernels = channel.kernels[zone];
         if (!kernels.prepare(blur)) continue;
         const Source source{radiance,
-                            *radiance.halves(),
+                            *radiance.moments(),
                             channel.number,
                             radiance.responses().empty() ? &channel.response : nullptr,
                             static_cast<float>(exposure_s),
@@ -110,7 +110,7 @@ void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, 
 }
 
 // Collects the differences of a block, and about it, that are known not to be smooth. False: there are none.
-bool HalfLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& scratch) const {
+bool SubpixelLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& scratch) const {
     const auto known = [&](int y) {
         bool any = false;
         for (int x = x_px - kAddedBlock_px; x <= x_px + kAddedBlock_px; x += kAddedBlock_px)
@@ -124,19 +124,19 @@ bool HalfLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& s
 }
 
 // Copies a row of what lies in and about the block at (x_px, y_px).
-void HalfLightAdder::copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const {
+void SubpixelLightAdder::copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const {
     const int width = source.light.width(), y = y_px - kRim_px + row, left = x_px - kRim_px;
     const int part_row = row - (kRim_px - kReach_px);
-    const bool in_parts = part_row >= 0 && part_row < HalfKernels::kSide_px;
+    const bool in_parts = part_row >= 0 && part_row < MomentKernels::kSide_px;
     const auto part_at = [&](std::size_t part) {
-        return scratch.parts[part].data() + part_row * HalfKernels::kSide_px;
+        return scratch.parts[part].data() + part_row * MomentKernels::kSide_px;
     };
     std::array<float, kArea_px>& charge_e = scratch.charge_e[static_cast<std::size_t>(row)];
-    std::array<HalfKind, kArea_px>& kinds = scratch.kinds[static_cast<std::size_t>(row)];
-    charge_e.fill(0), kinds.fill(HalfKind::kSmooth);
+    std::array<SubpixelKind, kArea_px>& kinds = scratch.kinds[static_cast<std::size_t>(row)];
+    charge_e.fill(0), kinds.fill(SubpixelKind::kSmooth);
     if (in_parts)
-        for (std::size_t part = 0; part < HalfKernels::kParts; ++part)
-            std::fill_n(part_at(part), HalfKernels::kSide_px, 0.0f);
+        for (std::size_t part = 0; part < MomentKernels::kParts; ++part)
+            std::fill_n(part_at(part), MomentKernels::kSide_px, 0.0f);
     if (y < 0 || y >= source.light.height()) return;
     const int x0 = std::max(left, 0), x1 = std::min(left + static_cast<int>(kArea_px), width);
     const float* lens =
@@ -159,7 +159,7 @@ void HalfLightAdder::copy_row(const Source& source, int x_px, int y_px, int row,
                   kinds.data() + (begin - left));
         const auto [first, last] = within(kReach_px);
         if (!in_parts || first >= last) continue;
-        for (std::size_t part = 0; part < HalfKernels::kParts; ++part)
+        for (std::size_t part = 0; part < MomentKernels::kParts; ++part)
             multiply(factor.data() + (first - left),
                      source.light.row(y, static_cast<int>(part), source.number).data() + first,
                      static_cast<std::size_t>(last - first), part_at(part) + (first - x_px + kReach_px));
@@ -167,24 +167,24 @@ void HalfLightAdder::copy_row(const Source& source, int x_px, int y_px, int row,
 }
 
 // Finds the pixels whose light is not smooth: what is known of them, or an object up to two pixels beside.
-void HalfLightAdder::find_sharp(Scratch& scratch) {
+void SubpixelLightAdder::find_sharp(Scratch& scratch) {
     std::array<std::array<std::uint8_t, kArea_px>, kArea_px> along;
     for (std::size_t y = 0; y < kArea_px; ++y) {
         std::array<std::uint8_t, kArea_px> object;
         for (std::size_t x = 0; x < kArea_px; ++x)
-            object[x] = scratch.kinds[y][x] == HalfKind::kObject ? 1 : 0;
+            object[x] = scratch.kinds[y][x] == SubpixelKind::kObject ? 1 : 0;
         for (std::size_t x = 2; x + 2 < kArea_px; ++x)
             along[y][x] = object[x - 2] | object[x - 1] | object[x] | object[x + 1] | object[x + 2];
     }
     for (std::size_t y = 2; y + 2 < kArea_px; ++y)
         for (std::size_t x = 2; x + 2 < kArea_px; ++x)
             scratch.sharp[y][x] = along[y - 2][x] | along[y - 1][x] | along[y][x] | along[y + 1][x] |
-                                  along[y + 2][x] | (scratch.kinds[y][x] != HalfKind::kSmooth ? 1 : 0);
+                                  along[y + 2][x] | (scratch.kinds[y][x] != SubpixelKind::kSmooth ? 1 : 0);
 }
 
 // Takes what the picture as a whole has been given already from the differences. False: nothing is left.
-bool HalfLightAdder::take_smooth(Scratch& scratch) {
-    constexpr auto kSide_px = static_cast<std::size_t>(HalfKernels::kSide_px);
+bool SubpixelLightAdder::take_smooth(Scratch& scratch) {
+    constexpr auto kSide_px = static_cast<std::size_t>(MomentKernels::kSide_px);
     const Area& e = scratch.charge_e;
     std::array<float, kArea_px> down_e;
     std::array<float, kSide_px> smooth_e;

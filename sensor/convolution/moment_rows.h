@@ -1,15 +1,15 @@
 #pragma once
-// The inner loop of the kernels of halves of pixels (half_kernels.h), by the widest vectors that the processor has.
+// The inner loop of the kernels of parts of pixels (moment_kernels.h), by the widest vectors that the processor has.
 
 #include <cstddef>
 #include <cstdint>
 
 namespace hilcam {
 
-inline constexpr std::size_t kHalfBlock_px = 32;  // columns that are made together
+inline constexpr std::size_t kSubpixelBlock_px = 32;  // columns that are made together
 
 // Two rows of a block, which have most of their input in common.
-struct HalfRows {
+struct MomentRows {
     const float* in;          // differences: the first that the upper row's first pixel gets light of
     std::size_t side;         // floats from one row of differences to the next
     const std::uint8_t* lit;  // marks taps + 1 rows of differences that are not all zero
@@ -17,8 +17,8 @@ struct HalfRows {
     std::size_t across;       // floats from one row of weights to the next
     int taps;                 // size of the kernel, across and down
 };
-// Writes what the differences give to the two rows, kHalfBlock_px sums each: upper, then lower. Every width of vectors gives the
-// same bits. Loop, any thread.
-void sum_half_rows(const HalfRows& rows, float* out);
+// Writes what the differences give to the two rows, kSubpixelBlock_px sums each: upper, then lower. Every width of vectors gives
+// the same bits. Loop, any thread.
+void sum_moment_rows(const MomentRows& rows, float* out);
 
 }  // namespace hilcam

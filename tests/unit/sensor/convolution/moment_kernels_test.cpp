@@ -1,4 +1,4 @@
-#include "sensor/convolution/half_kernels.h"
+#include "sensor/convolution/moment_kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -44,8 +44,8 @@ double slope_at(int x) {
 }
 
 // Light in one quarter of a pixel, among nothing: the smooth differences of it and of its neighbours are taken away.
-TEST(HalfKernels, PutLightWhereItComesFrom) {
-    const HalfKernels kernels(transfer);
+TEST(MomentKernels, PutLightWhereItComesFrom) {
+    const MomentKernels kernels(transfer);
     for (const double right : {-1.0, 1.0})
         for (const double down : {-1.0, 1.0})
             for (int y = -3; y <= 3; ++y)
@@ -67,7 +67,7 @@ TEST(HalfKernels, PutLightWhereItComesFrom) {
 }
 
 // Slow changes are convolved as the transfer function says: a picture by halves is no softer.
-TEST(HalfKernels, LeaveSmoothLightAsItIs) {
+TEST(MomentKernels, LeaveSmoothLightAsItIs) {
     // A whole pixel is a mean over its area, a half over half as much: between the two is what halves have less.
     const auto by_pixels = [](double u, double v) {
         return transfer(u, v) * (sinc(u / 2) * sinc(v / 2) / (sinc(u) * sinc(v)));
@@ -79,8 +79,8 @@ TEST(HalfKernels, LeaveSmoothLightAsItIs) {
 }
 
 // The kernels move light within the picture: none is added or lost.
-TEST(HalfKernels, SumToNothing) {
-    HalfKernels kernels(transfer);
+TEST(MomentKernels, SumToNothing) {
+    MomentKernels kernels(transfer);
     for (const Vec2d smear_px : {Vec2d{0, 0}, Vec2d{1.3, 0.4}}) {
         ASSERT_TRUE(kernels.prepare({.smear_px = smear_px}));
         for (const std::size_t d : {0u, 1u, 2u}) {
@@ -94,8 +94,8 @@ TEST(HalfKernels, SumToNothing) {
 }
 
 // A smear is the mean of kernels along it, and a Gaussian that of kernels about; both against many of them.
-TEST(HalfKernels, BlurAsTheirFrameDoes) {
-    HalfKernels kernels(transfer);
+TEST(MomentKernels, BlurAsTheirFrameDoes) {
+    MomentKernels kernels(transfer);
     for (const double smear_px : {0.3, 1.0, 3.0}) {
         const FrameBlur blur{.smear_px = {0.8 * smear_px, 0.6 * smear_px}, .sigma_px = {0.3, 0.3}};
         ASSERT_TRUE(kernels.prepare(blur));
@@ -128,9 +128,9 @@ TEST(HalfKernels, BlurAsTheirFrameDoes) {
 float difference(int d, int x, int y) {
     return y % 9 > 2 && (x * 7 + y * 13 + d * 5) % 11 == 0 ? static_cast<float>((x + 2 * y) % 17 - 8) : 0.0f;
 }
-HalfKernels::Parts differences() {
-    HalfKernels::Parts parts{};
-    constexpr int kSide = HalfKernels::kSide_px;
+MomentKernels::Parts differences() {
+    MomentKernels::Parts parts{};
+    constexpr int kSide = MomentKernels::kSide_px;
     for (int d = 0; d < 3; ++d)
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x)
@@ -140,9 +140,9 @@ HalfKernels::Parts differences() {
 }
 
 // Blocks are convolved as their definition says, whatever lies about them.
-TEST(HalfKernels, ConvolveABlock) {
-    const HalfKernels kernels(transfer);
-    constexpr int kReach = HalfKernels::kMaxReach_px, kColumns = 29, kRows = 31;
+TEST(MomentKernels, ConvolveABlock) {
+    const MomentKernels kernels(transfer);
+    constexpr int kReach = MomentKernels::kMaxReach_px, kColumns = 29, kRows = 31;
     std::vector<float> out(40 * (kRows + 1), 1.0f);
     kernels.add(differences(), kColumns, kRows, out.data(), 40);
     for (int y = 0; y <= kRows; ++y)
@@ -157,8 +157,8 @@ TEST(HalfKernels, ConvolveABlock) {
         }
 }
 
-TEST(HalfKernels, ConvolveAlikeByAnyWidth) {
-    const HalfKernels kernels(transfer);
+TEST(MomentKernels, ConvolveAlikeByAnyWidth) {
+    const MomentKernels kernels(transfer);
     expect_same_by_any_width([&] {
         std::vector<float> out(40 * 32, 0.25f);
         kernels.add(differences(), 32, 32, out.data(), 40);

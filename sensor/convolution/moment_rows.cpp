@@ -1,7 +1,7 @@
-#include "sensor/convolution/half_rows.h"
+#include "sensor/convolution/moment_rows.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sensor/convolution/half_rows.cpp"
+#define HWY_TARGET_INCLUDE "sensor/convolution/moment_rows.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -14,8 +14,8 @@ using Floats = hn::CappedTag<float, 16>;
 using V = hn::Vec<Floats>;
 constexpr std::size_t kLanes = hn::MaxLanes(Floats());
 // Vectors of a row whose sums are made together: with both rows' they stay in the registers, sixteen of which are the fewest.
-constexpr std::size_t kVectors = kHalfBlock_px / kLanes < 4 ? kHalfBlock_px / kLanes : 4;
-static_assert(kHalfBlock_px % (kVectors * kLanes) == 0);
+constexpr std::size_t kVectors = kSubpixelBlock_px / kLanes < 4 ? kSubpixelBlock_px / kLanes : 4;
+static_assert(kSubpixelBlock_px % (kVectors * kLanes) == 0);
 
 // Some columns of the two rows.
 struct Columns {
@@ -37,7 +37,7 @@ struct Columns {
     }
 };
 
-HWY_INLINE Columns sums_of(const HalfRows& rows, std::size_t first) {
+HWY_INLINE Columns sums_of(const MomentRows& rows, std::size_t first) {
     Columns sums;
     for (std::size_t k = 0; k < kVectors; ++k) sums.upper[k] = sums.lower[k] = hn::Zero(Floats());
     const float* in = rows.in + first;
@@ -51,13 +51,13 @@ HWY_INLINE Columns sums_of(const HalfRows& rows, std::size_t first) {
     return sums;
 }
 
-void sum_rows(const HalfRows& rows, float* out) {
+void sum_rows(const MomentRows& rows, float* out) {
     const Floats d;
-    for (std::size_t first = 0; first < kHalfBlock_px; first += kVectors * kLanes) {
+    for (std::size_t first = 0; first < kSubpixelBlock_px; first += kVectors * kLanes) {
         const Columns sums = sums_of(rows, first);
         for (std::size_t k = 0; k < kVectors; ++k) {
             hn::StoreU(sums.upper[k], d, out + first + k * kLanes);
-            hn::StoreU(sums.lower[k], d, out + kHalfBlock_px + first + k * kLanes);
+            hn::StoreU(sums.lower[k], d, out + kSubpixelBlock_px + first + k * kLanes);
         }
     }
 }
@@ -71,7 +71,7 @@ namespace hilcam {
 
 HWY_EXPORT(sum_rows);
 
-void sum_half_rows(const HalfRows& rows, float* out) { HWY_DYNAMIC_DISPATCH(sum_rows)(rows, out); }
+void sum_moment_rows(const MomentRows& rows, float* out) { HWY_DYNAMIC_DISPATCH(sum_rows)(rows, out); }
 
 }  // namespace hilcam
 #endif

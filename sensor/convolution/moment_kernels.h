@@ -1,5 +1,5 @@
 #pragma once
-// Three small kernels change a convolved picture by what is known of halves of its pixels (half_light.h), one for each
+// Three small kernels change a convolved picture by what is known of parts of its pixels (subpixel_light.h), one for each
 // of the differences.
 //
 // A pixel's light is a quarter each from the middles of its quarters, plus what its differences move between them. With
@@ -33,17 +33,17 @@ constexpr float smooth_difference(float second_left, float left, float right, fl
 // pixels whose differences are smooth, with what the pixels' sampling folds back.
 std::complex<double> smooth_transfer(const Transfer& fine, double u, double v);
 
-class HalfKernels {
+class MomentKernels {
   public:
     static constexpr double kMaxRest = 5e-3;
     static constexpr int kMaxReach_px = 8, kBlock_px = 32;
     static constexpr int kSide_px = kBlock_px + 2 * kMaxReach_px;
-    // Differences of a block and about it, in the order of HalfShares, less the smooth ones; row by row.
+    // Differences of a block and about it, in the order of SubpixelMoments, less the smooth ones; row by row.
     static constexpr std::size_t kParts = 3;
     using Parts = std::array<std::array<float, kSide_px * kSide_px>, kParts>;
 
     // Owner thread.
-    explicit HalfKernels(const Transfer& fine);
+    explicit MomentKernels(const Transfer& fine);
 
     // Makes the kernels of a frame's blur (its `axis` apart). False: it blurs by so much that they would not
     // reach far enough. Loop: no allocation, no lock; one thread.

@@ -1,5 +1,5 @@
 #pragma once
-// Adds to a convolved channel what it changes that its light lies in halves of pixels (half_light.h), block by
+// Adds to a convolved channel what it changes that its light lies in parts of pixels (subpixel_light.h), block by
 // block, where there is any such light. Next to objects, light that is known by one sample a pixel is taken to be even:
 // from what lies beyond an edge nothing follows.
 
@@ -10,23 +10,23 @@
 
 #include "render/vocabulary/radiance_image.h"
 #include "sensor/convolution/convolve.h"
-#include "sensor/convolution/half_kernels.h"
+#include "sensor/convolution/moment_kernels.h"
 
 namespace hilcam {
 
-class HalfLightAdder {
+class SubpixelLightAdder {
   public:
     // illumination: the lens' factors over the radiance image, row by row; zone_weights: shares of the field's
     // zones over the convolver's image, none with one zone. Both outlive it. Owner thread.
-    HalfLightAdder(const std::vector<float>& illumination,
-                   const std::vector<std::vector<float>>& zone_weights)
+    SubpixelLightAdder(const std::vector<float>& illumination,
+                       const std::vector<std::vector<float>>& zone_weights)
         : illumination_(illumination), zone_weights_(zone_weights) {}
 
     // One channel of the detector: its number, the kernels of each zone of the field, its response to radiance, and the
     // greatest charge that its pixels were cut to.
     struct Channel {
         int number;
-        std::span<HalfKernels> kernels;
+        std::span<MomentKernels> kernels;
         const Spectrum& response;
         float most_e;
     };
@@ -40,7 +40,7 @@ class HalfLightAdder {
 
     struct Source {
         const RadianceImage& radiance;
-        const HalfLight& light;
+        const SubpixelLight& light;
         int number;
         const Spectrum* response;  // null: the image has charge rates already
         float exposure_s, most_e;  // most_e: the charge to which brighter pixels were cut
@@ -51,14 +51,14 @@ class HalfLightAdder {
         const float* rates_e_s(int x, int y, std::size_t count, float* room) const;
     };
     // A block and what lies about it, as far as kernels reach and differences are taken from.
-    static constexpr int kRim_px = HalfKernels::kMaxReach_px + 2,
-                         kArea_px = HalfKernels::kBlock_px + 2 * kRim_px;
+    static constexpr int kRim_px = MomentKernels::kMaxReach_px + 2,
+                         kArea_px = MomentKernels::kBlock_px + 2 * kRim_px;
     using Area = std::array<std::array<float, kArea_px>, kArea_px>;
     struct Scratch {
         Area charge_e;  // light of pixels
-        std::array<std::array<HalfKind, kArea_px>, kArea_px> kinds;
+        std::array<std::array<SubpixelKind, kArea_px>, kArea_px> kinds;
         std::array<std::array<std::uint8_t, kArea_px>, kArea_px> sharp;  // pixels whose light is not smooth
-        HalfKernels::Parts parts;
+        MomentKernels::Parts parts;
     };
     bool gather(const Source& source, int x_px, int y_px, Scratch& scratch) const;
     void copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const;

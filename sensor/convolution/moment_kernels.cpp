@@ -1,4 +1,4 @@
-#include "sensor/convolution/half_kernels.h"
+#include "sensor/convolution/moment_kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "render/vocabulary/units.h"
 #include "sensor/convolution/cubic_weights.h"
 #include "sensor/convolution/fourier.h"
-#include "sensor/convolution/half_rows.h"
+#include "sensor/convolution/moment_rows.h"
 
 namespace hilcam {
 namespace {
@@ -81,7 +81,7 @@ double value_at(const std::vector<float>& image, double x_px, double y_px) {
 }
 
 constexpr int kRowsAtOnce = 2;
-static_assert(HalfKernels::kBlock_px == kHalfBlock_px);
+static_assert(MomentKernels::kBlock_px == kSubpixelBlock_px);
 
 HILCAM_CLONES bool any_lit(const float* row, std::size_t count) {
     std::uint32_t lit = 0;
@@ -116,7 +116,7 @@ std::complex<double> smooth_transfer(const Transfer& fine, double u, double v) {
     return sum;
 }
 
-HalfKernels::HalfKernels(const Transfer& fine) : point_(image_of_point(fine)) {
+MomentKernels::MomentKernels(const Transfer& fine) : point_(image_of_point(fine)) {
     reach_px_ = kMaxReach_px;
     make_weights({});
     still_reach_px_ = 1;
@@ -125,7 +125,7 @@ HalfKernels::HalfKernels(const Transfer& fine) : point_(image_of_point(fine)) {
     make_weights({});
 }
 
-bool HalfKernels::prepare(const FrameBlur& blur) {
+bool MomentKernels::prepare(const FrameBlur& blur) {
     const double smear_px = std::hypot(blur.smear_px.x, blur.smear_px.y);
     const int more_px = static_cast<int>(std::ceil(smear_px / 2 - 0.1));
     if (smear_px > kMostSmear_px || std::max(blur.sigma_px.x, blur.sigma_px.y) > kMostSigma_px) return false;
@@ -135,7 +135,7 @@ bool HalfKernels::prepare(const FrameBlur& blur) {
     return true;
 }
 
-void HalfKernels::make_weights(const FrameBlur& blur) {
+void MomentKernels::make_weights(const FrameBlur& blur) {
     prepared_.smear_px = blur.smear_px, prepared_.sigma_px = blur.sigma_px;
     const std::span<const Node> smears = nodes_of(std::hypot(blur.smear_px.x, blur.smear_px.y)),
                                 across = gaussian_nodes(blur.sigma_px.x),
@@ -170,10 +170,10 @@ void HalfKernels::make_weights(const FrameBlur& blur) {
         weights_[part][index_of(0, 0)] -= static_cast<float>(sums[part]);
 }
 
-float HalfKernels::weight(std::size_t part, int x, int y) const { return weights_[part][index_of(x, y)]; }
+float MomentKernels::weight(std::size_t part, int x, int y) const { return weights_[part][index_of(x, y)]; }
 
 // Returns the sum of the moduli of what the kernels lose that end there, the greatest of them.
-double HalfKernels::rest_beyond(int reach_px) const {
+double MomentKernels::rest_beyond(int reach_px) const {
     double most = 0;
     for (std::size_t part = 0; part < kParts; ++part) {
         double sum = 0;
@@ -186,7 +186,7 @@ double HalfKernels::rest_beyond(int reach_px) const {
     return most;
 }
 
-void HalfKernels::add(const Parts& parts, int columns, int rows, float* out, std::size_t stride) const {
+void MomentKernels::add(const Parts& parts, int columns, int rows, float* out, std::size_t stride) const {
     const int taps = 2 * reach_px_ + 1, skipped = kMaxReach_px - reach_px_;
     std::array<std::uint8_t, kSide_px> lit;
     std::array<std::array<float, kBlock_px>, kRowsAtOnce> sums;
@@ -197,7 +197,7 @@ void HalfKernels::add(const Parts& parts, int columns, int rows, float* out, std
         const float* const last = &weights_[part][index_of(reach_px_, reach_px_)];
         for (int y = 0; y < rows; y += kRowsAtOnce) {
             const int first = y + skipped;
-            sum_half_rows(
+            sum_moment_rows(
                 {all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps},
                 sums[0].data());
             for (int row = y; row < std::min(y + kRowsAtOnce, rows); ++row) {
