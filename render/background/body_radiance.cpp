@@ -149,7 +149,7 @@ std::string BodyRadiance::describe(const PlacedBody& body) const {
     }
     if (scene_.has_rings(body.id)) add("its rings at each ray, with the shadows of each on the other");
     for (std::size_t k = 0; k < body.shine_count; ++k)
-        if (largest(body.shine[k].irradiance_w_m2_um) > 0 && k == 0) add("light of other bodies on it");
+        if (max_component(body.shine[k].irradiance_w_m2_um) > 0 && k == 0) add("light of other bodies on it");
     return out;
 }
 

@@ -156,7 +156,8 @@ void PlacedBodies::add_planetshine(const WorldSnapshot& world, const BodyRadianc
                 (sun_irradiance_1au_ * (*scene_.all)[i].look.disk_albedo(phase) * light.map_mean(i))};
         // The strongest two.
         std::size_t at = out.shine_count;
-        while (at > 0 && largest(out.shine[at - 1].irradiance_w_m2_um) < largest(shine.irradiance_w_m2_um))
+        while (at > 0 &&
+               max_component(out.shine[at - 1].irradiance_w_m2_um) < max_component(shine.irradiance_w_m2_um))
             --at;
         if (at == out.shine.size()) continue;
         out.shine_count = std::min(out.shine_count + 1, out.shine.size());
@@ -165,8 +166,8 @@ void PlacedBodies::add_planetshine(const WorldSnapshot& world, const BodyRadianc
     }
     // What nobody sees beside the first is not worth a ray's time.
     constexpr float kSeen = 1e-3f;
-    if (out.shine_count == 2 &&
-        largest(out.shine[1].irradiance_w_m2_um) < kSeen * largest(out.shine[0].irradiance_w_m2_um))
+    if (out.shine_count == 2 && max_component(out.shine[1].irradiance_w_m2_um) <
+                                    kSeen * max_component(out.shine[0].irradiance_w_m2_um))
         out.shine_count = 1;
 }
 

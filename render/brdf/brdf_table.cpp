@@ -63,7 +63,7 @@ void BrdfTable::fit_lobe() {
     const auto at =
         [&](float theta_o) {  // in the plane of incidence, behind the mirror direction when positive
             const float c = std::cos(theta_o), io = kCosine * c - kSine * std::sin(theta_o);
-            return c > 0 ? largest(value(c, kCosine, io)) : 0.0f;
+            return c > 0 ? max_component(value(c, kCosine, io)) : 0.0f;
         };
     const float peak = at(0.5235988f);
     const float floor = at(-1.0f);  // well away from it, on the light's side

@@ -36,7 +36,7 @@ struct Dielectric : FacetModel<Dielectric> {
         return out;
     }
     float highlight_chance(const BsdfInputs& at, float no) const {
-        const float top = 1.0f * facets(no), below = largest(at.base) * (1 - facets(no));
+        const float top = 1.0f * facets(no), below = max_component(at.base) * (1 - facets(no));
         return top + below > 0 ? top / (top + below) : 1.0f;
     }
     float albedo(const BsdfInputs& at, float no, int bins) const {

@@ -30,7 +30,8 @@ struct Metal : FacetModel<Metal> {
 
     Spectrum mirrored(const BsdfInputs& at, float cosine) const { return schlick(at.highlight, cosine); }
     float highlight_chance(const BsdfInputs& at, float no) const {
-        const float top = largest(at.highlight) * facets(no), below = largest(at.base) * (1 - facets(no));
+        const float top = max_component(at.highlight) * facets(no),
+                    below = max_component(at.base) * (1 - facets(no));
         return top + below > 0 ? top / (top + below) : 1.0f;
     }
     float albedo(const BsdfInputs& at, float no, int bins) const {

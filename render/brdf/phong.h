@@ -36,7 +36,7 @@ struct Phong : BrdfModel<Phong> {
         return lobe(exponent + 2, c) * at.highlight + (1 / kPiF) * at.base;
     }
     float highlight_chance(const BsdfInputs& at, float) const {
-        const float top = largest(at.highlight), below = largest(at.base);
+        const float top = max_component(at.highlight), below = max_component(at.base);
         return top + below > 0 ? top / (top + below) : 0.0f;
     }
     float highlight_density(const BsdfInputs&, Cosines c) const { return lobe(exponent + 1, c); }

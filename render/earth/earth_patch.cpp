@@ -99,8 +99,8 @@ bool EarthPatch::may_bend(Cell cell) const {
     for (std::size_t k = 0; k < corners.size(); ++k)
         corners[k] = light_of(std::bit_cast<EarthAspect>(nodes_[cell.index() + k % 2 + k / 2 * kMaxNodes]));
     for (std::size_t i = 0; i < corners[0].size(); ++i) {
-        const auto [least, most] = std::minmax(
-            {largest(corners[0][i]), largest(corners[1][i]), largest(corners[2][i]), largest(corners[3][i])});
+        const auto [least, most] = std::minmax({max_component(corners[0][i]), max_component(corners[1][i]),
+                                                max_component(corners[2][i]), max_component(corners[3][i])});
         if (most > kMost * least) return true;
     }
     return false;

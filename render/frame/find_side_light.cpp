@@ -42,7 +42,7 @@ bool passes_objects(const FrameContext& frame, Vec3d dir, Spectrum& light) {
     if (!frame.scene->occluded(ray)) return true;
     if (!frame.has_glass) return false;
     light = light * passed_through_glass(frame, start, to_float(dir));
-    return largest(light) > 0;
+    return max_component(light) > 0;
 }
 
 }  // namespace
@@ -100,14 +100,15 @@ void find_side_light(const FrameContext& frame, const WorldSnapshot& world, std:
                 sky.add_bodies_seen(dir, weight, radiance);
                 // A body of few pixels is dark to such rays; what they leave is dimmed by the air before it.
                 if (body.in_points) radiance += weight * sky.ground_radiance(body, dir);
-                if (!(largest(radiance) > 0) || !passes_objects(frame, dir, radiance)) continue;
+                if (!(max_component(radiance) > 0) || !passes_objects(frame, dir, radiance)) continue;
                 light = {to_float(camera_from_world * dir), radiance};
             }
         });
     }
-    lights.erase(std::remove_if(lights.begin(), lights.end(),
-                                [](const SideLight& l) { return !(largest(l.irradiance_w_m2_um) > 0); }),
-                 lights.end());
+    lights.erase(
+        std::remove_if(lights.begin(), lights.end(),
+                       [](const SideLight& l) { return !(max_component(l.irradiance_w_m2_um) > 0); }),
+        lights.end());
 }
 
 }  // namespace hilcam

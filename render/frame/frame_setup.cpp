@@ -62,8 +62,9 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
         shown_.push_back(object.levels.front().get());
     }
     full_mask_.fill();
-    const bool emission = radiance_model_->emits() &&
-                          any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
+    const bool emission = radiance_model_->emits() && any_material(objects_, [](const Material& m) {
+                              return max_component(m.emission) > 0;
+                          });
     indirect_settings_ = {static_cast<float>(quality.kept_step_rad), lamps_.all().size(), emission};
     if (!scene.light_later) indirect_ = make_indirect_cache();
     // Rows of different instants sweep over more than a field, and draw a star several times that they are

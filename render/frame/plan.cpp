@@ -120,7 +120,7 @@ std::string lamp_line(const FrameContext& f, std::size_t i) {
              << " m from the camera: a shadow ray to it from every surface that its beam meets";
         return line.str();
     }
-    const bool shines = largest(f.lamps->all()[i].intensity_w_sr_um) > 0;
+    const bool shines = max_component(f.lamps->all()[i].intensity_w_sr_um) > 0;
     line << (shines ? "off" : "dark, as its spectrum has nothing in the scenario's bins")
          << ": costs nothing";
     return line.str();

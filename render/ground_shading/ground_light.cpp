@@ -170,7 +170,7 @@ ImageGeometry ground_geometry(const ImageGeometry& picture, int step_px) {
 
 bool is_plain_ground(const Material& material) {
     return !material.has_facets() && !material.transmits() && material.texture < 0 &&
-           largest(material.emission) <= 0;
+           max_component(material.emission) <= 0;
 }
 
 bool add_ground_light(Tile& tile) {
@@ -199,7 +199,7 @@ bool add_ground_light(Tile& tile) {
     });
     if (!all) return false;
     tile.stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
-    if (largest(frame.background->sun_irradiance_w_m2_um()) <= 0) return true;
+    if (max_component(frame.background->sun_irradiance_w_m2_um()) <= 0) return true;
     const auto lit = [&](const AskedPoint& asked, const Spectrum*) {
         tile.add(asked.pixel, LightPart::kSun, {}, asked.light);
     };

@@ -130,7 +130,7 @@ void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest>
         if (request.wants_glossy_rays) {
             room -= at.weight_samples, follow_together(use.number, place, requests);
             const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
-            request.cached_lobe = largest(at.throughput * plain);
+            request.cached_lobe = max_component(at.throughput * plain);
             request.cached_lobe_directions = place.directions;
             met = {};
         } else {
@@ -199,7 +199,7 @@ Spectrum IndirectCache::reflect_diffuse(const FrameContext& frame, const Place& 
     const IrradianceCache& light = *object.light;
     const ProbeWeights& about = place.about;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
-    const bool sunlit = largest(sun) > 0;
+    const bool sunlit = max_component(sun) > 0;
     if (at.surface.material->has_facets() && at.surface.alpha >= kNarrowestLobe && place.found)
         light.prefetch_along(sunlit ? RadiosityTerms::kSun : IrradianceCache::kNoTerm, place.nearest);
 
@@ -278,7 +278,7 @@ IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameContext& frame, c
     const ShadingPoint& at = *place.at;
     const IrradianceCache& light = *objects_[at.object].light;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
-    const bool sunlit = largest(sun) > 0;
+    const bool sunlit = max_component(sun) > 0;
     const std::size_t bodies = planetshine_.bodies().size();
     IrradianceCache::Lobe lobe;
     if (place.found) {
@@ -324,7 +324,7 @@ IndirectCache::LobeRays::LobeRays(const IndirectCache& scene, const ShadingPoint
 IndirectCache::SentOfBodies IndirectCache::sent_of_bodies(const ShadingPoint& at) const {
     SentOfBodies sent;
     // Brighter texels may share it.
-    const float reflectance = has_own_colors(at.surface) ? 1.0f : largest(lobe_albedo(at));
+    const float reflectance = has_own_colors(at.surface) ? 1.0f : max_component(lobe_albedo(at));
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
         sent[b] =
             at.clusters ? sent_by_parts(b, at, reflectance) : sent_of_body(b, at, at.normal, reflectance);
@@ -341,10 +341,10 @@ bool IndirectCache::hangs_on_few(const Tile& tile, const ShadingPoint& at, const
     if (at.depth != 1 || at.surface.alpha < kMinCachedAlpha) return false;
     if (tile.frame.max_depth < 2 || !(directions > 0 && directions < kFew)) return false;
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
-    const float light = at.weight_samples * largest(met);
-    const float white = largest(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
+    const float light = at.weight_samples * max_component(met);
+    const float white = max_component(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
     return light > kOfThreshold * samples * tile.frame.contribution_threshold * white &&
-           kBeside * light > largest(tile.pixels[at.pixel]);
+           kBeside * light > max_component(tile.pixels[at.pixel]);
 }
 
 // Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
@@ -375,10 +375,10 @@ Planetshine::Glossy IndirectCache::sent_by_parts(std::size_t body, const Shading
                 part->samples *
                 (own_colors ? white : brdf_mirrored(at.surface, sent[i].facet_cosine) * white);
             sum += light, samples += part->samples;
-            if (own_colors) cosines += largest(light) * sent[i].facet_cosine;
+            if (own_colors) cosines += max_component(light) * sent[i].facet_cosine;
         }
     }
-    const float all = largest(sum);
+    const float all = max_component(sum);
     return {(1 / samples) * sum, own_colors && all > 0 ? std::min(cosines / all, 1.0f) : 1.0f};
 }
 
@@ -397,7 +397,8 @@ void IndirectCache::add_bodies_in_lobe(const FrameContext& frame, const ShadingP
     bool meets = false;
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) {
         meets = meets || planetshine_.is_met(b, mirror);
-        radiance += at.throughput * colored(at.surface, sent_of_body(b, at, at.normal, largest(weight)));
+        radiance +=
+            at.throughput * colored(at.surface, sent_of_body(b, at, at.normal, max_component(weight)));
     }
     // Small bodies, and air.
     if (!meets && frame.background->may_meet_body(mirror))

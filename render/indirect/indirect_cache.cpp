@@ -71,7 +71,7 @@ std::string IndirectCache::describe(std::size_t i) const {
 
 void IndirectCache::take_inputs(const FrameContext& frame, const WorldSnapshot& world) {
     std::copy(world.objects.begin(), world.objects.end(), now_.objects.begin());
-    now_.sun = largest(frame.background->sun_irradiance_w_m2_um()) > 0;
+    now_.sun = max_component(frame.background->sun_irradiance_w_m2_um()) > 0;
     if (now_.sun) now_.sun_dir = to_float(frame.background->sun_world_dir());
     now_.body_count = planetshine_.bodies().size();
     for (std::size_t b = 0; b < now_.body_count; ++b)

@@ -68,7 +68,7 @@ Scattered scatter(const FrameContext& frame, const ShadingPoint& at, Vec3f dir, 
     if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) return {};
     const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
     const Spectrum light = ni * (at.throughput * brdf_value(surface, c));
-    return {light, at.start(), !(largest(light) > 0)};
+    return {light, at.start(), !(max_component(light) > 0)};
 }
 
 // Asks for one mirror, sixteen shading points at a time.
@@ -149,7 +149,8 @@ class Asker {
         }
         const float least = frame_.contribution_threshold;
         if (least > 0)
-            asked.filled *= std::clamp(asked.filled * largest(shown_.reflectance) / least - 1, 0.0f, 1.0f);
+            asked.filled *=
+                std::clamp(asked.filled * max_component(shown_.reflectance) / least - 1, 0.0f, 1.0f);
         if (!(asked.filled > 0)) return false;
         if (asked.even > 0) aim_at_mirror(place, asked);
         return true;
@@ -195,7 +196,7 @@ class Asker {
         }
         const float share = asked.even * asked.filled + (met ? 1 - asked.even : 0.0f);
         const Spectrum light = share * asked.light;
-        if (largest(light) > 0) sunlight_.add(from, asked.sun, {asked.at, light});
+        if (max_component(light) > 0) sunlight_.add(from, asked.sun, {asked.at, light});
     }
 };
 
@@ -246,7 +247,7 @@ void find_beam(Vec3f sun, float least, MirrorSunlight::Shown& out) {
     float widest = 0, share = 0;
     for (auto part = kRectangles.rbegin(); part != kRectangles.rend() && widest == 0; ++part) {
         share += part->share;
-        if (share * largest(out.reflectance) > least) widest = part->half;
+        if (share * max_component(out.reflectance) > least) widest = part->half;
     }
     beam.margin = {std::max(widest * out.blur.x, disk), std::max(widest * out.blur.y, disk)};
     const Vec2f cell = out.mirror.shape->cell_m();
@@ -257,7 +258,7 @@ void find_beam(Vec3f sun, float least, MirrorSunlight::Shown& out) {
 
 void MirrorSunlight::place(const FrameContext& frame, const WorldSnapshot& world) {
     shown_.clear(), beams_.clear();
-    if (!(largest(frame.background->sun_irradiance_w_m2_um()) > 0)) return;
+    if (!(max_component(frame.background->sun_irradiance_w_m2_um()) > 0)) return;
     const Vec3f sun = to_float(frame.background->sun_world_dir());
     for (const Mirror& mirror : mirrors_) {
         const FlatMirror& shape = *mirror.shape;
@@ -266,7 +267,7 @@ void MirrorSunlight::place(const FrameContext& frame, const WorldSnapshot& world
         if (dot(normal, sun) < 0) normal = -normal;
         const float cosine = dot(normal, sun);
         const Spectrum reflectance = mirror.albedo->lobe(cosine);
-        if (cosine < kMinCosine || largest(reflectance) < frame.contribution_threshold) continue;
+        if (cosine < kMinCosine || max_component(reflectance) < frame.contribution_threshold) continue;
         const Vec3f origin_m = to_float(world.objects[mirror.number].position_world_m - frame.rays_world_m);
         Shown out{mirror,
                   normal,

@@ -90,8 +90,8 @@ bool meet_the_dark(const FrameContext& frame, const MirrorRays::Packet& packet) 
         const Vec3f normal = frame.world_from_body[hits.object[k]] *
                              Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
         const bool sunlit = dot(normal, sun) * dot(normal, packet.rays.dir(k)) < 0;
-        if (sunlit || largest(material.base) + largest(material.highlight) > kDark ||
-            largest(material.emission) > 0)
+        if (sunlit || max_component(material.base) + max_component(material.highlight) > kDark ||
+            max_component(material.emission) > 0)
             return false;
     }
     return true;

@@ -233,7 +233,7 @@ class TracedPaths final : public PathModel {
         for (std::size_t i = last; i-- > first;) {
             ShadingPoint& other = found[i];
             if (other.object != at.object || other.surface_number != at.surface_number ||
-                largest(other.throughput) > (kMost - 0.5f) * largest(ray.throughput) ||
+                max_component(other.throughput) > (kMost - 0.5f) * max_component(ray.throughput) ||
                 other.back != at.back || other.sun_visibility != at.sun_visibility ||
                 other.surface.base.bin != at.surface.base.bin || dot(other.normal, at.normal) < least)
                 continue;

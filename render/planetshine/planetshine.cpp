@@ -145,7 +145,7 @@ void Planetshine::place(const Background& background, float margin_rad) {
     for (std::size_t number = 0; number < background.planetshine_sources().size(); ++number) {
         const PlanetshineSource& lamp = background.planetshine_sources()[number];
         const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
-        if (count_ == kMaxBodies || largest(lamp.max_over_sun) * solid_angle < kMinOverSun) continue;
+        if (count_ == kMaxBodies || max_component(lamp.max_over_sun) * solid_angle < kMinOverSun) continue;
         place_disks(background, number, disks_[count_]);
         const Disk& disk = disks_[count_].of.back();
         Body& body = bodies_[count_];
@@ -156,7 +156,7 @@ void Planetshine::place(const Background& background, float margin_rad) {
                        disk.irradiance[i];
         };
         add_to(body.world_dir, body.irradiance_w_m2_um);
-        if (!(largest(body.irradiance_w_m2_um) > 0)) continue;
+        if (!(max_component(body.irradiance_w_m2_um) > 0)) continue;
         place_light(disk, body);
         DirectionMap& irradiance = irradiance_[count_];
         for (std::size_t i = 0; i < irradiance.value.size(); ++i) {
@@ -205,10 +205,10 @@ void Planetshine::place_parts(std::span<const Look> looks, Vec3f axis, float one
         for (std::size_t k = 0; k < count; ++k)
             if (const float cosine = dot(seed[k], look.dir); cosine > nearest) nearest = cosine, best = k;
         out.irradiance[best] += look.irradiance;
-        middle[best] = middle[best] + largest(look.irradiance) * look.dir;
+        middle[best] = middle[best] + max_component(look.irradiance) * look.dir;
     }
     for (std::size_t k = 0; k < count; ++k) {
-        out.brightest[k] = largest(out.irradiance[k]);
+        out.brightest[k] = max_component(out.irradiance[k]);
         const Vec3f dir = dot(middle[k], middle[k]) > 0 ? normalized(middle[k]) : seed[k];
         out.x[k] = dir.x, out.y[k] = dir.y, out.z[k] = dir.z;
     }
@@ -260,7 +260,7 @@ Planetshine::Glossy Planetshine::narrow_lobe(std::size_t body, Vec3f normal, Vec
     float all = 0, together = 0, density = 0;
     SchlickSums sums;
     const auto add = [&](const Spectrum& light, float weight, float vh) {
-        const float bright = weight * largest(light);
+        const float bright = weight * max_component(light);
         sum += weight * light;
         sums.light += bright, sums.term += bright * schlick_weight(vh);
     };
@@ -295,14 +295,14 @@ void Planetshine::place_light(const Disk& disk, Body& body) {
     Vec3f mean{};
     float sum = 0, square = 0;
     for (std::size_t i = 0; i < kPatches; ++i) {
-        const float light = largest(disk.irradiance[i]);
+        const float light = max_component(disk.irradiance[i]);
         mean = mean + light * Vec3f{disk.x[i], disk.y[i], disk.z[i]};
         sum += light;
     }
     body.light_dir = normalized(mean);
     for (std::size_t i = 0; i < kPatches; ++i) {
         const Vec3f off = Vec3f{disk.x[i], disk.y[i], disk.z[i]} - body.light_dir;
-        square += largest(disk.irradiance[i]) * dot(off, off);
+        square += max_component(disk.irradiance[i]) * dot(off, off);
     }
     body.light_cosine = std::max(-1.0f, 1 - square / sum);  // |off|^2 is 2 - 2 cos
 }

@@ -43,7 +43,7 @@ ObjectAlbedos::ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mes
         wide.emplace_back(other);
         const bool is_mirror =
             material.has_facets() && material.ggx_alpha < kMinCachedAlpha && !material.varies();
-        throws.push_back(is_mirror ? largest(own.back().lobe(0.5f)) : 0.0f);
+        throws.push_back(is_mirror ? max_component(own.back().lobe(0.5f)) : 0.0f);
     }
     mirrors = find_flat_mirrors(mesh, surfaces, throws);
 }

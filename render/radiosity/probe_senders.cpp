@@ -167,8 +167,8 @@ void ProbeSenders::send(const IrradianceCache& light, std::size_t n, const LitPo
     sender.lit = lit;
     sender.alpha = std::max(material.ggx_alpha, IrradianceCache::min_alpha(light.table()));
     // However wide the facets are taken, they send as much in all as they reflect.
-    const float whole = largest(light.wide_albedo(surface).lobe(cosine));
-    sender.gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;
+    const float whole = max_component(light.wide_albedo(surface).lobe(cosine));
+    sender.gain = whole > 0 ? max_component(albedo.lobe(cosine)) / whole : 0.0f;
     sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));
 }
 

@@ -26,7 +26,7 @@ void RadiositySolver::part_lobes(const Member& member) {
             const std::uint16_t surface = light.table().probes().probes()[n].surface;
             const Spectrum sent =
                 (1 / kPiF) * (light.facet_color(n, light.albedo(surface).white_lobe()) * came);
-            if (largest(sent) < kWorthIt) continue;
+            if (max_component(sent) < kWorthIt) continue;
             sends_on_[base + n] = 1, by_lobes_[base + n] = sent;
         }
     });

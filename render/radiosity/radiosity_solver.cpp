@@ -106,7 +106,7 @@ void RadiositySolver::gather_first(const Member& member, std::span<const Member>
             Spectrum sum, mirrored;
             Brought brought;
             const auto add = [&](const Spectrum& radiance) {
-                const float bright = largest(radiance);
+                const float bright = max_component(radiance);
                 sum += radiance;
                 brought += {bright, bright * bright};
             };

@@ -64,7 +64,8 @@ BrdfSample sample_sheet(const Bsdf& at, Vec3f normal, Vec3f view_dir, float u) {
     const float no = std::max(dot(normal, view_dir), 1e-4f);
     const float chance = std::visit(
         [&](const auto& model) {
-            const float back = largest(model.mirrored(at, no)), through = largest(model.passed(at, no));
+            const float back = max_component(model.mirrored(at, no)),
+                        through = max_component(model.passed(at, no));
             return back > 0 ? back / (back + through) : 0.0f;
         },
         at.material->brdf);

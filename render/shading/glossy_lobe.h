@@ -30,7 +30,7 @@ struct GlossyLobe {
     float found = 0;                        // sum of these
 
     void add(std::size_t ray, const Spectrum& more) {
-        const float brightest = largest(more);
+        const float brightest = max_component(more);
         light += more, by_ray[ray] += brightest, found += brightest;
     }
     // Returns as much of what is found as is believed at this one shading point.

@@ -33,7 +33,7 @@ bool is_hidden(const FrameContext& frame, Vec3d dir, double distance_m) {
     ray.set(0, start_m, to_float(dir), 0, static_cast<float>(until_m));
     if (frame.scene->occluded(ray) == 0) return false;
     return !frame.has_glass ||
-           !(largest(passed_through_glass(frame, start_m, to_float(dir), ray.farthest[0])) > 0);
+           !(max_component(passed_through_glass(frame, start_m, to_float(dir), ray.farthest[0])) > 0);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ void Lamps::place(const WorldSnapshot& world, Vec3d ray_space_world_m) {
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
         const ShownLamp& shown = world.lamps[i];
         const Spectrum intensity = static_cast<float>(shown.level) * lamps_[i].intensity_w_sr_um;
-        if (!(largest(intensity) > 0)) continue;
+        if (!(max_component(intensity) > 0)) continue;
         lit_[lit_count_++] = {i, shown.position_world_m - ray_space_world_m, shown.axis, intensity,
                               &lamps_[i].beam};
     }
@@ -84,7 +84,7 @@ void add_lamps_reflected(Tile& tile, std::span<const ShadingPoint> points) {
             const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
             const Spectrum weight =
                 (ni * ray.per_m2) * (at.throughput * lamp.intensity_w_sr_um * brdf_value(at.surface, c));
-            if (largest(weight) > 0)
+            if (max_component(weight) > 0)
                 shadow.add(start_m, dir, {&at, weight}, static_cast<float>(free_length_m(ray.distance_m)));
         }
 }

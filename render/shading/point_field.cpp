@@ -93,7 +93,7 @@ bool PointField::look(Vec3d dir, double distance_m, const Spectrum& irradiance, 
         if (until_m > 0 && frame_.scene->occluded(ray)) {
             if (!frame_.has_glass) return false;
             seen = seen * passed_through_glass(frame_, start, to_float(thing_dir), ray.farthest[0]);
-            if (!(largest(seen) > 0)) return false;
+            if (!(max_component(seen) > 0)) return false;
         }
     }
     return true;

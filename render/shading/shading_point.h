@@ -66,7 +66,7 @@ struct PathThroughput {
 
     // Returns the figure that thresholds are held against: the largest throughput of one of the samples for which
     // a ray stands.
-    float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
+    float importance(const Spectrum& of) const { return max_component(of) / weight_samples; }
 };
 
 // Where in the picture it is seen, or the first shading point of its path.

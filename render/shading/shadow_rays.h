@@ -73,7 +73,7 @@ class ShadowRays {
                 const Spectrum passed =
                     passed_through_glass(frame_, {rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]},
                                          {rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]}, rays_.farthest[k]);
-                if (largest(passed) > 0) lit_(payloads_[k], &passed);
+                if (max_component(passed) > 0) lit_(payloads_[k], &passed);
             }
         }
         rays_.count = 0;

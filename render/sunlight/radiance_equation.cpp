@@ -34,7 +34,7 @@ bool is_weighed(const FrameContext& frame, const ShadingPoint& at) {
 // stands over the surface's horizon.
 bool body_light_counts(const FrameContext& frame, const ShadingPoint& at, const PlanetshineSource& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
-    if (at.importance(at.throughput) * largest(lamp.max_over_sun) * solid_angle <
+    if (at.importance(at.throughput) * max_component(lamp.max_over_sun) * solid_angle <
         frame.contribution_threshold)
         return false;
     return dot(at.geometric_normal, to_float(lamp.world_dir)) >= -std::sqrt(lamp.cone_sine_squared);
@@ -91,7 +91,7 @@ class ClusterLights {
 void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
     const FrameContext& frame = tile.frame;
     const Background& background = *frame.background;
-    if (largest(background.sun_irradiance_w_m2_um()) <= 0 || points.empty()) return;
+    if (max_component(background.sun_irradiance_w_m2_um()) <= 0 || points.empty()) return;
     const SunSampler sun(tile);
     const bool primary = points.front().depth == 1;
     const bool finds_edges = primary && tile.penumbra && !frame.sun_is_disk && !frame.has_glass;
@@ -130,7 +130,7 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
         Bsdf surface = at.surface;
         if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
         const Spectrum weight = (ni * share) * (at.throughput * light * brdf_value(surface, c));
-        if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.sun_visibility == SunVisibility::kDark))
+        if (!(max_component(weight) > 0) || (!frame.sun_is_disk && at.sun_visibility == SunVisibility::kDark))
             continue;
         if (!frame.sun_is_disk && at.sun_visibility == SunVisibility::kLit)
             tile.add(at, LightPart::kSun, weight);
@@ -169,7 +169,7 @@ void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
             const float density = cone_density(lamp) + density_of_others(frame, at, dir, &lamp) +
                                   (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
             const Spectrum weight = (ni / density) * (at.throughput * brdf_value(at.surface, c));
-            if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
+            if (max_component(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
         }
     }
 }

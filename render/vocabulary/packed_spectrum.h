@@ -13,7 +13,7 @@ namespace hilcam {
 class PackedSpectrum {
   public:
     PackedSpectrum() = default;
-    explicit PackedSpectrum(const Spectrum& s) : scale_(largest(s) * (1 / kMax)) {
+    explicit PackedSpectrum(const Spectrum& s) : scale_(max_component(s) * (1 / kMax)) {
         const float inverse = scale_ > 0 ? 1 / scale_ : 0.0f;
         for (std::size_t i = 0; i < share_.size(); ++i)
             share_[i] = static_cast<std::uint16_t>(s.bin[i] * inverse + 0.5f);

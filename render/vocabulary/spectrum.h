@@ -41,7 +41,7 @@ inline float sum_of_products(const Spectrum& a, const Spectrum& b) {
     for (int i = 0; i < kMaxBins; ++i) sum += a[i] * b[i];
     return sum;
 }
-inline float largest(const Spectrum& s) {
+inline float max_component(const Spectrum& s) {
     float most = s[0];
     for (int i = 1; i < kMaxBins; ++i) most = s[i] > most ? s[i] : most;
     return most;

@@ -91,7 +91,7 @@ float lobe_share(const Bsdf& at, float no) {
 // stands over the surface's horizon.
 bool counts(const FrameContext& frame, const ShadingPoint& at, const PlanetshineSource& body) {
     const float solid_angle = 2 * kPiF * body.one_minus_cosine;
-    return at.importance(at.throughput) * largest(body.max_over_sun) * solid_angle >=
+    return at.importance(at.throughput) * max_component(body.max_over_sun) * solid_angle >=
                frame.contribution_threshold &&
            dot(at.geometric_normal, to_float(body.world_dir)) >= -std::sqrt(body.cone_sine_squared);
 }
@@ -141,7 +141,7 @@ void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
                 if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
                 const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
                 const Spectrum weight = (ni / density) * (at.throughput * brdf_value(surface, c));
-                if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
+                if (max_component(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
             }
         }
     }
@@ -221,7 +221,7 @@ class HemispherePaths final : public PathModel {
             const Cosines c{no, direction.z, dot(at.view_dir, dir)};
             const Spectrum weight = (kSolidAngle * direction.z) * (at.throughput * brdf_value(surface, c));
             // All directions together against the threshold.
-            if (static_cast<float>(kDirections) * at.importance(weight) >= least && largest(weight) > 0)
+            if (static_cast<float>(kDirections) * at.importance(weight) >= least && max_component(weight) > 0)
                 rays_[count++] = {at.start(), dir, weight, false, false, LightPart::kPath};
         }
         return count;

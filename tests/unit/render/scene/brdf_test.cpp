@@ -240,7 +240,7 @@ TEST(Brdf, AVeilScattersWhatItCovers) {
     const Bsdf at = bsdf(net);
     EXPECT_TRUE(at.is_glass() && at.has_lobes());
     EXPECT_NEAR(brdf_exact(at, kUp, direction(0.3, 0), 1).weight[0], 0.8, 1e-6);
-    EXPECT_EQ(largest(brdf_exact(at, kUp, direction(0.3, 0), 0).weight), 0);
+    EXPECT_EQ(max_component(brdf_exact(at, kUp, direction(0.3, 0), 0).weight), 0);
     EXPECT_NEAR(brdf_value(at, {0.3f, 0.6f, 0.1f})[0], 0.8 * 0.2 / kPi, 1e-6);
     EXPECT_EQ(brdf_density(at, {0.3f, 0.6f, 0.1f}), 0);
     for (const float u : {0.0f, 0.3f, 0.9f}) {

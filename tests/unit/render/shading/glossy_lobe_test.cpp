@@ -20,7 +20,7 @@ GlossyLobe lobe_of(float cached, float directions, float light, std::size_t brig
     for (std::size_t i = 0; i < bright; ++i) lobe.add(i, gray(light / static_cast<float>(bright)));
     return lobe;
 }
-float found(const GlossyLobe& lobe) { return largest(lobe.sum(lobe.believed())); }
+float found(const GlossyLobe& lobe) { return max_component(lobe.sum(lobe.believed())); }
 
 TEST(GlossyLobe, RaysAreRightWhereTheyFindLess) {
     EXPECT_FLOAT_EQ(found(lobe_of(10, 4, 3, 1)), 3);
@@ -64,7 +64,7 @@ TEST(GlossyLobe, WhatOneDoesNotHaveOthersHave) {
     const std::array lobes{lobe_of(10, 4, 60, 1), lobe_of(10, 4, 10, 4), lobe_of(10, 4, 0, 0)};
     const float share = found_over_believed(lobes);
     float sum = 0;
-    for (const GlossyLobe& lobe : lobes) sum += largest(lobe.sum(share * lobe.believed()));
+    for (const GlossyLobe& lobe : lobes) sum += max_component(lobe.sum(share * lobe.believed()));
     EXPECT_FLOAT_EQ(sum, 70);
     EXPECT_FLOAT_EQ(share, 70.0f / 30);
     EXPECT_EQ(lobes[2].believed(), 0);

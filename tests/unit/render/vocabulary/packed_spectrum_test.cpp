@@ -22,7 +22,8 @@ Spectrum spectrum(std::size_t i) {
 TEST(PackedSpectrum, IsOffByAShareOfTheLargestBin) {
     for (std::size_t i = 0; i < kCount; ++i) {
         const Spectrum s = spectrum(i), back = PackedSpectrum(s).unpacked();
-        for (int b = 0; b < kMaxBins; ++b) EXPECT_NEAR(back[b], s[b], 8e-6f * largest(s)) << i << " " << b;
+        for (int b = 0; b < kMaxBins; ++b)
+            EXPECT_NEAR(back[b], s[b], 8e-6f * max_component(s)) << i << " " << b;
     }
     for (const float bin : PackedSpectrum(Spectrum{}).unpacked().bin) EXPECT_EQ(bin, 0);
 }
