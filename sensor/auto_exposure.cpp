@@ -38,13 +38,13 @@ DnScale dn_scale_of(const CameraModel& c, const Exposure& exposure) {
     const auto pixels = static_cast<double>(binning_x * binning_y);
     const double well_e = c.read_e(c.full_well_e) * (c.binning == BinningKind::kCharge ? pixels : 1);
     DnScale scale;
-    scale.most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
+    scale.max_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     scale.black_dn = exposure.black_level_dn.value_or(c.offset_dn);
-    scale.full_dn = std::min(scale.most_dn, scale.black_dn + well_e * c.system_gain_dn_e(exposure.gain_db));
+    scale.full_dn = std::min(scale.max_dn, scale.black_dn + well_e * c.system_gain_dn_e(exposure.gain_db));
     if (c.binning == BinningKind::kSum) {
-        scale.most_dn = std::exp2(c.number_bits()) - 1;
-        scale.black_dn = std::min(pixels * scale.black_dn, scale.most_dn - 1);
-        scale.full_dn = std::min(pixels * scale.full_dn, scale.most_dn);
+        scale.max_dn = std::exp2(c.number_bits()) - 1;
+        scale.black_dn = std::min(pixels * scale.black_dn, scale.max_dn - 1);
+        scale.full_dn = std::min(pixels * scale.full_dn, scale.max_dn);
     }
     scale.square_root = c.converter.companding == Companding::kSquareRoot;
     if (c.converter.companding == Companding::kTable) scale.companding = &c.converter.companding_table;
@@ -85,7 +85,7 @@ Brightness FrameHistogram::measure(const DnImage& frame, int black_columns, int 
     while (at + 1 < counts_.size() && (below += counts_[at]) < rank) ++at;
     double dn = static_cast<double>(at);
     if (scale.companding) dn = number_of_code(*scale.companding, dn);
-    if (scale.square_root) dn = dn * dn / (255.0 * 255.0) * scale.most_dn;
+    if (scale.square_root) dn = dn * dn / (255.0 * 255.0) * scale.max_dn;
     // Noise spreads a saturated level over some numbers below it.
     constexpr double kNearlyFull = 0.98;
     const double range_dn = scale.full_dn - scale.black_dn;

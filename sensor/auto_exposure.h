@@ -46,8 +46,8 @@ double next_exposure_s(const AutoExposureConfig& config, Brightness seen, double
 struct DnScale {
     double black_dn = 0;
     double full_dn = 4095;              // number at which the camera saturates
-    double most_dn = 4095;              // greatest number of the converter
-    bool square_root = false;           // 8-bit numbers are 255 sqrt(dn / most_dn)
+    double max_dn = 4095;               // greatest number of the converter
+    bool square_root = false;           // 8-bit numbers are 255 sqrt(dn / max_dn)
     const Table* companding = nullptr;  // or codes of this table, the camera's
 };
 

@@ -286,10 +286,10 @@ void check_electronics(const CameraModel& c) {
                          std::to_string(c.container_bits) + "; accepted: no more bits than that");
     if (c.packing == Packing::kGige && c.frame_bits() != 10 && c.frame_bits() != 12)
         throw InputError("packing gige with " + std::to_string(c.frame_bits()) + " bits; accepted: 10 or 12");
-    const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
-    if (c.offset_dn >= most_dn)
+    const double max_dn = std::exp2(static_cast<double>(c.bits)) - 1;
+    if (c.offset_dn >= max_dn)
         throw KeyError("offset_dn", plain(c.offset_dn) + " leaves nothing of the ADC's " +
-                                        std::to_string(c.bits) + " bits; accepted: below " + plain(most_dn));
+                                        std::to_string(c.bits) + " bits; accepted: below " + plain(max_dn));
     if (c.sum_bits != 0 && c.binning != BinningKind::kSum)
         throw KeyError("sum_bits", "has no effect without binning: sum; accepted: both or neither");
     if (c.sum_bits != 0 && c.sum_bits < c.bits)
@@ -343,12 +343,12 @@ double CameraModel::read_e(double charge_e) const {
 double CameraModel::charge_of_read_e(double read) const {
     if (const double well_e = read_e(full_well_e); read >= well_e) return full_well_e + (read - well_e);
     // What is read rises with charge (validate()).
-    double least_e = 0, most_e = full_well_e;
+    double min_e = 0, max_e = full_well_e;
     for (int step = 0; step < 60; ++step) {
-        const double middle_e = 0.5 * (least_e + most_e);
-        (read_e(middle_e) < read ? least_e : most_e) = middle_e;
+        const double middle_e = 0.5 * (min_e + max_e);
+        (read_e(middle_e) < read ? min_e : max_e) = middle_e;
     }
-    return most_e;
+    return max_e;
 }
 
 double CameraModel::dark_current_now_e_s() const {

@@ -228,7 +228,7 @@ struct SensorChain::Implementation {
         for (std::size_t x = 0; x < dn.size(); ++x)
             dn[x] = static_cast<std::uint16_t>(camera.binning == BinningKind::kMean
                                                    ? (s.sums[x] + count / 2) / count
-                                                   : std::min(s.sums[x], read_out.most_sum_dn()));
+                                                   : std::min(s.sums[x], read_out.max_sum_dn()));
     }
 };
 

@@ -84,7 +84,7 @@ double RowFilter::mtf(double f) const {
 }
 
 Converter::Converter(const ConverterConfig& c, int bits, std::uint64_t seed, int number_bits)
-    : most_dn_(static_cast<float>((1 << bits) - 1)), inl_lsb_(static_cast<float>(c.inl_lsb)) {
+    : max_dn_(static_cast<float>((1 << bits) - 1)), inl_lsb_(static_cast<float>(c.inl_lsb)) {
     const std::uint32_t steps = std::uint32_t{1} << bits;
     // A step's width is the difference of two edges: each has 1 / sqrt 2 of its deviation.
     if (c.dnl_lsb > 0)
@@ -107,17 +107,17 @@ Converter::Converter(const ConverterConfig& c, int bits, std::uint64_t seed, int
 
 namespace {
 
-HILCAM_CLONES void round_all(const float* value_dn, std::size_t count, float most_dn, std::uint16_t* dn) {
+HILCAM_CLONES void round_all(const float* value_dn, std::size_t count, float max_dn, std::uint16_t* dn) {
     for (std::size_t i = 0; i < count; ++i)
         dn[i] = static_cast<std::uint16_t>(
-            static_cast<std::int32_t>(std::min(std::max(value_dn[i], 0.0f), most_dn) + 0.5f));
+            static_cast<std::int32_t>(std::min(std::max(value_dn[i], 0.0f), max_dn) + 0.5f));
 }
 
 }  // namespace
 
 void Converter::convert(std::span<const float> value_dn, std::span<std::uint16_t> dn) const {
     if (edge_error_lsb_.empty() && inl_lsb_ == 0)
-        round_all(value_dn.data(), value_dn.size(), most_dn_, dn.data());
+        round_all(value_dn.data(), value_dn.size(), max_dn_, dn.data());
     else
         std::transform(value_dn.begin(), value_dn.end(), dn.begin(), [&](float v) { return step_of(v); });
 }
@@ -128,15 +128,15 @@ void Converter::compand(std::span<std::uint16_t> dn) const {
 }
 
 std::uint16_t Converter::step_of(float value_dn) const {
-    const float x = std::min(std::max(value_dn, 0.0f), most_dn_);
-    const float bent = std::min(x + 4 * inl_lsb_ * (x / most_dn_) * (1 - x / most_dn_), most_dn_);
+    const float x = std::min(std::max(value_dn, 0.0f), max_dn_);
+    const float bent = std::min(x + 4 * inl_lsb_ * (x / max_dn_) * (1 - x / max_dn_), max_dn_);
     auto step = static_cast<std::int32_t>(bent + 0.5f);
     if (!edge_error_lsb_.empty()) {
         const float beyond = bent - static_cast<float>(step);  // -0.5 .. 0.5
         const auto edge = [&](std::int32_t i) { return edge_error_lsb_[static_cast<std::size_t>(i)]; };
         if (step > 0 && beyond < -0.5f + edge(step))
             --step;
-        else if (step < static_cast<std::int32_t>(most_dn_) && beyond >= 0.5f + edge(step + 1))
+        else if (step < static_cast<std::int32_t>(max_dn_) && beyond >= 0.5f + edge(step + 1))
             ++step;
     }
     return static_cast<std::uint16_t>(step);

@@ -65,7 +65,7 @@ class Converter {
   private:
     std::uint16_t step_of(float value_dn) const;
 
-    float most_dn_;
+    float max_dn_;
     float inl_lsb_;
     std::vector<float> edge_error_lsb_;      // error of the lower edge of each step; empty: none
     std::vector<std::uint16_t> companding_;  // by converted number; empty: none

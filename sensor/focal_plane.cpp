@@ -183,8 +183,8 @@ struct FocalPlane::Implementation {
     void take_out_bright(LightChannel& channel, const RadianceImage& radiance, const Exposure& exposure) {
         const auto number = static_cast<std::size_t>(&channel - channels.data());
         const std::size_t before = bright.all().size();
-        channel.most_e = bright.take_out({*channel.convolver, row_peaks, static_cast<int>(number),
-                                          moments_of(radiance, exposure), exposure.exposure_s});
+        channel.max_e = bright.take_out({*channel.convolver, row_peaks, static_cast<int>(number),
+                                         moments_of(radiance, exposure), exposure.exposure_s});
         for (const BrightPixel& pixel : bright.all().subspan(before))
             wings[number].collect(pixel.position_px.x, pixel.position_px.y, pixel.electrons);
     }
@@ -373,9 +373,9 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
         else
             channel.convolver->run(blur);
         if (my.moments_of(radiance, exposure))
-            my.subpixel_adder.add(
-                radiance, {static_cast<int>(c), channel.moments, channel.per_radiance, channel.most_e}, blur,
-                exposure.exposure_s, *channel.convolver);
+            my.subpixel_adder.add(radiance,
+                                  {static_cast<int>(c), channel.moments, channel.per_radiance, channel.max_e},
+                                  blur, exposure.exposure_s, *channel.convolver);
     }
 }
 

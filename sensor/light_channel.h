@@ -56,7 +56,7 @@ struct LightChannel {
     };
     std::vector<GridKernel> kernels;
     std::vector<MomentKernels> moments;  // by zone; none where no frame has moments
-    float most_e = 0;                    // the limit to which the present frame's brighter pixels were cut
+    float max_e = 0;                     // the limit to which the present frame's brighter pixels were cut
     std::optional<Ghost> ghost;
 
     // Null: there is none.

@@ -96,7 +96,7 @@ PointLight::Source PointLight::source_of(const PointSource& point, std::size_t c
     out.electrons =
         std::min(channels_[c].electrons_of(point.irradiance_w_m2_um, bins_, exposure_.exposure_s), 1e9);
     if (!(out.electrons > 0)) return out;
-    out.wide_halo = !halos_.empty() && out.electrons > halos_[c].least_e();
+    out.wide_halo = !halos_.empty() && out.electrons > halos_[c].min_e();
     const double way = exposure_.exposure_s / m;
     out.trail = trails_.of_sky(middle_px, {way * static_cast<double>(point.drift_px_s.x),
                                            way * static_cast<double>(point.drift_px_s.y)});

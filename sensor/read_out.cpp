@@ -49,7 +49,7 @@ ReadOut::ReadOut(const CameraModel& c)
       filter_(c.filters),
       converter_(c.converter, static_cast<int>(c.bits), static_cast<std::uint64_t>(c.fixed_pattern.seed),
                  c.number_bits()),
-      most_sum_dn_((1u << c.number_bits()) - 1) {
+      max_sum_dn_((1u << c.number_bits()) - 1) {
     if (c.flicker_noise_e > 0) {
         const auto [width, height] = array_size(c);
         flicker_octaves_ = static_cast<int>(std::ceil(std::log2(static_cast<double>(width) * height))) + 1;

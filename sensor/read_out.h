@@ -42,7 +42,7 @@ class ReadOut {
               std::span<std::uint16_t> dn) const;
     void compand(std::span<std::uint16_t> dn) const { converter_.compand(dn); }
     // Returns the greatest sum of numbers.
-    std::uint32_t most_sum_dn() const { return most_sum_dn_; }
+    std::uint32_t max_sum_dn() const { return max_sum_dn_; }
     const RowFilter& filter() const { return filter_; }
 
   private:
@@ -58,7 +58,7 @@ class ReadOut {
     float flicker_octave_e_ = 0;
     RowFilter filter_;
     Converter converter_;
-    std::uint32_t most_sum_dn_;
+    std::uint32_t max_sum_dn_;
 };
 
 }  // namespace hilcam

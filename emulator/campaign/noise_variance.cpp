@@ -74,16 +74,16 @@ VarianceImage noise_variance(const CameraModel& camera, const ElectronImage& mea
             "pictures.variance: the camera's numbers are not linear in its charge; accepted: a linear one");
     const SensorNoise noise(without_patterns(camera), exposure.gain_db);
     const double gain_dn_e = camera.system_gain_dn_e(exposure.gain_db);
-    const double most_e = (std::exp2(static_cast<double>(camera.bits)) - 1 -
-                           exposure.black_level_dn.value_or(camera.offset_dn)) /
-                          gain_dn_e;
+    const double max_e = (std::exp2(static_cast<double>(camera.bits)) - 1 -
+                          exposure.black_level_dn.value_or(camera.offset_dn)) /
+                         gain_dn_e;
     const auto [width, height] = frame_size(camera, binning_x, binning_y);
     VarianceImage out(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const BinnedCharge charge =
                 charge_of(mean_e, x, y, static_cast<int>(binning_x), static_cast<int>(binning_y));
-            const bool is_full = charge.greatest_e >= camera.full_well_e || charge.sum_e >= most_e;
+            const bool is_full = charge.greatest_e >= camera.full_well_e || charge.sum_e >= max_e;
             const auto i =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             const double all_e2 =

@@ -121,11 +121,11 @@ OrderedJson keypoints_of(const std::vector<KeypointSet>& sets, const FrameTruth&
 
 // Returns how many millimetres a step of the depth picture is: a power of ten that holds the farthest object.
 double depth_step_mm(const FrameTruth& truth) {
-    float most_m = 0;
+    float max_m = 0;
     for (const float d : truth.layers.depth_m.all())
-        if (std::isfinite(d) && d < 1e7f) most_m = std::max(most_m, d);
+        if (std::isfinite(d) && d < 1e7f) max_m = std::max(max_m, d);
     double step_mm = 0.1;
-    while (static_cast<double>(most_m) * 1e3 / step_mm > 65535) step_mm *= 10;
+    while (static_cast<double>(max_m) * 1e3 / step_mm > 65535) step_mm *= 10;
     return step_mm;
 }
 

@@ -247,10 +247,10 @@ class BenchRun {
         throw CaseFailure(problem);
     }
     bool is_disk_full() const {
-        constexpr std::uintmax_t kLeast_bytes = 1 << 16;
+        constexpr std::uintmax_t kMin_bytes = 1 << 16;
         std::error_code error;
         const std::filesystem::space_info room = std::filesystem::space(folder_, error);
-        return !error && room.available < kLeast_bytes;
+        return !error && room.available < kMin_bytes;
     }
 
     void run_program(Started& camera) {

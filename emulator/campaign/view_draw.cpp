@@ -119,7 +119,7 @@ class ViewMaker {
     }
 
     double range(double radius_m) {
-        const double least_m = 1.0001 * radius_m;
+        const double min_m = 1.0001 * radius_m;
         double range_m = 0;
         if (view_.range_m) {
             range_m = drawn(*view_.range_m, Dimension::kSize);
@@ -130,7 +130,7 @@ class ViewMaker {
             add("view.size_px", size_px);
             range_m = range_of_size_m(radius_m, size_px, focal_length_px());
         }
-        if (!(range_m > least_m))
+        if (!(range_m > min_m))
             throw InputError("view: the camera would stand " + exact_number(range_m) +
                              " m from the target's origin, within the sphere of " + exact_number(radius_m) +
                              " m that holds it");
@@ -160,9 +160,9 @@ class ViewMaker {
                     std::isfinite(target.sunlit) ? target.sunlit : 1, kPi * radius_px * radius_px});
         const double rate_e_s = expected.signal_e / sheet.exposure_s + sheet.dark_e_s;
         const double wanted_e = (dn - s.camera.offset_dn) / sheet.gain_dn_e;
-        const auto [least_s, most_s] = exposure_range_s(s.camera);
+        const auto [min_s, max_s] = exposure_range_s(s.camera);
         const double exposure_s =
-            std::clamp(rate_e_s > 0 && wanted_e > 0 ? wanted_e / rate_e_s : most_s, least_s, most_s);
+            std::clamp(rate_e_s > 0 && wanted_e > 0 ? wanted_e / rate_e_s : max_s, min_s, max_s);
         const std::string text = exact_number(exposure_s * 1e3);
         set_override(plan_.overrides, "camera.exposure_ms", text);
         add("view.signal_dn", dn);
@@ -170,11 +170,11 @@ class ViewMaker {
     }
 
     static std::pair<double, double> exposure_range_s(const CameraModel& camera) {
-        constexpr double kLeast_s = 1e-6, kMost_s = 1e3;  // range of the key
+        constexpr double kMin_s = 1e-6, kMax_s = 1e3;  // range of the key
         if (camera.exposure_range_s.size() == 2)
-            return {std::max(kLeast_s, camera.exposure_range_s[0]),
-                    std::min(kMost_s, camera.exposure_range_s[1])};
-        return {kLeast_s, kMost_s};
+            return {std::max(kMin_s, camera.exposure_range_s[0]),
+                    std::min(kMax_s, camera.exposure_range_s[1])};
+        return {kMin_s, kMax_s};
     }
 };
 

@@ -281,12 +281,12 @@ double configured_quantum_efficiency(const LabSetup& s) {
 
 double configured_signal_dn(const CameraModel& c, double charge_e, double gain_db) {
     const double linear = c.system_gain_dn_e(gain_db) * c.read_e(charge_e) + c.offset_dn;
-    const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
+    const double max_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     const auto bent = [&](double dn) {
-        const double z = dn / most_dn;
-        return std::min(dn + 4 * c.converter.inl_lsb * z * (1 - z), most_dn);
+        const double z = dn / max_dn;
+        return std::min(dn + 4 * c.converter.inl_lsb * z * (1 - z), max_dn);
     };
-    return bent(std::min(linear, most_dn)) - bent(c.offset_dn);
+    return bent(std::min(linear, max_dn)) - bent(c.offset_dn);
 }
 
 double configured_saturation_e(const CameraModel& c, double gain_db) {

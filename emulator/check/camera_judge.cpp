@@ -18,7 +18,7 @@ constexpr double kMinWell_e = 500;
 // Designers let the converter end near the full well; a gain at power-up may leave a tenth of it.
 constexpr double kMinShare = 0.02;
 // A black level is a few percent of the converter's end; above this little is left for light.
-constexpr double kMostBlackShare = 0.5;
+constexpr double kMaxBlackShare = 0.5;
 // Pixels of silicon: telephones have 0.6 um, infrared arrays 30.
 constexpr double kPitch_um[] = {0.5, 40};
 // The largest telescope for looking down from space is smaller, pinholes of telephones are larger.
@@ -28,7 +28,7 @@ constexpr double kSigmasBelowBlack = 3;
 
 void judge_well(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     const double converter_share = s.converter_e / s.well_e;
-    const double well_share = (s.well_dn - s.camera.offset_dn) / (s.most_dn - s.camera.offset_dn);
+    const double well_share = (s.well_dn - s.camera.offset_dn) / (s.max_dn - s.camera.offset_dn);
     if (s.well_e < kMinWell_e)
         out.push_back(places.at(
             "camera.full_well_e",
@@ -61,10 +61,10 @@ void judge_response(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
 }
 
 void judge_black(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
-    if (s.camera.offset_dn > kMostBlackShare * s.most_dn) {
+    if (s.camera.offset_dn > kMaxBlackShare * s.max_dn) {
         out.push_back(places.at("camera.offset_dn",
                                 fmt::format("camera.offset_dn of {:.6g} leaves {:.6g} DN of {:.6g} for light",
-                                            s.camera.offset_dn, s.most_dn - s.camera.offset_dn, s.most_dn)));
+                                            s.camera.offset_dn, s.max_dn - s.camera.offset_dn, s.max_dn)));
         return;
     }
     const double noise_dn = std::hypot(s.dark_shot_e, s.camera.dark_noise_e()) * s.gain_dn_e;

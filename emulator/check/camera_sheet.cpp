@@ -115,10 +115,10 @@ void set_lens(const CameraModel& c, const SpectralGrid& grid, const Spectrum& re
 
 void set_noise(const CameraModel& c, CameraSheet& s) {
     s.gain_dn_e = c.system_gain_dn_e(c.gain_db);
-    s.most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
+    s.max_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     s.well_e = c.full_well_e;
     s.well_dn = c.offset_dn + c.read_e(c.full_well_e) * s.gain_dn_e;
-    s.converter_e = c.charge_of_read_e((s.most_dn - c.offset_dn) / s.gain_dn_e);
+    s.converter_e = c.charge_of_read_e((s.max_dn - c.offset_dn) / s.gain_dn_e);
     s.full_scale_e = std::min(s.well_e, s.converter_e);
     s.dark_e_s = c.dark_current_now_e_s();
     s.dark_shot_e = std::sqrt(s.dark_e_s * s.exposure_s);

@@ -53,7 +53,7 @@ struct CameraSheet {
     double response_e_s = 0;             // per W m^-2 sr^-1 um^-1 of a grey source
     double full_scale_e = 0;             // least of the two below
     double well_e = 0, converter_e = 0;  // saturation of each
-    double well_dn = 0, most_dn = 0;     // the converter's, before companding
+    double well_dn = 0, max_dn = 0;      // the converter's, before companding
     double saturation_w_m2_sr_um = 0;
     std::vector<Scene> scenes;
     std::vector<Star> stars;

@@ -80,7 +80,7 @@ void add_radiometry(const CameraSheet& s, std::string& out) {
     line(out, "saturation", "{:.4g} W m^-2 sr^-1 um^-1 (grey, at this exposure), {:.4g} e-",
          s.saturation_w_m2_sr_um, s.full_scale_e);
     line(out, "", "full well {:.4g} e- is {:.1f} DN, the converter ends at {:.0f} DN or {:.4g} e-: {} first",
-         s.well_e, s.well_dn, s.most_dn, s.converter_e,
+         s.well_e, s.well_dn, s.max_dn, s.converter_e,
          s.well_e <= s.converter_e ? "the well saturates" : "the converter saturates");
     line(out, "gain", "{:.4g} DN/e- ({:.4g} e-/DN), black at {:.1f} DN{}", s.gain_dn_e, 1 / s.gain_dn_e,
          c.offset_dn,

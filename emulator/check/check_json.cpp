@@ -32,7 +32,7 @@ Json expected_of(const ExpectedSignal& e) {
 
 Json object_of(const SeenObject& o) {
     return {{"name", o.loaded.name},
-            {"size_m", of(o.loaded.most_m - o.loaded.least_m)},
+            {"size_m", of(o.loaded.max_m - o.loaded.min_m)},
             {"triangles", o.loaded.triangles},
             {"reflectance", o.loaded.mean_reflectance()},
             {"surfaces", surfaces_of(o.loaded)},
@@ -89,7 +89,7 @@ Json sheet_of(const CameraSheet& s) {
             {"gain_db", s.camera.gain_db},
             {"gain_dn_e", s.gain_dn_e},
             {"offset_dn", s.camera.offset_dn},
-            {"most_dn", s.most_dn},
+            {"most_dn", s.max_dn},
             {"full_scale_e", s.full_scale_e},
             {"well_e", s.well_e},
             {"converter_e", s.converter_e},

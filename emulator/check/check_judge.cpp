@@ -28,7 +28,7 @@ std::string size_text(Vec3d size_m) {
 }
 
 double longest_m(const SeenObject& o) {
-    const Vec3d size_m = o.loaded.most_m - o.loaded.least_m;
+    const Vec3d size_m = o.loaded.max_m - o.loaded.min_m;
     return std::max({size_m.x, size_m.y, size_m.z});
 }
 
@@ -39,8 +39,8 @@ std::string longest_advice(const SeenObject& o) {
 
 // Poses and angles are of the origin of a mesh, which may lie far beside it.
 std::string origin_advice(const SeenObject& o) {
-    const double off_m = length(0.5 * (o.loaded.least_m + o.loaded.most_m));
-    if (!(off_m > length(o.loaded.most_m - o.loaded.least_m))) return "";
+    const double off_m = length(0.5 * (o.loaded.min_m + o.loaded.max_m));
+    if (!(off_m > length(o.loaded.max_m - o.loaded.min_m))) return "";
     return fmt::format("; that is its origin, and the middle of its mesh is {:.4g} m from there", off_m);
 }
 
@@ -60,7 +60,7 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
     const std::string name = "object '" + harmless(o.loaded.name) + "'";
     if (o.holds_camera) {
         out.push_back(fmt::format("the camera is inside the mesh of {}, which is {}{}", name,
-                                  size_text(o.loaded.most_m - o.loaded.least_m), longest_advice(o)));
+                                  size_text(o.loaded.max_m - o.loaded.min_m), longest_advice(o)));
         return;
     }
     switch (o.place) {
@@ -84,20 +84,20 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
     judge_filling(o, camera, out);
     if (longest_m(o) < kShortest_m && o.silhouette_px < 1)
         out.push_back(fmt::format("{} is {} large, {:.2g} pixels from {:.4g} m: is its scale too small?",
-                                  name, size_text(o.loaded.most_m - o.loaded.least_m), o.silhouette_px,
+                                  name, size_text(o.loaded.max_m - o.loaded.min_m), o.silhouette_px,
                                   o.distance_m));
     // An asteroid is as large, and is looked at from farther away than that.
     if (const std::string advice = longest_advice(o); !advice.empty() && o.distance_m < longest_m(o))
         out.push_back(fmt::format("{} is {} large and {:.4g} m away{}", name,
-                                  size_text(o.loaded.most_m - o.loaded.least_m), o.distance_m, advice));
+                                  size_text(o.loaded.max_m - o.loaded.min_m), o.distance_m, advice));
 }
 
 // Names the keys that make a signal too high or too low.
 std::string exposure_keys(const CameraSheet& sheet, bool by_converter) {
     const std::string keys = std::string("camera.exposure_ms") +
                              (by_converter ? ", or camera.gain_dn_e with camera.gain_db," : "");
-    return sheet.camera.offset_dn > 0.5 * sheet.most_dn ? "camera.offset_dn, which leaves little for light,"
-                                                        : keys;
+    return sheet.camera.offset_dn > 0.5 * sheet.max_dn ? "camera.offset_dn, which leaves little for light,"
+                                                       : keys;
 }
 
 // Says what is wrong with the light of something that is lit and in the picture; empty: nothing.
@@ -109,7 +109,7 @@ std::string exposure_fault(const CameraSheet& sheet, const ExpectedSignal& expec
                            by_converter ? "the converter" : "a pixel", exposure_keys(sheet, by_converter));
     if (expected.full_scale < kDim)
         return fmt::format("is dark: about {:.0f} DN of {:.0f}, {:.2g} % of full scale; {} is too low",
-                           expected.dn, sheet.most_dn, 100 * expected.full_scale, exposure_keys(sheet, true));
+                           expected.dn, sheet.max_dn, 100 * expected.full_scale, exposure_keys(sheet, true));
     return {};
 }
 

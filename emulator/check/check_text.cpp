@@ -51,7 +51,7 @@ void add_surfaces(const LoadedObject& o, std::string& out) {
 }
 
 void add_object(const SeenObject& o, std::size_t number, const CameraSheet& sheet, std::string& out) {
-    const Vec3d size_m = o.loaded.most_m - o.loaded.least_m;
+    const Vec3d size_m = o.loaded.max_m - o.loaded.min_m;
     out += fmt::format("  object {} '{}'\n", number, harmless(o.loaded.name));
     const auto line = [&](const char* name, const std::string& text) {
         out += fmt::format("    {:<9} {}\n", name, text);
@@ -65,7 +65,7 @@ void add_object(const SeenObject& o, std::size_t number, const CameraSheet& shee
          fmt::format(
              "about {:.0f} DN of {:.0f} where it is lit, {:.2g} of full scale, SNR {:.3g}, at {:.4g} ms and "
              "{:.1f} dB{}",
-             o.expected.dn, sheet.most_dn, o.expected.full_scale, o.expected.snr, sheet.exposure_s * 1e3,
+             o.expected.dn, sheet.max_dn, o.expected.full_scale, o.expected.snr, sheet.exposure_s * 1e3,
              sheet.camera.gain_db, sheet.camera.auto_exposure.on ? ", before automatic exposure" : ""));
     add_surfaces(o.loaded, out);
 }
@@ -93,7 +93,7 @@ void add_ground(const GroundSight& g, const CameraSheet& sheet, std::string& out
         degrees(g.off_vertical_rad), std::abs(degrees(g.sun_elevation_rad)),
         g.sun_elevation_rad < 0 ? "below" : "above",
         g.expected ? fmt::format(": about {:.0f} DN of {:.0f}, {:.2g} of full scale, SNR {:.3g}",
-                                 g.expected->dn, sheet.most_dn, g.expected->full_scale, g.expected->snr)
+                                 g.expected->dn, sheet.max_dn, g.expected->full_scale, g.expected->snr)
                    : "");
 }
 

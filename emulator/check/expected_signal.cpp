@@ -27,7 +27,7 @@ ExpectedSignal read_out(const CameraSheet& camera, double signal_e) {
     out.signal_e = signal_e;
     out.full_scale = charge_e / camera.full_scale_e;
     out.dn =
-        std::min(camera.camera.offset_dn + camera.camera.read_e(charge_e) * camera.gain_dn_e, camera.most_dn);
+        std::min(camera.camera.offset_dn + camera.camera.read_e(charge_e) * camera.gain_dn_e, camera.max_dn);
     out.snr = held_e / std::sqrt(held_e + camera.dark_total_e * camera.dark_total_e);
     return out;
 }

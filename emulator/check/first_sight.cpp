@@ -65,7 +65,7 @@ SeenObject seen(const SeenThing& thing, const LoadedObject& loaded, const FrameT
     out.place = place_of(thing, truth.raster, sheet, out.off_boresight_rad, out.angular_radius_rad);
     const Vec3d camera_in_object_m = transposed(to_matrix(thing.world.world_from_body)) *
                                      (truth.camera.position_world_m - thing.world.position_world_m);
-    out.holds_camera = !carries_camera && is_within(camera_in_object_m, loaded.least_m, loaded.most_m);
+    out.holds_camera = !carries_camera && is_within(camera_in_object_m, loaded.min_m, loaded.max_m);
     out.expected =
         expected_signal(sheet, {loaded.mean_reflectance(), thing.phase_rad,
                                 truth.sun_distance_m / kAstronomicalUnit_m, out.sunlit, thing.silhouette_px});

@@ -37,7 +37,7 @@ std::optional<StrayTime> stray_time(CameraStation& station, WorldState& world, E
     add(stray.ghost_fraction > 0, "ghost");
     add(s.camera.spider.vanes > 0, "spikes");
     add(s.camera.outside_light.has_value(), "light from beside the picture");
-    if (out.parts.empty() || primary_rays(s, render_quality_of(s)) > kMostTrialRays) return {};
+    if (out.parts.empty() || primary_rays(s, render_quality_of(s)) > kMaxTrialRays) return {};
 
     CameraModel clean = s.camera;
     clean.stray_light = {}, clean.spider = {}, clean.outside_light.reset();
@@ -67,7 +67,7 @@ std::optional<StrayTime> stray_time(CameraStation& station, WorldState& world, E
 
 std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, ExposureRenderer& exposures) {
     const ScenarioConfig& s = station.scenario();
-    if (primary_rays(s, render_quality_of(s)) > kMostTrialRays) return {};
+    if (primary_rays(s, render_quality_of(s)) > kMaxTrialRays) return {};
     TrialFrames frames({exposures, station.chain(), world, s, seed_of_camera(s, station.number() - 1)});
     std::vector<double> render_ms, sensor_ms;
     frames.take();

@@ -90,7 +90,7 @@ void survey_topology(const Mesh& mesh, MeshSurvey& out) {
     survey_edges(topology, shells, whole, out);
     std::vector<double> volume_m3(out.places);
     std::vector<std::uint8_t> used(out.places);
-    const Vec3d middle = 0.5 * (out.least_m + out.most_m);  // near, so that sums keep their digits
+    const Vec3d middle = 0.5 * (out.min_m + out.max_m);  // near, so that sums keep their digits
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto at = [&](std::size_t k) {
             return to_double(mesh.vertices_m[mesh.triangles[i][k]]) - middle;
@@ -109,17 +109,17 @@ void survey_topology(const Mesh& mesh, MeshSurvey& out) {
 void survey_triangles(const Mesh& mesh, MeshSurvey& out) {
     for (const MeshSurface& surface : mesh.surfaces)
         out.surfaces.push_back({surface.name, 0, 0, surface.base_color_texture >= 0});
-    out.least_m = out.most_m = to_double(mesh.vertices_m[mesh.triangles.front()[0]]);
+    out.min_m = out.max_m = to_double(mesh.vertices_m[mesh.triangles.front()[0]]);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         std::array<Vec3d, 3> p;
         Vec3d normal;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = mesh.triangles[i][k];
             p[k] = to_double(mesh.vertices_m[vertex]);
-            out.least_m = {std::min(out.least_m.x, p[k].x), std::min(out.least_m.y, p[k].y),
-                           std::min(out.least_m.z, p[k].z)};
-            out.most_m = {std::max(out.most_m.x, p[k].x), std::max(out.most_m.y, p[k].y),
-                          std::max(out.most_m.z, p[k].z)};
+            out.min_m = {std::min(out.min_m.x, p[k].x), std::min(out.min_m.y, p[k].y),
+                         std::min(out.min_m.z, p[k].z)};
+            out.max_m = {std::max(out.max_m.x, p[k].x), std::max(out.max_m.y, p[k].y),
+                         std::max(out.max_m.z, p[k].z)};
             if (!mesh.normals.empty()) normal = normal + to_double(mesh.normals[vertex]);
         }
         const Vec3d face = cross(p[1] - p[0], p[2] - p[0]);
@@ -139,10 +139,10 @@ void survey_triangles(const Mesh& mesh, MeshSurvey& out) {
 namespace {
 
 // Coordinates are kept in single precision, as files have them.
-double coarse_step_m(Vec3d least_m, Vec3d most_m) {
-    const double farthest_m = std::max({-least_m.x, -least_m.y, -least_m.z, most_m.x, most_m.y, most_m.z});
+double coarse_step_m(Vec3d min_m, Vec3d max_m) {
+    const double farthest_m = std::max({-min_m.x, -min_m.y, -min_m.z, max_m.x, max_m.y, max_m.z});
     const double step_m = farthest_m * static_cast<double>(std::numeric_limits<float>::epsilon());
-    return step_m > 1e-4 * length(most_m - least_m) ? step_m : 0;
+    return step_m > 1e-4 * length(max_m - min_m) ? step_m : 0;
 }
 
 }  // namespace
@@ -158,9 +158,9 @@ MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file) {
     out.has_normals = !mesh.normals.empty();
     survey_triangles(mesh, out);
     survey_topology(mesh, out);
-    const Vec3d size_m = out.most_m - out.least_m;
+    const Vec3d size_m = out.max_m - out.min_m;
     out.probably_mm = std::max({size_m.x, size_m.y, size_m.z}) > kLongestSide_m;
-    out.coarse_step_m = coarse_step_m(out.least_m, out.most_m);
+    out.coarse_step_m = coarse_step_m(out.min_m, out.max_m);
     out.opposed_normals += contents.opposed_facets;
     out.leaning_normals = contents.leaning_facets;
     out.missing_materials = contents.missing_materials;
@@ -206,14 +206,14 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
 }
 
 std::string to_text(const MeshSurvey& s) {
-    constexpr std::size_t kMostNodesShown = 200;
-    const Vec3d size_m = s.most_m - s.least_m;
+    constexpr std::size_t kMaxNodesShown = 200;
+    const Vec3d size_m = s.max_m - s.min_m;
     std::string out = fmt::format(
         "mesh {}\nsize       {:.6g} x {:.6g} x {:.6g} m: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to "
         "{:.6g}\n"
         "triangles  {} in {} shells; {} vertices at {} places; {}\n",
-        harmless(s.file), size_m.x, size_m.y, size_m.z, s.least_m.x, s.most_m.x, s.least_m.y, s.most_m.y,
-        s.least_m.z, s.most_m.z, s.triangles, s.shells, s.vertices, s.places,
+        harmless(s.file), size_m.x, size_m.y, size_m.z, s.min_m.x, s.max_m.x, s.min_m.y, s.max_m.y, s.min_m.z,
+        s.max_m.z, s.triangles, s.shells, s.vertices, s.places,
         s.has_normals ? "with normals" : "without normals: flat");
     out += fmt::format("surfaces   {}\n", s.surfaces.size());
     for (const SurveyedSurface& surface : s.surfaces)
@@ -221,11 +221,11 @@ std::string to_text(const MeshSurvey& s) {
                            surface.name.empty() ? "without a name" : "'" + harmless(surface.name) + "'",
                            surface.textured ? ", with a texture" : "");
     out += fmt::format("nodes      {}\n", s.nodes.size());
-    for (std::size_t i = 0; i < std::min(s.nodes.size(), kMostNodesShown); ++i)
+    for (std::size_t i = 0; i < std::min(s.nodes.size(), kMaxNodesShown); ++i)
         out += fmt::format("  {:>10} triangles  {:{}}'{}'\n", s.nodes[i].triangles, "",
                            2 * std::min(s.nodes[i].depth, 20u), harmless(s.nodes[i].name));
-    if (s.nodes.size() > kMostNodesShown)
-        out += fmt::format("  and {} more: --json has them all\n", s.nodes.size() - kMostNodesShown);
+    if (s.nodes.size() > kMaxNodesShown)
+        out += fmt::format("  and {} more: --json has them all\n", s.nodes.size() - kMaxNodesShown);
     const std::vector<std::string> problems = problems_of(s);
     out += problems.empty() ? "problems: none\n" : "problems:\n";
     for (const std::string& problem : problems) out += "  " + problem + "\n";

@@ -27,7 +27,7 @@ struct SurveyedSurface {
 
 struct MeshSurvey {
     std::string file;
-    Vec3d least_m, most_m;
+    Vec3d min_m, max_m;
     std::uint64_t triangles = 0, vertices = 0, places = 0;
     std::vector<SurveyedSurface> surfaces;
     std::vector<MeshNode> nodes;

@@ -14,30 +14,29 @@ std::string to_json(const MeshSurvey& s) {
                             {"textured", surface.textured}});
     for (const MeshNode& node : s.nodes)
         nodes.push_back({{"name", node.name}, {"depth", node.depth}, {"triangles", node.triangles}});
-    const Json out = {
-        {"file", s.file},
-        {"size_m", {s.most_m.x - s.least_m.x, s.most_m.y - s.least_m.y, s.most_m.z - s.least_m.z}},
-        {"least_m", {s.least_m.x, s.least_m.y, s.least_m.z}},
-        {"most_m", {s.most_m.x, s.most_m.y, s.most_m.z}},
-        {"triangles", s.triangles},
-        {"vertices", s.vertices},
-        {"places", s.places},
-        {"shells", s.shells},
-        {"has_normals", s.has_normals},
-        {"surfaces", surfaces},
-        {"nodes", nodes},
-        {"probably_mm", s.probably_mm},
-        {"open_edges", s.open_edges},
-        {"inconsistent_edges", s.inconsistent_edges},
-        {"crowded_edges", s.crowded_edges},
-        {"inverted_shells", s.inverted_shells},
-        {"opposed_normals", s.opposed_normals},
-        {"leaning_normals", s.leaning_normals},
-        {"collapsed_triangles", s.collapsed_triangles},
-        {"sliver_triangles", s.sliver_triangles},
-        {"repeated_triangles", s.repeated_triangles},
-        {"unreadable_textures", s.unreadable_textures},
-        {"problems", problems_of(s)}};
+    const Json out = {{"file", s.file},
+                      {"size_m", {s.max_m.x - s.min_m.x, s.max_m.y - s.min_m.y, s.max_m.z - s.min_m.z}},
+                      {"least_m", {s.min_m.x, s.min_m.y, s.min_m.z}},
+                      {"most_m", {s.max_m.x, s.max_m.y, s.max_m.z}},
+                      {"triangles", s.triangles},
+                      {"vertices", s.vertices},
+                      {"places", s.places},
+                      {"shells", s.shells},
+                      {"has_normals", s.has_normals},
+                      {"surfaces", surfaces},
+                      {"nodes", nodes},
+                      {"probably_mm", s.probably_mm},
+                      {"open_edges", s.open_edges},
+                      {"inconsistent_edges", s.inconsistent_edges},
+                      {"crowded_edges", s.crowded_edges},
+                      {"inverted_shells", s.inverted_shells},
+                      {"opposed_normals", s.opposed_normals},
+                      {"leaning_normals", s.leaning_normals},
+                      {"collapsed_triangles", s.collapsed_triangles},
+                      {"sliver_triangles", s.sliver_triangles},
+                      {"repeated_triangles", s.repeated_triangles},
+                      {"unreadable_textures", s.unreadable_textures},
+                      {"problems", problems_of(s)}};
     // Names may be any bytes: what is no UTF-8 is replaced.
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -21,7 +21,7 @@ using Lines = std::vector<std::string>;
 void append(Lines more, Lines& out) { std::move(more.begin(), more.end(), std::back_inserter(out)); }
 
 // A check takes its time; who waits for a picture or a run does not wait for millions of edges to be sorted.
-constexpr std::size_t kMostTrianglesOnTheWay = 50'000;
+constexpr std::size_t kMaxTrianglesOnTheWay = 50'000;
 
 // Tells what makes a mesh look wrong, of all that `hilcam mesh` says: panels are open on purpose.
 Lines mesh_warnings(const ObjectConfig& object, const std::string& key, const KeyPlaces& places) {
@@ -63,7 +63,7 @@ std::vector<std::string> verdict_on_objects(const LoadedView& view, VerdictOn on
     Lines out = warnings_of(view.objects, places);
     for (std::size_t i = 0; i < view.objects.size(); ++i) {
         const ObjectConfig& object = view.scenario.objects[i];
-        if (!object.has_mesh || (on != VerdictOn::kAll && view.objects[i].triangles > kMostTrianglesOnTheWay))
+        if (!object.has_mesh || (on != VerdictOn::kAll && view.objects[i].triangles > kMaxTrianglesOnTheWay))
             continue;
         const auto same = [&](const ObjectConfig& before) { return before.mesh == object.mesh; };
         const auto here = view.scenario.objects.begin() + static_cast<std::ptrdiff_t>(i);

@@ -59,9 +59,9 @@ std::unique_ptr<const BoulderField> boulders_of(const GlobeConfig& globe, const 
     const double radius_m = body.figure.equatorial_radius_m;
     if (maps.empty()) return std::make_unique<BoulderField>(radius_m, *globe.boulders);
     // Cells are sized for this share at least, so that one holds few boulders where a map has more of them.
-    constexpr double kLeastSeeded = 0.02;
+    constexpr double kMinSeeded = 0.02;
     BoulderSettings seeded = *globe.boulders;
-    seeded.abundance = std::max(seeded.abundance, kLeastSeeded);
+    seeded.abundance = std::max(seeded.abundance, kMinSeeded);
     return std::make_unique<BoulderField>(
         radius_m, seeded,
         std::make_shared<RockAbundance>(body.figure, std::move(maps), globe.boulders->abundance,

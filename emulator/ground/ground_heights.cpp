@@ -69,7 +69,7 @@ void GroundHeights::find(std::span<const Vec3d> places, int side, double reach_m
 
 HeightSquare GroundHeights::square(const LocalPlane& plane, double within_m, double spacing_m) {
     HeightSquare out;
-    out.half = static_cast<int>(std::min(std::floor(within_m / spacing_m), kMostListed));
+    out.half = static_cast<int>(std::min(std::floor(within_m / spacing_m), kMaxListed));
     out.spacing_m = spacing_m;
     require_few(1.0 * out.side() * out.side(), "heights", "--within-m, --spacing-m");
     std::vector<Vec3d> places;

@@ -35,7 +35,7 @@ inline constexpr const char* kPlaceColumns = "longitude_deg,latitude_deg,east_m,
 const char* things_columns(GroundThings kind);
 
 // Returns comma-separated values with a line of names. Places are east and north of the middle, along the ground [m]. Craters:
-// diameter, and wear (0 fresh to CraterProfile::kMostWorn). Boulders: greatest width, height above the ground. Heights: over the
+// diameter, and wear (0 fresh to CraterProfile::kMaxWorn). Boulders: greatest width, height above the ground. Heights: over the
 // ellipsoid, with the slope of the plane through the neighbours and the greatest difference of height to one of them after that
 // plane; hazards have 1 behind these where one of the limits is exceeded, else 0. Throws InputError where the ground has no such things, or there would be too many of them.
 std::string survey_ground(const GlobeConfig& globe, const MappedBody& body, const GroundSurvey& survey);

@@ -28,9 +28,9 @@ std::vector<GroundThing> found_in(const auto& field, const MappedBody& body, Vec
 }  // namespace
 
 void require_few(double count, const char* what, const char* keys) {
-    if (count > kMostListed)
+    if (count > kMaxListed)
         throw InputError(fmt::format("{}: there are about {:.2g} {} there; accepted: {:.0g}", keys, count,
-                                     what, kMostListed));
+                                     what, kMaxListed));
 }
 
 std::vector<GroundThing> find_things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,

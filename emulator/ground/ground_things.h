@@ -14,11 +14,11 @@ struct GroundThing {
     Vec3d place;  // unit vector, body axes
     double diameter_m = 0;
     double figure =
-        0;  // craters: wear, 0 fresh to CraterProfile::kMostWorn; boulders: height above the ground [m]
+        0;  // craters: wear, 0 fresh to CraterProfile::kMaxWorn; boulders: height above the ground [m]
 };
 
 // A list of a thousand square kilometres' smallest craters would fill a disk.
-inline constexpr double kMostListed = 2e6;
+inline constexpr double kMaxListed = 2e6;
 // Throws InputError for more; keys: what would make them fewer.
 void require_few(double count, const char* what, const char* keys);
 

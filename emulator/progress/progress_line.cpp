@@ -11,11 +11,11 @@
 namespace hilcam {
 
 double seconds_between_lines(const char* text) {
-    constexpr double kUsual_s = 30, kLeast_s = 0.1, kMost_s = 1e6;
+    constexpr double kUsual_s = 30, kMin_s = 0.1, kMax_s = 1e6;
     if (text == nullptr) return kUsual_s;
     const std::optional<double> seconds = number_of(text);
     if (!seconds || !(*seconds >= 0)) return kUsual_s;
-    return *seconds == 0 ? 0 : std::clamp(*seconds, kLeast_s, kMost_s);
+    return *seconds == 0 ? 0 : std::clamp(*seconds, kMin_s, kMax_s);
 }
 
 std::string duration_text(double seconds) {

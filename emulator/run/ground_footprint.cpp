@@ -162,8 +162,8 @@ Extent extent_by_ellipsoid(const GroundView& view, const Figure& figure, double 
 // Limits of a list of a frame's craters or boulders.
 struct ThingLimits {
     double smallest_m, smallest_px;
-    const char* keys;           // those that would make the list shorter
-    double most = kMostListed;  // entries at most
+    const char* keys;          // those that would make the list shorter
+    double most = kMaxListed;  // entries at most
 };
 
 // The craters or boulders of a part of the ground that a frame shows.
@@ -171,9 +171,9 @@ std::vector<SeenGroundThing> seen_things(GroundThings kind, const GlobeConfig& g
                                          GroundHeights& heights, const GroundView& view, const Extent& extent,
                                          const ThingLimits& limits) {
     std::vector<SeenGroundThing> out;
-    const double least_m = std::max(limits.smallest_m, extent.smallest_m(limits.smallest_px, view));
+    const double min_m = std::max(limits.smallest_m, extent.smallest_m(limits.smallest_px, view));
     for (const GroundThing& thing :
-         find_things(kind, globe, body, extent.middle, extent.within_m, least_m, limits.keys)) {
+         find_things(kind, globe, body, extent.middle, extent.within_m, min_m, limits.keys)) {
         // A boulder's middle is on its top, a crater's on its floor.
         constexpr double kFine = 0.05;
         const Vec3d point_m =
@@ -249,7 +249,7 @@ class RunGround final : public GroundTruth {
             if (!extent.any()) return out;
             const auto list = [&](GroundThings kind) {
                 return seen_things(kind, globe_, body_, heights_, view, extent,
-                                   {0, smallest_px_, "outputs.truth.ground_px", kMostInLine});
+                                   {0, smallest_px_, "outputs.truth.ground_px", kMaxInLine});
             };
             if (globe_.craters) out.craters = list(GroundThings::kCraters);
             if (globe_.boulders) out.boulders = list(GroundThings::kBoulders);
@@ -261,7 +261,7 @@ class RunGround final : public GroundTruth {
     }
 
   private:
-    static constexpr double kMostInLine = 4096;  // entries of each kind; a megabyte and a half of text in all
+    static constexpr double kMaxInLine = 4096;  // entries of each kind; a megabyte and a half of text in all
     GlobeConfig globe_;
     MappedBody body_;
     BodyId id_;

@@ -19,7 +19,7 @@ std::vector<LevelCost> measure_levels(const std::vector<double>& rays, double en
     constexpr double kLong_ms = 1000;
     std::vector<LevelCost> costs(rays.size());
     for (std::size_t level = 0; level < costs.size(); ++level) {
-        if (rays[level] > kMostTrialRays) {
+        if (rays[level] > kMaxTrialRays) {
             costs[level].frame_ms = std::numeric_limits<double>::infinity();
             continue;
         }

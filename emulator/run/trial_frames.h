@@ -10,7 +10,7 @@
 namespace hilcam {
 
 // A frame of more primary rays takes a minute or more: none is made only to be measured.
-inline constexpr double kMostTrialRays = 32e6;
+inline constexpr double kMaxTrialRays = 32e6;
 // Returns how many rays a frame of that quality starts at the camera, where it has no visibility buffer.
 double primary_rays(const ScenarioConfig& scenario, const RenderQuality& quality);
 

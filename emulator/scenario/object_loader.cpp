@@ -92,11 +92,9 @@ void tell(const Mesh& mesh, float scale, const std::vector<Material>& materials,
         std::array<Vec3d, 3> corner;
         for (std::size_t k = 0; k < 3; ++k) {
             corner[k] = to_double(scale * mesh.vertices_m[mesh.triangles[i][k]]);
-            if (out.triangles == 0 && k == 0) out.least_m = out.most_m = corner[k];
-            out.least_m =
-                by_component(out.least_m, corner[k], [](double a, double b) { return std::min(a, b); });
-            out.most_m =
-                by_component(out.most_m, corner[k], [](double a, double b) { return std::max(a, b); });
+            if (out.triangles == 0 && k == 0) out.min_m = out.max_m = corner[k];
+            out.min_m = by_component(out.min_m, corner[k], [](double a, double b) { return std::min(a, b); });
+            out.max_m = by_component(out.max_m, corner[k], [](double a, double b) { return std::max(a, b); });
         }
         LoadedSurface& surface = out.surfaces[mesh.surface_of_triangle[i]];
         ++surface.triangles, ++out.triangles;

@@ -22,7 +22,7 @@ struct LoadedSurface {
 };
 struct LoadedObject {
     std::string name;
-    Vec3d least_m, most_m;
+    Vec3d min_m, max_m;
     std::size_t triangles = 0;
     std::vector<LoadedSurface> surfaces;
     std::vector<std::string> idle_rules;  // rules of its materials that no surface takes

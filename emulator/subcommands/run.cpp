@@ -81,11 +81,11 @@ void say_outputs(const Emulator& emulator) {
 
 std::string waits_text(const Emulator& emulator) {
     constexpr double kWorthTelling_s = 0.05;
-    double most_s = 0;
+    double max_s = 0;
     for (const auto& station : emulator.stations())
-        most_s = std::max(
-            most_s, static_cast<double>(station->loop().counters().waited_for_outputs_ns.load()) * 1e-9);
-    return most_s < kWorthTelling_s ? "" : fmt::format(", {:.1f} s of it waiting for outputs", most_s);
+        max_s = std::max(max_s,
+                         static_cast<double>(station->loop().counters().waited_for_outputs_ns.load()) * 1e-9);
+    return max_s < kWorthTelling_s ? "" : fmt::format(", {:.1f} s of it waiting for outputs", max_s);
 }
 
 // Says how late frames went out, which a count of missed exposures does not tell; nothing where none went out, or where

@@ -241,11 +241,11 @@ void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& wor
 // The nearest by its origin, but for what carries the camera.
 Vec3d WorldState::nearest_velocity_m_s(const WorldSnapshot& world) const {
     std::size_t nearest = objects_;
-    double least_m = 0;
+    double min_m = 0;
     for (std::size_t i = 0; i < objects_; ++i) {
         if (1 + i == mount_.thing) continue;
         const double away_m = length(world.objects[i].position_world_m - world.camera.position_world_m);
-        if (nearest == objects_ || away_m < least_m) nearest = i, least_m = away_m;
+        if (nearest == objects_ || away_m < min_m) nearest = i, min_m = away_m;
     }
     if (nearest == objects_) return {};
     const std::size_t thing = 1 + nearest;

@@ -81,10 +81,10 @@ std::uint64_t cache_bound_bytes() {
     const char* const text = std::getenv("HILCAM_CACHE_MB");
     if (!text || !*text) return CacheSettings{}.bound_bytes;
     const auto megabytes = parsed_as<std::uint64_t>(text);
-    constexpr std::uint64_t kMost = 1'000'000'000;
-    if (!megabytes || *megabytes > kMost)
+    constexpr std::uint64_t kMax = 1'000'000'000;
+    if (!megabytes || *megabytes > kMax)
         throw InputError("HILCAM_CACHE_MB: found " + in_quotes(text) +
-                         "; accepted: a whole number of megabytes, 0 to " + std::to_string(kMost));
+                         "; accepted: a whole number of megabytes, 0 to " + std::to_string(kMax));
     return *megabytes * kMegabyte;
 }
 

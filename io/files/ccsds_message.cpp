@@ -102,7 +102,7 @@ std::string written(std::string_view name) {
     return out;
 }
 
-constexpr std::size_t kMostNotes = 12;
+constexpr std::size_t kMaxNotes = 12;
 
 }  // namespace
 
@@ -113,7 +113,7 @@ KvnLines::KvnLines(std::string_view text, const std::string& name, NdmKind kind)
 }
 
 void KvnLines::note(const std::string& about, const std::string& what, int line) {
-    if (notes_.size() == kMostNotes || std::find(noted_.begin(), noted_.end(), about) != noted_.end()) return;
+    if (notes_.size() == kMaxNotes || std::find(noted_.begin(), noted_.end(), about) != noted_.end()) return;
     noted_.push_back(about);
     notes_.push_back(name() + ":" + std::to_string(line ? line : number()) + ": " + what);
 }

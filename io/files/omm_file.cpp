@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDay_min = 1440, kOmmDay_s = 86400;
 // More keywords than the standard has.
-constexpr std::size_t kMostKeywords = 200;
+constexpr std::size_t kMaxKeywords = 200;
 
 // One message's keywords.
 class Keywords {
@@ -23,7 +23,7 @@ class Keywords {
     // A keyword without a value is as if it was not there: CelesTrak's headers have such.
     void add(std::string_view key, std::string_view value) {
         if (value.empty() || key == "COMMENT") return;
-        if (entries_.size() == kMostKeywords) throw InputError(where_ + ": has more than 200 keywords");
+        if (entries_.size() == kMaxKeywords) throw InputError(where_ + ": has more than 200 keywords");
         if (find(key)) throw InputError(where_ + ": " + in_quotes(key) + " is given twice");
         entries_.push_back({std::string(key), std::string(value), 0});
     }
@@ -177,7 +177,7 @@ std::vector<std::string> csv_fields(const TextLines& lines, std::string_view lin
         } else if (c == '"') {
             quoted = !quoted;
         } else if (c == ',' && !quoted) {
-            if (fields.size() == kMostKeywords) lines.fail("the line has more than 200 fields");
+            if (fields.size() == kMaxKeywords) lines.fail("the line has more than 200 fields");
             fields.emplace_back();
         } else {
             fields.back() += c;

@@ -60,10 +60,10 @@ Fields fields(GigeConfig& c) {
 }
 
 void validate(const GigeConfig& c) {
-    constexpr std::size_t kMost = 16, kLongest = 32;
-    if (c.lines.size() > kMost)
+    constexpr std::size_t kMax = 16, kLongest = 32;
+    if (c.lines.size() > kMax)
         throw refused_key("lines", std::to_string(c.lines.size()) + " names",
-                          std::to_string(kMost) + " at most");
+                          std::to_string(kMax) + " at most");
     std::set<std::string> taken = {"Line0", "Software", "Action1"};
     for (const std::string& name : c.lines) {
         const bool is_word =
@@ -302,7 +302,7 @@ bool GigeSink::has_room() const noexcept {
     Implementation& my = *implementation_;
     const GigeStreamState& s = my.for_loop.read().state;
     const bool taken = s.open && s.acquiring && my.running.load(std::memory_order_relaxed);
-    return !taken || my.ring.waiting() <= FrameSpacing::kMostQueued;
+    return !taken || my.ring.waiting() <= FrameSpacing::kMaxQueued;
 }
 
 void GigeSink::happened(const CameraEvent& event) noexcept {

@@ -58,12 +58,12 @@ EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config, std::unique_p
     } else if (shape.bands != 1) {
         refuse("has " + channels + "; accepted: one (gdal_translate -b 1 takes it out of several)");
     }
-    constexpr int kMostWithout = 16384;
-    if (!shape.has_overviews && shape.columns > kMostWithout)
+    constexpr int kMaxWithout = 16384;
+    if (!shape.has_overviews && shape.columns > kMaxWithout)
         refuse(
             "has " + std::to_string(shape.columns) + " x " + std::to_string(shape.rows) +
             " posts and no overviews; accepted: with overviews (gdaladdo -r average FILE 2 4 8 16 32), or " +
-            std::to_string(kMostWithout) + " columns at most");
+            std::to_string(kMaxWithout) + " columns at most");
     const Vec3d date_line{-1, 0, 0};
     Vec2d post;
     raster_->find_posts({&date_line, 1}, {&post, 1});

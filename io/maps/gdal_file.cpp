@@ -25,11 +25,11 @@ constexpr const char* kDrivers[] = {"GTiff", "PDS", "PDS4", "ISIS3", "ENVI", nul
 // GDAL's own cache of blocks, beside the pages that are kept.
 constexpr GIntBig kCacheBytes = 64 << 20;
 // A block is read whole, whatever is wanted of it.
-constexpr double kMostBlock_bytes = 64 << 20;
+constexpr double kMaxBlock_bytes = 64 << 20;
 // The number of a TIFF's blocks that are looked at, over all of it.
 constexpr int kBlocksLookedAt = 1 << 16;
 // A file of more overviews than halvings of its size has none that is of use.
-constexpr int kMostOverviews = 64;
+constexpr int kMaxOverviews = 64;
 
 // Takes the place of GDAL's own file systems, which go into archives, to programs and into the network.
 class NoFiles final : public VSIFilesystemHandler {
@@ -66,16 +66,16 @@ class Judge {
 
     // True where a block is too large, but the file can be read by rows: one strip without compression.
     bool wants_rows() const {
-        return is_tiff() && !is_compressed() && block_bytes(*dataset_.GetRasterBand(1)) > kMostBlock_bytes;
+        return is_tiff() && !is_compressed() && block_bytes(*dataset_.GetRasterBand(1)) > kMaxBlock_bytes;
     }
 
     void require_sound() const {
         GDALRasterBand& band = *dataset_.GetRasterBand(1);
         require_sound(band);
         const int overviews = band.GetOverviewCount();
-        if (overviews > kMostOverviews)
+        if (overviews > kMaxOverviews)
             refuse("has " + std::to_string(overviews) + " overviews; accepted: at most " +
-                   std::to_string(kMostOverviews));
+                   std::to_string(kMaxOverviews));
         for (int i = 0; i < overviews; ++i)
             if (GDALRasterBand* const overview = band.GetOverview(i)) require_sound(*overview);
     }
@@ -112,9 +112,9 @@ class Judge {
     }
 
     void require_sound(GDALRasterBand& band) const {
-        if (const double block = block_bytes(band); block > kMostBlock_bytes)
+        if (const double block = block_bytes(band); block > kMaxBlock_bytes)
             refuse("is stored in blocks of " + size_text(block) + "; accepted: of at most " +
-                   size_text(kMostBlock_bytes) + " (gdal_translate -co TILED=YES makes such)");
+                   size_text(kMaxBlock_bytes) + " (gdal_translate -co TILED=YES makes such)");
         if (!is_tiff() || (!is_compressed() && is_by_rows(band)))
             require_bytes(1.0 * band.GetXSize() * band.GetYSize() * value_bytes(band) *
                           dataset_.GetRasterCount());
@@ -179,7 +179,7 @@ std::string QuietErrors::last() {
     std::string text = without_success(CPLGetLastErrorMsg());
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-    if (constexpr std::size_t kMost = 200; text.size() > kMost) text.resize(kMost);
+    if (constexpr std::size_t kMax = 200; text.size() > kMax) text.resize(kMax);
     return text;
 }
 

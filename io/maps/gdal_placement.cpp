@@ -102,8 +102,8 @@ void GdalPlacement::require_body(const OGRSpatialReference& reference, const Map
     // A projection may have the equator's, the pole's or a place's own radius.
     constexpr double kShare = 0.01;
     const double radius_m = reference.GetSemiMajor();
-    const auto [least_m, most_m] = std::minmax(body.figure.polar_radius_m, body.figure.equatorial_radius_m);
-    if (!(radius_m > (1 - kShare) * least_m && radius_m < (1 + kShare) * most_m))
+    const auto [min_m, max_m] = std::minmax(body.figure.polar_radius_m, body.figure.equatorial_radius_m);
+    if (!(radius_m > (1 - kShare) * min_m && radius_m < (1 + kShare) * max_m))
         refuse("its projection is of a body of radius " + plain(radius_m * 1e-3) + " km; accepted: that of " +
                body.name + ", " + plain(body.figure.equatorial_radius_m * 1e-3) + " km, within 1 %");
 }
@@ -226,8 +226,8 @@ GdalPlacement::Contradiction GdalPlacement::contradiction(const Grid& grid,
     const double north = (grid.north_deg - own.north_deg) / grid.row_deg;
     double east = within_half_turn(grid.west_deg - own.west_deg) / grid.column_deg;
     // A whole turn may begin anywhere, and its label says 0 to 360, or -180 to 180, all the same.
-    constexpr double kMostOff = 2;
-    if (std::abs(b.east_deg - b.west_deg - 360) < 0.5 * grid.column_deg && std::abs(east) > kMostOff)
+    constexpr double kMaxOff = 2;
+    if (std::abs(b.east_deg - b.west_deg - 360) < 0.5 * grid.column_deg && std::abs(east) > kMaxOff)
         own.west_deg = grid.west_deg, own.east_deg = grid.west_deg + 360, east = 0;
     const std::string up = displacement(north, "north", "south"), across = displacement(east, "east", "west");
     return {up + (up.empty() || across.empty() ? "" : " and ") + across, list_text(own)};

@@ -142,10 +142,10 @@ class GdalRaster final : public GroundRaster {
     float value_of(const Band& band, float raw) const {
         const auto value = static_cast<double>(raw);
         // No body has heights beyond a million kilometres.
-        constexpr double kMost = 1e9;
+        constexpr double kMax = 1e9;
         if (!std::isfinite(value) ||
             (band.none && value == static_cast<double>(static_cast<float>(*band.none))) ||
-            is_unsaid_hole(raw) || !(std::abs(value) < kMost))
+            is_unsaid_hole(raw) || !(std::abs(value) < kMax))
             return std::numeric_limits<float>::quiet_NaN();
         double out = unit_ * (band.scale * value + band.offset);
         if (config_.coding == MapCoding::kSrgb)

@@ -65,10 +65,10 @@ namespace {
 void refuse_beyond(const GroundMapConfig& config, GroundRaster& raster) {
     const std::optional<ParameterLimits> limits = limits_of(config.kind);
     if (!limits) return;
-    constexpr int kMost = 512;
+    constexpr int kMax = 512;
     const GroundRaster::Shape& shape = raster.shape();
     int level = 0;
-    while ((std::max(shape.columns, shape.rows) >> level) > kMost &&
+    while ((std::max(shape.columns, shape.rows) >> level) > kMax &&
            (std::min(shape.columns, shape.rows) >> level) > 1)
         ++level;
     const int columns = shape.columns >> level, rows = shape.rows >> level;

@@ -14,11 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // A petabyte is no map.
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 50;
+constexpr std::uintmax_t kMaxMapBytes = std::uintmax_t{1} << 50;
 // Labels are shorter, and say at their begin that they are some.
 constexpr std::size_t kLabel_bytes = std::size_t{1} << 20, kMark_bytes = std::size_t{1} << 16;
 // XML begins with its first mark, behind a byte-order mark and blanks at most.
-constexpr std::size_t kMost_before_xml = 64;
+constexpr std::size_t kMax_before_xml = 64;
 
 // Adds what may be the name of a file: what stands between quotes, and each word.
 void add_names(std::string_view value, std::vector<std::string>& names) {
@@ -35,7 +35,7 @@ void add_names(std::string_view value, std::vector<std::string>& names) {
 
 // Opens what a map's reader would open, and so says what is wrong with it.
 void require_regular(const fs::path& file) {
-    open_input_file(file, {kMostBytes, "a regular file, as a part of a map"});
+    open_input_file(file, {kMaxMapBytes, "a regular file, as a part of a map"});
 }
 
 bool is_label(const std::string& text) {
@@ -48,12 +48,12 @@ bool is_label(const std::string& text) {
 // PDS4's labels are XML, and a file of their own.
 bool is_pds4_label(const std::string& text) {
     const std::string_view begin = std::string_view(text).substr(0, kMark_bytes);
-    return begin.find("<Product_") != std::string_view::npos && begin.find('<') < kMost_before_xml;
+    return begin.find("<Product_") != std::string_view::npos && begin.find('<') < kMax_before_xml;
 }
 
 // Returns a label's text up to its end, as readers look for it; nothing of a file that is no label.
 std::string label_of(const fs::path& file, const std::string& name) {
-    const InputFile in = open_input_file(file, {kMostBytes, "a map"});
+    const InputFile in = open_input_file(file, {kMaxMapBytes, "a map"});
     std::string text(std::min<std::uintmax_t>(in.bytes, kLabel_bytes), '\0');
     read_input_piece(in, file, 0, text.data(), text.size());
     if (is_pds4_label(text)) {

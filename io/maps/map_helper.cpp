@@ -33,8 +33,8 @@ class EndedReaders {
   public:
     void add(const std::string& what) {
         const std::lock_guard lock(mutex_);
-        constexpr std::size_t kMost = 10;
-        if (list_.size() < kMost) list_.push_back(what);
+        constexpr std::size_t kMax = 10;
+        if (list_.size() < kMax) list_.push_back(what);
     }
     std::string text() {
         const std::lock_guard lock(mutex_);
@@ -63,8 +63,8 @@ class HelpedRaster final : public GroundRaster {
         if (!config.bounds_deg.empty())
             bounds_ = {config.bounds_deg[0], config.bounds_deg[1], config.bounds_deg[2],
                        config.bounds_deg[3]};
-        constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 50;  // a petabyte is no map
-        open_input_file(config.file, {kMostBytes, "a map"});
+        constexpr std::uintmax_t kMaxMapBytes = std::uintmax_t{1} << 50;  // a petabyte is no map
+        open_input_file(config.file, {kMaxMapBytes, "a map"});
         shape_ = opened(reading_);
     }
 
@@ -74,14 +74,14 @@ class HelpedRaster final : public GroundRaster {
                 posts[i] = post_at(*bounds_, shape_, places[i], factor_);
             return;
         }
-        for (std::size_t i = 0; i < places.size(); i += kMostPlaces) {
-            const std::size_t count = std::min(kMostPlaces, places.size() - i);
+        for (std::size_t i = 0; i < places.size(); i += kMaxMapPlaces) {
+            const std::size_t count = std::min(kMaxMapPlaces, places.size() - i);
             find_some(places.subspan(i, count), posts.subspan(i, count));
         }
     }
 
     void read(int level, int column, int row, int columns, int rows, std::span<float> values) override {
-        const int channels = shape_.channels, most = static_cast<int>(kMostValues) / channels;
+        const int channels = shape_.channels, most = static_cast<int>(kMaxMapValues) / channels;
         const int wide = std::min(columns, most), high = std::max(1, most / wide);
         for (int y = 0; y < rows; y += high)
             for (int x = 0; x < columns; x += wide) {
@@ -165,7 +165,7 @@ class HelpedRaster final : public GroundRaster {
 
     // The reader knows the file by its absolute path, and whoever reads the message by what the scenario says.
     std::string refusal(const MapAnswer& answer) const {
-        const std::size_t size = std::min<std::size_t>(answer.refused_bytes, kMostText_bytes);
+        const std::size_t size = std::min<std::size_t>(answer.refused_bytes, kMaxText_bytes);
         const std::string text = harmless({reinterpret_cast<const char*>(helper_->memory().data()), size});
         GroundMapConfig absolute = config_;
         absolute.file = file_;
@@ -175,7 +175,7 @@ class HelpedRaster final : public GroundRaster {
 
     // Its words are shown, within bounds and without what turns a terminal over.
     Reading reading_in(const MapAnswer& answer) const {
-        const std::size_t size = std::min<std::size_t>(answer.reading_bytes, kMostText_bytes);
+        const std::size_t size = std::min<std::size_t>(answer.reading_bytes, kMaxText_bytes);
         std::istringstream lines(std::string(reinterpret_cast<const char*>(helper_->memory().data()), size));
         Reading out;
         std::string line;

@@ -60,8 +60,8 @@ void set_edges(MapLabel& out, const Edges& e) {
     if (!e.west || !e.south || !e.east || !e.north || !(*e.south < *e.north)) return;
     MapBounds b{*e.west, *e.south, *e.east, *e.north};
     if (out.longitudes_west.value_or(false)) b.west_deg = -b.west_deg, b.east_deg = -b.east_deg;
-    constexpr double kTurn_deg = 360, kMost_deg = 1080;
-    if (!(std::abs(b.west_deg) <= kMost_deg && std::abs(b.east_deg) <= kMost_deg)) return;
+    constexpr double kTurn_deg = 360, kMax_deg = 1080;
+    if (!(std::abs(b.west_deg) <= kMax_deg && std::abs(b.east_deg) <= kMax_deg)) return;
     while (b.west_deg >= kTurn_deg) b.west_deg -= kTurn_deg, b.east_deg -= kTurn_deg;
     while (b.west_deg < -kTurn_deg / 2) b.west_deg += kTurn_deg, b.east_deg += kTurn_deg;
     while (b.east_deg <= b.west_deg) b.east_deg += kTurn_deg;

@@ -11,9 +11,9 @@ namespace hilcam {
 inline constexpr const char* kMapProgram = "hilcam-read-map";
 inline constexpr std::size_t kMapMemory_bytes = std::size_t{4} << 20;
 // The most that one request asks for. Posts are written behind the places that they are found for.
-inline constexpr std::size_t kMostPlaces = std::size_t{1} << 16, kPosts_at = std::size_t{2} << 20;
-inline constexpr std::size_t kMostValues = std::size_t{1} << 18;
-inline constexpr std::size_t kMostText_bytes = 4096;
+inline constexpr std::size_t kMaxMapPlaces = std::size_t{1} << 16, kPosts_at = std::size_t{2} << 20;
+inline constexpr std::size_t kMaxMapValues = std::size_t{1} << 18;
+inline constexpr std::size_t kMaxText_bytes = 4096;
 
 struct MapRequest {
     enum class Kind : std::uint32_t { kOpen, kFind, kRead };

@@ -77,7 +77,7 @@ class MapService {
                     break;
             }
         } catch (const InputError& error) {
-            const std::string text = std::string(error.what()).substr(0, kMostText_bytes);
+            const std::string text = std::string(error.what()).substr(0, kMaxText_bytes);
             std::memcpy(memory_, text.data(), text.size());
             answer.refused_bytes = static_cast<std::uint32_t>(std::max<std::size_t>(text.size(), 1));
         }
@@ -116,7 +116,7 @@ class MapService {
         answer.planetocentric = reading.planetocentric;
         std::string text = reading.taken;
         for (const std::string& doubt : reading.doubts) text += '\n' + doubt;
-        text.resize(std::min(text.size(), kMostText_bytes));
+        text.resize(std::min(text.size(), kMaxText_bytes));
         std::memcpy(memory_, text.data(), text.size());
         answer.reading_bytes = static_cast<std::uint32_t>(text.size());
     }

@@ -62,7 +62,7 @@ std::string judge_heights(std::span<const float> heights_m, const Figure& figure
                " m; accepted: heights over the ellipsoid, with offset: " + plain(-radius_m) +
                (figure.polar_radius_m < radius_m ? " where they are over a sphere of that radius" : "");
     // A tenth of a radius is more than any round body's relief: Vesta's is 0.09 (Jaumann et al., Science 336, 687, 2012).
-    if (const double most_m = std::max(std::abs(all.least), std::abs(all.most)); most_m > 0.1 * radius_m)
+    if (const double max_m = std::max(std::abs(all.least), std::abs(all.most)); max_m > 0.1 * radius_m)
         doubts.push_back("its heights go from " + rounded(all.least) + " to " + rounded(all.most) +
                          " m, more than a tenth of the body's radius of " + rounded(radius_m) +
                          " m; scale and offset make metres over the ellipsoid of what the file has");

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxAlbedoBytes = std::uintmax_t{4} << 30;
 constexpr std::size_t kMaxAlbedos = 300'000'000;
-constexpr double kMostAlbedo = 1e6;
+constexpr double kMaxAlbedo = 1e6;
 constexpr int kGreyCodes = 256;
 
 Texture grey_ramp() {
@@ -79,7 +79,7 @@ std::vector<float> parse_albedos(std::string_view text, const std::string& name)
         const std::string_view word = trimmed(line);
         if (word.empty() || word.starts_with('#')) continue;
         const auto value = number_of(word);
-        if (!value || *value < 0 || *value > kMostAlbedo) lines.refuse(word, "an albedo, 0 to 1000000");
+        if (!value || *value < 0 || *value > kMaxAlbedo) lines.refuse(word, "an albedo, 0 to 1000000");
         if (out.size() == kMaxAlbedos) lines.fail("has more than 300000000 albedos");
         out.push_back(static_cast<float>(*value));
     }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMetres_km = 1000;
 // Farther than Neptune.
-constexpr double kMost_km = 1e10;
+constexpr double kMax_km = 1e10;
 
 // Integers 1 to 3 of the file: the version, and where the first and the last descriptor begin; -1 for none.
 constexpr std::int32_t kDlaVersion = 1'000'000, kNoSegment = -1;
@@ -105,7 +105,7 @@ class DskReader {
 
     Vec3f vertex_m(const Segment& segment, const double* km, std::size_t number) const {
         const Vec3d place_km{km[0], km[1], km[2]};
-        if (!(length(place_km) < kMost_km))
+        if (!(length(place_km) < kMax_km))
             file_.fail(segment.where + ": vertex " + std::to_string(number + 1) +
                        " is no place; accepted: finite coordinates below 1e10 km");
         return to_float(kMetres_km * place_km);

@@ -197,13 +197,13 @@ std::uint64_t gltf_count(const GltfDocument& document, std::uint64_t accessor) {
                                    "accessors[" + std::to_string(accessor) + "]");
 }
 
-GltfNumbers read_gltf_numbers(GltfDocument& document, std::uint64_t index, std::size_t least_width,
-                              std::size_t most_width, const std::string& use) {
+GltfNumbers read_gltf_numbers(GltfDocument& document, std::uint64_t index, std::size_t min_width,
+                              std::size_t max_width, const std::string& use) {
     Accessor accessor(document, index, use);
-    if (accessor.width() < least_width || accessor.width() > most_width)
+    if (accessor.width() < min_width || accessor.width() > max_width)
         accessor.refuse("found " + std::to_string(accessor.width()) +
-                        " components; accepted: " + std::to_string(least_width) +
-                        (least_width == most_width ? "" : " to " + std::to_string(most_width)));
+                        " components; accepted: " + std::to_string(min_width) +
+                        (min_width == max_width ? "" : " to " + std::to_string(max_width)));
     GltfNumbers out{accessor.width(), std::vector<float>(accessor.values())};
     accessor.visit([&](std::uint64_t at, const std::uint8_t* from) {
         out.values[at] = number_at(from, accessor.type(), accessor.normalized());

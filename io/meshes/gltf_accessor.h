@@ -23,8 +23,8 @@ struct GltfNumbers {
 std::uint64_t gltf_count(const GltfDocument& document, std::uint64_t accessor);
 // Reads an accessor whose elements have so many components at least and at most; `use` names what reads it in messages.
 // InputError for another, and for bytes that do not lie in its buffer.
-GltfNumbers read_gltf_numbers(GltfDocument& document, std::uint64_t accessor, std::size_t least_width,
-                              std::size_t most_width, const std::string& use);
+GltfNumbers read_gltf_numbers(GltfDocument& document, std::uint64_t accessor, std::size_t min_width,
+                              std::size_t max_width, const std::string& use);
 // Reads an accessor of whole numbers: indices, joints. `width`: components of an element.
 std::vector<std::uint32_t> read_gltf_wholes(GltfDocument& document, std::uint64_t accessor, std::size_t width,
                                             const std::string& use);

@@ -215,8 +215,8 @@ GltfBytes GltfDocument::unpacked(std::uint64_t index, const Json& c) {
     const MeshoptLayout layout{gltf_text(c, "mode"), gltf_text(c, "filter"),
                                required_whole(c, "count", where), required_whole(c, "byteStride", where)};
     // A vertex that repeats the one before it takes a bit and more, so that bytes say what there may be.
-    constexpr std::uint64_t kMostPerByte = 1024;
-    if (layout.stride_bytes > 256 || layout.count > kMostPerByte * (packed.size() + 1))
+    constexpr std::uint64_t kMaxPerByte = 1024;
+    if (layout.stride_bytes > 256 || layout.count > kMaxPerByte * (packed.size() + 1))
         refuse("does not parse: " + where + ": " + std::to_string(layout.count) + " elements of " +
                std::to_string(layout.stride_bytes) + " bytes do not come of " +
                std::to_string(packed.size()));

@@ -182,7 +182,7 @@ void write_wanted(const std::vector<FileName>& wanted, ConfinedOutput& out) {
 std::vector<FileName> read_wanted(ConfinedResult& in) {
     std::vector<FileName> wanted;
     auto left = in.value<std::size_t>();
-    if (left > kMostWantedFiles) in.refuse();
+    if (left > kMaxWantedFiles) in.refuse();
     for (; left > 0; --left) {
         FileName& name = wanted.emplace_back();
         name.name = in.text();
@@ -270,12 +270,12 @@ ConfinedResult read_confined(const std::filesystem::path& file, std::optional<in
         if (files.wanted().empty()) write(*found, out);
     };
     // Materials outside name textures, which may lie outside, too. A child that goes on asking is broken.
-    constexpr int kMostRounds = 4;
+    constexpr int kMaxRounds = 4;
     for (int round = 1;; ++round) {
         ConfinedResult result = run_confined(file.string(), limits, readable, work);
         const std::vector<FileName> wanted = read_wanted(result);
         if (wanted.empty()) return result;
-        if (round == kMostRounds) result.refuse();
+        if (round == kMaxRounds) result.refuse();
         for (const FileName& name : wanted) {
             const GrantedFile& grant = granted[name] = granted_file(file, name);
             if (!grant.file.empty() && grant.refusal.empty()) readable.push_back(grant.file);

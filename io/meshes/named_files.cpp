@@ -139,7 +139,7 @@ std::optional<Path> NamedFiles::find(const FileName& name, const std::string& wh
     }
     const FoundFile found = sought(mesh_, name);
     const bool outside = found.file.empty() ? leads_outside(mesh_, name) : !is_inside(mesh_, found.file);
-    if (outside && known == granted_.end() && wanted_.size() < kMostWantedFiles) {
+    if (outside && known == granted_.end() && wanted_.size() < kMaxWantedFiles) {
         wanted_.push_back(name);
         throw InputError(what + " lies outside the mesh's folder");
     }

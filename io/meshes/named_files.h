@@ -47,7 +47,7 @@ using GrantedFiles = std::map<FileName, GrantedFile>;
 GrantedFile granted_file(const std::filesystem::path& mesh, const FileName& name);
 
 // More than any mesh names; each is a look at the disk by a program without limits.
-inline constexpr std::size_t kMostWantedFiles = 1000;
+inline constexpr std::size_t kMaxWantedFiles = 1000;
 
 class NamedFiles {
   public:

@@ -15,7 +15,7 @@ namespace hilcam {
 namespace {
 
 // More than any OBJ names, and each is sought on the disk.
-constexpr std::size_t kMostLibraries = 1000;
+constexpr std::size_t kMaxLibraries = 1000;
 
 bool is_mtl(std::string_view word) {
     constexpr std::string_view kEnding = ".mtl";
@@ -101,8 +101,8 @@ class ObjWriter {
         if (word == "l" || word == "p") return add_indices(line, word, rest);
         if (word == "mtllib") {
             add_libraries(rest, out_.libraries);
-            if (out_.libraries.size() > kMostLibraries)
-                throw InputError(name_ + ": names more than " + std::to_string(kMostLibraries) +
+            if (out_.libraries.size() > kMaxLibraries)
+                throw InputError(name_ + ": names more than " + std::to_string(kMaxLibraries) +
                                  " files of materials");
             return;
         }

@@ -84,7 +84,7 @@ class PlyHeaderReader {
     }
 
   private:
-    static constexpr int kMostLines = 1000;  // a header has so many
+    static constexpr int kMaxLines = 1000;  // a header has so many
 
     std::string_view ply_;
     TextLines lines_;
@@ -94,7 +94,7 @@ class PlyHeaderReader {
     // A file may end within its header.
     void require_end() const {
         TextLines lines(ply_, lines_.name());
-        for (std::string_view line; lines.number() < kMostLines && lines.next(line);)
+        for (std::string_view line; lines.number() < kMaxLines && lines.next(line);)
             if (line.starts_with("end_header")) return;
         throw InputError(lines_.name() + ": does not parse: its PLY header has no end_header");
     }

@@ -11,11 +11,11 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostColumns = 5;
+constexpr std::size_t kMaxTableColumns = 5;
 
-// A line's words, at most kMostColumns + 1.
+// A line's words, at most kMaxTableColumns + 1.
 struct Words {
-    std::array<std::string_view, kMostColumns + 1> word;
+    std::array<std::string_view, kMaxTableColumns + 1> word;
     std::size_t count = 0;
 
     explicit Words(std::string_view line) {

@@ -160,8 +160,8 @@ class KindMap {
 class Cutter {
   public:
     // Nothing of `mesh` is changed until finish().
-    Cutter(Mesh& mesh, std::size_t most_more)
-        : mesh_(mesh), most_(mesh.triangles.size() + most_more), steps_left_(8 * (most_ + 1)) {}
+    Cutter(Mesh& mesh, std::size_t max_more)
+        : mesh_(mesh), most_(mesh.triangles.size() + max_more), steps_left_(8 * (most_ + 1)) {}
 
     void keep(std::size_t triangle, std::int32_t surface) { add(mesh_.triangles[triangle], surface); }
     // False: there would be too many.
@@ -285,10 +285,10 @@ class Cutter {
     }
 };
 
-bool try_to_cut(Mesh& mesh, std::span<const SurfaceCut> cuts, int halvings, std::size_t most_more) {
+bool try_to_cut(Mesh& mesh, std::span<const SurfaceCut> cuts, int halvings, std::size_t max_more) {
     std::vector<std::uint8_t> is_cut(mesh.surfaces.size());
     for (const SurfaceCut& cut : cuts) is_cut[cut.surface] = 1;
-    Cutter cutter(mesh, most_more);
+    Cutter cutter(mesh, max_more);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         if (!is_cut[mesh.surface_of_triangle[t]]) cutter.keep(t, mesh.surface_of_triangle[t]);
     // One picture at a time: together they might be large.
@@ -303,23 +303,23 @@ bool try_to_cut(Mesh& mesh, std::span<const SurfaceCut> cuts, int halvings, std:
 
 }  // namespace
 
-int cut_surfaces(Mesh& mesh, std::span<const SurfaceCut> cuts, std::size_t most_more) {
+int cut_surfaces(Mesh& mesh, std::span<const SurfaceCut> cuts, std::size_t max_more) {
     if (cuts.empty()) return 0;
     HILCAM_CHECK(mesh.uvs.size() == mesh.vertices_m.size());
     // A picture of one texel cuts nothing.
     for (int halvings = 0;; ++halvings)
-        if (try_to_cut(mesh, cuts, halvings, most_more)) return halvings;
+        if (try_to_cut(mesh, cuts, halvings, max_more)) return halvings;
 }
 
 int cut_mesh(Mesh& mesh, std::span<const SurfaceCut> cuts) {
     // A net of 1000 x 1000 meshes has as many; a spacecraft whose textures are noise stays of its size.
-    constexpr std::size_t kMostOfMasks = 1'000'000, kLeast = 100'000;
+    constexpr std::size_t kMaxOfMasks = 1'000'000, kMin = 100'000;
     constexpr std::uint64_t kBytesOfPicture =
         200 << 20;  // a picture of 2048 x 2048 kinds with its sums, and what it is made of
     if (cuts.empty()) return 0;
     const bool masks =
         std::any_of(cuts.begin(), cuts.end(), [](const SurfaceCut& c) { return c.source.cutoff > 0; });
-    const std::size_t most = masks ? kMostOfMasks : std::max(kLeast, mesh.triangles.size());
+    const std::size_t most = masks ? kMaxOfMasks : std::max(kMin, mesh.triangles.size());
     allow_more(kBytesOfPicture + 2 * kBytesPerTriangle * most, 60);
     return cut_surfaces(mesh, cuts, most);
 }

@@ -22,7 +22,7 @@ struct SurfaceCut {
 
 // Cuts the triangles of these surfaces into at most so many more than there are; where the pictures' borders would make more, they are taken
 // coarser until they do not. Returns how often they were halved.
-int cut_surfaces(Mesh& mesh, std::span<const SurfaceCut> cuts, std::size_t most_more);
+int cut_surfaces(Mesh& mesh, std::span<const SurfaceCut> cuts, std::size_t max_more);
 // Does so within what a mesh file's pictures may cost.
 int cut_mesh(Mesh& mesh, std::span<const SurfaceCut> cuts);
 

@@ -12,9 +12,9 @@ namespace hilcam {
 namespace {
 
 // A double has 53 bits, 14 hexadecimal digits at most.
-constexpr std::size_t kMostTransferDigits = 16;
+constexpr std::size_t kMaxTransferDigits = 16;
 // 16^256 is 2^1024, just beyond the largest double.
-constexpr int kMostExponent = 300;
+constexpr int kMaxExponent = 300;
 
 // Hexadecimal digits in capitals, at most `most` of them.
 std::optional<std::uint64_t> hex_of(std::string_view digits, std::size_t most) {
@@ -47,9 +47,9 @@ std::optional<double> transfer_double(std::string_view word) {
     if (caret == std::string_view::npos) return {};
     std::string_view mantissa = word.substr(0, caret), exponent = word.substr(caret + 1);
     const bool negative = take_sign(mantissa), down = take_sign(exponent);
-    const auto digits = hex_of(mantissa, kMostTransferDigits);
+    const auto digits = hex_of(mantissa, kMaxTransferDigits);
     const auto power = hex_of(exponent, 3);
-    if (!digits || !power || *power > kMostExponent) return {};
+    if (!digits || !power || *power > kMaxExponent) return {};
     const int bits = 4 * ((down ? -1 : 1) * static_cast<int>(*power) - static_cast<int>(mantissa.size()));
     const double value = std::ldexp(static_cast<double>(*digits), bits);
     if (!std::isfinite(value)) return {};

@@ -19,11 +19,11 @@ std::uint64_t size_by_header(PictureBytes bytes, const PictureSize& size) {
 }  // namespace
 
 Texture decode_bmp(PictureBytes bytes) {
-    constexpr std::size_t kLeastHeader_bytes = 30;
+    constexpr std::size_t kMinHeader_bytes = 30;
     const auto size = picture_size(bytes);
     if (!size) throw undecodable("no head of a BMP");
     require_few_pixels(size->width, size->height);
-    if (bytes.size() < kLeastHeader_bytes || bytes.size() < size_by_header(bytes, *size))
+    if (bytes.size() < kMinHeader_bytes || bytes.size() < size_by_header(bytes, *size))
         throw undecodable("stb_image: the file ends too early");
     return decode_by_stb(bytes);
 }

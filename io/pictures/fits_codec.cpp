@@ -15,16 +15,16 @@ namespace {
 
 constexpr std::size_t kCard = 80, kBlock = 2880, kKeyword = 8;
 // A header of more cards is no camera's.
-constexpr std::size_t kMostCards = 20'000;
-constexpr double kMostFloat = std::numeric_limits<float>::max();
-constexpr std::uint64_t kMostAxis = std::uint64_t{1} << 32;
+constexpr std::size_t kMaxCards = 20'000;
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
+constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 32;
 
 // 4.1: cards of 80 letters in blocks of 2880 bytes, a keyword in the first eight, "= " before a value.
 class Header {
   public:
     // Reads the header at a place of the file; end() is where its data begin.
     Header(PictureBytes bytes, std::size_t begin) {
-        for (std::size_t card = 0, at = begin; card < kMostCards && at + kCard <= bytes.size();
+        for (std::size_t card = 0, at = begin; card < kMaxCards && at + kCard <= bytes.size();
              ++card, at += kCard) {
             const std::string_view text(reinterpret_cast<const char*>(bytes.data() + at), kCard);
             const std::string keyword = trimmed(text.substr(0, kKeyword));
@@ -53,7 +53,7 @@ class Header {
     }
     std::uint64_t count(const std::string& keyword, double otherwise) const {
         const double value = number(keyword, otherwise);
-        if (!(value >= 0 && value <= static_cast<double>(kMostAxis)) || value != std::floor(value))
+        if (!(value >= 0 && value <= static_cast<double>(kMaxAxis)) || value != std::floor(value))
             throw undecodable("FITS: " + keyword + " is no number of things");
         return static_cast<std::uint64_t>(value);
     }
@@ -92,10 +92,10 @@ std::uint64_t bytes_of_data(const Header& h, std::uint64_t axes) {
     std::uint64_t values = 1;
     for (std::uint64_t i = 1; i <= axes; ++i) {
         const std::uint64_t length = h.count("NAXIS" + std::to_string(i), 0);
-        if (length != 0 && values > kMostAxis / length) throw undecodable("FITS: its array is too large");
+        if (length != 0 && values > kMaxAxis / length) throw undecodable("FITS: its array is too large");
         values *= length;
     }
-    const std::uint64_t groups = std::min<std::uint64_t>(h.count("GCOUNT", 1), kMostAxis);
+    const std::uint64_t groups = std::min<std::uint64_t>(h.count("GCOUNT", 1), kMaxAxis);
     const double bytes = std::abs(h.number("BITPIX", 0)) / 8 * static_cast<double>(groups) *
                          (static_cast<double>(h.count("PCOUNT", 0)) + static_cast<double>(values));
     if (!(bytes <= 1e15)) throw undecodable("FITS: its array is too large");
@@ -122,10 +122,10 @@ std::optional<FitsImage> image_in(const Header& h, std::uint64_t axes) {
 }
 
 FitsImage first_image(PictureBytes bytes) {
-    constexpr int kMostParts = 1000;
+    constexpr int kMaxParts = 1000;
     std::size_t at = 0;
     bool compressed = false;
-    for (int part = 0; part < kMostParts && at + kBlock <= bytes.size(); ++part) {
+    for (int part = 0; part < kMaxParts && at + kBlock <= bytes.size(); ++part) {
         const Header h(bytes, at);
         const std::uint64_t axes = h.count("NAXIS", 0);
         if (axes > 999) throw undecodable("FITS: NAXIS " + std::to_string(axes));
@@ -184,7 +184,7 @@ PixelMap decode_fits_numbers(PictureBytes bytes) {
         for (float& value : row) {
             const double stored = value_at(at, image.bits);
             const double number = image.zero + image.scale * stored;
-            const bool is_one = image.blank != stored && std::abs(number) <= kMostFloat;
+            const bool is_one = image.blank != stored && std::abs(number) <= kMaxFloat;
             value = is_one ? static_cast<float>(number) : std::numeric_limits<float>::quiet_NaN();
             at += each;
         }

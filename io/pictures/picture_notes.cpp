@@ -79,7 +79,7 @@ double black_dn(const CameraModel& model, const FrameRecord& record) {
                                               {},
                                               {},
                                               {}});
-    return scale.square_root ? std::round(255 * std::sqrt(scale.black_dn / scale.most_dn)) : scale.black_dn;
+    return scale.square_root ? std::round(255 * std::sqrt(scale.black_dn / scale.max_dn)) : scale.black_dn;
 }
 
 }  // namespace

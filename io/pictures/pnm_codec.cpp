@@ -49,9 +49,9 @@ PnmHeader required_header(PictureBytes bytes) {
     require_few_pixels(header->width, header->height);
     // Words have a digit and a blank at least, but for the last one.
     const std::uint64_t samples = header->width * header->height * (header->is_color ? 3 : 1);
-    const std::uint64_t least_bytes =
+    const std::uint64_t min_bytes =
         header->is_text ? 2 * samples - 1 : samples * (header->most > 255 ? 2 : 1);
-    if (bytes.size() - header->data_at < least_bytes) throw undecodable("the file ends too early");
+    if (bytes.size() - header->data_at < min_bytes) throw undecodable("the file ends too early");
     return *header;
 }
 

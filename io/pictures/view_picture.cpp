@@ -16,7 +16,7 @@ constexpr double kLit = 1.0 / 64, kMinSpan = 1.0 / 16, kWhiteShare = 0.995;
 double linear_dn(std::size_t dn, const DnScale& scale) {
     if (!scale.square_root) return static_cast<double>(dn);
     const double root = static_cast<double>(dn) / 255;
-    return root * root * scale.most_dn;
+    return root * root * scale.max_dn;
 }
 
 using CodeTable = std::vector<std::uint8_t>;

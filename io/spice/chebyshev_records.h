@@ -13,13 +13,13 @@ namespace hilcam {
 // the first one's begin, the length of each, the words of each, how many.
 class ChebyshevRecords {
   public:
-    static constexpr std::size_t kMostSets = 6;
+    static constexpr std::size_t kMaxSets = 6;
 
-    // sets: how many functions there are, at most kMostSets. Throws InputError.
+    // sets: how many functions there are, at most kMaxSets. Throws InputError.
     ChebyshevRecords(std::vector<double> words, const std::string& where, std::size_t sets)
         : words_(std::move(words), where), sets_(sets) {
         record_ = words_.count_from_end(2, "words of a record", static_cast<double>(2 + sets_), 1e6);
-        count_ = words_.count_from_end(1, "records", 1, kMostRecords);
+        count_ = words_.count_from_end(1, "records", 1, kMaxRecords);
         begin_s_ = words_.from_end(4), length_s_ = words_.from_end(3);
         if ((record_ - 2) % sets_ != 0)
             words_.fail("words of a record: found " + std::to_string(record_) +
@@ -34,13 +34,13 @@ class ChebyshevRecords {
     }
 
     // Returns the functions, and their slopes by second. Loop.
-    std::array<ChebyshevValue, kMostSets> at(double et_s) const {
+    std::array<ChebyshevValue, kMaxSets> at(double et_s) const {
         const double index = std::floor((et_s - begin_s_) / length_s_);
         const auto i = static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count_ - 1)));
         const std::size_t terms = (record_ - 2) / sets_, from = i * record_;
         const double radius_s = words_[from + 1];
         const double s = std::clamp((et_s - words_[from]) / radius_s, -1.0, 1.0);
-        std::array<ChebyshevValue, kMostSets> out;
+        std::array<ChebyshevValue, kMaxSets> out;
         for (std::size_t k = 0; k < sets_; ++k) {
             out[k] = chebyshev_at(words_.piece(from + 2 + k * terms, terms), s);
             out[k].slope /= radius_s;

@@ -22,7 +22,7 @@ enum FromEnd : std::size_t {
 
 // The counts of coefficients of the seven polynomials are digits to the base 128 of one number, the first the lowest.
 constexpr double kCountBase = 128;
-constexpr std::size_t kMostTerms = 64;
+constexpr std::size_t kMaxTerms = 64;
 
 // A packet: the middle and half the length of its span in ticks, the counts, the coefficients of the quaternion, those of
 // the rate. References are the spans' starts.
@@ -98,7 +98,7 @@ class Chebyshev final : public CkSegment {
         for (std::size_t& terms : p.terms) {
             terms = static_cast<std::size_t>(std::fmod(code, kCountBase));
             code = std::floor(code / kCountBase);
-            if (terms > kMostTerms)
+            if (terms > kMaxTerms)
                 words_.fail(name + "has " + std::to_string(terms) + " coefficients; accepted: at most 64");
             all += terms;
         }

@@ -17,7 +17,7 @@ class Instants final : public CkSegment {
           words_(std::move(words), about.where),
           turns_(about.type == 3),
           record_(about.has_rates ? 7 : 4),
-          count_(words_.count_from_end(1, "records", 1, kMostRecords)),
+          count_(words_.count_from_end(1, "records", 1, kMaxRecords)),
           intervals_(read_intervals()) {
         for (std::size_t i = 0; i < count_; ++i) {
             const auto q = words_.piece(i * record_, 4);

@@ -23,7 +23,7 @@ class Interpolated final : public CkSegment {
           packet_(std::array<std::size_t, 4>{8, 4, 14, 7}[subtype_]),
           hermite_(subtype_ == 0 || subtype_ == 2),
           window_(words_.count_from_end(3, "window", 2, hermite_ ? kMaxNodes / 2 : kMaxNodes)),
-          count_(words_.count_from_end(1, "packets", 1, kMostRecords)),
+          count_(words_.count_from_end(1, "packets", 1, kMaxRecords)),
           seconds_per_tick_(words_.from_end(5)),
           intervals_(read_intervals()) {
         if (!(seconds_per_tick_ > 0))

@@ -118,9 +118,9 @@ class DynamicReader {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::string item = "ANGLE_" + std::to_string(i + 1) + "_COEFFS";
             const auto coefficients = pool_.numbers(require(item));
-            constexpr std::size_t kMost = 20;  // NAIF's reader takes as many
-            if (!coefficients || coefficients->size() > kMost)
-                fail(item, "accepted: 1 to " + std::to_string(kMost) + " numbers");
+            constexpr std::size_t kMax = 20;  // NAIF's reader takes as many
+            if (!coefficients || coefficients->size() > kMax)
+                fail(item, "accepted: 1 to " + std::to_string(kMax) + " numbers");
             for (const double c : *coefficients) out_.angles_rad[i].push_back(unit * c);
         }
     }
@@ -130,9 +130,9 @@ class DynamicReader {
         out_.vectors = {read_vector("PRI_"), read_vector("SEC_")};
         if (out_.vectors[0].axis == out_.vectors[1].axis)
             fail("SEC_AXIS", "is that of the primary vector; accepted: another one");
-        if (const auto key = find("ANGLE_SEP_TOL")) out_.least_angle_rad = number(*key);
-        if (!(out_.least_angle_rad > 0))
-            fail("ANGLE_SEP_TOL", "found " + plain(out_.least_angle_rad) + "; accepted: above 0");
+        if (const auto key = find("ANGLE_SEP_TOL")) out_.min_angle_rad = number(*key);
+        if (!(out_.min_angle_rad > 0))
+            fail("ANGLE_SEP_TOL", "found " + plain(out_.min_angle_rad) + "; accepted: above 0");
     }
     FrameVector read_vector(const std::string& which) const {
         FrameVector out;
@@ -200,7 +200,7 @@ std::optional<Mat3d> two_vector_axes(const DynamicFrame& f, Vec3d primary, Vec3d
     const auto [first, second] = f.vectors;
     const Vec3d p = first.sign * primary, s = second.sign * secondary;
     const double apart_rad = angle_between_rad(p, s);
-    if (!(apart_rad > f.least_angle_rad && kPi - apart_rad > f.least_angle_rad)) return {};
+    if (!(apart_rad > f.min_angle_rad && kPi - apart_rad > f.min_angle_rad)) return {};
     std::array<Vec3d, 3> axes;
     axes[first.axis] = normalized(p);
     // The third axis, right-handed: first x second where they follow each other, else the other way around.

@@ -31,7 +31,7 @@ struct DynamicFrame {
     bool inertial = false;              // turns with the time, but its rate is left out
     // kTwoVector
     std::array<FrameVector, 2> vectors;
-    double least_angle_rad = 1e-3;  // between the vectors; NAIF's value
+    double min_angle_rad = 1e-3;  // between the vectors; NAIF's value
     // kEarth
     EarthAxes earth = EarthAxes::kMeanEquator;
     // kEuler

@@ -22,10 +22,10 @@ struct GenericSegment {
         const auto item = [&](std::size_t number, const char* what, double from, double to) {
             return words.count_from_end(kItems - number + 1, what, from, to);
         };
-        constants = item(1, "place of constants", 0, kMostRecords);
+        constants = item(1, "place of constants", 0, kMaxRecords);
         const std::size_t constants_there = item(2, "constants", constant_count, constant_count);
-        times = item(6, "place of times", 0, kMostRecords), count = item(7, "times", 1, kMostRecords);
-        packets = item(11, "place of packets", 0, kMostRecords);
+        times = item(6, "place of times", 0, kMaxRecords), count = item(7, "times", 1, kMaxRecords);
+        packets = item(11, "place of packets", 0, kMaxRecords);
         item(12, "packets", static_cast<double>(count), static_cast<double>(count));
         packet_words = item(15, "words of a packet", least, 1e6);
         words_before = item(16, "words before a packet", 0, 1e6);

@@ -96,11 +96,11 @@ std::optional<double> half_field_of(const InstrumentReader& r, const std::option
 }
 
 std::optional<Vec2d> center_of(const InstrumentReader& r, const InstrumentKernel& k) {
-    constexpr double kMost_px = 16384, kFirst_px = 0.5;
-    const auto x = r.number("DISTORTION_X", -kMost_px, kMost_px),
-               y = r.number("DISTORTION_Y", -kMost_px, kMost_px);
+    constexpr double kMax_px = 16384, kFirst_px = 0.5;
+    const auto x = r.number("DISTORTION_X", -kMax_px, kMax_px),
+               y = r.number("DISTORTION_Y", -kMax_px, kMax_px);
     if (x && y) return Vec2d{*x + kFirst_px, *y + kFirst_px};
-    const auto center = r.pair("CCD_CENTER", kMost_px);
+    const auto center = r.pair("CCD_CENTER", kMax_px);
     if (!center) return {};
     const bool from_one = k.samples && k.lines && center->x == 0.5 * (static_cast<double>(*k.samples) + 1) &&
                           center->y == 0.5 * (static_cast<double>(*k.lines) + 1);

@@ -19,8 +19,8 @@ class DynamicDepth {
     DynamicDepth(const DynamicDepth&) = delete;
     DynamicDepth& operator=(const DynamicDepth&) = delete;
     static bool too_deep() {
-        constexpr int kMost = 3;
-        return depth_ > kMost;
+        constexpr int kMax = 3;
+        return depth_ > kMax;
     }
 
   private:

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostNames = 300'000, kMostNumbers = 10'000'000, kMostTexts = 2'000'000;
+constexpr std::size_t kMaxNames = 300'000, kMaxNumbers = 10'000'000, kMaxTexts = 2'000'000;
 
 }  // namespace
 
@@ -18,11 +18,11 @@ void KernelPool::assign(const std::string& name, KernelVariable value, bool appe
     const bool empty = kept.numbers.empty() && kept.texts.empty();
     const std::size_t numbers = numbers_ + value.numbers.size() - (append ? 0 : kept.numbers.size()),
                       texts = texts_ + value.texts.size() - (append ? 0 : kept.texts.size());
-    if (variables_.size() > kMostNames || numbers > kMostNumbers || texts > kMostTexts)
+    if (variables_.size() > kMaxNames || numbers > kMaxNumbers || texts > kMaxTexts)
         throw InputError(value.where + ": " + in_quotes(name) +
                          " is more than the kernels' variables may hold; accepted: " +
-                         std::to_string(kMostNames) + " names, " + std::to_string(kMostNumbers) +
-                         " numbers and " + std::to_string(kMostTexts) + " texts at most, in all kernels");
+                         std::to_string(kMaxNames) + " names, " + std::to_string(kMaxNumbers) +
+                         " numbers and " + std::to_string(kMaxTexts) + " texts at most, in all kernels");
     numbers_ = numbers, texts_ = texts;
     if (!append || empty) {
         kept = std::move(value);

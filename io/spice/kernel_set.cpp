@@ -15,7 +15,7 @@ namespace {
 constexpr std::uintmax_t kMaxTextBytes = 256u << 20;
 constexpr int kDeepestMetaKernel = 8;
 // A mission's meta-kernels name some hundred files by a few symbols. A name is no longer than a path of Linux (PATH_MAX).
-constexpr std::size_t kMostNamed = 10'000, kMostSymbols = 1000, kLongestPath = 4096;
+constexpr std::size_t kMaxNamedKernels = 10'000, kMaxSymbols = 1000, kLongestPath = 4096;
 
 // The first bytes of a file say what it is.
 enum class KernelKind { kBinary, kShape, kText, kMeta };
@@ -40,7 +40,7 @@ class Symbols {
     explicit Symbols(const KernelPool& own, std::string where) : where_(std::move(where)) {
         const auto symbols = own.texts("PATH_SYMBOLS").value_or(std::span<const std::string>());
         const auto values = own.texts("PATH_VALUES").value_or(std::span<const std::string>());
-        if (symbols.size() != values.size() || symbols.size() > kMostSymbols)
+        if (symbols.size() != values.size() || symbols.size() > kMaxSymbols)
             throw InputError(where_ + ": has " + std::to_string(symbols.size()) + " PATH_SYMBOLS and " +
                              std::to_string(values.size()) +
                              " PATH_VALUES; accepted: one value for each symbol, at most 1000");
@@ -95,7 +95,7 @@ std::vector<std::filesystem::path> names_of(const std::filesystem::path& file, c
         if (goes_on) continue;
         name = symbols.replaced(name);
         require_short();
-        if (out.size() == kMostNamed)
+        if (out.size() == kMaxNamedKernels)
             throw InputError(where +
                              ": KERNELS_TO_LOAD: has more than 10000 names; accepted: as many at most");
         out.push_back(file.parent_path() / name);
@@ -129,7 +129,7 @@ class KernelList {
         if (depth > kDeepestMetaKernel)
             throw InputError(file.string() +
                              ": meta-kernels name each other more than 8 deep; accepted: no circle");
-        if (++named_ > kMostNamed)
+        if (++named_ > kMaxNamedKernels)
             throw InputError(
                 file.string() +
                 ": meta-kernels name each other's files more than 10000 times; accepted: each file once");

@@ -62,7 +62,7 @@ class SegmentWords {
 };
 
 // The largest count that a segment can have; products of such counts stay far below the range of sizes.
-inline constexpr double kMostRecords = 1e9;
+inline constexpr double kMaxRecords = 1e9;
 
 // The number of times that are not above t.
 inline std::size_t times_up_to(std::span<const double> times, double t) {

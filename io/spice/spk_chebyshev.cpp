@@ -37,7 +37,7 @@ class ChebyshevVelocities final : public SpkSegment {
     ChebyshevVelocities(const SpkSummary& about, std::vector<double> words)
         : SpkSegment(about), words_(std::move(words), about.where) {
         record_ = words_.count_from_end(2, "words of a record", 6, 1e6);
-        count_ = words_.count_from_end(1, "records", 1, kMostRecords);
+        count_ = words_.count_from_end(1, "records", 1, kMaxRecords);
         length_s_ = words_.from_end(3) * kJulianDay_s;
         begin_et_s_ = ((words_.from_end(5) - kJ2000_jd) + words_.from_end(4)) * kJulianDay_s;
         unit_m_ = words_.from_end(7) * kKilometre_m, unit_m_s_ = unit_m_ / words_.from_end(6);

@@ -50,7 +50,7 @@ class Differences final : public SpkSegment {
         record_ = 71;
         std::size_t tail = 1;
         if (about.type == 21) record_ = words_.count_from_end(2, "words of a record", 15, 111), tail = 2;
-        count_ = words_.count_from_end(1, "records", 1, kMostRecords);
+        count_ = words_.count_from_end(1, "records", 1, kMaxRecords);
         if ((record_ - 11) % 4 != 0)
             words_.fail("words of a record: found " + std::to_string(record_) +
                         "; accepted: 11 and a multiple of 4, up to 111");

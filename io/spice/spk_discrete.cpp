@@ -20,15 +20,15 @@ class Discrete final : public SpkSegment {
           words_(std::move(words), about.where),
           even_(about.type == 8 || about.type == 12),
           hermite_(about.type == 12 || about.type == 13) {
-        count_ = words_.count_from_end(1, "states", 1, kMostRecords);
+        count_ = words_.count_from_end(1, "states", 1, kMaxRecords);
         if (about.type == 18 || about.type == 19) {
             truncated_ = true;
             const std::size_t subtype = words_.count_from_end(3, "subtype", 0, about.type == 18 ? 1 : 2);
             hermite_ = subtype != 1, apart_ = subtype == 0;
-            window_ = words_.count_from_end(2, "window", 2, static_cast<double>(most_nodes()));
+            window_ = words_.count_from_end(2, "window", 2, static_cast<double>(max_nodes()));
         } else {
             window_ = 1 + words_.count_from_end(2, hermite_ ? "window less 1" : "degree", 1,
-                                                static_cast<double>(most_nodes() - 1));
+                                                static_cast<double>(max_nodes() - 1));
             if (count_ < window_)
                 words_.fail("has " + std::to_string(count_) + " states; accepted: as many as its window, " +
                             std::to_string(window_));
@@ -76,7 +76,7 @@ class Discrete final : public SpkSegment {
     std::size_t count_ = 0, window_ = 0, packet_ = 6;
     double first_et_s_ = 0, step_s_ = 0;
 
-    std::size_t most_nodes() const { return hermite_ ? kMaxNodes / 2 : kMaxNodes; }
+    std::size_t max_nodes() const { return hermite_ ? kMaxNodes / 2 : kMaxNodes; }
     double time(std::size_t i) const {
         return even_ ? first_et_s_ + static_cast<double>(i) * step_s_ : words_[packet_ * count_ + i];
     }
@@ -105,7 +105,7 @@ class Piecewise final : public SpkSegment {
   public:
     Piecewise(const SpkSummary& about, std::vector<double> words) : SpkSegment(about) {
         const SegmentWords all(std::move(words), about.where);
-        const std::size_t count = all.count_from_end(1, "series", 1, kMostRecords);
+        const std::size_t count = all.count_from_end(1, "series", 1, kMaxRecords);
         later_ = all.count_from_end(2, "later one at an instant between", 0, 1) == 1;
         const std::size_t after = 2 + (count + 1) + count / kDirectoryStep + (count + 1);
         all.require_size(after);

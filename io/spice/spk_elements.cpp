@@ -99,9 +99,9 @@ class Equinoctial final : public SpkSegment {
         if (!(w_[kAxis] > 0))
             words.fail("semi-major axis: found " + plain(w_[kAxis]) + "; accepted: above 0");
         const double eccentricity = std::hypot(w_[kH], w_[kK]);
-        if (!(eccentricity <= kMostEccentric))
+        if (!(eccentricity <= kMaxEccentric))
             words.fail("eccentricity: found " + plain(eccentricity) + "; accepted: up to " +
-                       plain(kMostEccentric));
+                       plain(kMaxEccentric));
         if (w_[kMeanRate] == 0) words.fail("rate of the mean longitude: found 0; accepted: another number");
     }
 
@@ -149,7 +149,7 @@ class Equinoctial final : public SpkSegment {
         kPoleDeclination,
         kWords
     };
-    static constexpr double kMostEccentric = 0.9;  // NAIF's reader takes as much
+    static constexpr double kMaxEccentric = 0.9;  // NAIF's reader takes as much
     std::array<double, kWords> w_{};
 
     Mat3d frame_from_equator() const {

@@ -13,7 +13,7 @@ class TwoBody final : public SpkSegment {
   public:
     TwoBody(const SpkSummary& about, std::vector<double> words)
         : SpkSegment(about), words_(std::move(words), about.where) {
-        count_ = words_.count_from_end(1, "states", 1, kMostRecords);
+        count_ = words_.count_from_end(1, "states", 1, kMaxRecords);
         gravity_km3_s2_ = words_.from_end(2);
         if (!(gravity_km3_s2_ > 0))
             words_.fail("gravity: found " + plain(gravity_km3_s2_) + "; accepted: above 0");

@@ -39,7 +39,7 @@ enum PacketWord : std::size_t {
     kMeanAnomaly,
     kMeanMotion,
     kEpoch,
-    kLeastWords
+    kMinWords
 };
 
 double days_1950(double et_s) {
@@ -53,12 +53,12 @@ class TwoLine final : public SpkSegment {
   public:
     TwoLine(const SpkSummary& about, std::vector<double> words) : SpkSegment(about) {
         const SegmentWords all(std::move(words), about.where);
-        const GenericSegment parts(all, 8, kLeastWords);
+        const GenericSegment parts(all, 8, kMinWords);
         if (about.frame != kJ2000Frame)
             all.fail("frame: found " + std::to_string(about.frame) + "; accepted: 1 (J2000)");
         check_constants(all, parts);
         for (std::size_t i = 0; i < parts.count; ++i) {
-            const auto packet = all.piece(parts.packet(i), kLeastWords);
+            const auto packet = all.piece(parts.packet(i), kMinWords);
             epochs_et_s_.push_back(packet[kEpoch]);
             // Times from 1950 to 2200 have a UTC here.
             if (!(packet[kEpoch] > -1.57e9 && packet[kEpoch] < 6.3e9))
@@ -118,14 +118,14 @@ class TwoLine final : public SpkSegment {
         }
     }
     // The theory is no good for so long; its resonances are summed up by half days.
-    static constexpr double kMostAway_s = 20 * 365.25 * 86400;
+    static constexpr double kMaxAway_s = 20 * 365.25 * 86400;
 
     // A set must work wherever it is asked: to its neighbours, or to the ends of the span.
     void check_orbit(const SegmentWords& words, std::size_t i) const {
         const double first = i > 0 ? epochs_et_s_[i - 1] : about().start_et_s,
                      last = i + 1 < sets_.size() ? epochs_et_s_[i + 1] : about().stop_et_s;
         for (const double et_s : {first, epochs_et_s_[i], last}) {
-            if (!(std::abs(et_s - epochs_et_s_[i]) <= kMostAway_s))
+            if (!(std::abs(et_s - epochs_et_s_[i]) <= kMaxAway_s))
                 words.fail("packet " + std::to_string(i + 1) + ": stands for " + plain(et_s) +
                            " s, years from its epoch; accepted: 20 years at most");
             StateVector state;

@@ -9,7 +9,7 @@ namespace hilcam {
 namespace {
 
 // One variable has no more; KernelPool has the bounds of all together.
-constexpr std::size_t kMostValues = 10'000'000, kMostTextsOfValue = 2'000'000;
+constexpr std::size_t kMaxKernelValues = 10'000'000, kMaxTextsOfValue = 2'000'000;
 
 // The numbers of kernels may have Fortran's exponents.
 std::optional<double> kernel_number(std::string_view text) {
@@ -104,9 +104,9 @@ class Assignments {
         return line.size();
     }
     std::size_t read_value(std::string_view line, std::size_t i) {
-        if (value_.numbers.size() + value_.texts.size() == kMostValues)
+        if (value_.numbers.size() + value_.texts.size() == kMaxKernelValues)
             lines_.fail(in_quotes(name_) + ": has more than 10000000 values");
-        if (value_.texts.size() == kMostTextsOfValue)
+        if (value_.texts.size() == kMaxTextsOfValue)
             lines_.fail(in_quotes(name_) + ": has more than 2000000 texts");
         if (line[i] == '\'') return read_text(line, i);
         std::size_t end = i;

@@ -56,7 +56,7 @@ double cpu_s_of(pid_t process) {
 bool wait_while_it_works(pid_t child, int fd, unsigned waiting_s) {
     constexpr int kLook_ms = 500;
     // A thread that only looks at the clock now and then, as a sanitizer's does, is no work.
-    constexpr double kLeastWork_s = 1e-3;
+    constexpr double kMinWork_s = 1e-3;
     double worked_s = 0, idle_s = 0;
     for (;;) {
         pollfd poll_fd{fd, POLLIN, 0};
@@ -64,7 +64,7 @@ bool wait_while_it_works(pid_t child, int fd, unsigned waiting_s) {
         if (ready > 0) return true;
         if (ready < 0) continue;  // a signal
         const double now_s = cpu_s_of(child);
-        idle_s = now_s > worked_s + kLeastWork_s ? 0 : idle_s + 1e-3 * kLook_ms;
+        idle_s = now_s > worked_s + kMinWork_s ? 0 : idle_s + 1e-3 * kLook_ms;
         worked_s = now_s;
         if (idle_s >= waiting_s) return false;
     }

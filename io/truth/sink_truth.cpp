@@ -154,7 +154,7 @@ void TruthSink::deliver(const Slot& slot) {
 void TruthSink::write_settled_lines(bool all) {
     while (!held_lines_.empty()) {
         const auto fate = fates_ ? fates_->of(held_lines_.front().frame) : FrameFates::Fate::kNoFile;
-        if (fate == FrameFates::Fate::kPending && !all && held_lines_.size() < kMostHeld) return;
+        if (fate == FrameFates::Fate::kPending && !all && held_lines_.size() < kMaxHeld) return;
         std::string line = std::move(held_lines_.front().text);
         held_lines_.pop_front();
         if (fate == FrameFates::Fate::kLost) line.replace(line.size() - 1, 1, ",\"file\":false}");

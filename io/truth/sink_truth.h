@@ -80,7 +80,7 @@ class TruthSink : public FrameSink {
         std::uint64_t frame;
         std::string text;
     };
-    static constexpr std::size_t kMostHeld = 256;  // a folder that stands still does not fill the memory
+    static constexpr std::size_t kMaxHeld = 256;  // a folder that stands still does not fill the memory
 
     bool has_outputs() const;
     bool loss_is_fault() const { return !config_.folder.empty() && config_.when_slow != WhenSlow::kDrop; }

@@ -115,15 +115,15 @@ struct ReplySocket::Handles {
     }
 };
 
-ReplySocket::ReplySocket(std::int64_t most_bytes) : handles_(std::make_unique<Handles>()) {
+ReplySocket::ReplySocket(std::int64_t max_bytes) : handles_(std::make_unique<Handles>()) {
     handles_->context = library().ctx_new();
     require(handles_->context != nullptr);
     handles_->socket = library().socket(handles_->context, ZMQ_REP);
     require(handles_->socket != nullptr);
-    const int linger_ms = 0, most_waiting = 1;  // a simulator waits for its answer
+    const int linger_ms = 0, max_waiting = 1;  // a simulator waits for its answer
     handles_->set(ZMQ_LINGER, &linger_ms, sizeof linger_ms);
-    handles_->set(ZMQ_RCVHWM, &most_waiting, sizeof most_waiting);
-    handles_->set(ZMQ_MAXMSGSIZE, &most_bytes, sizeof most_bytes);
+    handles_->set(ZMQ_RCVHWM, &max_waiting, sizeof max_waiting);
+    handles_->set(ZMQ_MAXMSGSIZE, &max_bytes, sizeof max_bytes);
 }
 
 ReplySocket::~ReplySocket() = default;

@@ -14,8 +14,8 @@ namespace hilcam {
 // One thread at a time. Where the library refuses, DeviceError has its words.
 class ReplySocket {
   public:
-    // Messages above `most_bytes` end their connection. Throws InputError, which says what to install, where there is no ZeroMQ.
-    explicit ReplySocket(std::int64_t most_bytes);
+    // Messages above `max_bytes` end their connection. Throws InputError, which says what to install, where there is no ZeroMQ.
+    explicit ReplySocket(std::int64_t max_bytes);
     ~ReplySocket();
 
     // Listens at an address of ZeroMQ's own form.

@@ -77,7 +77,7 @@ EarthPatch::Node EarthPatch::between_nodes(Cell cell, float s, float t) const {
 void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
     // The middle may be off by so much of its light, or of what white paint in the Sun has: a millionth of the latter is below the
     // noise of cameras that see cities.
-    constexpr float kShare = 0.01f, kLeast = 1e-6f;
+    constexpr float kShare = 0.01f, kMin = 1e-6f;
     EarthAspect there;
     const bool met = earth_->aspect_of(ray, there);
     const Light light = light_of(there),
@@ -85,7 +85,7 @@ void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
     bool carries = met;
     for (std::size_t i = 0; i < light.size(); ++i)
         for (int b = 0; b < kMaxBins; ++b)
-            carries = carries && std::abs(between[i][b] - light[i][b]) <= kShare * light[i][b] + kLeast;
+            carries = carries && std::abs(between[i][b] - light[i][b]) <= kShare * light[i][b] + kMin;
     if (!carries) step_px_[cell.index()] = 0;
 }
 
@@ -93,7 +93,7 @@ void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
 // what is half-way, d being the logarithm of their ratio: 0.2 % too much where one is 1.15 of the other.
 // The limb of the standard atmosphere falls faster: with 1.3 pixels there were 8 % too bright, which the middle does not show.
 bool EarthPatch::may_bend(Cell cell) const {
-    constexpr float kMost = 1.15f;
+    constexpr float kMax = 1.15f;
     if (step_px_[cell.index()] == 0) return false;
     std::array<Light, 4> corners;
     for (std::size_t k = 0; k < corners.size(); ++k)
@@ -101,7 +101,7 @@ bool EarthPatch::may_bend(Cell cell) const {
     for (std::size_t i = 0; i < corners[0].size(); ++i) {
         const auto [least, most] = std::minmax({max_component(corners[0][i]), max_component(corners[1][i]),
                                                 max_component(corners[2][i]), max_component(corners[3][i])});
-        if (most > kMost * least) return true;
+        if (most > kMax * least) return true;
     }
     return false;
 }

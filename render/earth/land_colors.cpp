@@ -22,8 +22,8 @@ float power_law(float value, std::size_t c) {
     const std::array<float, 5> x{kForestPicture[c] / 8, kForestPicture[c], kSandPicture[c], kSnowPicture[c],
                                  1};
     const std::array<float, 5> y{kForest[c] / 4, kForest[c], kSand[c], kSnow[c], 0.985f};
-    constexpr float kLeast = 1e-4f;
-    const float at = std::log(std::clamp(value, std::max(kLeast, x.front()), x.back()));
+    constexpr float kMin = 1e-4f;
+    const float at = std::log(std::clamp(value, std::max(kMin, x.front()), x.back()));
     std::size_t i = 0;
     while (i + 2 < x.size() && at > std::log(x[i + 1])) ++i;
     return std::exp(between(at, std::log(x[i]), std::log(x[i + 1]), std::log(y[i]), std::log(y[i + 1])));

@@ -19,7 +19,7 @@ class LittlePicture {
           down_(cross(body.world_dir, right_)),
           reach_(std::sqrt(1 - cone_cosine * cone_cosine) / cone_cosine) {
         const double size_px = 2 * reach_ * frame.geometry.focal_length_px;
-        const int most = frame.background->scene_of(body).rings ? kMostRingedCells : kMostCells;
+        const int most = frame.background->scene_of(body).rings ? kMaxRingedCells : kMaxCells;
         cells_ = std::clamp(static_cast<int>(std::ceil(2 * size_px)), 1, most);
         rays_ = (rays_across + cells_ - 1) / cells_;
         step_ = 2 * reach_ / (cells_ * rays_);
@@ -50,9 +50,9 @@ class LittlePicture {
     }
 
   private:
-    static constexpr int kMostCells = 16, kMostRingedCells = 37;
-    static_assert(kMostCells * kMostCells == kMostBodyPoints);
-    static_assert(kMostRingedCells * kMostRingedCells == kMostRingedPoints);
+    static constexpr int kMaxCells = 16, kMaxRingedCells = 37;
+    static_assert(kMaxCells * kMaxCells == kMaxBodyPoints);
+    static_assert(kMaxRingedCells * kMaxRingedCells == kMaxRingedPoints);
     // The rays' places in their squares: a grid that lay evenly about the disk's middle would have each error at its rim
     // four or eight times.
     static constexpr double kAsideX = 0.29, kAsideY = 0.11;

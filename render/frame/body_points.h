@@ -10,7 +10,7 @@
 namespace hilcam {
 
 // Greatest number of points of a body, and of Saturn with its rings, which are 2.3 times as wide.
-inline constexpr std::size_t kMostBodyPoints = 16 * 16, kMostRingedPoints = 37 * 37;
+inline constexpr std::size_t kMaxBodyPoints = 16 * 16, kMaxRingedPoints = 37 * 37;
 
 // Adds the points of the placed frame's bodies. Loop; no allocation while the vector has room.
 void add_body_points(const FrameContext& frame, const PointField& field, std::vector<PointSource>& points);

@@ -42,8 +42,8 @@ int point_samples_of(double size_px, const RayDensity& density) {
 // An even number, so that the picture has a middle; no smaller than that of an object of one pixel, which takes little beside its
 // triangles.
 int picture_px_of(double size_px) {
-    constexpr int kLeast_px = kPicture_px / 4;
-    return std::max(kLeast_px, 2 * static_cast<int>(std::ceil(share_of_samples(size_px) * kPicture_px / 2)));
+    constexpr int kMin_px = kPicture_px / 4;
+    return std::max(kMin_px, 2 * static_cast<int>(std::ceil(share_of_samples(size_px) * kPicture_px / 2)));
 }
 
 }  // namespace

@@ -71,15 +71,15 @@ struct Renderer::Implementation {
         if (setup.stars().empty()) return {};
         std::vector<PointSource> points;
         points.reserve(setup.max_stars());
-        double least_ms = std::numeric_limits<double>::infinity();
+        double min_ms = std::numeric_limits<double>::infinity();
         for (int time = 0; time < 3; ++time) {
             points.clear();
             const Stopwatch watch;
             PointField(setup.frame(), setup.world()).add_stars(setup.stars(), points);
-            least_ms = std::min(least_ms, watch.ms());
+            min_ms = std::min(min_ms, watch.ms());
         }
         std::ostringstream line;
-        line << "stars: " << points.size() << " in the picture, found in " << std::round(100 * least_ms) / 100
+        line << "stars: " << points.size() << " in the picture, found in " << std::round(100 * min_ms) / 100
              << " ms; " << std::round(1e-5 * static_cast<double>(setup.stars().size() * sizeof(Star))) / 10
              << " MB";
         return line.str();
@@ -116,8 +116,8 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 
 std::size_t Renderer::max_points() const {
     const FrameSetup& setup = implementation_->setup;
-    return setup.max_stars() + setup.objects() * UnresolvedObjects::most_points(setup) +
-           kMaxBodies * kMostBodyPoints + kMostRingedPoints + setup.lamps().all().size();
+    return setup.max_stars() + setup.objects() * UnresolvedObjects::max_points(setup) +
+           kMaxBodies * kMaxBodyPoints + kMaxRingedPoints + setup.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->setup.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const { return implementation_->setup.radius_m(object); }

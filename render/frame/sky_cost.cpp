@@ -19,12 +19,12 @@ constexpr int kTile_px = 32, kTimes = 3;
 // The tiles of a frame, of which a stride is taken, and what one takes to fill.
 class TileCost {
   public:
-    TileCost(const FrameContext& frame, int most_tiles)
+    TileCost(const FrameContext& frame, int max_tiles)
         : width_(frame.geometry.padded_width()),
           height_(frame.geometry.padded_height()),
           across_((width_ + kTile_px - 1) / kTile_px),
           count_(across_ * ((height_ + kTile_px - 1) / kTile_px)),
-          stride_(1 + count_ / most_tiles),
+          stride_(1 + count_ / max_tiles),
           pixels_(kTile_px * kTile_px),
           uncovered_(pixels_.size(), ~SampleMask{0}) {}
 
@@ -85,14 +85,14 @@ std::vector<double> sky_costs_ms(const FrameContext& frame) {
     TileCost tiles(frame, 1024);
     std::vector<double> out;
     for (std::size_t body = 0; body < frame.body_box_count; ++body) {
-        double least_ms = 0;
-        for (int time = 0; time < kTimes && least_ms < kLong_ms; ++time) {
+        double min_ms = 0;
+        for (int time = 0; time < kTimes && min_ms < kLong_ms; ++time) {
             const ThreadStopwatch watch;
             tiles.each(frame.body_boxes[body], [&](const PixelBox& box) { tiles.fill(frame, box); });
             const double ms = tiles.stride() * watch.ms();
-            least_ms = time == 0 ? ms : std::min(least_ms, ms);
+            min_ms = time == 0 ? ms : std::min(min_ms, ms);
         }
-        out.push_back(least_ms);
+        out.push_back(min_ms);
     }
     return out;
 }
@@ -122,16 +122,16 @@ std::vector<SkyPart> sky_parts(const FrameContext& frame) {
             }
             TileCost tiles(frame, 256);
             tiles.each(frame.body_boxes[i], [&](const PixelBox& box) {
-                std::vector<double> least_ms(1 + views.size(), std::numeric_limits<double>::infinity());
+                std::vector<double> min_ms(1 + views.size(), std::numeric_limits<double>::infinity());
                 for (int time = 0; time < kTimes; ++time)
                     for (std::size_t k = 0; k <= views.size(); ++k) {
                         const ThreadStopwatch watch;
                         tiles.fill(k == 0 ? frame : views[k - 1], box);
-                        least_ms[k] = std::min(least_ms[k], watch.ms());
+                        min_ms[k] = std::min(min_ms[k], watch.ms());
                     }
-                whole_ms += tiles.stride() * least_ms[0];
+                whole_ms += tiles.stride() * min_ms[0];
                 for (std::size_t k = 0; k < views.size(); ++k)
-                    saved_ms[k] += tiles.stride() * (least_ms[0] - least_ms[k + 1]);
+                    saved_ms[k] += tiles.stride() * (min_ms[0] - min_ms[k + 1]);
             });
         }
         // Times of tiles scatter by some per cent.

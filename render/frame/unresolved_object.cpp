@@ -4,10 +4,10 @@
 
 namespace hilcam {
 
-UnresolvedObject::UnresolvedObject(const FrameContext& frame, int most_samples)
-    : camera_(frame, most_samples),
+UnresolvedObject::UnresolvedObject(const FrameContext& frame, int max_samples)
+    : camera_(frame, max_samples),
       tile_(PathModel::kMaxSamples),
-      picture_(static_cast<std::size_t>(most_samples * most_samples)) {}
+      picture_(static_cast<std::size_t>(max_samples * max_samples)) {}
 
 TileStats UnresolvedObject::trace(int samples, PathModel& paths) {
     const int edge = tile_edge_px(1);

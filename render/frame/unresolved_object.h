@@ -13,9 +13,9 @@ namespace hilcam {
 
 class UnresolvedObject {
   public:
-    // most_samples: rays along an axis of the largest picture. The frame's view must have its pointers and sizes by
+    // max_samples: rays along an axis of the largest picture. The frame's view must have its pointers and sizes by
     // now. Owner thread.
-    UnresolvedObject(const FrameContext& frame, int most_samples);
+    UnresolvedObject(const FrameContext& frame, int max_samples);
 
     // Takes over what a frame has placed. Loop, as all that follows.
     void begin(const FrameContext& frame) { camera_.begin(frame); }

@@ -15,10 +15,10 @@ UnresolvedObjects::UnresolvedObjects(const FrameSetup& setup, int samples) {
         by_rays_.push_back(std::make_unique<UnresolvedObject>(setup.frame(), samples));
     if (setup.impostor_capacity()) picture_.emplace(setup.frame(), *setup.impostor_capacity());
     seen_.reserve(setup.objects());
-    glimpses_.reserve(setup.objects() * most_points(setup));
+    glimpses_.reserve(setup.objects() * max_points(setup));
 }
 
-std::size_t UnresolvedObjects::most_points(const FrameSetup& setup) {
+std::size_t UnresolvedObjects::max_points(const FrameSetup& setup) {
     const double size_px = setup.impostor_capacity() ? kPictured_px : kPoints_px;
     const auto cells = static_cast<std::size_t>(std::ceil(2 * size_px));
     return cells * cells;

@@ -22,7 +22,7 @@ class UnresolvedObjects {
     // by now. Owner thread.
     UnresolvedObjects(const FrameSetup& setup, int samples);
     // Returns the most points that an object gives.
-    static std::size_t most_points(const FrameSetup& setup);
+    static std::size_t max_points(const FrameSetup& setup);
 
     // Adds the points of the placed frame's objects. Loop; no allocation while the vector has room. Returns what it
     // took to trace.

@@ -9,15 +9,15 @@ namespace hilcam {
 namespace {
 
 // Frames that show more triangles than this are left to rays, which hardly cost more for more.
-constexpr std::size_t kMostTriangles = 8'000'000;
+constexpr std::size_t kMaxTriangles = 8'000'000;
 
 // So many objects may have pictures of their own, by levels of so many triangles: one takes 0.15 ms of the processor where twenty
 // are a few pixels wide, and some milliseconds where it is 64.
-constexpr std::size_t kMostPictured = 32, kMostInPicture = 1'000'000;
+constexpr std::size_t kMaxPictured = 32, kMaxInPicture = 1'000'000;
 
 // Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
 // seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
-constexpr std::size_t kManyLike = 16, kMostInSets = 20'000;
+constexpr std::size_t kManyLike = 16, kMaxInSets = 20'000;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void VisibilityChoice::make(const ImageGeometry& geometry, std::span<const Rende
             if (potentially_visible_sets_.empty()) make_potentially_visible_sets();
         }
         if (!level.sees_ground() || ground_triangles == 0) continue;
-        const std::size_t most = std::min(kMostTriangles, ground_triangles + ground_triangles / 4);
+        const std::size_t most = std::min(kMaxTriangles, ground_triangles + ground_triangles / 4);
         auto& made = ground_[static_cast<std::size_t>(level.ground_step_px - 1)];
         if (!made)
             made = std::make_unique<VisibilityBuffer>(
@@ -60,7 +60,7 @@ void VisibilityChoice::make_potentially_visible_sets() {
         const std::size_t first = objects.front();
         LevelSets sets(objects_.all[first].levels.size());
         for (std::size_t level = 0; level < sets.size(); ++level)
-            if (const MeshView mesh = objects_.scene.mesh(first, level); mesh.triangles.size() <= kMostInSets)
+            if (const MeshView mesh = objects_.scene.mesh(first, level); mesh.triangles.size() <= kMaxInSets)
                 sets[level] = std::make_unique<PotentiallyVisibleSets>(
                     mesh, objects_.radii_m[first], objects_.all[first].levels[level]->coplanar_groups);
         const auto shared = std::make_shared<const LevelSets>(std::move(sets));
@@ -85,19 +85,19 @@ VisibilityBuffer::Capacity VisibilityChoice::capacity() const {
     VisibilityBuffer::Capacity out{objects_.all.size(), 0, 0};
     for (std::size_t i = 0; i < objects_.all.size(); ++i) {
         const MeshView mesh = objects_.scene.mesh(i, 0);
-        out.vertices = std::min(kMostTriangles, out.vertices + mesh.vertices_m.size());
-        out.triangles = std::min(kMostTriangles, out.triangles + mesh.triangles.size());
+        out.vertices = std::min(kMaxTriangles, out.vertices + mesh.vertices_m.size());
+        out.triangles = std::min(kMaxTriangles, out.triangles + mesh.triangles.size());
     }
     return out;
 }
 
 std::optional<VisibilityBuffer::Capacity> VisibilityChoice::capacity_for_impostors() const {
-    if (objects_.all.empty() || objects_.all.size() > kMostPictured) return {};
+    if (objects_.all.empty() || objects_.all.size() > kMaxPictured) return {};
     VisibilityBuffer::Capacity out{1, 0, 0};
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
         for (std::size_t level = 0; level < objects_.all[i].levels.size(); ++level) {
             const MeshView mesh = objects_.scene.mesh(i, level);
-            if (std::max(mesh.triangles.size(), mesh.vertices_m.size()) > kMostInPicture) continue;
+            if (std::max(mesh.triangles.size(), mesh.vertices_m.size()) > kMaxInPicture) continue;
             out.vertices = std::max(out.vertices, mesh.vertices_m.size());
             out.triangles = std::max(out.triangles, mesh.triangles.size());
         }

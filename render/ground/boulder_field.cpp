@@ -7,9 +7,9 @@ namespace hilcam {
 namespace {
 
 // Integral of D^(1 - b) from one diameter to another.
-double area_integral(double b, double least_m, double most_m) {
-    return std::abs(b - 2) < 1e-9 ? std::log(most_m / least_m)
-                                  : (std::pow(most_m, 2 - b) - std::pow(least_m, 2 - b)) / (2 - b);
+double area_integral(double b, double min_m, double max_m) {
+    return std::abs(b - 2) < 1e-9 ? std::log(max_m / min_m)
+                                  : (std::pow(max_m, 2 - b) - std::pow(min_m, 2 - b)) / (2 - b);
 }
 
 // The mean of the smaller width over the greater, which areas have: uniform from 0.6 to 1.
@@ -43,7 +43,7 @@ BoulderField::BoulderField(double radius_m, const BoulderSettings& s,
           radius_m, s.seed, RandomPurpose::kBoulder, s.smallest_m, s.largest_m,
           [this](double diameter_m) { return per_m2(diameter_m); },
           [](const SeededOctaves::Octave& octave) {
-              return std::max(octave.most_m, std::sqrt(1 / octave.per_m2));
+              return std::max(octave.max_m, std::sqrt(1 / octave.per_m2));
           },
           by_place_) {}
 

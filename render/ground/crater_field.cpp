@@ -35,7 +35,7 @@ CraterField::CraterField(double radius_m, const CraterSettings& s)
       octaves_(
           radius_m, s.seed, RandomPurpose::kCrater, s.smallest_m, s.largest_m,
           [this](double diameter_m) { return law_.per_m2(diameter_m); },
-          [](const SeededOctaves::Octave& octave) { return CraterProfile::kReach * octave.least_m; }) {}
+          [](const SeededOctaves::Octave& octave) { return CraterProfile::kReach * octave.min_m; }) {}
 
 Crater CraterField::crater_of(const SeededOctaves::Thing& thing) const {
     Crater c;
@@ -43,7 +43,7 @@ Crater CraterField::crater_of(const SeededOctaves::Thing& thing) const {
     c.diameter_m = law_.diameter_m(thing.above);
     const double radius_m = 0.5 * c.diameter_m;
     const double oldest = settings_.diffusivity_m2_ga * settings_.age_ga / (radius_m * radius_m);
-    c.worn = thing.spare * std::min(CraterProfile::kMostWorn, oldest);
+    c.worn = thing.spare * std::min(CraterProfile::kMaxWorn, oldest);
     return c;
 }
 

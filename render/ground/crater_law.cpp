@@ -11,7 +11,7 @@ namespace {
 // log10 of the number per km^2 and Ga of diameters above one, by powers of log10 of the diameter in km.
 constexpr std::array<double, 12> kNeukum = {-3.0876,  -3.557528, 0.781027,  1.021521,  -0.156012, -0.444058,
                                             0.019977, 0.086850,  -0.005874, -0.006809, 8.25e-4,   5.54e-5};
-constexpr double kLeast_km = 0.01, kMost_km = 300, kKm2_m2 = 1e6;
+constexpr double kMin_km = 0.01, kMax_km = 300, kKm2_m2 = 1e6;
 
 double log_neukum(double log_km) {
     double sum = 0;
@@ -22,8 +22,8 @@ double log_neukum(double log_km) {
 }  // namespace
 
 double neukum_per_m2(double diameter_m) {
-    const double log_km = std::log10(diameter_m * 1e-3), least = std::log10(kLeast_km);
-    if (log_km >= least) return std::pow(10, log_neukum(std::min(log_km, std::log10(kMost_km)))) / kKm2_m2;
+    const double log_km = std::log10(diameter_m * 1e-3), least = std::log10(kMin_km);
+    if (log_km >= least) return std::pow(10, log_neukum(std::min(log_km, std::log10(kMax_km)))) / kKm2_m2;
     constexpr double kStep = 1e-4;
     const double slope = (log_neukum(least + kStep) - log_neukum(least)) / kStep;
     return std::pow(10, log_neukum(least) + slope * (log_km - least)) / kKm2_m2;

@@ -18,7 +18,7 @@ double fresh(double x) {
 
 // Wear goes as the square, so that young craters have states of their own.
 double worn_of(double state, double states) {
-    return CraterProfile::kMostWorn * (state / states) * (state / states);
+    return CraterProfile::kMaxWorn * (state / states) * (state / states);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ CraterProfile::CraterProfile() {
 }
 
 CraterProfile::Worn CraterProfile::at(double worn) const {
-    const double state = kStates * std::sqrt(std::clamp(worn / kMostWorn, 0.0, 1.0));
+    const double state = kStates * std::sqrt(std::clamp(worn / kMaxWorn, 0.0, 1.0));
     const auto s = std::min(static_cast<std::size_t>(state), static_cast<std::size_t>(kStates - 1));
     return {states_[s].data(), states_[s + 1].data(), state - static_cast<double>(s)};
 }

@@ -13,8 +13,8 @@ namespace hilcam {
 
 class CraterProfile {
   public:
-    static constexpr double kReach = 3;       // radii
-    static constexpr double kMostWorn = 0.5;  // a tenth of the depth is left
+    static constexpr double kReach = 3;      // radii
+    static constexpr double kMaxWorn = 0.5;  // a tenth of the depth is left
 
     CraterProfile();
     static constexpr int kSteps = 192;  // distances at which heights are kept, to kReach
@@ -25,7 +25,7 @@ class CraterProfile {
         const double* older = nullptr;
         double share = 0;  // the share of the second
     };
-    // worn: 0 to kMostWorn. Valid as long as this is.
+    // worn: 0 to kMaxWorn. Valid as long as this is.
     Worn at(double worn) const;
     // Returns the height over the radius at a distance in radii; 0 beyond kReach. depth: of a fresh crater under its rim,
     // over the radius.

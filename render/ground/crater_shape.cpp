@@ -104,7 +104,7 @@ void add(const CraterShape& c, const GroundPatch& patch) {
         const V sum = hn::Add(before, hn::Mul(number(c.depth_m), height(c.profile, x)));
         hn::StoreU(hn::IfThenElse(within, sum, before), d, heights_m);
         if (!colored) return;
-        double at[kMostLanes] = {};
+        double at[kMaxLanes] = {};
         hn::StoreU(hn::IfThenElse(within, x, number(CraterShape::kRayReach)), d, at);
         for (std::size_t k = 0; k < count; ++k)
             brighten(c, patch.places[first + k], at[k], patch.colors[first + k]);
@@ -120,8 +120,8 @@ void add(const CraterShape& c, const GroundPatch& patch) {
             add_some(&patch.places[i].x, patch.heights_m.data() + i, i, lanes);
         if (i >= end) continue;
         // A narrow patch has less than a vector left.
-        Vec3d places[kMostLanes] = {};
-        double heights_m[kMostLanes] = {};
+        Vec3d places[kMaxLanes] = {};
+        double heights_m[kMaxLanes] = {};
         std::copy_n(patch.places.begin() + static_cast<std::ptrdiff_t>(i), end - i, places);
         std::copy_n(patch.heights_m.begin() + static_cast<std::ptrdiff_t>(i), end - i, heights_m);
         add_some(&places[0].x, heights_m, i, end - i);

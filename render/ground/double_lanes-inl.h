@@ -16,8 +16,8 @@ namespace hilcam {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-constexpr std::size_t kMostLanes = 8;
-using Doubles = hn::CappedTag<double, kMostLanes>;
+constexpr std::size_t kMaxLanes = 8;
+using Doubles = hn::CappedTag<double, kMaxLanes>;
 using Longs = hn::RebindToSigned<Doubles>;
 using V = hn::Vec<Doubles>;
 // Places are loaded as three numbers each.

@@ -16,21 +16,21 @@ constexpr std::size_t kSeenQuads = GroundTile::kQuads, kBesideQuads = GroundTile
 // Distances over which a vertex goes to the level above: of those at which tiles of its level are used.
 constexpr double kMorphFrom = 1.5, kMorphTo = 2;
 // A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
-constexpr double kLeastEdges = 128;
+constexpr double kMinEdges = 128;
 constexpr int kFinestLevel = 27;
 // Sketches that keep their texels, of 0.25 MB each, until the mesh is made.
-constexpr std::size_t kMostTexels = 128;
+constexpr std::size_t kMaxTexels = 128;
 
 }  // namespace
 
 GlobeTerrain::GlobeTerrain(const Figure& figure, std::vector<GroundMap> maps,
                            std::vector<std::unique_ptr<const GroundDetail>> details,
                            const GlobeSettings& settings)
-    : surface_(figure, std::move(maps), settings.most_bytes / 2),
+    : surface_(figure, std::move(maps), settings.max_bytes / 2),
       details_(std::move(details)),
       maker_(surface_, details_, settings.hapke),
-      most_tiles_(settings.most_bytes * 3 / 8 / tile_bytes()),
-      most_sketches_(settings.most_bytes / 8 / sketch_bytes()),
+      max_tiles_(settings.max_bytes * 3 / 8 / tile_bytes()),
+      max_sketches_(settings.max_bytes / 8 / sketch_bytes()),
       finest_level_(0) {
     while (finest_level_ < kFinestLevel && maker_.spacing_m(finest_level_) > settings.finest_m)
         ++finest_level_;
@@ -67,7 +67,7 @@ bool GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
         with_texels_.push_back(made[i].get());
         sketches_[missing[i].word()] = std::move(made[i]);
     }
-    keep_texels(kMostTexels);
+    keep_texels(kMaxTexels);
     mark_used(all ? keys : missing, sketches_);
     return all;
 }
@@ -162,11 +162,11 @@ bool GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t b
 
 // The tiles to be shown, and the edges at which they are not too many. False: not all of them are made yet.
 bool GlobeTerrain::find_leaves(const TerrainView& view, double& edges, std::vector<Leaf>& leaves) {
-    edges = std::max(kLeastEdges, 1 / (view.edge_px * view.pixel_rad));
+    edges = std::max(kMinEdges, 1 / (view.edge_px * view.pixel_rad));
     Selected selected = select(view, edges, view.most_triangles, leaves);
     while (selected == Selected::kTooManyTriangles) {
-        const bool least = edges == kLeastEdges;
-        edges = std::max(kLeastEdges, 0.9 * edges);
+        const bool least = edges == kMinEdges;
+        edges = std::max(kMinEdges, 0.9 * edges);
         selected = select(view, edges, least ? std::numeric_limits<std::size_t>::max() : view.most_triangles,
                           leaves);
     }
@@ -175,9 +175,9 @@ bool GlobeTerrain::find_leaves(const TerrainView& view, double& edges, std::vect
 
 bool GlobeTerrain::make_ahead(const TerrainView& view) {
     constexpr std::size_t kTogether = 4;
-    const bool room = most_tiles_ > kTogether && most_sketches_ > kTogether &&
-                      forget_oldest(tiles_, most_tiles_ - kTogether, mesh_number_) &&
-                      forget_oldest(sketches_, most_sketches_ - kTogether, mesh_number_);
+    const bool room = max_tiles_ > kTogether && max_sketches_ > kTogether &&
+                      forget_oldest(tiles_, max_tiles_ - kTogether, mesh_number_) &&
+                      forget_oldest(sketches_, max_sketches_ - kTogether, mesh_number_);
     if (!room) return false;
     may_make_ = kTogether;
     double edges;
@@ -195,8 +195,8 @@ TerrainMesh GlobeTerrain::mesh(const TerrainView& view) {
     find_leaves(view, edges, leaves);
     TerrainMesh out = assemble(view, edges, leaves);
     keep_texels(0);
-    forget_oldest(tiles_, most_tiles_, mesh_number_ + 1);
-    forget_oldest(sketches_, most_sketches_, mesh_number_ + 1);
+    forget_oldest(tiles_, max_tiles_, mesh_number_ + 1);
+    forget_oldest(sketches_, max_sketches_, mesh_number_ + 1);
     return out;
 }
 

@@ -21,9 +21,9 @@
 namespace hilcam {
 
 struct GlobeSettings {
-    std::size_t most_bytes = std::size_t{512} << 20;  // memory of maps and tiles that are kept
-    double finest_m = 0.01;   // vertices are not nearer to each other than this, about
-    HapkeParameters hapke{};  // the material's own, where maps have others by place
+    std::size_t max_bytes = std::size_t{512} << 20;  // memory of maps and tiles that are kept
+    double finest_m = 0.01;                          // vertices are not nearer to each other than this, about
+    HapkeParameters hapke{};                         // the material's own, where maps have others by place
 };
 
 class GlobeTerrain final : public Terrain {
@@ -52,7 +52,7 @@ class GlobeTerrain final : public Terrain {
     GroundSurface surface_;
     std::vector<std::unique_ptr<const GroundDetail>> details_;
     GroundTileMaker maker_;
-    std::size_t most_tiles_, most_sketches_;
+    std::size_t max_tiles_, max_sketches_;
     int finest_level_;
     std::uint64_t mesh_number_ = 0;
     using Tiles = std::unordered_map<std::uint64_t, std::unique_ptr<GroundTile>>;

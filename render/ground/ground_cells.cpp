@@ -8,9 +8,9 @@ namespace hilcam {
 GroundCells::GroundCells(double radius_m, double cell_m, std::uint32_t octave)
     : radius_m_(radius_m), bits_(0), octave_(octave) {
     // A face's edge is a quarter of a great circle; its cells are narrowest at the edges' middles, by 1.42.
-    constexpr int kMostBits = 28;
+    constexpr int kMaxBits = 28;
     const double narrowest_m = 0.5 * kPi * radius_m / 1.42;
-    while (bits_ < kMostBits && std::ldexp(narrowest_m, -bits_ - 1) >= cell_m) ++bits_;
+    while (bits_ < kMaxBits && std::ldexp(narrowest_m, -bits_ - 1) >= cell_m) ++bits_;
 }
 
 void GroundCells::find(Vec3d middle, double reach_rad, std::vector<Cell>& cells) const {
@@ -62,12 +62,12 @@ std::array<std::uint32_t, 4> GroundCells::words(const Cell& cell, int thing, std
 }
 
 int GroundCells::count(const Cell& cell, double mean, RandomKey seed, RandomPurpose purpose) const {
-    constexpr int kMost = 255;
+    constexpr int kMax = 255;
     constexpr std::uint32_t kCountUse = 255;
     double left = uniform(words(cell, 0, kCountUse, seed, purpose)[0]);
     double chance = std::exp(-mean);
     int count = 0;
-    while (left > chance && count < kMost) {
+    while (left > chance && count < kMax) {
         left -= chance;
         chance *= mean / ++count;
     }

@@ -28,7 +28,7 @@ GroundPages::Page& GroundPages::page(GroundRaster& raster, std::uint64_t key, in
     const int rows = std::min(kPage, (shape.rows >> level) - page_row * kPage);
     const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
                               static_cast<std::size_t>(shape.channels);
-    while (!pages_.empty() && bytes_ + count * sizeof(float) > most_bytes_) {
+    while (!pages_.empty() && bytes_ + count * sizeof(float) > max_bytes_) {
         bytes_ -= pages_.back().values.size() * sizeof(float);
         found_.erase(pages_.back().key);
         pages_.pop_back();

@@ -16,7 +16,7 @@ class GroundPages {
   public:
     static constexpr int kPage = 64;  // posts along a page's edge
 
-    explicit GroundPages(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+    explicit GroundPages(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
     // Returns the values of a post of a raster at a level, all of whose posts are there to be asked for; valid until
     // the next call. key: number of the raster, its own.
@@ -31,7 +31,7 @@ class GroundPages {
         int columns;
         std::vector<float> values;
     };
-    std::size_t most_bytes_, bytes_ = 0;
+    std::size_t max_bytes_, bytes_ = 0;
     std::uint64_t reads_ = 0;
     std::list<Page> pages_;  // the last one asked for comes first
     std::unordered_map<std::uint64_t, std::list<Page>::iterator> found_;

@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kMostOctaves = 32;
+constexpr int kMaxOctaves = 32;
 
 double noise(Vec3d place) {
     double value = 0;
@@ -95,7 +95,7 @@ GroundRelief::GroundRelief(double radius_m, const ReliefSettings& settings)
     constexpr int kLonger = 12;
     const double probe_m = 0.1 * settings.longest_m;
     double sum = 0;
-    for (int k = -kLonger; k < kMostOctaves; ++k) {
+    for (int k = -kLonger; k < kMaxOctaves; ++k) {
         const double share = std::exp2(-k), amplitude = std::pow(share, settings.hurst);
         sum += amplitude * amplitude * mean_square_difference(probe_m / (settings.longest_m * share));
         if (k < 0) continue;
@@ -106,9 +106,9 @@ GroundRelief::GroundRelief(double radius_m, const ReliefSettings& settings)
     for (double& amplitude_m : amplitude_m_) amplitude_m *= wanted_m / std::sqrt(sum);
 }
 
-void GroundRelief::add_octaves(const GroundPatch& patch, double least_m, double below_m) const {
+void GroundRelief::add_octaves(const GroundPatch& patch, double min_m, double below_m) const {
     for (std::size_t k = 0; k < wavelength_m_.size(); ++k) {
-        if (wavelength_m_[k] < least_m || wavelength_m_[k] >= below_m) continue;
+        if (wavelength_m_[k] < min_m || wavelength_m_[k] >= below_m) continue;
         // Octaves' lattices are turned against each other by their offsets alone.
         const double shift = 0.37 * static_cast<double>(k);
         add_wave({static_cast<std::uint64_t>(settings_.seed), static_cast<int>(k),
@@ -119,8 +119,8 @@ void GroundRelief::add_octaves(const GroundPatch& patch, double least_m, double 
 
 // A wave of fewer texels is none.
 void GroundRelief::add(const GroundPatch& patch) const {
-    constexpr double kLeastTexels = 3;
-    add_octaves(patch, kLeastTexels * patch.texel_m, kWideTexels * patch.texel_m);
+    constexpr double kMinTexels = 3;
+    add_octaves(patch, kMinTexels * patch.texel_m, kWideTexels * patch.texel_m);
 }
 
 void GroundRelief::add_wide(const GroundPatch& patch) const {

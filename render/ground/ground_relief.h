@@ -39,7 +39,7 @@ class GroundRelief final : public GroundDetail {
     ReliefSettings settings_;
     std::vector<double> wavelength_m_, amplitude_m_;
 
-    void add_octaves(const GroundPatch& patch, double least_m, double below_m) const;
+    void add_octaves(const GroundPatch& patch, double min_m, double below_m) const;
 };
 
 }  // namespace hilcam

@@ -29,8 +29,8 @@ std::array<double, 4> shares(GroundBetween between, double t) {
 
 }  // namespace
 
-GroundSurface::GroundSurface(const Figure& figure, std::vector<GroundMap> maps, std::size_t most_bytes)
-    : figure_(figure), pages_(most_bytes) {
+GroundSurface::GroundSurface(const Figure& figure, std::vector<GroundMap> maps, std::size_t max_bytes)
+    : figure_(figure), pages_(max_bytes) {
     std::uint32_t key = 0;
     for (GroundMap& map : maps) {
         std::vector<Layer>& layers = layers_[static_cast<std::size_t>(map.kind)];
@@ -50,15 +50,15 @@ Vec3d GroundSurface::point(Vec3d n, double height_m) const {
     return {(a2 * scale + height_m) * n.x, (a2 * scale + height_m) * n.y, (b2 * scale + height_m) * n.z};
 }
 
-// The mean of a row beside a pole, at up to kMost of its posts.
+// The mean of a row beside a pole, at up to kMax of its posts.
 bool GroundSurface::pole_mean(Layer& layer, int level, int row, Vec3d& mean) {
     const auto key = std::pair{level, row};
     if (const auto found = layer.pole_means.find(key); found != layer.pole_means.end()) {
         mean = found->second;
         return is_finite(mean);
     }
-    constexpr int kMost = 256;
-    const int columns = layer.map.raster->shape().columns >> level, count = std::min(columns, kMost);
+    constexpr int kMax = 256;
+    const int columns = layer.map.raster->shape().columns >> level, count = std::min(columns, kMax);
     mean = {};
     for (int i = 0; i < count; ++i) {
         Vec3d value;

@@ -67,7 +67,7 @@ struct GroundMap {
 // One thread at a time.
 class GroundSurface {
   public:
-    GroundSurface(const Figure& figure, std::vector<GroundMap> maps, std::size_t most_bytes);
+    GroundSurface(const Figure& figure, std::vector<GroundMap> maps, std::size_t max_bytes);
 
     const Figure& figure() const { return figure_; }
     // Finds the heights over the ellipsoid [m] of places, averaged over about a footprint.

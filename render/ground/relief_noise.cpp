@@ -90,7 +90,7 @@ void add(const ReliefWave& wave, std::span<const Vec3d> places, std::span<double
         hn::StoreU(hn::Add(hn::LoadU(d, to), heights_at(&places[i].x)), d, to);
     }
     // What is left is less than a vector.
-    double rest[3 * kMostLanes] = {}, added[kMostLanes] = {};
+    double rest[3 * kMaxLanes] = {}, added[kMaxLanes] = {};
     for (std::size_t k = i; k < places.size(); ++k)
         rest[3 * (k - i)] = places[k].x, rest[3 * (k - i) + 1] = places[k].y,
                       rest[3 * (k - i) + 2] = places[k].z;

@@ -13,16 +13,16 @@ SeededOctaves::SeededOctaves(double radius_m, std::int64_t seed, RandomPurpose p
       purpose_(purpose),
       factor_(std::move(factor)) {
     std::uint32_t number = 0;
-    for (double least_m = smallest_m; least_m < largest_m; least_m *= 2) {
-        const double most_m = std::min(2 * least_m, largest_m);
-        Octave octave{least_m, most_m, per_m2(least_m) - per_m2(most_m), per_m2(most_m),
+    for (double min_m = smallest_m; min_m < largest_m; min_m *= 2) {
+        const double max_m = std::min(2 * min_m, largest_m);
+        Octave octave{min_m, max_m, per_m2(min_m) - per_m2(max_m), per_m2(max_m),
                       GroundCells(radius_m, 1, 0)};
         octave.cells = GroundCells(radius_m, cell_m(octave), number++);
         octaves_.push_back(octave);
     }
 }
 
-double SeededOctaves::most_factor(const Octave& octave, const GroundCells::Cell& cell) const {
+double SeededOctaves::max_factor(const Octave& octave, const GroundCells::Cell& cell) const {
     const auto at = [&](double x, double y) { return octave.cells.direction(cell, x, y); };
     const std::array<Vec3d, 5> places = {at(0.5, 0.5), at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
     std::array<double, 5> factors{};

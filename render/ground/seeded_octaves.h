@@ -27,9 +27,9 @@ class SeededFactor {
 class SeededOctaves {
   public:
     struct Octave {
-        double least_m, most_m;  // diameters
-        double per_m2;           // number of things between the two
-        double larger_per_m2;    // number of things above the greater one
+        double min_m, max_m;   // diameters
+        double per_m2;         // number of things between the two
+        double larger_per_m2;  // number of things above the greater one
         GroundCells cells;
     };
 
@@ -72,18 +72,18 @@ class SeededOctaves {
     template <class F>
     void visit_within(Vec3d middle, double reach_rad, double smallest_m, const F& f) const {
         for (const Octave& octave : octaves_)
-            if (octave.most_m > smallest_m)
+            if (octave.max_m > smallest_m)
                 visit(octave, middle, reach_rad, [&](const Thing& thing) {
                     if (length(thing.place - middle) <= 2 * std::sin(0.5 * reach_rad)) f(thing);
                 });
     }
-    // Calls f(thing) for all that may show on a patch, and perhaps a few more. least_texels: diameters of less are left out;
+    // Calls f(thing) for all that may show on a patch, and perhaps a few more. min_texels: diameters of less are left out;
     // reach: how far from its middle a thing reaches, in its diameters.
     template <class F>
-    void visit_on(const GroundPatch& patch, double least_texels, double reach, const F& f) const {
+    void visit_on(const GroundPatch& patch, double min_texels, double reach, const F& f) const {
         for (const Octave& octave : octaves_)
-            if (octave.least_m >= least_texels * patch.texel_m)
-                visit(octave, patch.middle, patch.reach_rad + reach * octave.most_m / radius_m_, f);
+            if (octave.min_m >= min_texels * patch.texel_m)
+                visit(octave, patch.middle, patch.reach_rad + reach * octave.max_m / radius_m_, f);
     }
 
   private:
@@ -94,7 +94,7 @@ class SeededOctaves {
     std::shared_ptr<const SeededFactor> factor_;  // null: the law everywhere
 
     // Finds the greatest factor at a cell's middle and corners.
-    double most_factor(const Octave& octave, const GroundCells::Cell& cell) const;
+    double max_factor(const Octave& octave, const GroundCells::Cell& cell) const;
     // Says whether a thing that was drawn for that factor is one by the factor of its own place.
     bool is_kept(const Thing& thing, double most) const;
 
@@ -103,7 +103,7 @@ class SeededOctaves {
         std::vector<GroundCells::Cell> cells;
         octave.cells.find(middle, reach_rad, cells);
         for (const GroundCells::Cell& cell : cells) {
-            const double most = factor_ ? most_factor(octave, cell) : 1;
+            const double most = factor_ ? max_factor(octave, cell) : 1;
             const int count =
                 octave.cells.count(cell, most * octave.per_m2 * octave.cells.area_m2(cell), seed_, purpose_);
             for (int k = 0; k < count; ++k)

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kStep_px = GroundUpsampler::kStep_px;
 constexpr int kRing = 2;  // places beside a box that its pixels take
-constexpr int kMostPlaces = RadianceImage::kBlock_px / kStep_px + 2 * kRing;
+constexpr int kMaxPlaces = RadianceImage::kBlock_px / kStep_px + 2 * kRing;
 
 // Keys' weights of four places for what lies a quarter of the way from the second to the third; backwards: three quarters.
 constexpr std::array<float, 4> kQuarter = {-0.0703125f, 0.8671875f, 0.2265625f, -0.0234375f};
@@ -60,26 +60,26 @@ bool GroundUpsampler::give(const PixelBox& box, RadianceImage& picture) const {
     const int x0 = box.x0 / kStep_px - kRing, y0 = box.y0 / kStep_px - kRing;
     const int across = places(box.x1) + kRing - x0, down = places(box.y1) + kRing - y0;
     if (!knows({x0, y0, x0 + across, y0 + down})) return false;
-    std::array<float, kMostPlaces * kMostPlaces>
+    std::array<float, kMaxPlaces * kMaxPlaces>
         in;  // the places about the box, the outermost ones repeated beyond the picture
-    std::array<float, 2 * kMostPlaces * kMostPlaces> lines;  // the picture's lines at the places' columns
+    std::array<float, 2 * kMaxPlaces * kMaxPlaces> lines;  // the picture's lines at the places' columns
     for (int plane = 0; plane < picture.planes(); ++plane) {
         for (int y = 0; y < down; ++y) {
             const auto row = light_.row(std::clamp(y0 + y, 0, light_.height() - 1), plane);
             for (int x = 0; x < across; ++x)
-                in[static_cast<std::size_t>(y * kMostPlaces + x)] =
+                in[static_cast<std::size_t>(y * kMaxPlaces + x)] =
                     row[static_cast<std::size_t>(std::clamp(x0 + x, 0, light_.width() - 1))];
         }
         for (int y = 0; y + 2 * kRing < down; ++y) {
-            const float* const above = in.data() + y * kMostPlaces;
-            float* const upper = lines.data() + 2 * y * kMostPlaces;
-            for (int x = 0; x < across; ++x) upper[x] = near_third(above + x, kMostPlaces);
+            const float* const above = in.data() + y * kMaxPlaces;
+            float* const upper = lines.data() + 2 * y * kMaxPlaces;
+            for (int x = 0; x < across; ++x) upper[x] = near_third(above + x, kMaxPlaces);
             for (int x = 0; x < across; ++x)
-                upper[kMostPlaces + x] = near_second(above + kMostPlaces + x, kMostPlaces);
+                upper[kMaxPlaces + x] = near_second(above + kMaxPlaces + x, kMaxPlaces);
         }
         for (int y = box.y0; y < box.y1; ++y) {
-            const float* const line = lines.data() + (y - box.y0) * kMostPlaces;
-            std::array<float, 2 * kMostPlaces> out;
+            const float* const line = lines.data() + (y - box.y0) * kMaxPlaces;
+            std::array<float, 2 * kMaxPlaces> out;
             for (int x = 0; x + 2 * kRing < across; ++x) {
                 out[static_cast<std::size_t>(2 * x)] = std::max(0.0f, near_third(line + x, 1));
                 out[static_cast<std::size_t>(2 * x + 1)] = std::max(0.0f, near_second(line + x + 1, 1));

@@ -147,7 +147,7 @@ void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest>
 }
 
 void IndirectCache::follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests) {
-    if (place.follower == GlossyRequest::kNobody || place.followers == kMostTogether) {
+    if (place.follower == GlossyRequest::kNobody || place.followers == kMaxTogether) {
         place.follower = number, place.followers = 1;
         return;
     }
@@ -363,7 +363,7 @@ Planetshine::Glossy IndirectCache::sent_by_parts(std::size_t body, const Shading
     const bool own_colors = has_own_colors(at.surface);
     Spectrum sum;
     float samples = 0, cosines = 0;
-    std::array<Planetshine::Glossy, Planetshine::Lobes::kMost> sent;
+    std::array<Planetshine::Glossy, Planetshine::Lobes::kMax> sent;
     for (const NormalCluster* part = at.clusters; part;) {
         Planetshine::Lobes lobes{at.view_dir, at.surface.alpha, reflectance};
         for (const NormalCluster* next = part; next && lobes.count < sent.size(); next = next->next)

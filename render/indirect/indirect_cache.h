@@ -65,7 +65,7 @@ class IndirectCache {
         mirror_sunlight_.add_light(tile, points);
     }
     // The most shading points whose lobes the same rays follow.
-    static constexpr std::size_t kMostTogether = 16;
+    static constexpr std::size_t kMaxTogether = 16;
     // The bodies' light that a lobe sends, if nothing is in the way, to rays that are drawn as it sends: an equal share
     // to each that is towards the body, or to all where none is. Loop, any thread.
     class LobeRays {

@@ -235,7 +235,7 @@ void find_beam(Vec3f sun, float least, MirrorSunlight::Shown& out) {
     const float cosine = dot(sun, out.normal);
     const Vec3f dir = out.dir = sun - 2 * cosine * out.normal;
     ReflectedBeam& beam = out.beam;
-    beam.least_m = out.tolerance_m;
+    beam.min_m = out.tolerance_m;
     beam.width_m = out.mirror.shape->width_m, beam.height_m = out.mirror.shape->height_m;
     const auto line = [&](Vec3f by_place) { return Line{by_place, -dot(by_place, out.corner_m)}; };
     const Vec3f per_m = (1 / cosine) * out.normal;

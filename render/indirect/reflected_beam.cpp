@@ -11,7 +11,7 @@ namespace hilcam {
 HILCAM_CLONES void find_places_in_beam(const ReflectedBeam& beam, BeamPlaces& places) {
     using Line = ReflectedBeam::Line;
     const Line d = beam.distance, u = beam.x, v = beam.y;
-    const float nearest_m = beam.least_m, width_m = beam.width_m, height_m = beam.height_m;
+    const float nearest_m = beam.min_m, width_m = beam.width_m, height_m = beam.height_m;
     const Vec2f margin = beam.margin, margin_m = beam.margin_m;
     for (std::size_t i = 0; i < BeamPlaces::kMax; ++i) {
         const float px = places.x[i], py = places.y[i], pz = places.z[i];
@@ -31,7 +31,7 @@ void ReflectedBeams::add(const ReflectedBeam& beam) {
     if (i == 0) {
         // No place is so far away: what a block has left meets nothing.
         blocks_.emplace_back();
-        blocks_.back().least_m.fill(std::numeric_limits<float>::infinity());
+        blocks_.back().min_m.fill(std::numeric_limits<float>::infinity());
     }
     Block& block = blocks_.back();
     const auto set = [i](Lines& lines, const ReflectedBeam::Line& line) {
@@ -39,7 +39,7 @@ void ReflectedBeams::add(const ReflectedBeam& beam) {
         lines.constant[i] = line.constant;
     };
     set(block.distance, beam.distance), set(block.x, beam.x), set(block.y, beam.y);
-    block.least_m[i] = beam.least_m, block.width_m[i] = beam.width_m, block.height_m[i] = beam.height_m;
+    block.min_m[i] = beam.min_m, block.width_m[i] = beam.width_m, block.height_m[i] = beam.height_m;
     block.margin_x[i] = beam.margin.x, block.margin_y[i] = beam.margin.y;
     block.margin_x_m[i] = beam.margin_m.x, block.margin_y_m[i] = beam.margin_m.y;
 }
@@ -72,7 +72,7 @@ HILCAM_CLONES void ReflectedBeams::find_in(const Block& block, const PlaceBox& b
         const Span away = range(block.distance), x = range(block.x), y = range(block.y);
         const float more_x = (block.margin_x_m[i] + block.margin_x[i] * away.most) * (1 + kRounding);
         const float more_y = (block.margin_y_m[i] + block.margin_y[i] * away.most) * (1 + kRounding);
-        const bool meets_box = (away.most > block.least_m[i]) & (x.most > -more_x) &
+        const bool meets_box = (away.most > block.min_m[i]) & (x.most > -more_x) &
                                (x.least < block.width_m[i] + more_x) & (y.most > -more_y) &
                                (y.least < block.height_m[i] + more_y);
         met[i] = meets_box ? 1 : 0;

@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-// Ray space, metres. A place is in the beam where it is farther than least_m from the mirror's plane, along
+// Ray space, metres. A place is in the beam where it is farther than min_m from the mirror's plane, along
 // the beam, and where it sees the Sun's middle within the mirror's rectangle or a margin about it, which
 // grows with that distance.
 struct ReflectedBeam {
@@ -23,7 +23,7 @@ struct ReflectedBeam {
     };
     Line distance{}, x{},
         y{};  // coordinates of the place; where on the mirror, along its sides, it sees the Sun's middle
-    float least_m = 0, width_m = 0, height_m = 0;
+    float min_m = 0, width_m = 0, height_m = 0;
     Vec2f margin{}, margin_m{};  // over the distance, and what there is of it at the mirror
 };
 
@@ -65,7 +65,7 @@ class ReflectedBeams {
     };
     struct alignas(64) Block {
         Lines distance, x, y;
-        Numbers least_m, width_m, height_m, margin_x, margin_y, margin_x_m, margin_y_m;
+        Numbers min_m, width_m, height_m, margin_x, margin_y, margin_x_m, margin_y_m;
     };
     std::vector<Block> blocks_;
     std::size_t count_ = 0;

@@ -102,7 +102,7 @@ CoverageMap::Coverage CoverageMap::coverage(const Footprint& pixel, Vec2f way) c
         out.place[k] = {0.5f + px * steps.x_px * sums.x[k], 0.5f + px * steps.y_px * sums.y[k]};
     }
     if (sums.share[0] > 0) out.lit = std::min(1.0f, sums.lit / sums.share[0]);
-    const float upon = all - sums.share[0], lean = kMostLean * 255 / 127;
+    const float upon = all - sums.share[0], lean = kMaxLean * 255 / 127;
     if (upon > 0) out.lean = {lean * sums.lean[0] / upon, lean * sums.lean[1] / upon};
     return out;
 }
@@ -137,7 +137,7 @@ bool CoverageMap::holds(std::uint16_t surface_there, const std::array<Vec3d, 3>&
     if (std::find(surface.begin(), surface.begin() + layers, surface_there) == surface.begin() + layers)
         return false;
     const Vec3d facing = cross(corners[1] - corners[0], corners[2] - corners[0]), up = to_double(normal);
-    if (std::abs(dot(facing, up)) < std::cos(static_cast<double>(kMostLean)) * length(facing)) return false;
+    if (std::abs(dot(facing, up)) < std::cos(static_cast<double>(kMaxLean)) * length(facing)) return false;
     // What rounding and levels of detail move.
     const auto loose_m = static_cast<double>(kLoose * texel_m);
     return std::all_of(corners.begin(), corners.end(), [&](Vec3d corner) {

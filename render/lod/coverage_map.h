@@ -24,7 +24,7 @@ class CoverageMap {
   public:
     static constexpr std::size_t kMaxLayers = CoverageTexels::kLayers;
     // The most that triangles lean against the ground [rad]: 0.3 degrees.
-    static constexpr float kMostLean = 0.00524f;
+    static constexpr float kMaxLean = 0.00524f;
 
     // The most that its parts stand out of it, for what rounding and levels of detail move [texels].
     static constexpr float kLoose = 0.1f;

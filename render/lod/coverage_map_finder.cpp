@@ -17,7 +17,7 @@ namespace {
 // (PackedTriangle::coplanar_group).
 constexpr std::size_t kMaxGrounds = 64;
 constexpr int kFinest = 1536, kCoarsest = 16;        // texels along the longer side: at most, and at least
-constexpr double kLeastFilled = 0.2;                 // the share of its rectangle that the ground fills
+constexpr double kMinFilled = 0.2;                   // the share of its rectangle that the ground fills
 constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // the share of the ground beside what lies on it
 constexpr float kFlatGroundCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
 
@@ -145,11 +145,11 @@ class CoverageMapFinder {
         out.corner_m = to_float(dot(triangles[0][0], up) * up + r.x0 * r.across + r.y0 * r.down);
         const double longer_m = std::max(r.width(), r.height());
         out.texel_m = static_cast<float>(std::max(error_m_, longer_m / kFinest));
-        return area_m2 > kLeastFilled * r.area() && longer_m > kCoarsest * static_cast<double>(out.texel_m);
+        return area_m2 > kMinFilled * r.area() && longer_m > kCoarsest * static_cast<double>(out.texel_m);
     }
     // The longest of the edges that one triangle has.
     std::vector<Vec3d> border(const std::vector<std::size_t>& ground) const {
-        constexpr std::size_t kMostEdges = 64;
+        constexpr std::size_t kMaxEdges = 64;
         using Place = std::tuple<double, double, double>;
         std::map<std::pair<Place, Place>, int> found;
         const auto place = [](Vec3d at) { return Place{at.x, at.y, at.z}; };
@@ -167,7 +167,7 @@ class CoverageMapFinder {
             if (triangles == 1) out.push_back({bx - ax, by - ay, bz - az});
         }
         std::stable_sort(out.begin(), out.end(), [](Vec3d a, Vec3d b) { return dot(a, a) > dot(b, b); });
-        out.resize(std::min(out.size(), kMostEdges));
+        out.resize(std::min(out.size(), kMaxEdges));
         return out;
     }
 

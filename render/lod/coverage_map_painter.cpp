@@ -333,7 +333,7 @@ CoverageTexels CoverageMapPainter::packed(int first, int row) const {
         }
         out.down[lane] = byte(texel.down);
         for (std::size_t axis = 0; axis < 2; ++axis) {
-            const float lean = std::clamp(texel.lean[axis] / CoverageMap::kMostLean, -1.0f, 1.0f);
+            const float lean = std::clamp(texel.lean[axis] / CoverageMap::kMaxLean, -1.0f, 1.0f);
             out.lean[axis][lane] =
                 static_cast<std::uint8_t>(static_cast<std::int8_t>(std::lround(127 * lean)));
             out.gap[axis][lane] = byte(texel.gap[axis]);

@@ -65,8 +65,8 @@ struct Part {
 // Eights of which a part may be in the pixel, and where the first texel of each is.
 struct Found {
     std::size_t count = 0;
-    alignas(64) std::array<std::uint32_t, CoverageWindow::kMost + kLanes> number;
-    alignas(64) std::array<float, CoverageWindow::kMost + kLanes> x, y;
+    alignas(64) std::array<std::uint32_t, CoverageWindow::kMax + kLanes> number;
+    alignas(64) std::array<float, CoverageWindow::kMax + kLanes> x, y;
 
     // Appends those of a vector that are seen.
     HWY_INLINE void append(hn::Mask<Floats> seen, hn::Vec<Numbers> numbers, V x_there, V y_there) {
@@ -120,7 +120,7 @@ HWY_INLINE bool find(const CoverageWindow& w, Found& out) {
             const auto number = hn::Add(rows_of_eights, hn::Set(du, r * w.row_of_eights + e));
             out.append(seen, number, hn::Add(x, hn::Set(d, first * w.x_column)),
                        hn::Add(y, hn::Set(d, first * w.y_column)));
-            if (out.count > CoverageWindow::kMost) return false;
+            if (out.count > CoverageWindow::kMax) return false;
         }
     }
     // They are taken by twos: the last may be one far away.

@@ -13,7 +13,7 @@ struct alignas(64) CoverageTexels {
     static constexpr std::size_t kLanes = 8, kLayers = 3;
     using Bytes = std::array<std::uint8_t, kLanes>;
     std::array<Bytes, kLayers> share;  // share that each layer fills; 255: all of the texel
-    // By the share of what lies on the ground, how it leans along both sides: signed, 127 is CoverageMap::kMostLean.
+    // By the share of what lies on the ground, how it leans along both sides: signed, 127 is CoverageMap::kMaxLean.
     std::array<Bytes, 2> lean;
     // The share of the ground that is seen in gaps which run down the rectangle; the others run across it.
     Bytes down;
@@ -28,7 +28,7 @@ static_assert(sizeof(CoverageTexels) == 64);
 // Eights of texels about a pixel, and how these lie in it. Lengths in it are widths that a texel takes along its sides there: a
 // side falls off over one, so that pixels side by side add up to one.
 struct CoverageWindow {
-    static constexpr std::size_t kMost = 256;
+    static constexpr std::size_t kMax = 256;
     const CoverageTexels* kinds = nullptr;
     const std::uint32_t* eights = nullptr;  // the kind of each, from the window's first one on
     std::uint32_t row_of_eights = 0;        // from one row to the next
@@ -49,7 +49,7 @@ struct CoverageSums {
     std::array<float, 2> lean{};
     float lit = 0;  // sum of the share of the ground that light reaches
 };
-// False: the pixel has parts of more than kMost eights. Loop, any thread.
+// False: the pixel has parts of more than kMax eights. Loop, any thread.
 bool find_sums(const CoverageWindow& window, CoverageSums& out);
 
 }  // namespace hilcam

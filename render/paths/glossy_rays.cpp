@@ -115,7 +115,7 @@ void GlossyRays::send_glossy_rays(Tile& tile, const Asking& asking, std::size_t 
     const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
     const Followers followers = share_rays(tile, asking, number);
     const std::size_t count =
-        std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))), GlossyLobe::kMostRays);
+        std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))), GlossyLobe::kMaxRays);
     const Frame local(at.normal);
     const std::size_t first = rays.count;
     for (std::size_t i = 0; i < count && !rays.full(); ++i) {

@@ -28,14 +28,14 @@ class GlossyRays {
     void add_found(Tile& tile) const;
 
   private:
-    static constexpr auto kMost = static_cast<std::size_t>(PathModel::kMaxShadingPoints);
-    std::array<PixelShare, kMost> shares_;
-    std::array<GlossyLobe, kMost> lobes_;
+    static constexpr auto kMax = static_cast<std::size_t>(PathModel::kMaxShadingPoints);
+    std::array<PixelShare, kMax> shares_;
+    std::array<GlossyLobe, kMax> lobes_;
     std::size_t share_count_ = 0, lobe_count_ = 0;
 
     // The shading points whose lobes the same rays follow.
     struct Followers {
-        std::array<const ShadingPoint*, IndirectCache::kMostTogether> point;
+        std::array<const ShadingPoint*, IndirectCache::kMaxTogether> point;
         std::size_t count = 0;
         float samples = 0;           // that see them
         GlossyLobe* lobe = nullptr;  // gets the light that the rays find

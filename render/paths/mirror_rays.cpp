@@ -17,11 +17,11 @@ namespace {
 
 // Where in the disk of visible facets the rays of a pixel lie, by their number.
 struct Places {
-    alignas(64) std::array<float, kMostSamples> radius, cosine, sine;
+    alignas(64) std::array<float, kMaxVisibilitySamples> radius, cosine, sine;
 };
 const Places kMirrorPlaces = [] {
     Places out;
-    for (std::size_t i = 0; i < kMostSamples; ++i) {
+    for (std::size_t i = 0; i < kMaxVisibilitySamples; ++i) {
         const float number = static_cast<float>(i) + 0.5f;
         const DiskPlace at =
             DiskPlace::of(std::fmod(kPlasticAlong * number, 1.0f), std::fmod(kPlasticAbout * number, 1.0f));

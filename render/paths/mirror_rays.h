@@ -30,7 +30,7 @@ class MirrorRays {
     std::span<const Packet> packets() const { return std::span(packets_).first(count_); }
 
   private:
-    std::array<Packet, kMostSamples / kPacketSize> packets_;
+    std::array<Packet, kMaxVisibilitySamples / kPacketSize> packets_;
     std::size_t count_ = 0;
 };
 

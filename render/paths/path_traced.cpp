@@ -42,11 +42,11 @@ class TracedPaths final : public PathModel {
     static constexpr auto kMax = static_cast<std::size_t>(kMaxShadingPoints);
     // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
     // where others need fewer.
-    static constexpr std::size_t kLeastOfMirror = 8;
-    static constexpr std::size_t kMostRays = (kLeastOfMirror + 1) * kMax + IndirectCache::kMaxGlossy;
-    std::array<ShadingPoint, kMostRays> a_, b_;
-    std::array<NextRay, kMostRays> next_;
-    std::array<GlossyRequest, kMostRays> requests_;  // one for each shading point in work that keeps light
+    static constexpr std::size_t kMinOfMirror = 8;
+    static constexpr std::size_t kMaxRays = (kMinOfMirror + 1) * kMax + IndirectCache::kMaxGlossy;
+    std::array<ShadingPoint, kMaxRays> a_, b_;
+    std::array<NextRay, kMaxRays> next_;
+    std::array<GlossyRequest, kMaxRays> requests_;  // one for each shading point in work that keeps light
     ShadingPoint* current_ = a_.data();
     ShadingPoint* following_ = b_.data();
     GlossyRays glossy_rays_;
@@ -208,11 +208,11 @@ class TracedPaths final : public PathModel {
         // Four fifths of a lobe are within twice alpha of its facets' middle, which turns rays by twice that (Walter et al. 2007,
         // eq. 35).
         constexpr float kLobe = 4;
-        constexpr float kMost_px = 4;  // further off a pixel has little of it, and rays cost time
+        constexpr float kMax_px = 4;  // further off a pixel has little of it, and rays cost time
         const auto focal_px = static_cast<float>(tile.frame.geometry.focal_length_px);
         const float in_all_m = mirror.footprint_m * focal_px + distance_m;
         const float blur_px = kLobe * mirror.surface.alpha * distance_m / in_all_m * focal_px;
-        const int reach = static_cast<int>(std::min(1 + blur_px, kMost_px));
+        const int reach = static_cast<int>(std::min(1 + blur_px, kMax_px));
         const int width = tile.box.x1 - tile.box.x0, height = tile.box.y1 - tile.box.y0;
         const int x = static_cast<int>(mirror.pixel) % width, y = static_cast<int>(mirror.pixel) / width;
         for (int row = std::max(0, y - reach); row <= std::min(height - 1, y + reach); ++row)
@@ -223,7 +223,7 @@ class TracedPaths final : public PathModel {
     // Makes what one of many rays has met, the last of these shading points, a part of what others of the same pixel have, where
     // that is alike: it is shaded once. Few, as a shadow's edge may pass between them. False: nothing is.
     static bool join(const NextRay& ray, ShadingPoint* found, std::size_t first, std::size_t last) {
-        constexpr float kMost = 8;
+        constexpr float kMaxBrighter = 8;
         const ShadingPoint& at = found[last];
         // A facet lobe turns by twice as much: half of alpha, as far as 10 degrees.
         constexpr float kLeansAlike = 0.985f, kOfAlpha = 0.5f;
@@ -233,7 +233,7 @@ class TracedPaths final : public PathModel {
         for (std::size_t i = last; i-- > first;) {
             ShadingPoint& other = found[i];
             if (other.object != at.object || other.surface_number != at.surface_number ||
-                max_component(other.throughput) > (kMost - 0.5f) * max_component(ray.throughput) ||
+                max_component(other.throughput) > (kMaxBrighter - 0.5f) * max_component(ray.throughput) ||
                 other.back != at.back || other.sun_visibility != at.sun_visibility ||
                 other.surface.base.bin != at.surface.base.bin || dot(other.normal, at.normal) < least)
                 continue;
@@ -253,7 +253,7 @@ class TracedPaths final : public PathModel {
         auto marked = static_cast<std::size_t>(
             std::count_if(next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(mirrors),
                           [&](const NextRay& ray) { return near_part_[ray.from->pixel]; }));
-        std::size_t room = kMostRays - ray_count;
+        std::size_t room = kMaxRays - ray_count;
         for (std::size_t first = 0; first < ray_count; first += count) {
             count = std::min<std::size_t>(kPacketSize, (first < mirrors ? mirrors : ray_count) - first);
             const HitPacket& hits = first < mirrors

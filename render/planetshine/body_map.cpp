@@ -10,7 +10,7 @@ namespace hilcam {
 
 BodyMap::BodyMap() {
     for (int level = 0; level < kLevels; ++level) {
-        const auto across = static_cast<std::size_t>((kMostSide >> level) + 2);
+        const auto across = static_cast<std::size_t>((kMaxSide >> level) + 2);
         texels_[static_cast<std::size_t>(level)].resize(across * across);
     }
 }
@@ -28,9 +28,9 @@ BodyMap::Place BodyMap::place_of(int x, int y) const {
 void BodyMap::place(const Background& background, Vec3f axis, float one_minus_cosine, float narrowest_alpha) {
     frame_ = Frame(axis);
     radius_ = std::sqrt(2 * one_minus_cosine);
-    side_ = kLeastSide, levels_ = 1;
+    side_ = kMinSide, levels_ = 1;
     const float wanted_rad = std::max(0.5f * narrowest_alpha, kNarrowest_rad);
-    while (side_ < kMostSide && 2 * radius_ > wanted_rad * static_cast<float>(side_)) side_ *= 2, ++levels_;
+    while (side_ < kMaxSide && 2 * radius_ > wanted_rad * static_cast<float>(side_)) side_ *= 2, ++levels_;
     const float texel_rad = 2 * radius_ / static_cast<float>(side_);
     texel_sr_ = texel_rad * texel_rad;
     for (int level = 0; level < levels_; ++level)

@@ -17,7 +17,7 @@ class BodyMap {
     // A texel is half as wide as the alpha of the narrowest lobe, but no narrower than this [rad]: about the part of a solar
     // cell's lobe that one of sixteen facets sees.
     static constexpr float kNarrowest_rad = 0.02f;
-    static constexpr int kLeastSide = 8, kMostSide = 64;
+    static constexpr int kMinSide = 8, kMaxSide = 64;
 
     BodyMap();
 
@@ -37,7 +37,7 @@ class BodyMap {
         bool inside;
     };
     Frame frame_{{0, 0, 1}};
-    int side_ = kLeastSide, levels_ = 1;
+    int side_ = kMinSide, levels_ = 1;
     float radius_ = 1;  // radius of the cone in the projection: 2 sin(half angle / 2)
     float texel_sr_ = 1;
     // Level after level, each with a border of nothing.

@@ -219,9 +219,9 @@ namespace {
 // Slopes of facets that share the GGX distribution evenly between them: a share u of it leans by no more than
 // alpha sqrt(u / (1 - u)) (Walter et al., EGSR 2007, eq. 35).
 struct FacetSlopes {
-    static constexpr std::size_t kMost = 64;
+    static constexpr std::size_t kMax = 64;
     std::size_t count;
-    std::array<float, kMost> x{}, y{}, squared{};  // in units of alpha
+    std::array<float, kMax> x{}, y{}, squared{};  // in units of alpha
 
     explicit FacetSlopes(std::size_t n) : count(n) {
         for (std::size_t i = 0; i < n; ++i) {
@@ -310,11 +310,11 @@ void Planetshine::place_light(const Disk& disk, Body& body) {
 // The part of a disk that lobes see.
 struct Planetshine::Seen {
     static constexpr float kNextToNothing = 1e-3f;
-    std::array<float, Lobes::kMost> off;   // cosine between the mirror's direction and the disk's
-    std::array<float, Lobes::kMost> most;  // radiance as a share of the irradiance, at most
+    std::array<float, Lobes::kMax> off;   // cosine between the mirror's direction and the disk's
+    std::array<float, Lobes::kMax> most;  // radiance as a share of the irradiance, at most
     // Where that is not next to nothing.
-    std::array<SchlickSums, Lobes::kMost> sums;
-    std::array<Spectrum, Lobes::kMost> radiance;
+    std::array<SchlickSums, Lobes::kMax> sums;
+    std::array<Spectrum, Lobes::kMax> radiance;
 };
 
 // One kernel for all of it, as calls through clones cost as much as sixteen directions.

@@ -52,11 +52,11 @@ class Planetshine {
     Glossy glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
     // Lobes that differ in their normals alone.
     struct Lobes {
-        static constexpr std::size_t kMost = 8;
+        static constexpr std::size_t kMax = 8;
         Vec3f view_dir;
         float alpha, reflectance;
         std::size_t count = 0;
-        alignas(32) std::array<float, kMost> x{}, y{}, z{};  // normals
+        alignas(32) std::array<float, kMax> x{}, y{}, z{};  // normals
 
         Vec3f normal(std::size_t i) const { return {x[i], y[i], z[i]}; }
         void add(Vec3f n) { x[count] = n.x, y[count] = n.y, z[count] = n.z, ++count; }

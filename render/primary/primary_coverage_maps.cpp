@@ -10,7 +10,7 @@ namespace {
 
 // A surface in a coverage map is seen where it fills as much of a pixel: of sunlit paint a quarter of the noise of a full well of
 // 15,000 electrons.
-constexpr float kLeastShare = 0.002f;
+constexpr float kMinCoverage = 0.002f;
 
 // The halves of light whose middle is `off_px` from that of light with these halves.
 SubpixelMoments moved(const SubpixelMoments& from, Vec2f off_px) {
@@ -76,7 +76,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
     float shown = 0;
     Vec2f middle_px{};
     for (std::size_t layer = 0; layer < coverage_map.layers; ++layer) {
-        if (coverage.share[layer] >= kLeastShare) shown += coverage.share[layer];
+        if (coverage.share[layer] >= kMinCoverage) shown += coverage.share[layer];
         middle_px.x += coverage.share[layer] * coverage.place[layer].x;
         middle_px.y += coverage.share[layer] * coverage.place[layer].y;
     }
@@ -87,7 +87,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
     const RayWidth width{pixel_rad * static_cast<float>(frame.way_to_start_m()), pixel_rad};
     const auto lane = static_cast<int>(k);
     for (std::size_t layer = 0; layer < coverage_map.layers; ++layer) {
-        if (coverage.share[layer] < kLeastShare) continue;
+        if (coverage.share[layer] < kMinCoverage) continue;
         ShadingPoint& point = points[count++];
         // The ground is what the fragment has met.
         if (layer == 0) {

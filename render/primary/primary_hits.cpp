@@ -21,12 +21,12 @@ constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow
 constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that are taken for one
 // Normals that turn by this much of a lobe's alpha within a triangle are several: at the lobe's middle one of them is off by
 // 4 % (GGX's density, 1 / (1 + t^2)^2 with t = angle over alpha, over a quarter of alpha to both sides). Paint is a lobe of 1.
-constexpr float kLeastTurn = 0.5f;
+constexpr float kMinTurn = 0.5f;
 // So many alphas beside all of them, what the lobe reflects of the Sun is a twenty-fifth, and hardly differs among them.
 constexpr float kFarFromLobe = 2;
 // A look at a texture is so much narrower than what it stands for, as what lies between two texels blurs it again.
 constexpr float kTextureWidth = 0.5f;
-constexpr float kLeastFacing =
+constexpr float kMinFacing =
     1e-4f;  // a shading point's normal against the viewer [cosine], as find_surface_frame() has it
 constexpr float kFlattest = 1e-4f;  // a coverage map is seen as one from higher than this [sine]
 
@@ -196,14 +196,13 @@ bool PrimaryHits::turns_much(std::size_t k) const {
     const ObjectSurfaces& object = *(*frame.objects)[hits_.object[k]];
     const Material& material = object.materials[object.triangles[hits_.triangle[k]].surface];
     const float own = object.unflattened(object.triangles[hits_.triangle[k]].surface, material.ggx_alpha);
-    const float alpha = material.has_facets() && own > 0 ? own : 1, least = kLeastTurn * alpha;
+    const float alpha = material.has_facets() && own > 0 ? own : 1, least = kMinTurn * alpha;
     if (turn <= least * least) return false;
     const Vec3f view_dir = packet_.view_dir.at(k);
     const Vec3f between = normalized(view_dir + to_float(frame.background->sun_world_dir()));
     if (length(between - packet_.normal.at(k)) > std::sqrt(turn) + kFarFromLobe * alpha) return false;
     // A pixel has a part of it, where the triangle is wider.
-    const float wide_m =
-        pixel_m(k) / std::max(std::abs(dot(packet_.geometric.at(k), view_dir)), kLeastFacing);
+    const float wide_m = pixel_m(k) / std::max(std::abs(dot(packet_.geometric.at(k), view_dir)), kMinFacing);
     return turn * wide_m * wide_m > least * least * packet_.height[k];
 }
 
@@ -378,7 +377,7 @@ void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, Shad
     }
     // Cached light and what lobes show is asked for once, as the parts lean in the mean; clusters and mirrors lean by themselves.
     const Vec3f mean = normalized(point.weight_samples * point.normal + samples * surface_frame.normal);
-    if (!has_narrow_lobe(point.surface) && dot(mean, point.view_dir) > kLeastFacing) point.normal = mean;
+    if (!has_narrow_lobe(point.surface) && dot(mean, point.view_dir) > kMinFacing) point.normal = mean;
     // Alike in all bins, but for the air before it.
     const float all = point.weight_samples + samples;
     mix_colors(k, samples / all, point);

@@ -35,7 +35,7 @@ class PrimaryHits {
     int part_px_ = 0;                                           // its edge
     int next_pixel_ = 0, pixels_ = 0;                           // there
     std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
-    std::array<Fragment, kPacketSize + kMostSamples> fragments_;
+    std::array<Fragment, kPacketSize + kMaxVisibilitySamples> fragments_;
     std::size_t fragment_count_ = 0;
     // The packet of fragments that is looked at: what find_surface_frames() takes and gives, and its rays.
     FragmentPacket packet_;

@@ -74,8 +74,8 @@ struct FoundCell {
     double area_m2 = 0;
     int count = 0;
     // More than a probe has, as a wall may stand between them (probe_division.h).
-    static constexpr int kMost = 2 * SurfaceProbe::kPoints;
-    std::array<CellPoint, kMost> best;
+    static constexpr int kMax = 2 * SurfaceProbe::kPoints;
+    std::array<CellPoint, kMax> best;
 
     void add(const CellPoint& candidate) {
         const auto before = [](const CellPoint& a, const CellPoint& b) {
@@ -84,7 +84,7 @@ struct FoundCell {
         auto end = best.begin() + count;
         const auto place = std::upper_bound(best.begin(), end, candidate, before);
         if (place == best.end()) return;
-        if (count < kMost) ++count, ++end;
+        if (count < kMax) ++count, ++end;
         std::move_backward(place, end - 1, end);
         *place = candidate;
     }

@@ -68,12 +68,12 @@ MadeProbe ProbeMaker::make(const CellSet& set, std::uint64_t seed) const {
 }
 
 ProbeMaker::Candidates ProbeMaker::candidates(std::span<const std::uint32_t> cells) const {
-    constexpr float kWall = 0.15f;     // in cubes: tiles and wrinkles are lower
-    constexpr std::size_t kMost = 32;  // each two of them cost a ray
+    constexpr float kWall = 0.15f;    // in cubes: tiles and wrinkles are lower
+    constexpr std::size_t kMax = 32;  // each two of them cost a ray
     Candidates out;
     for (const std::uint32_t c : cells) {
         const FoundCell& cell = cells_[c];
-        const std::size_t count = std::min(static_cast<std::size_t>(cell.count), kMost / cells.size());
+        const std::size_t count = std::min(static_cast<std::size_t>(cell.count), kMax / cells.size());
         for (const CellPoint& point : std::span(cell.best).first(count)) {
             const TriangleSpread spread(mesh_, point.triangle, 0.5f * grid_.cube_m);
             out.point.push_back(point);

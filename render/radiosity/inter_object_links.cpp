@@ -113,7 +113,7 @@ class Prober {
 }  // namespace
 
 NeighbourObject NeighbourObject::rounded(const Pose& self, const Pose& other, std::size_t object,
-                                         float step_rad, float least_m) {
+                                         float step_rad, float min_m) {
     const Quat turn = conjugate(other.world_from_body) * self.world_from_body;
     // Half a turn's sine a component.
     const double step = 0.5 * static_cast<double>(step_rad);
@@ -122,7 +122,7 @@ NeighbourObject NeighbourObject::rounded(const Pose& self, const Pose& other, st
     const Vec3d shift =
         to_matrix(conjugate(other.world_from_body)) * (self.position_world_m - other.position_world_m);
     const double grid =
-        std::max(static_cast<double>(least_m), std::exp2(std::floor(std::log2(length(shift) + 1e-9)) - 6));
+        std::max(static_cast<double>(min_m), std::exp2(std::floor(std::log2(length(shift) + 1e-9)) - 6));
     const auto place = [grid](double x) { return static_cast<float>(grid * std::round(x / grid)); };
     return {object,
             {to_float(axes.x), to_float(axes.y), to_float(axes.z)},

@@ -24,9 +24,9 @@ struct NeighbourObject {
         return object == o.object && axes.x == o.axes.x && axes.y == o.axes.y && axes.z == o.axes.z &&
                shift_m == o.shift_m;
     }
-    // step_rad: of the turn; least_m: of the shift, which otherwise is rounded to about a hundredth.
+    // step_rad: of the turn; min_m: of the shift, which otherwise is rounded to about a hundredth.
     static NeighbourObject rounded(const Pose& self, const Pose& other, std::size_t object, float step_rad,
-                                   float least_m);
+                                   float min_m);
 };
 
 class InterObjectLinks {

@@ -15,7 +15,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kNeighbours = 4096;  // triangles in memory among which groups are looked for
-constexpr int kMostElsewhere = 256;        // that one meets in other planes before it looks no further
+constexpr int kMaxElsewhere = 256;         // that one meets in other planes before it looks no further
 
 // Triangles with equal keys may be of one group.
 struct Candidate {
@@ -88,7 +88,7 @@ class CoplanarGroupFinder {
             if (surfaces_.coplanar_groups[one] != one) continue;
             const Plane plane(corners(one));
             int elsewhere = 0;
-            for (std::size_t j = i + 1; j < all.size() && elsewhere < kMostElsewhere; ++j) {
+            for (std::size_t j = i + 1; j < all.size() && elsewhere < kMaxElsewhere; ++j) {
                 const std::uint32_t other = all[j].triangle;
                 if (surfaces_.coplanar_groups[other] != other) continue;
                 if (plane.holds(corners(other), tolerance_m_))

@@ -87,9 +87,9 @@ void blank_ray(int i, RTCRay16& rays) {
 // Embree ends the program at a ray that begins or points beyond the root of the largest float, or is no number. What is let into
 // a frame makes none (motion_bounds.h); should there be one all the same, it meets nothing.
 void stop_wild_rays(RTCRay16& rays) {
-    constexpr float kMost = 1.8e18f;
+    constexpr float kMax = 1.8e18f;
     const auto wild = [&rays](int i) {
-        const auto out = [](float v) { return static_cast<int>(!(std::abs(v) < kMost)); };
+        const auto out = [](float v) { return static_cast<int>(!(std::abs(v) < kMax)); };
         return out(rays.org_x[i]) | out(rays.org_y[i]) | out(rays.org_z[i]) | out(rays.dir_x[i]) |
                out(rays.dir_y[i]) | out(rays.dir_z[i]) | static_cast<int>(std::isnan(rays.tnear[i])) |
                static_cast<int>(std::isnan(rays.tfar[i]));

@@ -21,9 +21,9 @@ std::vector<Material> widened(std::vector<Material> materials, const std::vector
 
 // Neighbours in the mesh's order, which lie close together, have a box together.
 std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
-    constexpr std::size_t kMost = 512;  // a frame looks at all of them
+    constexpr std::size_t kMax = 512;  // a frame looks at all of them
     const auto& clusters = mesh.cluster_bounds_m;
-    const std::size_t together = (clusters.size() + kMost - 1) / kMost;
+    const std::size_t together = (clusters.size() + kMax - 1) / kMax;
     std::vector<std::array<Vec3f, 2>> out;
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         if (i % together == 0) out.push_back(clusters[i]);

@@ -87,10 +87,10 @@ HWY_INLINE void weigh(const Mat3f& world_from_body, const Parts& parts, std::siz
         all_seen = hn::Add(all_seen, seen[j]), all_lit = hn::Add(all_lit, hn::Mul(parts.share[j], ni[j]));
         store(hn::Max(no, number(1e-4f)), p.no[j], k), store(ni[j], p.ni[j], k);
     }
-    constexpr float kMost = 2;
+    constexpr float kMax = 2;
     const V flat = load(p.flat, k);
     const auto shaded = hn::And(hn::Gt(all_lit, zero), hn::Gt(flat, zero));
-    const V share = hn::Min(hn::Div(hn::Mul(flat, hn::Sqrt(dotted(area, area))), all_lit), number(kMost));
+    const V share = hn::Min(hn::Div(hn::Mul(flat, hn::Sqrt(dotted(area, area))), all_lit), number(kMax));
     // A cluster that leans away from the viewer as a whole is seen as it lies itself.
     const auto hidden = hn::Not(hn::Gt(all_seen, zero));
     const V each = hn::Div(hn::Mul(hn::IfThenElse(shaded, share, one), load(p.samples, k)),

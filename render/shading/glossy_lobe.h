@@ -21,13 +21,13 @@ struct PixelShare {
 
 // The light that rays find which follow one shading point's lobe, until all have come back.
 struct GlossyLobe {
-    static constexpr std::size_t kMostRays = 32;
-    std::span<const PixelShare> pixels;     // that have it
-    float cached = 0;                       // cached light in the lobe, as the sum of by_ray
-    float cached_directions = 0;            // that bring that (IrradianceCache::Lobe)
-    Spectrum sky, light;                    // light of rays that meet nothing, and of all others
-    std::array<float, kMostRays> by_ray{};  // the latter's greatest bin
-    float found = 0;                        // sum of these
+    static constexpr std::size_t kMaxRays = 32;
+    std::span<const PixelShare> pixels;    // that have it
+    float cached = 0;                      // cached light in the lobe, as the sum of by_ray
+    float cached_directions = 0;           // that bring that (IrradianceCache::Lobe)
+    Spectrum sky, light;                   // light of rays that meet nothing, and of all others
+    std::array<float, kMaxRays> by_ray{};  // the latter's greatest bin
+    float found = 0;                       // sum of these
 
     void add(std::size_t ray, const Spectrum& more) {
         const float brightest = max_component(more);

@@ -22,7 +22,7 @@ class Reflection {
         : frame_(frame), points_(points), out_(out) {}
 
     void of_all() {
-        std::array<std::uint16_t, SunlitPoint::kMost> order;
+        std::array<std::uint16_t, SunlitPoint::kMaxTogether> order;
         const std::span<std::uint16_t> in_order = std::span(order).first(points_.size());
         std::iota(in_order.begin(), in_order.end(), std::uint16_t{0});
         const auto key = [&](std::uint16_t v) {
@@ -52,7 +52,7 @@ class Reflection {
         float going_on;           // light of the clusters so far that one triangle's normals make
         SubpixelMoments moments;  // times the light
     };
-    std::array<Sum, SunlitPoint::kMost> sums_;
+    std::array<Sum, SunlitPoint::kMaxTogether> sums_;
 
     void put(std::uint16_t v) {
         const auto& [at, dir, alpha] = points_[v];

@@ -48,12 +48,12 @@ struct ClusterLight {
 };
 // A shading point with clusters, for light from one direction.
 struct SunlitPoint {
-    static constexpr std::size_t kMost = 128;  // together
+    static constexpr std::size_t kMaxTogether = 128;  // together
     const ShadingPoint* at;
     Vec3f dir;    // towards the light, unit
     float alpha;  // alpha of the clusters' own lobes
 };
-// Finds what the normal clusters of shading points reflect, SunlitPoint::kMost at most. out: one for each, as they are made.
+// Finds what the normal clusters of shading points reflect, SunlitPoint::kMax at most. out: one for each, as they are made.
 // Loop, any thread.
 void lit_clusters(const FrameContext& frame, std::span<const SunlitPoint> points,
                   std::span<ClusterLight> out);

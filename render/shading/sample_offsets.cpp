@@ -26,7 +26,7 @@ Vec3d direction_through(const FrameContext& frame, int x_px, int y_px, Vec2f wit
 namespace {
 
 // The least cosine to the viewer of a plane that is seen, not its edge.
-constexpr float kLeastFacingOfWay = 0.02f;
+constexpr float kMinFacingOfWay = 0.02f;
 
 }  // namespace
 
@@ -42,13 +42,13 @@ Vec3f SampleOffsets::on(const NormalCluster& cluster, int sample) const {
     const Vec3d dir = direction_through(frame_, x_px_, y_px_, frame_.samples.place(sample)),
                 normal = to_double(cluster.geometric_normal);
     const double along = dot(dir, normal);
-    if (std::abs(along) < static_cast<double>(kLeastFacingOfWay) * length(dir)) return cluster.start_m;
+    if (std::abs(along) < static_cast<double>(kMinFacingOfWay) * length(dir)) return cluster.start_m;
     const double way = dot(to_double(cluster.start_m) - frame_.camera_m, normal) / along;
     return to_float(frame_.camera_m + way * dir);
 }
 
 Vec3f SampleOffsets::to(int sample) const {
-    if (facing_ < kLeastFacingOfWay) return {};
+    if (facing_ < kMinFacingOfWay) return {};
     const Vec3f across =
         to_float(per_dir_m_ * (direction_through(frame_, x_px_, y_px_, frame_.samples.place(sample)) - dir_));
     return across - (dot(across, at_.geometric_normal) / facing_) * at_.view_dir +

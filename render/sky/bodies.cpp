@@ -274,10 +274,10 @@ StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
 
 // The velocity over that of light, below 1: one that outruns light sees what one sees who nearly does.
 Vec3d beta_of(Vec3d velocity_m_s) {
-    constexpr double kMost = 1 - 1e-6;
+    constexpr double kMax = 1 - 1e-6;
     const Vec3d beta = velocity_m_s / kSpeedOfLight_m_s;
     const double size = length(beta);
-    return size > kMost ? (kMost / size) * beta : beta;
+    return size > kMax ? (kMax / size) * beta : beta;
 }
 
 }  // namespace

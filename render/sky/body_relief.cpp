@@ -183,12 +183,12 @@ double horizon_between(const BodyRelief& relief, double radius_m, Vec3d place_m,
     double highest = min_rad;
     if (!(horizontal > 1e-6)) return highest;
     const Vec3d way = flat / horizontal;
-    const double most_m = radius_m + relief.highest_m();
+    const double max_m = radius_m + relief.highest_m();
     for (double s = 0.75 * relief.spacing_m();; s += 0.5 * relief.spacing_m() + 0.04 * s) {
         const Vec3d p = place_m + s * way;
         const double level_m = length(p);
         // Even the highest ground there is hides no more than what was found.
-        if (std::atan2(most_m - level_m, s) < highest) break;
+        if (std::atan2(max_m - level_m, s) < highest) break;
         if (s > radius_m) break;
         const Vec3d dir = p / level_m;
         const Vec3d ground = (radius_m + relief.height_m(dir, 0.1 * s)) * dir - place_m;

@@ -20,7 +20,7 @@ inline constexpr double kFarthestSun_m = 1e18;
 // The speed of light, rounded up.
 inline constexpr double kFastestMotion_m_s = 3e8;
 // A thousand turns a second, and a hundred thousand turns of a joint.
-inline constexpr double kFastestTurn_rad_s = 6300, kMostTurned_rad = 6.3e5;
+inline constexpr double kFastestTurn_rad_s = 6300, kMaxTurned_rad = 6.3e5;
 // A quaternion's norm may differ from 1 by so much: it may have been written in four digits.
 inline constexpr double kNormTolerance = 1e-3;
 
@@ -34,7 +34,7 @@ bool is_possible(const Motion& motion);
 // that cannot be is 0, as that of a place that is kept. False: something could not be.
 bool take_possible(const Motion& found, Motion& kept);
 inline bool is_possible_turn_of_joint(double angle_rad, double rate_rad_s) {
-    return std::abs(angle_rad) <= kMostTurned_rad && std::abs(rate_rad_s) <= kFastestTurn_rad_s;
+    return std::abs(angle_rad) <= kMaxTurned_rad && std::abs(rate_rad_s) <= kFastestTurn_rad_s;
 }
 
 // Says what of a motion is out of its bounds, and what is accepted: "a place 2e+20 m from the world's origin; accepted: at most

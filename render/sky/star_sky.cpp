@@ -7,14 +7,14 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostPerCell = 128;
+constexpr std::size_t kMaxPerCell = 128;
 
 // Puts stars that stand near each other side by side: halves them about the middle of the axis along which they
 // are spread most, until a cell holds a part. Calls use(from, to) for each cell.
 template <class Use>
 void split(const std::vector<Star>& stars, std::span<std::uint32_t> order, std::size_t first,
            const Use& use) {
-    if (order.size() <= kMostPerCell) return use(first, first + order.size());
+    if (order.size() <= kMaxPerCell) return use(first, first + order.size());
     Vec3d least{2, 2, 2}, most{-2, -2, -2};
     for (const std::uint32_t i : order) {
         const Vec3d& d = stars[i].world_dir;

@@ -62,12 +62,12 @@ void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
     {
         Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
         for (Asked& a : std::span(asked_).first(count_))
-            if (a.at->weight_samples > kLeastAgain && at_edge(a)) ask(kAgain, tile, sun, a, rays);
+            if (a.at->weight_samples > kMinAgain && at_edge(a)) ask(kAgain, tile, sun, a, rays);
     }
     Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
     for (Asked& a : std::span(asked_).first(count_))
-        if (a.of > 1 && a.lit > 0 && a.lit < a.of && a.at->weight_samples > kLeastMost)
-            ask(kMost, tile, sun, a, rays);
+        if (a.of > 1 && a.lit > 0 && a.lit < a.of && a.at->weight_samples > kMinMost)
+            ask(kMax, tile, sun, a, rays);
 }
 
 // Sends so many rays for a shading point, each for as much of its light, from places that its samples see (of clusters by

@@ -45,10 +45,10 @@ class PenumbraSampler {
     static constexpr int kReach_px = 1, kMaxRows = 32;
     static constexpr std::size_t kKinds = 16;
     // Rays of who asks again, and of those whose rays differ.
-    static constexpr float kAgain = 4, kMost = 16;
+    static constexpr float kAgain = 4, kMax = 16;
     // Less of a pixel [samples of sixteen] has no more rays: half of it at most is in the wrong light, a 128th of the pixel, which
     // is a noise of a full well of 15,000 electrons; of small objects with many parts most shading points are such.
-    static constexpr float kLeastAgain = 0.25f, kLeastMost = 1;
+    static constexpr float kMinAgain = 0.25f, kMinMost = 1;
     struct Asked {
         const ShadingPoint* at;
         const Asked* like;  // the one whose first ray tells for it, too; null: it has its own

@@ -65,9 +65,9 @@ struct SunlitBy {
 // The light of shading points with normal clusters among some, in their order.
 class ClusterLights {
   public:
-    static constexpr std::size_t kMost = SunlitPoint::kMost;
+    static constexpr std::size_t kMax = SunlitPoint::kMaxTogether;
 
-    // shading points: kMost at most.
+    // shading points: kMax at most.
     void find(const FrameContext& frame, const SunSampler& sun, std::span<const ShadingPoint> points) {
         std::size_t count = 0;
         for (const ShadingPoint& at : points) {
@@ -83,8 +83,8 @@ class ClusterLights {
     const ClusterLight& next() { return *next_++; }
 
   private:
-    std::array<SunlitPoint, kMost> sunny_;
-    std::array<ClusterLight, kMost> lights_;
+    std::array<SunlitPoint, kMax> sunny_;
+    std::array<ClusterLight, kMax> lights_;
     const ClusterLight* next_ = nullptr;
 };
 
@@ -104,8 +104,8 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
     ShadowRays<SunlitBy, decltype(lit)> shadow(frame, counter, lit);
     ClusterLights of_facets;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (i % ClusterLights::kMost == 0)
-            of_facets.find(frame, sun, points.subspan(i, std::min(ClusterLights::kMost, points.size() - i)));
+        if (i % ClusterLights::kMax == 0)
+            of_facets.find(frame, sun, points.subspan(i, std::min(ClusterLights::kMax, points.size() - i)));
         const ShadingPoint& at = points[i];
         if (!at.surface.has_lobes()) continue;
         const auto [dir, light] = sun.of(at);

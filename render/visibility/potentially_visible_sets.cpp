@@ -26,7 +26,7 @@ constexpr int kStepsOfRow = 2;  // from one of a cell's directions to the last o
 constexpr int kPicture_px = 512;
 constexpr double kFinerPictures = 4;
 // The pictures' camera is so far away that directions are one; from a fortieth of it they differ by 1.4 degrees.
-constexpr double kFrom_radii = 1000, kLeast_radii = 40;
+constexpr double kFrom_radii = 1000, kMin_radii = 40;
 constexpr int kViewCells = kCubeFaces * kFaceCells * kFaceCells;
 // A byte for each triangle.
 using Marks = std::vector<std::uint8_t>;
@@ -150,9 +150,9 @@ PotentiallyVisibleSets::PotentiallyVisibleSets(const MeshView& mesh, double radi
 }
 
 bool PotentiallyVisibleSets::serves(double distance_m, double sample_rad) const {
-    constexpr double kMost =
+    constexpr double kMax =
         kPicture_px * kVisibilitySamplesAcross / kFinerPictures;  // samples across the mesh
-    return distance_m >= kLeast_radii * radius_m_ && 2 * radius_m_ <= kMost * sample_rad * distance_m;
+    return distance_m >= kMin_radii * radius_m_ && 2 * radius_m_ <= kMax * sample_rad * distance_m;
 }
 
 const PotentiallyVisibleSet& PotentiallyVisibleSets::from(Vec3d dir) const { return sets_[cell_of(dir)]; }

@@ -36,9 +36,9 @@ bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std
     const Mat3d axes = transposed(camera_from_body);  // rows: the body's axes in the camera's
     const Vec3d offset_m = camera_from_world * (object.position_world_m - camera.position_world_m);
     bool any_marked = false;
-    for (const auto& [least_m, most_m] : boxes_m) {
-        const Vec3d from = camera_from_body * to_double(least_m) + offset_m;
-        const Vec3d size = to_double(most_m) - to_double(least_m);
+    for (const auto& [min_m, max_m] : boxes_m) {
+        const Vec3d from = camera_from_body * to_double(min_m) + offset_m;
+        const Vec3d size = to_double(max_m) - to_double(min_m);
         const std::array<Vec3d, 3> edges = {size.x * axes.x, size.y * axes.y, size.z * axes.z};
         double min_x = 1e300, min_y = 1e300, max_x = -1e300, max_y = -1e300;
         int in_front = 0;

@@ -13,7 +13,7 @@ inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibility
 
 // The samples of a pixel of the picture, a bit each: those of one pixel of the buffer, or of four (pixel_samples.h).
 using SampleMask = std::uint64_t;
-inline constexpr std::size_t kMostSamples = 64;
+inline constexpr std::size_t kMaxVisibilitySamples = 64;
 
 // Returns where samples lie in their pixel: sample i is at ((i % 4 + 0.5) / 4, (i / 4 + 0.5) / 4).
 constexpr float sample_x(int sample) { return (static_cast<float>(sample % 4) + 0.5f) / 4; }

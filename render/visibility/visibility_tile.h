@@ -47,7 +47,7 @@ struct PixelFragments {
         std::uint32_t others;  // number of samples that see something else
         SampleMask samples;    // a bit each, as PixelSamples has them
     };
-    std::array<Fragment, kMostSamples> fragments;
+    std::array<Fragment, kMaxVisibilitySamples> fragments;
     std::size_t count = 0;
     SampleMask nothing = 0;  // samples that see nothing, a bit each
 };

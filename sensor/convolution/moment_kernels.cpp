@@ -27,7 +27,7 @@ constexpr Node kFive[] = {{-0.4530899230, 0.1184634425},
                           {0, 0.2844444444},
                           {0.2692346551, 0.2393143352},
                           {0.4530899230, 0.1184634425}};
-constexpr double kMostSmear_px = 3.1;
+constexpr double kMaxSmear_px = 3.1;
 std::span<const Node> nodes_of(double smear_px) {
     if (smear_px <= 0.02) return kOne;
     if (smear_px <= 0.5) return kTwo;
@@ -36,7 +36,7 @@ std::span<const Node> nodes_of(double smear_px) {
 }
 // The same of a Gaussian of standard deviation 1 (Gauss and Hermite, table 25.10).
 constexpr Node kGaussian[] = {{-1.7320508076, 1.0 / 6}, {0, 2.0 / 3}, {1.7320508076, 1.0 / 6}};
-constexpr double kMostSigma_px = 0.7;
+constexpr double kMaxSigma_px = 0.7;
 std::span<const Node> gaussian_nodes(double sigma_px) {
     return sigma_px > 0 ? std::span<const Node>(kGaussian) : std::span<const Node>(kOne);
 }
@@ -128,7 +128,7 @@ MomentKernels::MomentKernels(const Transfer& fine) : point_(image_of_point(fine)
 bool MomentKernels::prepare(const FrameBlur& blur) {
     const double smear_px = std::hypot(blur.smear_px.x, blur.smear_px.y);
     const int more_px = static_cast<int>(std::ceil(smear_px / 2 - 0.1));
-    if (smear_px > kMostSmear_px || std::max(blur.sigma_px.x, blur.sigma_px.y) > kMostSigma_px) return false;
+    if (smear_px > kMaxSmear_px || std::max(blur.sigma_px.x, blur.sigma_px.y) > kMaxSigma_px) return false;
     if (same(blur, prepared_)) return true;
     reach_px_ = std::min(still_reach_px_ + more_px, kMaxReach_px);
     make_weights(blur);

@@ -11,7 +11,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kLeast = 64;  // numbers of a least image
+constexpr std::size_t kMin = 64;  // numbers of a least image
 
 // Numbers side by side, in as many vectors as they take.
 template <std::size_t kCount>
@@ -47,9 +47,8 @@ struct Numbers {
 
 void copy(const ShiftedTable* tables, std::size_t count, float* out) {
     // The sums of so many numbers stay in the registers, however narrow vectors are.
-    constexpr std::size_t kTogether =
-        kLeast < 8 * Numbers<kLeast>::kLanes ? kLeast : 8 * Numbers<kLeast>::kLanes;
-    for (std::size_t first = 0; first < kLeast; first += kTogether) {
+    constexpr std::size_t kTogether = kMin < 8 * Numbers<kMin>::kLanes ? kMin : 8 * Numbers<kMin>::kLanes;
+    for (std::size_t first = 0; first < kMin; first += kTogether) {
         Numbers<kTogether> part;
         part.sum(tables, count, static_cast<std::ptrdiff_t>(first));
         part.store(out + first);

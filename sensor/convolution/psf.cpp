@@ -121,12 +121,12 @@ void PointSpread::find_linear_errors() {
 // whole field.
 void PointSpread::make_places() {
     constexpr std::size_t kCount = std::size_t{kPlacesAcross} * kPlacesAcross;
-    least_.resize(kCount * kLeastSize);
+    least_.resize(kCount * kMinSize);
     inside_.resize(kCount * kRadii);
     float* least = least_.data();
     double* inside = inside_.data();
     for (int y = -kPlaces; y <= kPlaces; ++y)
-        for (int x = -kPlaces; x <= kPlaces; ++x, least += kLeastSize, inside += kRadii) {
+        for (int x = -kPlaces; x <= kPlaces; ++x, least += kMinSize, inside += kRadii) {
             for (int r = 0; r < kRadii; ++r) {
                 double ring = r > 0 ? inside[r - 1] : 0;
                 for (int py = -r; py <= r; ++py)
@@ -136,9 +136,9 @@ void PointSpread::make_places() {
             }
             const double whole = whole_at(x, y), kept = inside[kMinRadius_px];
             const auto scale = static_cast<float>(kept > 0 ? whole / kept : 0);
-            for (int py = 0; py < kLeastAcross_px; ++py)
-                for (int px = 0; px < kLeastAcross_px; ++px)
-                    least[py * kLeastPitch_px + px] =
+            for (int py = 0; py < kMinAcross_px; ++py)
+                for (int px = 0; px < kMinAcross_px; ++px)
+                    least[py * kMinPitch_px + px] =
                         scale * value(x, y, px - kMinRadius_px, py - kMinRadius_px);
         }
 }
@@ -151,7 +151,7 @@ double PointSpread::inside_at(int x, int y, int radius) const {
 }
 
 const float* PointSpread::least_table(int x, int y) const {
-    return least_.data() + ((y + kPlaces) * kPlacesAcross + x + kPlaces) * kLeastSize;
+    return least_.data() + ((y + kPlaces) * kPlacesAcross + x + kPlaces) * kMinSize;
 }
 
 const float* PointSpread::phase(int px, int py) const {
@@ -231,11 +231,11 @@ bool PointSpread::add(double x_px, double y_px, double electrons, const PictureW
         return static_cast<float>(electrons * across * down);
     };
     const float* table = least_table(place.x, place.y);
-    constexpr int kBelow = kPlacesAcross * kLeastSize;
+    constexpr int kBelow = kPlacesAcross * kMinSize;
     const std::array<ShiftedTable, 4> tables{{{table, weight(1 - u, 1 - v)},
-                                              {table + kLeastSize, weight(u, 1 - v)},
+                                              {table + kMinSize, weight(u, 1 - v)},
                                               {table + kBelow, weight(1 - u, v)},
-                                              {table + kBelow + kLeastSize, weight(u, v)}}};
+                                              {table + kBelow + kMinSize, weight(u, v)}}};
     add_least(tables.data(), tables.size(), first, end, out, window.pitch);
     return true;
 }
@@ -253,8 +253,7 @@ PointPatch PointSpread::least(const Place& place, const std::array<double, kSamp
                 least_table(place.x + first + static_cast<int>(i), place.y + first + static_cast<int>(j)),
                 static_cast<float>(electrons * x_weights[i] * y_weights[j])};
     copy_least(tables.data(), tables.size(), room.data());
-    return {place.x_px - kMinRadius_px, place.y_px - kMinRadius_px, kLeastAcross_px, kLeastPitch_px,
-            room.data()};
+    return {place.x_px - kMinRadius_px, place.y_px - kMinRadius_px, kMinAcross_px, kMinPitch_px, room.data()};
 }
 
 // All pixels share one sub-pixel phase: the kernel is a sum of shifted tables.

@@ -68,9 +68,9 @@ class PointSpread {
     static constexpr double kLinear_e = 0.005;
     // The least image has seven pixels in each of seven rows, and its tables eight: a zero is beside them, and a
     // row of zeros below.
-    static constexpr int kLeastAcross_px = 2 * kMinRadius_px + 1, kLeastPitch_px = kLeastAcross_px + 1;
+    static constexpr int kMinAcross_px = 2 * kMinRadius_px + 1, kMinPitch_px = kMinAcross_px + 1;
     static constexpr int kRadii = kMaxRadius_px + 1;
-    static constexpr int kLeastSize = kLeastPitch_px * kLeastPitch_px;
+    static constexpr int kMinSize = kMinPitch_px * kMinPitch_px;
     // Such tables for a point's place in its pixel: its centre lies half a pixel away at most, and a cubic's
     // samples one sixteenth farther.
     static constexpr int kPlaces = kOversampling / 2 + 1, kPlacesAcross = 2 * kPlaces + 1;

@@ -25,13 +25,13 @@ HILCAM_CLONES void multiply(const float* a, const float* b, std::size_t count, f
 // Charge from rates, and the factor between them: of a pixel that was cut, of as much of it as was left. zone: null with one.
 struct ChargeRow {
     const float *rate_e_s, *lens, *zone;
-    float exposure_s, most_e;
+    float exposure_s, max_e;
 };
 HILCAM_CLONES void to_charge(const ChargeRow& of, std::size_t count, float* factor, float* charge_e) {
-    const float exposure_s = of.exposure_s, most_e = of.most_e;
+    const float exposure_s = of.exposure_s, max_e = of.max_e;
     for (std::size_t x = 0; x < count; ++x) {
         const float all_e = exposure_s * of.lens[x] * of.rate_e_s[x];
-        factor[x] = all_e > most_e ? most_e / all_e : 1.0f;
+        factor[x] = all_e > max_e ? max_e / all_e : 1.0f;
     }
     if (of.zone)
         for (std::size_t x = 0; x < count; ++x) factor[x] *= of.zone[x];
@@ -90,7 +90,7 @@ void SubpixelLightAdder::add(const RadianceImage& radiance, const Channel& chann
                             channel.number,
                             radiance.responses().empty() ? &channel.response : nullptr,
                             static_cast<float>(exposure_s),
-                            channel.most_e,
+                            channel.max_e,
                             zone_weights_.empty() ? nullptr : zone_weights_[zone].data(),
                             static_cast<std::size_t>(image.width())};
         const int across = (width + kAddedBlock_px - 1) / kAddedBlock_px,
@@ -145,9 +145,8 @@ void SubpixelLightAdder::copy_row(const Source& source, int x_px, int y_px, int 
         source.zone ? source.zone + static_cast<std::size_t>(y) * source.zone_width + x0 : nullptr;
     std::array<float, kArea_px> factor, rates_e_s;
     const auto count = static_cast<std::size_t>(x1 - x0);
-    to_charge(
-        {source.rates_e_s(x0, y, count, rates_e_s.data()), lens, zone, source.exposure_s, source.most_e},
-        count, factor.data() + (x0 - left), charge_e.data() + (x0 - left));
+    to_charge({source.rates_e_s(x0, y, count, rates_e_s.data()), lens, zone, source.exposure_s, source.max_e},
+              count, factor.data() + (x0 - left), charge_e.data() + (x0 - left));
     for (int block = x_px - kAddedBlock_px; block <= x_px + kAddedBlock_px; block += kAddedBlock_px) {
         if (!source.knows(block, y)) continue;
         const auto within = [&](int reach_px) {

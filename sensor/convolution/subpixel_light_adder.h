@@ -28,7 +28,7 @@ class SubpixelLightAdder {
         int number;
         std::span<MomentKernels> kernels;
         const Spectrum& response;
-        float most_e;
+        float max_e;
     };
     // radiance: the picture with halves of which `image` was made and convolved. Loop: no allocation, no lock.
     void add(const RadianceImage& radiance, const Channel& channel, const FrameBlur& blur, double exposure_s,
@@ -43,7 +43,7 @@ class SubpixelLightAdder {
         const SubpixelLight& light;
         int number;
         const Spectrum* response;  // null: the image has charge rates already
-        float exposure_s, most_e;  // most_e: the charge to which brighter pixels were cut
+        float exposure_s, max_e;   // max_e: the charge to which brighter pixels were cut
         const float* zone;         // null: the whole field is one
         std::size_t zone_width;    // floats in a row of it
 

@@ -56,8 +56,8 @@ HILCAM_CLONES void add_difference(const HaloLaw& law, const HaloLaw& other, cons
 PointHalos::PointHalos(const StrayLightConfig& stray, const ImageGeometry& detector)
     : glare_(stray.veiling_glare_fraction),
       radius_px_(stray.glare_radius_px),
-      least_e_(kSeenHalo_e * PointSpread::kField_px * PointSpread::kField_px /
-               share_beyond(0.5 * PointSpread::kField_px)),
+      min_e_(kSeenHalo_e * PointSpread::kField_px * PointSpread::kField_px /
+             share_beyond(0.5 * PointSpread::kField_px)),
       width_px_(detector.width_px),
       height_px_(detector.height_px),
       margin_px_(detector.guard_px + kNear_px),

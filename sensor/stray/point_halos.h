@@ -25,7 +25,7 @@ class PointHalos {
     PointHalos(const StrayLightConfig& stray, const ImageGeometry& detector);
 
     // A point of fewer electrons has no wide halo: folded into its table, it adds less than 0.02 e- to a pixel.
-    double least_e() const { return least_e_; }
+    double min_e() const { return min_e_; }
     // F above: its share in a pixel at a distance. Any thread.
     double share(double distance_px) const;
     // Returns the share of the light that the halo has beyond a distance. Any thread.
@@ -47,7 +47,7 @@ class PointHalos {
         float electrons = 0, at_x_px = 0, at_y_px = 0;
     };
 
-    double glare_, radius_px_, least_e_;
+    double glare_, radius_px_, min_e_;
     int width_px_, height_px_, margin_px_, across_, down_;
     std::vector<Cell> cells_;         // over the frame and a margin
     std::vector<std::uint32_t> lit_;  // cells with light, in the order in which they got it

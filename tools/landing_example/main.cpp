@@ -103,7 +103,7 @@ class Landing {
     }
 
   private:
-    static constexpr double kMostAside_m_s = 6, kMostAsideChange_m_s2 = 1.5, kAsideGain_s = 0.35;
+    static constexpr double kMaxAside_m_s = 6, kMaxAsideChange_m_s2 = 1.5, kAsideGain_s = 0.35;
 
     double height_m() const { return position_m_[2] - options_.ground_m; }
     double pixel_m() const { return height_m() / options_.focal_px; }
@@ -163,9 +163,9 @@ class Landing {
     void move() {
         const cv::Vec2d way_m(target_m_[0] - position_m_[0], target_m_[1] - position_m_[1]);
         cv::Vec2d wanted_m_s = kAsideGain_s * way_m;
-        if (const double fast = cv::norm(wanted_m_s) / kMostAside_m_s; fast > 1) wanted_m_s /= fast;
+        if (const double fast = cv::norm(wanted_m_s) / kMaxAside_m_s; fast > 1) wanted_m_s /= fast;
         cv::Vec2d change_m_s = wanted_m_s - aside_m_s_;
-        if (const double hard = cv::norm(change_m_s) / (kMostAsideChange_m_s2 * options_.period_s); hard > 1)
+        if (const double hard = cv::norm(change_m_s) / (kMaxAsideChange_m_s2 * options_.period_s); hard > 1)
             change_m_s /= hard;
         aside_m_s_ += change_m_s;
         position_m_[0] += options_.period_s * aside_m_s_[0],

@@ -44,7 +44,7 @@ std::optional<cv::Vec2d> TargetTrack::follow(const cv::Mat& frame, const cv::Vec
     cv::matchTemplate(field, patch, score, cv::TM_CCOEFF_NORMED);
     cv::Point best;
     cv::minMaxLoc(score, nullptr, &likeness_, nullptr, &best);
-    if (!(likeness_ > kLeastLikeness)) return {};
+    if (!(likeness_ > kMinLikeness)) return {};
     cv::Vec2d off_px(best.x - kSearch_px, best.y - kSearch_px);
     if (best.x > 0 && best.x + 1 < score.cols && best.y > 0 && best.y + 1 < score.rows) {
         const auto at = [&](int x, int y) {

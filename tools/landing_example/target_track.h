@@ -19,7 +19,7 @@ class TargetTrack {
 
   private:
     static constexpr int kHalf_px = 32, kSearch_px = 14;
-    static constexpr double kLeastLikeness = 0.5;
+    static constexpr double kMinLikeness = 0.5;
     cv::Mat patch_;        // the picture before
     cv::Vec2d within_px_;  // where the place was in it
     double height_m_ = 0, likeness_ = 0;

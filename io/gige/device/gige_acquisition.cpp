@@ -106,13 +106,13 @@ Status GigeAcquisition::set_automatic(std::uint64_t mode) {
 void GigeAcquisition::happened(const CameraEvent& event) {
     if (!finding_ || event.kind != CameraEvent::Kind::kExposureStart) return;
     constexpr double kSame = 0.02;
-    constexpr int kSteadyFrames = 4, kMostFrames = 64;
+    constexpr int kSteadyFrames = 4, kMaxFrames = 64;
     const CameraSettings now = core_.camera.settings();
     finding_ = now.automatic_exposure;  // or somebody else has ended it
     if (!finding_) return;
     steady_ = std::abs(now.exposure_s - found_s_) <= kSame * found_s_ ? steady_ + 1 : 0;
     found_s_ = now.exposure_s;
-    if (steady_ < kSteadyFrames && ++looked_at_ < kMostFrames) return;
+    if (steady_ < kSteadyFrames && ++looked_at_ < kMaxFrames) return;
     finding_ = core_.change({.automatic_exposure = false}) != Status::kSuccess;
 }
 

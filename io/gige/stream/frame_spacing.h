@@ -19,7 +19,7 @@ class FrameSpacing {
   public:
     // Frames that may wait behind the one whose turn is next. Of more, the oldest is given up: who steers by the
     // pictures wants the newest.
-    static constexpr std::size_t kMostQueued = 1;
+    static constexpr std::size_t kMaxQueued = 1;
 
     // Returns when a frame may begin; `now_ns` or earlier: at once. Times are CLOCK_MONOTONIC, `exposure_mid_ns` that of
     // the exposure's middle.

@@ -133,7 +133,7 @@ void GigeSender::take_frame() {
 // A frame that waits for its turn makes way for newer ones. Its turn is the next one's then. An acquisition's last frame has
 // none behind it.
 void GigeSender::give_up_late_frames() {
-    while (ring_.queued() > FrameSpacing::kMostQueued && wanted(*next_)) {
+    while (ring_.queued() > FrameSpacing::kMaxQueued && wanted(*next_)) {
         counts_.frames_given_up.fetch_add(1, std::memory_order_relaxed);
         ring_.done(*next_);
         next_ = ring_.next();

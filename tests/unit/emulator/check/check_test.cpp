@@ -79,7 +79,7 @@ TEST_F(CheckScenario, AGoodSceneHasNoWarningsAndItsFacts) {
     const SeenObject& plate = sight.objects[0];
     EXPECT_EQ(plate.place, SeenObject::Place::kVisible);
     EXPECT_NEAR(plate.distance_m, 4, 1e-12);
-    EXPECT_NEAR(plate.loaded.most_m.x - plate.loaded.least_m.x, 0.1, 1e-7);
+    EXPECT_NEAR(plate.loaded.max_m.x - plate.loaded.min_m.x, 0.1, 1e-7);
     EXPECT_EQ(plate.loaded.triangles, 2u);
     ASSERT_EQ(plate.loaded.surfaces.size(), 1u);
     EXPECT_NEAR(plate.loaded.surfaces[0].area_m2, 0.01, 1e-8);

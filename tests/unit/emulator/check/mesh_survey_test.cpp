@@ -36,7 +36,7 @@ TEST_F(MeshSurveyTest, ACubeIsWhatItIs) {
     EXPECT_EQ(s.triangles, 12u);
     EXPECT_EQ(s.places, 8u);
     EXPECT_EQ(s.shells, 1u);
-    EXPECT_EQ(s.most_m.x - s.least_m.x, 1);
+    EXPECT_EQ(s.max_m.x - s.min_m.x, 1);
     double area_m2 = 0;
     for (const SurveyedSurface& surface : s.surfaces) area_m2 += surface.area_m2;
     EXPECT_NEAR(area_m2, 6, 1e-12);

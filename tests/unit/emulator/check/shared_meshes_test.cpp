@@ -89,7 +89,7 @@ TEST_F(SharedMeshes, AreWhatTheirMakersSay) {
         SCOPED_TRACE(right.file);
         MeshSurvey now;
         EXPECT_EQ(error_of([&] { now = survey(right.file); }), "no error");
-        const Vec3d size_m = now.most_m - now.least_m;
+        const Vec3d size_m = now.max_m - now.min_m;
         EXPECT_NEAR(size_m.x, right.x_m, 1e-6);
         EXPECT_NEAR(size_m.y, right.y_m, 1e-6);
         EXPECT_NEAR(size_m.z, right.z_m, 1e-6);
@@ -117,9 +117,9 @@ TEST_F(SharedMeshes, ShapesAreOneClosedShell) {
             << file;
     }
     const MeshSurvey ellipsoid = survey("shape/lat_lon_radius.tab");
-    EXPECT_NEAR(ellipsoid.most_m.x - ellipsoid.least_m.x, 4, 1e-6);
-    EXPECT_NEAR(ellipsoid.most_m.y - ellipsoid.least_m.y, 2, 1e-6);
-    EXPECT_NEAR(ellipsoid.most_m.z - ellipsoid.least_m.z, 2, 1e-6);
+    EXPECT_NEAR(ellipsoid.max_m.x - ellipsoid.min_m.x, 4, 1e-6);
+    EXPECT_NEAR(ellipsoid.max_m.y - ellipsoid.min_m.y, 2, 1e-6);
+    EXPECT_NEAR(ellipsoid.max_m.z - ellipsoid.min_m.z, 2, 1e-6);
     EXPECT_THAT(ellipsoid.remarks,
                 testing::ElementsAre(testing::HasSubstr("its longitudes are taken as east")));
 }

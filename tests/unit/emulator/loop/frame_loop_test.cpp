@@ -63,10 +63,10 @@ TEST_F(FrameLoopTest, RowsMoveAgainstWhatIsSeen) {
 TEST_F(FrameLoopTest, NoFrameIsPublishedBeforeItsExposureIsOver) {
     class Watch : public Collector {
       public:
-        std::atomic<std::int64_t> least_late_ns{std::numeric_limits<std::int64_t>::max()};
+        std::atomic<std::int64_t> min_late_ns{std::numeric_limits<std::int64_t>::max()};
         void publish(const DnImage& frame, const FrameRecord& record) noexcept override {
             const std::int64_t end_ns = record.exposure_mid_monotonic_ns + 200'000'000;
-            least_late_ns = std::min(least_late_ns.load(), monotonic_ns() - end_ns);
+            min_late_ns = std::min(min_late_ns.load(), monotonic_ns() - end_ns);
             Collector::publish(frame, record);
         }
     };
@@ -86,7 +86,7 @@ TEST_F(FrameLoopTest, NoFrameIsPublishedBeforeItsExposureIsOver) {
         loop.stop();
         EXPECT_EQ(watch.count(), limit == 0 ? 1u : limit);
         EXPECT_EQ(loop.counters().frames.load(), watch.count());
-        EXPECT_GE(watch.least_late_ns.load(), -1000) << limit;
+        EXPECT_GE(watch.min_late_ns.load(), -1000) << limit;
     }
 }
 

@@ -26,12 +26,12 @@ FrameRecord record_of(std::uint64_t id) {
 // Orders whose pictures are of one pixel, and have its light as their number.
 struct Desk {
     LightPartOrders orders{""};
-    std::atomic<int> made{0}, in_hand{0}, most_in_hand{0};
+    std::atomic<int> made{0}, in_hand{0}, max_in_hand{0};
 
     Desk() {
         orders.serve({[this](LightPart part) {
                           ++made;
-                          most_in_hand = std::max(most_in_hand.load(), ++in_hand);
+                          max_in_hand = std::max(max_in_hand.load(), ++in_hand);
                           return std::make_unique<PartsBuffer>(RadianceImage(1, 1), 1, part);
                       },
                       [this](const RadianceImage& light, const FrameRecord&) {
@@ -157,7 +157,7 @@ TEST(LightPartOrders, ManyAreServedOneByOne) {
     same.join(), other.join();
     over = true;
     loop.join();
-    EXPECT_EQ(desk.most_in_hand, 1);
+    EXPECT_EQ(desk.max_in_hand, 1);
 }
 
 TEST(LightPartOrders, ACameraThatRefusesTakesNone) {

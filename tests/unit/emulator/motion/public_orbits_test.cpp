@@ -134,19 +134,19 @@ TEST_F(PublicOrbits, AttitudesAreTheirClosedForm) {
                              "aem_lower_case.aem", "aem_v1_quaternion_rate.aem", "aem_star_tracker_frame.aem",
                              "aem_instrument_frame.aem", "aem_hermite_1.aem", "aem_lagrange_1.aem"}) {
         const std::vector<AemSegment> segments = load_aem(folder_ / "ccsds" / file);
-        double most_rad = 0;
+        double max_rad = 0;
         for (double t = 0; t <= 120; t += 2.5) {
             const TimeTai time = kStart + static_cast<std::int64_t>(t * 1e9);
             const Quat right = from_rotation_vector({0, 0, 6 * t * kDegree_rad});
             const Quat q =
                 conjugate(right) * interpolate_attitude(segment_of(segments, time), time).reference_from_body;
-            most_rad = std::max(most_rad, 2 * length(Vec3d{q.x, q.y, q.z}));
+            max_rad = std::max(max_rad, 2 * length(Vec3d{q.x, q.y, q.z}));
         }
-        std::printf("ccsds/%s: farthest from the right attitude %.6f deg\n", file, most_rad / kDegree_rad);
+        std::printf("ccsds/%s: farthest from the right attitude %.6f deg\n", file, max_rad / kDegree_rad);
         // Quaternions 30 deg of half angle apart. Degree 1: a chord that is walked evenly, 0.27 deg off. Degree 5:
         // 0.5236^6 16.9 / 720 of them in the first and last interval, 0.055 deg of the turn.
         const bool line = std::string(file).find("_1.aem") != std::string::npos;
-        EXPECT_LT(most_rad, (line ? 0.27 : 0.056) * kDegree_rad) << file;
+        EXPECT_LT(max_rad, (line ? 0.27 : 0.056) * kDegree_rad) << file;
     }
 }
 

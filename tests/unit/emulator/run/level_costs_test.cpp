@@ -47,7 +47,7 @@ TEST(LevelCosts, AreMeasuredDownToTheFirstLevelThatSuffices) {
 
 TEST(LevelCosts, WhatTakesLongIsMadeOnceAndWhatTakesMinutesNotAtAll) {
     Machine machine{{1e6, 2000, 20}};
-    const std::vector<LevelCost> costs = machine.measure(25, {2 * kMostTrialRays, 1, 1});
+    const std::vector<LevelCost> costs = machine.measure(25, {2 * kMaxTrialRays, 1, 1});
     EXPECT_TRUE(std::isinf(costs[0].frame_ms));
     EXPECT_DOUBLE_EQ(costs[1].frame_ms, 3000);
     EXPECT_DOUBLE_EQ(costs[2].frame_ms, 20);

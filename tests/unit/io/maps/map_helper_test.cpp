@@ -88,8 +88,8 @@ TEST_F(MapHelper, WhatAReaderSaysIsNotBelieved) {
     EXPECT_LE(open_map_by(liar("m[0:9999] = b'a' * 9999; reading = 4000000000"), map(), moon_)
                   ->reading()
                   .taken.size(),
-              kMostText_bytes);
-    EXPECT_LE(refusal_by(liar("m[0:9999] = b'a' * 9999; refused = 4000000000")).size(), kMostText_bytes);
+              kMaxText_bytes);
+    EXPECT_LE(refusal_by(liar("m[0:9999] = b'a' * 9999; refused = 4000000000")).size(), kMaxText_bytes);
 }
 
 TEST_F(MapHelper, PostsAndValuesOfALiarLeadNowhere) {

@@ -316,13 +316,13 @@ TEST(EarthOfDate, AxesTurnAtTheirRates) {
             const Vec3d by_rate = 1e4 * (cross(turn.rate_rad_s, z(turn)) + cross(later.rate_rad_s, z(later)));
             EXPECT_LT(length(moved - by_rate), 1e-3 * length(moved) + 1e-12);
         }
-    double most_rad = 0;
+    double max_rad = 0;
     for (double et_s = 0; et_s < 6e8; et_s += 1e6) {
         const Vec3d mean = transposed(earth_of_date(EarthAxes::kMeanEquator, et_s).reference_from_frame).z,
                     real = transposed(earth_of_date(EarthAxes::kTrueEquator, et_s).reference_from_frame).z;
-        most_rad = std::max(most_rad, length(mean - real));
+        max_rad = std::max(max_rad, length(mean - real));
     }
-    EXPECT_NEAR(most_rad / kArcsecond_rad, 9.2, 1.0);
+    EXPECT_NEAR(max_rad / kArcsecond_rad, 9.2, 1.0);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(GlobeTerrain, RaysMeetTheHeightsOfTheMap) {
         EXPECT_GT(made.mesh.triangles.size(), 200'000u);
         const TerrainRays rays(made);
         const Vec3d right = normalized(cross(Vec3d{0.1, 0.2, 0.97}, up)), ahead = cross(up, right);
-        double most_m = 0, sum2_m2 = 0;
+        double max_m = 0, sum2_m2 = 0;
         constexpr int kRays = 4000;
         for (int i = 0; i < kRays; ++i) {
             const double off_rad = 0.39 * std::sqrt((i + 0.5) / kRays), turn_rad = 2.39996 * i;
@@ -79,12 +79,12 @@ TEST(GlobeTerrain, RaysMeetTheHeightsOfTheMap) {
             surface.find_heights({&place, 1}, 0, {&height_m, 1});
             const double error_m = length(point_m) - kMoonFigure.equatorial_radius_m - height_m;
             ASSERT_TRUE(std::isfinite(error_m));
-            most_m = std::max(most_m, std::abs(error_m)), sum2_m2 += error_m * error_m;
+            max_m = std::max(max_m, std::abs(error_m)), sum2_m2 += error_m * error_m;
         }
         const double pixel_m = kAbove_m * view.pixel_rad;
-        EXPECT_LT(most_m, 0.05 * pixel_m) << lon << ' ' << lat;
+        EXPECT_LT(max_m, 0.05 * pixel_m) << lon << ' ' << lat;
         std::printf("%8.2f E %6.2f N: root mean square %.4f m, most %.4f m, a pixel is %.0f m\n", lon, lat,
-                    std::sqrt(sum2_m2 / kRays), most_m, pixel_m);
+                    std::sqrt(sum2_m2 / kRays), max_m, pixel_m);
     }
 }
 
@@ -92,7 +92,7 @@ TEST(GlobeTerrain, RaysMeetTheHeightsOfTheMap) {
 // bit, whatever has been thrown away meanwhile.
 TEST(GlobeTerrain, MemoryIsBoundedAndTheSameViewGivesTheSameMesh) {
     GlobeSettings settings;
-    settings.most_bytes = std::size_t{48} << 20;
+    settings.max_bytes = std::size_t{48} << 20;
     GlobeTerrain terrain(kMoonFigure, relief(5760, 3000), {}, settings);
     const auto mesh_at = [&](double lon) {
         TerrainView view;
@@ -105,7 +105,7 @@ TEST(GlobeTerrain, MemoryIsBoundedAndTheSameViewGivesTheSameMesh) {
     const TerrainMesh first = mesh_at(0);
     for (double lon = 60; lon < 360; lon += 60) {
         mesh_at(lon);
-        ASSERT_LE(terrain.kept_bytes(), settings.most_bytes);
+        ASSERT_LE(terrain.kept_bytes(), settings.max_bytes);
     }
     const TerrainMesh again = mesh_at(0);
     ASSERT_EQ(first.mesh.vertices_m.size(), again.mesh.vertices_m.size());
@@ -185,7 +185,7 @@ TEST(GlobeTerrain, NothingStepsByAQuarterOfAPixelWhileTheCameraComesDown) {
         view.pixel_rad = kPixel_rad;
         return terrain.mesh(view);
     };
-    double most_px = 0;
+    double max_px = 0;
     auto before = std::make_unique<TerrainRays>(made_at(20'000));
     const Vec3d east = normalized(cross(Vec3d{0, 0, 1}, up)), north = cross(up, east);
     for (double height_m = 20'000 / 1.02; height_m > 16'000; height_m /= 1.02) {
@@ -200,13 +200,12 @@ TEST(GlobeTerrain, NothingStepsByAQuarterOfAPixelWhileTheCameraComesDown) {
             const Vec3d above_m = (kMoonFigure.equatorial_radius_m + 10'000) * place;
             const double step_m =
                 std::abs(before->distance_m(above_m, -place) - now->distance_m(above_m, -place));
-            most_px =
-                std::max(most_px, step_m * std::sin(off_rad) * std::cos(off_rad) / height_m / kPixel_rad);
+            max_px = std::max(max_px, step_m * std::sin(off_rad) * std::cos(off_rad) / height_m / kPixel_rad);
         }
         before = std::move(now);
     }
-    EXPECT_LT(most_px, 0.25);
-    EXPECT_GT(most_px, 0);
+    EXPECT_LT(max_px, 0.25);
+    EXPECT_GT(max_px, 0);
 }
 
 // What a mesh knows of the Sun before rays ask is what they find: a second object, behind the camera, has them all asked. The Sun

@@ -81,7 +81,7 @@ double distance_from(std::vector<double> numbers, const Share& share_below) {
     return most;
 }
 // The distance that one of a hundred samples of the law exceeds.
-double most_distance(std::size_t count) { return 1.63 / std::sqrt(static_cast<double>(count)); }
+double max_distance(std::size_t count) { return 1.63 / std::sqrt(static_cast<double>(count)); }
 
 // The slope of the distribution is the law's as well, which a wrong law fails.
 TEST(CraterField, DiametersAreDrawnFromTheLaw) {
@@ -91,8 +91,8 @@ TEST(CraterField, DiametersAreDrawnFromTheLaw) {
     const auto distance = [&](double power) {
         return distance_from(diameters_m, [power](double d) { return 1 - std::pow(d, -power); });
     };
-    EXPECT_LT(distance(2), most_distance(diameters_m.size()));
-    EXPECT_GT(distance(2.3), most_distance(diameters_m.size()));
+    EXPECT_LT(distance(2), max_distance(diameters_m.size()));
+    EXPECT_GT(distance(2.3), max_distance(diameters_m.size()));
 }
 
 // Wear is spread evenly up to the greatest that craters of a size can have: where they are in equilibrium all, where the
@@ -103,17 +103,17 @@ TEST(CraterField, WearIsEven) {
     const CraterField large(kMoonRadius_m, settings);
     std::vector<double> of_small, of_large;
     for (const Crater& c : found_of<Crater>(craters_between(1, 500), place_on_sphere(23, 1), 100, 1))
-        of_small.push_back(c.worn / CraterProfile::kMostWorn);
+        of_small.push_back(c.worn / CraterProfile::kMaxWorn);
     for (const Crater& c : found_of<Crater>(large, place_on_sphere(-60, 33), 60e3, 300)) {
         const double oldest =
             settings.diffusivity_m2_ga * settings.age_ga / (0.25 * c.diameter_m * c.diameter_m);
-        ASSERT_LT(oldest, CraterProfile::kMostWorn * 2);
-        of_large.push_back(c.worn / std::min(CraterProfile::kMostWorn, oldest));
+        ASSERT_LT(oldest, CraterProfile::kMaxWorn * 2);
+        of_large.push_back(c.worn / std::min(CraterProfile::kMaxWorn, oldest));
     }
     for (const std::vector<double>& worn : {of_small, of_large}) {
         ASSERT_GT(worn.size(), 200u);
-        EXPECT_LT(distance_from(worn, [](double w) { return w; }), most_distance(worn.size()));
-        EXPECT_GT(distance_from(worn, [](double w) { return w * w; }), most_distance(worn.size()));
+        EXPECT_LT(distance_from(worn, [](double w) { return w; }), max_distance(worn.size()));
+        EXPECT_GT(distance_from(worn, [](double w) { return w * w; }), max_distance(worn.size()));
     }
 }
 
@@ -211,8 +211,8 @@ TEST(BoulderField, DiametersAreDrawnFromTheLaw) {
         });
     };
     ASSERT_GT(diameters_m.size(), 3000u);
-    EXPECT_LT(distance(2.5), most_distance(diameters_m.size()));
-    EXPECT_GT(distance(2.3), most_distance(diameters_m.size()));
+    EXPECT_LT(distance(2.5), max_distance(diameters_m.size()));
+    EXPECT_GT(distance(2.3), max_distance(diameters_m.size()));
 }
 
 // The differences of the relief grow as asked for, over distances that its longest wave has little to do with.

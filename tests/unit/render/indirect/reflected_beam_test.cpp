@@ -20,7 +20,7 @@ class Crowd {
             return ReflectedBeam::Line{by_place, -dot(by_place, some(30))};
         };
         out.distance = line(1 + 20 * share_(random_)), out.x = line(2), out.y = line(2);
-        out.least_m = 1e-3f;
+        out.min_m = 1e-3f;
         out.width_m = 0.1f + 2 * share_(random_), out.height_m = 0.1f + 2 * share_(random_);
         out.margin = {0.02f * share_(random_), 0.02f * share_(random_)}, out.margin_m = {0.01f, 0.02f};
         return out;

@@ -105,7 +105,7 @@ TEST(CoplanarGroups, AreMetWhereTheirTrianglesAre) {
     ObjectSurfaces alone = surfaces;
     for (PackedTriangle& triangle : alone.triangles) triangle.coplanar_group = 0;
     const Vec3f eye_m{20, 5, -4};
-    float most_m = 0;
+    float max_m = 0;
     for (std::uint32_t first = 0; first < 512; first += FragmentPacket::kSize) {
         FragmentPacket own, all;
         own.count = all.count = FragmentPacket::kSize;
@@ -124,11 +124,11 @@ TEST(CoplanarGroups, AreMetWhereTheirTrianglesAre) {
         for (std::size_t k = 0; k < FragmentPacket::kSize; ++k) {
             EXPECT_LT(length(all.geometric.at(k) - own.geometric.at(k)), 1e-5f);
             EXPECT_EQ(all.back[k], own.back[k]);
-            most_m = std::max(most_m, std::abs(all.distance[k] - own.distance[k]) * length(own.dir.at(k)));
+            max_m = std::max(max_m, std::abs(all.distance[k] - own.distance[k]) * length(own.dir.at(k)));
         }
     }
     // A ray that leaves a surface begins 16 half-ulps of the greatest coordinate above it: 4e-5 m here.
-    EXPECT_LT(most_m, 1e-5f);
+    EXPECT_LT(max_m, 1e-5f);
 }
 
 TEST(CoplanarGroups, AreOneIdOfTheVisibilityBuffer) {

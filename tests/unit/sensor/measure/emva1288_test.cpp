@@ -30,7 +30,7 @@ double normal(std::uint64_t seed, std::uint64_t frame, std::uint32_t pixel) {
 
 struct MadeUpCamera {
     int width = 200, height = 200;
-    double gain_dn_e = 0.4, efficiency = 0.6, full_well_e = 8000, offset_dn = 50, most_dn = 4095;
+    double gain_dn_e = 0.4, efficiency = 0.6, full_well_e = 8000, offset_dn = 50, max_dn = 4095;
     double read_noise_e = 6, row_noise_e = 0;
     double prnu = 0, row_gain = 0, column_gain = 0, dsnu_e = 0, row_e = 0, column_e = 0;
     double bend = 0;     // charge q is read as q (1 + bend q / full well)
@@ -71,7 +71,7 @@ struct MadeUpCamera {
                 if (x > 0) value = filter * before + (1 - filter) * value;
                 before = value;
                 out.row(y)[i] = static_cast<std::uint16_t>(
-                    std::lround(std::clamp(value * gain_dn_e + offset_dn, 0.0, most_dn)));
+                    std::lround(std::clamp(value * gain_dn_e + offset_dn, 0.0, max_dn)));
             }
         }
         return out;

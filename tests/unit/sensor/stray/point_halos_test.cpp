@@ -104,16 +104,16 @@ TEST(PointHalos, OfFaintPointsAreInTheirTables) {
     Bench bench(c, {16, 1, 1});
     const PointHalos halos(c.stray_light, geometry_of(c, 16));
     for (const double share : {0.99, 1.01}) {
-        const PointSource point = point_of(c, 128.4, 128.4, share * halos.least_e());
+        const PointSource point = point_of(c, 128.4, 128.4, share * halos.min_e());
         const ElectronImage& seen = bench.expose({.exposure_s = 1}, {{point}});
         // Seven tenths of a thousandth of an electron at 100 px: a faint point has nothing there.
         EXPECT_EQ(at(seen, 228, 128) > 0, share > 1);
-        EXPECT_NEAR(sum(seen) / (share * halos.least_e()), 1, 0.002);
+        EXPECT_NEAR(sum(seen) / (share * halos.min_e()), 1, 0.002);
     }
     // A halo so wide that all of it is folded is drawn by itself sooner.
     StrayLightConfig wide = c.stray_light;
     wide.glare_radius_px = 1000;
-    EXPECT_LT(PointHalos(wide, geometry_of(c, 16)).least_e(), halos.least_e());
+    EXPECT_LT(PointHalos(wide, geometry_of(c, 16)).min_e(), halos.min_e());
 }
 
 TEST(PointHalos, EachColourHasItsOwn) {

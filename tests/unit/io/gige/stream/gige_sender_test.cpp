@@ -287,7 +287,7 @@ TEST_P(LateFrames, OneIsSentOneWaitsForItsTurnAndOneBehindIt) {
     }
     EXPECT_EQ(sender_.counts().frames, 1u);
     EXPECT_EQ(sender_.counts().frames_spaced, 1u);
-    EXPECT_EQ(ring_.waiting(), 1 + FrameSpacing::kMostQueued);
+    EXPECT_EQ(ring_.waiting(), 1 + FrameSpacing::kMaxQueued);
 }
 
 TEST_P(LateFrames, TheyAreNotWaitedForOnceTheClientIsGone) {
