@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/naif/das_file.h"
 #include "render/vocabulary/check.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/system/confined.h"
 #include "render/vocabulary/quoted.h"
 

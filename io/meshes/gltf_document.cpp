@@ -8,8 +8,8 @@
 
 #include "io/meshes/data_uri.h"
 #include "io/meshes/gltf_meshopt.h"
-#include "io/meshes/mesh_guard.h"
 #include "io/meshes/mesh_import.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/system/confined.h"
 #include "io/system/input_file.h"
 #include "render/vocabulary/check.h"

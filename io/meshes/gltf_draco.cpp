@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 

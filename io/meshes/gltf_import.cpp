@@ -10,7 +10,7 @@
 #include "io/meshes/gltf_looks.h"
 #include "io/meshes/gltf_part.h"
 #include "io/meshes/gltf_tree.h"
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/meshes/node_names.h"
 #include "io/meshes/surface_cutter.h"
 #include "io/system/confined.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/pictures/picture_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"

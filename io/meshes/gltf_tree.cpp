@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "io/meshes/gltf_accessor.h"
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {

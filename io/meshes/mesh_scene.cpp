@@ -18,8 +18,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/meshes/mesh_guard.h"
 #include "io/meshes/mesh_import.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/system/confined.h"
 #include "io/system/input_file.h"
 #include "render/vocabulary/check.h"

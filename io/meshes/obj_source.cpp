@@ -6,8 +6,8 @@
 #include <set>
 
 #include "io/files/text_lines.h"
-#include "io/meshes/mesh_guard.h"
 #include "io/meshes/mesh_import.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/system/confined.h"
 #include "io/system/text_mark.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/files/text_lines.h"
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/system/text_mark.h"
 
 namespace hilcam {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "io/meshes/left_out.h"
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/meshes/node_names.h"
 #include "io/pictures/picture_file.h"
 #include "io/system/input_file.h"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "io/files/text_lines.h"
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/system/text_mark.h"
 
 namespace hilcam {

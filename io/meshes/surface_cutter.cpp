@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 #include "io/system/confined.h"
 #include "render/vocabulary/check.h"
 

@@ -7,8 +7,8 @@
 #include "io/contract/light_part_source.h"
 #include "io/contract/refused_settings.h"
 #include "io/pictures/image_file.h"
+#include "io/preview/connection_limiter.h"
 #include "io/preview/preview_assets.h"
-#include "io/preview/preview_guard.h"
 #include "io/preview/preview_picture.h"
 #include "io/preview/preview_pool.h"
 #include "io/preview/preview_request.h"
@@ -36,7 +36,7 @@ constexpr int kBacklog = 128;  // in the kernel, behind those
 constexpr std::size_t kMaxBody_bytes = 4096;
 
 // Browsers send less than 2 KB, at once; a picture over a slow line takes its time.
-ConnectionGuard::Limits connection_limits(const AllowList& allow) {
+ConnectionLimiter::Limits connection_limits(const AllowList& allow) {
     return {.age = 30s,
             .received_bytes = 128 * 1024,
             .request_age = 3s,
@@ -128,7 +128,7 @@ struct PreviewSink::Implementation {
     PreviewShelf shelf;
     std::mutex encoding;  // one file at a time: it takes memory and time
     PreviewViewers viewers;
-    ConnectionGuard guard;
+    ConnectionLimiter guard;
     httplib::Server server;
     std::thread thread;
     std::atomic<std::uint64_t> pictures{0}, requests{0}, refused{0}, bytes{0};

@@ -7,7 +7,7 @@
 // priority than the loop's.
 //
 // What a client can do is bounded: kWorkers connections are served at a time and as many wait, one request
-// each; preview_guard.h ends those that last or send too long. Requests that name another host than this
+// each; connection_limiter.h ends those that last or send too long. Requests that name another host than this
 // machine are refused (DNS rebinding), and those that change something unless they come from the page
 // itself. There are no passwords: beyond loopback a list says who may come.
 

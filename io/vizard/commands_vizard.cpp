@@ -11,7 +11,7 @@
 #include "io/system/wire_format.h"
 #include "io/vizard/reply_socket.h"
 #include "io/vizard/vizard_conversation.h"
-#include "io/vizard/zmq_guard.h"
+#include "io/vizard/zmq_frontend.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -80,7 +80,7 @@ class VizardReceiver : public CommandReceiver {
     VizardWorld world_;
     VizardConversation conversation_;
     std::unique_ptr<ReplySocket> socket_;
-    std::unique_ptr<ZmqGuard> guard_;  // guards connections by TCP
+    std::unique_ptr<ZmqFrontend> frontend_;  // stands before connections by TCP
     Fd wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false}, over_{false};
     std::thread thread_;
@@ -106,23 +106,23 @@ void VizardReceiver::start() {
 // whoever reaches the port.
 void VizardReceiver::listen_behind_guard() {
     const pid_t own = getpid();
-    ZmqGuardSetup setup{config_.address,
-                        "hilcam-vizard-" + std::to_string(own) + "-" + std::to_string(monotonic_ns()),
-                        kMaxPeers,
-                        {kMaxMessageBytes, kMaxMessageParts},
-                        kMaxHeldBytes,
-                        [this](const std::string& why) {
-                            // Once: whoever does it may go on and on.
-                            if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);
-                        }};
+    ZmqFrontendSetup setup{config_.address,
+                           "hilcam-vizard-" + std::to_string(own) + "-" + std::to_string(monotonic_ns()),
+                           kMaxPeers,
+                           {kMaxMessageBytes, kMaxMessageParts},
+                           kMaxHeldBytes,
+                           [this](const std::string& why) {
+                               // Once: whoever does it may go on and on.
+                               if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);
+                           }};
     socket_->admit_only(own);  // others would pass the guard by
     socket_->listen("ipc://@" + setup.inner);
-    guard_ = std::make_unique<ZmqGuard>(std::move(setup));
-    guard_->start();
+    frontend_ = std::make_unique<ZmqFrontend>(std::move(setup));
+    frontend_->start();
 }
 
 void VizardReceiver::stop() noexcept {
-    guard_.reset();
+    frontend_.reset();
     if (thread_.joinable()) {
         stopping_ = true;
         wake(wakeup_);

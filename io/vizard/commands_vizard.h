@@ -3,7 +3,7 @@
 // (ZeroMQ, REQ there, REP here); each image is one `expose` in lockstep. docs/vizard.md.
 //
 // Nothing is authenticated: bind to loopback, or to a network of the bench alone. By TCP there are 200
-// connections at most, and a message above 16 MiB or 1000 parts ends its own (zmq_guard.h). Several
+// connections at most, and a message above 16 MiB or 1000 parts ends its own (zmq_frontend.h). Several
 // simulators may be connected; each request is answered in its turn, and all speak of the same world.
 
 #include <memory>

@@ -1,4 +1,4 @@
-#include "io/meshes/mesh_guard.h"
+#include "io/meshes/mesh_precheck.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,6 @@
 // The guard before ZeroMQ's socket, with a plain socket of this test behind it that sends back what comes.
 
-#include "io/vizard/zmq_guard.h"
+#include "io/vizard/zmq_frontend.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -77,18 +77,18 @@ class Guard : public testing::Test {
     Echo echo_{name_};
     std::mutex mutex_;
     std::vector<std::string> ended_;
-    ZmqGuard guard_{{"tcp://127.0.0.1:" + std::to_string(port_),
-                     name_,
-                     kPeers,
-                     {1000, 5},
-                     1500,
-                     [this](const std::string& why) {
-                         const std::lock_guard lock(mutex_);
-                         ended_.push_back(why);
-                     }}};
+    ZmqFrontend frontend_{{"tcp://127.0.0.1:" + std::to_string(port_),
+                           name_,
+                           kPeers,
+                           {1000, 5},
+                           1500,
+                           [this](const std::string& why) {
+                               const std::lock_guard lock(mutex_);
+                               ended_.push_back(why);
+                           }}};
 
-    void SetUp() override { guard_.start(); }
-    void TearDown() override { guard_.stop(); }
+    void SetUp() override { frontend_.start(); }
+    void TearDown() override { frontend_.stop(); }
 
     static std::uint16_t free_port() {
         const Fd probe = listen_tcp(0x7F000001, 0);

@@ -16,7 +16,7 @@
 
 namespace hilcam {
 
-class ConnectionGuard {
+class ConnectionLimiter {
   public:
     struct Limits {
         std::chrono::milliseconds age;
@@ -27,7 +27,7 @@ class ConnectionGuard {
         std::size_t crowd;
         std::function<bool(std::uint32_t address)> allows;  // host order
     };
-    ~ConnectionGuard() { stop(); }
+    ~ConnectionLimiter() { stop(); }
 
     // `port` as bound. Looks every 50 ms.
     void start(std::uint16_t port, const Limits& limits);

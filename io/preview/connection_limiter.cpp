@@ -1,4 +1,4 @@
-#include "io/preview/preview_guard.h"
+#include "io/preview/connection_limiter.h"
 
 #include <arpa/inet.h>
 #include <dirent.h>
@@ -71,7 +71,7 @@ std::vector<Connection> connections_of(std::uint16_t port) {
 
 }  // namespace
 
-void ConnectionGuard::start(std::uint16_t port, const Limits& limits) {
+void ConnectionLimiter::start(std::uint16_t port, const Limits& limits) {
     port_ = port, limits_ = limits;
     stopping_ = ending_ = false;
     first_seen_.clear();
@@ -82,13 +82,13 @@ void ConnectionGuard::start(std::uint16_t port, const Limits& limits) {
     });
 }
 
-void ConnectionGuard::end_all() {
+void ConnectionLimiter::end_all() {
     const std::lock_guard lock(mutex_);
     ending_ = true;
     changed_.notify_all();
 }
 
-void ConnectionGuard::stop() noexcept {
+void ConnectionLimiter::stop() noexcept {
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
@@ -97,14 +97,14 @@ void ConnectionGuard::stop() noexcept {
     if (thread_.joinable()) thread_.join();
 }
 
-void ConnectionGuard::heard(const std::string& address, int port) {
+void ConnectionLimiter::heard(const std::string& address, int port) {
     in_addr parsed{};
     if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) return;
     const std::lock_guard lock(mutex_);
     heard_.emplace(ntohl(parsed.s_addr), static_cast<std::uint16_t>(port));
 }
 
-void ConnectionGuard::run() {
+void ConnectionLimiter::run() {
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         look();
@@ -112,7 +112,7 @@ void ConnectionGuard::run() {
     }
 }
 
-void ConnectionGuard::look() {
+void ConnectionLimiter::look() {
     const auto now = Clock::now();
     const std::vector<Connection> connections = connections_of(port_);
     const auto patience =

@@ -1,4 +1,4 @@
-#include "io/vizard/zmq_guard.h"
+#include "io/vizard/zmq_frontend.h"
 
 #include <arpa/inet.h>
 #include <netinet/tcp.h>
@@ -53,13 +53,13 @@ Fd connect_abstract(const std::string& name) {
 
 }  // namespace
 
-void ZmqGuard::start() {
+void ZmqFrontend::start() {
     listener_ = listen_at(setup_.address);
     stopping_ = false;
     thread_ = std::thread([this] { run(); });
 }
 
-void ZmqGuard::stop() noexcept {
+void ZmqFrontend::stop() noexcept {
     if (!thread_.joinable()) return;
     stopping_ = true;
     wake(wakeup_);
@@ -68,7 +68,7 @@ void ZmqGuard::stop() noexcept {
     listener_.reset();
 }
 
-void ZmqGuard::run() {
+void ZmqFrontend::run() {
     std::vector<pollfd> watched;
     while (!stopping_) {
         watched.assign({{wakeup_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}});
@@ -93,25 +93,25 @@ void ZmqGuard::run() {
     connections_.clear();
 }
 
-void ZmqGuard::end(Connection& c, const std::string& why) {
+void ZmqFrontend::end(Connection& c, const std::string& why) {
     c.gone = true;
     setup_.ended(why);
 }
 
-std::size_t ZmqGuard::peers() const {
+std::size_t ZmqFrontend::peers() const {
     return static_cast<std::size_t>(
         std::count_if(connections_.begin(), connections_.end(), std::mem_fn(&Connection::is_peer)));
 }
 
 // The oldest connection stands first.
-void ZmqGuard::make_room_for_a_stranger() {
+void ZmqFrontend::make_room_for_a_stranger() {
     if (connections_.size() - peers() < kMaxStrangers) return;
     connections_.erase(
         std::find_if_not(connections_.begin(), connections_.end(), std::mem_fn(&Connection::is_peer)));
     setup_.ended("its peer has said nothing, and others wait");
 }
 
-void ZmqGuard::make_room_for_a_peer() {
+void ZmqFrontend::make_room_for_a_peer() {
     if (peers() <= setup_.max_peers) return;
     const auto last = [](const Connection& c) {
         return c.is_peer() ? c.last_message : std::numeric_limits<std::uint64_t>::max();
@@ -121,7 +121,7 @@ void ZmqGuard::make_room_for_a_peer() {
         "there are more than " + std::to_string(setup_.max_peers) + ", and it has been silent longest");
 }
 
-void ZmqGuard::bound_memory() {
+void ZmqFrontend::bound_memory() {
     std::uint64_t held = 0;
     for (const Connection& c : connections_) held += c.gone ? 0 : c.held_bytes();
     if (held <= setup_.max_held_bytes) return;
@@ -132,7 +132,7 @@ void ZmqGuard::bound_memory() {
             " bytes that wait for answers, and its peer the most");
 }
 
-void ZmqGuard::accept_connection() {
+void ZmqFrontend::accept_connection() {
     Fd outer(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     if (!outer) {
         // Out of descriptors: the caller would be back at once.
@@ -153,7 +153,7 @@ void ZmqGuard::accept_connection() {
 }
 
 // A side that has ended is noticed once all that it sent is passed on: before that it is not read.
-void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
+void ZmqFrontend::serve(Connection& c, short outer_events, short inner_events) {
     if (c.gone) return;
     if (c.in.empty() && (outer_events & ~POLLOUT)) take_from_outside(c);
     if (c.out.empty() && (inner_events & ~POLLOUT)) take_from_inside(c);
@@ -166,7 +166,7 @@ void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
     c.gone |= stuck || ((outer_events | inner_events) & (POLLERR | POLLNVAL)) != 0;
 }
 
-void ZmqGuard::take_from_outside(Connection& c) {
+void ZmqFrontend::take_from_outside(Connection& c) {
     const std::uint64_t messages = c.asked.messages();
     c.gone |= !read_into(c.in, c.outer);
     if (!c.asked.take(c.in.waiting()))
@@ -180,7 +180,7 @@ void ZmqGuard::take_from_outside(Connection& c) {
     bound_memory();
 }
 
-void ZmqGuard::take_from_inside(Connection& c) {
+void ZmqFrontend::take_from_inside(Connection& c) {
     c.gone |= !read_into(c.out, c.inner);
     c.answered.take(c.out.waiting());
     if (c.answered.messages() >= c.asked.messages())
@@ -188,7 +188,7 @@ void ZmqGuard::take_from_inside(Connection& c) {
 }
 
 // False: the other side has ended.
-bool ZmqGuard::read_into(Way& way, const Fd& from) {
+bool ZmqFrontend::read_into(Way& way, const Fd& from) {
     const ssize_t got = recv(from.get(), way.bytes.data(), way.bytes.size(), MSG_DONTWAIT);
     if (got < 0 && (errno == EAGAIN || errno == EINTR)) return true;
     if (got <= 0) return false;
@@ -197,7 +197,7 @@ bool ZmqGuard::read_into(Way& way, const Fd& from) {
     return true;
 }
 
-bool ZmqGuard::write_from(Way& way, const Fd& to) {
+bool ZmqFrontend::write_from(Way& way, const Fd& to) {
     if (way.empty()) return true;
     const ssize_t sent =
         send(to.get(), way.bytes.data() + way.begin, way.end - way.begin, MSG_DONTWAIT | MSG_NOSIGNAL);

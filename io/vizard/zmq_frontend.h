@@ -28,7 +28,7 @@
 
 namespace hilcam {
 
-struct ZmqGuardSetup {
+struct ZmqFrontendSetup {
     std::string address;  // "tcp://ADDRESS:PORT", with an address or interface of this machine, or *
     std::string inner;    // the abstract Unix socket's name, without ZeroMQ's "@"
     std::size_t max_peers = 8;
@@ -37,12 +37,12 @@ struct ZmqGuardSetup {
     std::function<void(const std::string&)> ended;  // told, in its thread, why a connection was ended
 };
 
-class ZmqGuard {
+class ZmqFrontend {
   public:
     static constexpr std::size_t kMaxStrangers = 16;
 
-    explicit ZmqGuard(ZmqGuardSetup setup) : setup_(std::move(setup)) {}
-    ~ZmqGuard() { stop(); }
+    explicit ZmqFrontend(ZmqFrontendSetup setup) : setup_(std::move(setup)) {}
+    ~ZmqFrontend() { stop(); }
 
     // Throws InputError, DeviceError. Owner thread, as is stop().
     void start();
@@ -80,7 +80,7 @@ class ZmqGuard {
     static bool read_into(Way& way, const Fd& from);
     static bool write_from(Way& way, const Fd& to);
 
-    ZmqGuardSetup setup_;
+    ZmqFrontendSetup setup_;
     Fd listener_, wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false};
     std::list<Connection> connections_;
