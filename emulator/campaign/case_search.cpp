@@ -32,11 +32,11 @@ class Judge {
 
     Unfit judge() {
         if (!require_.any()) return {};
-        TruthWishes wishes;
-        wishes.stars = false;
+        TruthRequest request;
+        request.stars = false;
         // What needs no rays comes first.
-        wishes.visibility = false;
-        FrameTruth truth = told(wishes);
+        request.visibility = false;
+        FrameTruth truth = told(request);
         const SeenThing& target = truth.things[camera_.target()];
         if (const double sunlit = known(target.sunlit, 1); sunlit < require_.sunlit_fraction)
             return {"require.sunlit_fraction", sunlit};
@@ -50,8 +50,8 @@ class Judge {
     const RequireConfig& require_;
     CaseCamera& camera_;
 
-    FrameTruth told(const TruthWishes& wishes) {
-        FrameTruth truth = truth_record(camera_, wishes);
+    FrameTruth told(const TruthRequest& request) {
+        FrameTruth truth = truth_record(camera_, request);
         camera_.camera().tell(truth);
         if (camera_.target() >= truth.things.size() || truth.things[camera_.target()].is_body)
             throw InputError("target: the scenario has no object " + std::to_string(camera_.target() + 1));
@@ -59,11 +59,11 @@ class Judge {
     }
 
     Unfit by_rays() {
-        TruthWishes wishes;
-        wishes.stars = false;
-        wishes.visibility = true;
-        wishes.object = wishes.normal = require_.lit_share > 0;
-        const FrameTruth truth = told(wishes);
+        TruthRequest request;
+        request.stars = false;
+        request.visibility = true;
+        request.object = request.normal = require_.lit_share > 0;
+        const FrameTruth truth = told(request);
         const SeenThing& target = truth.things[camera_.target()];
         if (require_.in_field == RequireConfig::InField::kWhole &&
             (target.silhouette_cut || !is_inside(target.silhouette_box_px, truth.raster, require_.margin_px)))

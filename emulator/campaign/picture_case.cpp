@@ -33,15 +33,15 @@ bool wants(const std::vector<std::string>& words, const char* word) {
 }
 
 // Masks, shares of light and hidden points need the first three; the rest is what is written.
-TruthWishes asked_layers(const CampaignConfig& c) {
-    TruthWishes wishes;
-    wishes.stars = false;
-    wishes.visibility = wishes.object = wishes.normal = wishes.depth = true;
-    wishes.range = wants(c.pictures.layers, "range");
-    wishes.position = c.pictures.flow || wants(c.pictures.layers, "position");
-    wishes.part = c.pictures.flow;
-    wishes.silhouettes = wants(c.labels, "bop");
-    return wishes;
+TruthRequest asked_layers(const CampaignConfig& c) {
+    TruthRequest request;
+    request.stars = false;
+    request.visibility = request.object = request.normal = request.depth = true;
+    request.range = wants(c.pictures.layers, "range");
+    request.position = c.pictures.flow || wants(c.pictures.layers, "position");
+    request.part = c.pictures.flow;
+    request.silhouettes = wants(c.labels, "bop");
+    return request;
 }
 
 FrameRecord record_of_picture(const ScenarioConfig& s, const StillCamera& camera, std::uint64_t id) {
@@ -317,13 +317,13 @@ class PictureMaker {
 
     // Only what was asked for, of all that is there.
     void write_layers(const std::filesystem::path& file) {
-        const TruthWishes all = truth_.wishes;
+        const TruthRequest all = truth_.request;
         const std::vector<std::string>& words = campaign_.pictures.layers;
-        truth_.wishes.object = wants(words, "object"), truth_.wishes.range = wants(words, "range");
-        truth_.wishes.depth = wants(words, "depth"), truth_.wishes.normal = wants(words, "normal");
-        truth_.wishes.position = wants(words, "position");
+        truth_.request.object = wants(words, "object"), truth_.request.range = wants(words, "range");
+        truth_.request.depth = wants(words, "depth"), truth_.request.normal = wants(words, "normal");
+        truth_.request.position = wants(words, "position");
         write_truth_exr(file, truth_, document_.legend(truth_));
-        truth_.wishes = all;
+        truth_.request = all;
     }
 };
 

@@ -51,9 +51,9 @@ class ViewMaker {
     ViewMaker(const ViewConfig& view, const CaseDraw& draw, std::uint32_t attempt, CaseCamera& camera,
               CasePlan& plan)
         : view_(view), draw_(draw), attempt_(attempt), camera_(camera), plan_(plan) {
-        TruthWishes wishes;
-        wishes.visibility = wishes.stars = false;
-        truth_ = truth_record(camera, wishes);
+        TruthRequest request;
+        request.visibility = request.stars = false;
+        truth_ = truth_record(camera, request);
         camera.camera().tell(truth_);
     }
 
@@ -184,14 +184,14 @@ double range_of_size_m(double radius_m, double size_px, double focal_length_px) 
     return radius_m / std::sin(std::atan(0.5 * size_px / focal_length_px));
 }
 
-FrameTruth truth_record(const CaseCamera& camera, const TruthWishes& wishes) {
+FrameTruth truth_record(const CaseCamera& camera, const TruthRequest& request) {
     const ScenarioConfig& s = camera.scenario();
-    TruthWishes all = truth_wishes(s);
-    all.visibility = wishes.visibility;
-    all.stars = wishes.stars;
-    all.object = wishes.object, all.range = wishes.range, all.depth = wishes.depth;
-    all.normal = wishes.normal, all.position = wishes.position, all.part = wishes.part;
-    all.silhouettes = wishes.silhouettes;
+    TruthRequest all = truth_request(s);
+    all.visibility = request.visibility;
+    all.stars = request.stars;
+    all.object = request.object, all.range = request.range, all.depth = request.depth;
+    all.normal = request.normal, all.position = request.position, all.part = request.part;
+    all.silhouettes = request.silhouettes;
     FrameTruth truth = make_truth(s, camera.camera().renderer(), all);
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
                              {s.camera.binning_x, s.camera.binning_y});

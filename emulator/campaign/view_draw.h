@@ -19,7 +19,7 @@ std::vector<std::string> view_columns(const ViewConfig& view);
 
 // A record for what the camera's frames show: with a ray for each pixel where visibility or a layer is asked
 // for.
-FrameTruth truth_record(const CaseCamera& camera, const TruthWishes& wishes);
+FrameTruth truth_record(const CaseCamera& camera, const TruthRequest& request);
 
 // Returns the range [m] at which a sphere of that radius appears so large [px] on the boresight of a lens
 // without distortion: half its diameter is tan(asin(r / d)) focal lengths.

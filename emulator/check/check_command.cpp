@@ -59,13 +59,13 @@ std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
 std::string truth_line(const ScenarioConfig& s) {
     const auto* truth = s.outputs.find<TruthConfig>();
     if (!truth) return {};
-    const TruthWishes wishes = wishes_of(*truth);
+    const TruthRequest request = request_of(*truth);
     std::string out = "truth: poses and places";
-    if (wishes.rays())
-        out += fmt::format("; a ray for each pixel that can meet something ({}{}{})",
-                           wishes.visibility ? "visibility" : "",
-                           wishes.visibility && wishes.layers() ? ", " : "", wishes.layers() ? "layers" : "");
-    if (wishes.stars) out += "; stars in view";
+    if (request.rays())
+        out += fmt::format(
+            "; a ray for each pixel that can meet something ({}{}{})", request.visibility ? "visibility" : "",
+            request.visibility && request.layers() ? ", " : "", request.layers() ? "layers" : "");
+    if (request.stars) out += "; stars in view";
     return out;
 }
 

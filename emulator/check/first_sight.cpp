@@ -12,11 +12,11 @@ namespace hilcam {
 namespace {
 
 FrameTruth truth_of(const ScenarioConfig& s, const Renderer& renderer) {
-    TruthWishes wishes = truth_wishes(s);
-    wishes.visibility = true;
-    wishes.stars = false;
-    wishes.object = wishes.range = wishes.depth = wishes.normal = wishes.position = false;
-    FrameTruth truth = make_truth(s, renderer, wishes);
+    TruthRequest request = truth_request(s);
+    request.visibility = true;
+    request.stars = false;
+    request.object = request.range = request.depth = request.normal = request.position = false;
+    FrameTruth truth = make_truth(s, renderer, request);
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
                              {s.camera.binning_x, s.camera.binning_y});
     renderer.report_truth(truth);

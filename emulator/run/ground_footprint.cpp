@@ -49,7 +49,7 @@ class GroundView {
     bool point_of(int x, int y, Vec3d& from_camera_m) const {
         const auto k = static_cast<std::size_t>(x);
         // The terrain is the last of the objects.
-        const std::vector<std::uint32_t>& things = truth_.wishes.thing_of_object;
+        const std::vector<std::uint32_t>& things = truth_.request.thing_of_object;
         if (things.empty() || truth_.layers.object.row(y)[k] != things.back() + 1) return false;
         const LengthImage& p = truth_.layers.position_m;
         from_camera_m = to_double(Vec3f{p.row(y, 0)[k], p.row(y, 1)[k], p.row(y, 2)[k]});
@@ -217,10 +217,10 @@ class StillView {
     Extent extent_;
 
     static FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer) {
-        TruthWishes wishes = truth_wishes(s);
-        wishes.stars = wishes.visibility = false;
-        wishes.object = wishes.position = true;
-        FrameTruth truth = make_truth(s, renderer, wishes);
+        TruthRequest request = truth_request(s);
+        request.stars = request.visibility = false;
+        request.object = request.position = true;
+        FrameTruth truth = make_truth(s, renderer, request);
         truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
                                  {s.camera.binning_x, s.camera.binning_y});
         return truth;

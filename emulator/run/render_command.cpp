@@ -49,10 +49,10 @@ PixelRectangle frame_in_radiance(const CameraModel& camera, const ImageGeometry&
 }
 
 FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer, const FrameLayout& layout) {
-    TruthWishes wishes = truth_wishes(s);
+    TruthRequest request = truth_request(s);
     if (!s.outputs.find<TruthConfig>())
-        wishes.object = wishes.range = wishes.depth = wishes.normal = wishes.position = true;
-    FrameTruth truth = make_truth(s, renderer, wishes);
+        request.object = request.range = request.depth = request.normal = request.position = true;
+    FrameTruth truth = make_truth(s, renderer, request);
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), layout);
     return truth;
 }

@@ -26,19 +26,19 @@ TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std:
     return source;
 }
 
-TruthWishes truth_wishes(const ScenarioConfig& s) {
-    TruthWishes wishes = wishes_of(s.outputs.config<TruthConfig>());
+TruthRequest truth_request(const ScenarioConfig& s) {
+    TruthRequest request = request_of(s.outputs.config<TruthConfig>());
     const auto objects = static_cast<std::uint32_t>(s.objects.size());
-    for (std::uint32_t i = 0; i < objects; ++i) wishes.thing_of_object.push_back(i);
+    for (std::uint32_t i = 0; i < objects; ++i) request.thing_of_object.push_back(i);
     for (std::uint32_t i = 0; i < objects; ++i)
-        wishes.thing_of_object.insert(wishes.thing_of_object.end(), s.objects[i].joints.size(), i);
-    if (s.terrain) wishes.thing_of_object.push_back(objects);
-    return wishes;
+        request.thing_of_object.insert(request.thing_of_object.end(), s.objects[i].joints.size(), i);
+    if (s.terrain) request.thing_of_object.push_back(objects);
+    return request;
 }
 
-FrameTruth make_truth(const ScenarioConfig& s, const Renderer& renderer, const TruthWishes& wishes) {
+FrameTruth make_truth(const ScenarioConfig& s, const Renderer& renderer, const TruthRequest& request) {
     const auto [width, height] = array_size(s.camera);  // frames are no larger
-    return renderer.make_truth(wishes, width, height);
+    return renderer.make_truth(request, width, height);
 }
 
 std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& s, const SpectralGrid& grid,
@@ -46,7 +46,7 @@ std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& s, const Spectr
                                            const std::string& run_id, const TruthSurroundings& surroundings) {
     return std::make_unique<TruthSink>(
         s.outputs.config<TruthConfig>(), truth_source(s, grid, number, run_id),
-        [&] { return make_truth(s, renderer, truth_wishes(s)); }, surroundings);
+        [&] { return make_truth(s, renderer, truth_request(s)); }, surroundings);
 }
 
 }  // namespace hilcam

@@ -15,10 +15,10 @@ namespace hilcam {
 // run_id: no other run's; empty: of none. number: of the camera that the scenario is about, from 1.
 TruthSource truth_source(const ScenarioConfig& scenario, const SpectralGrid& grid, std::size_t number,
                          const std::string& run_id);
-// Returns the wishes of outputs.truth, whether or not it is given.
-TruthWishes truth_wishes(const ScenarioConfig& scenario);
+// Returns the request of outputs.truth, whether or not it is given.
+TruthRequest truth_request(const ScenarioConfig& scenario);
 // A record for any frame of the camera. Owner thread.
-FrameTruth make_truth(const ScenarioConfig& scenario, const Renderer& renderer, const TruthWishes& wishes);
+FrameTruth make_truth(const ScenarioConfig& scenario, const Renderer& renderer, const TruthRequest& request);
 
 // The output outputs.truth, or what serves the listener alone; what the scenario is about is loaded. Throws
 // InputError.

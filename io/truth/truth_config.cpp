@@ -15,12 +15,12 @@ namespace {
 
 struct LayerName {
     std::string_view word;
-    bool TruthWishes::*wish;
+    bool TruthRequest::*member;
 };
 constexpr std::array kLayers = {
-    LayerName{"object", &TruthWishes::object}, LayerName{"range", &TruthWishes::range},
-    LayerName{"depth", &TruthWishes::depth}, LayerName{"normal", &TruthWishes::normal},
-    LayerName{"position", &TruthWishes::position}};
+    LayerName{"object", &TruthRequest::object}, LayerName{"range", &TruthRequest::range},
+    LayerName{"depth", &TruthRequest::depth}, LayerName{"normal", &TruthRequest::normal},
+    LayerName{"position", &TruthRequest::position}};
 
 const LayerName* layer_named(std::string_view word) {
     const auto found = std::find_if(kLayers.begin(), kLayers.end(),
@@ -79,14 +79,14 @@ RunFolder run_folder(const TruthConfig& c) {
             .overwrite = c.overwrite};
 }
 
-TruthWishes wishes_of(const TruthConfig& c) {
-    TruthWishes wishes;
-    wishes.visibility = c.visibility;
-    wishes.stars = c.stars;
-    wishes.faintest_magnitude = c.faintest_magnitude;
+TruthRequest request_of(const TruthConfig& c) {
+    TruthRequest request;
+    request.visibility = c.visibility;
+    request.stars = c.stars;
+    request.faintest_magnitude = c.faintest_magnitude;
     for (const std::string& word : c.layers)
-        if (const LayerName* layer = layer_named(word)) wishes.*(layer->wish) = true;
-    return wishes;
+        if (const LayerName* layer = layer_named(word)) request.*(layer->member) = true;
+    return request;
 }
 
 std::vector<ListeningPort> listening(const TruthConfig& c) {

@@ -40,6 +40,6 @@ std::vector<ListeningPort> listening(const TruthConfig& config);
 // Returns the part of its folder that must not be mixed with another run; the folder is not empty.
 RunFolder run_folder(const TruthConfig& config);
 // Returns what the renderer is asked for; thing_of_object is left empty.
-TruthWishes wishes_of(const TruthConfig& config);
+TruthRequest request_of(const TruthConfig& config);
 
 }  // namespace hilcam

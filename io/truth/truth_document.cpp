@@ -64,7 +64,7 @@ OrderedJson image_of(const FrameTruth& t, const FrameRecord& record, const Camer
 }
 
 // Returns the part that objects and bodies share; the Sun has no axes.
-OrderedJson thing_of(const SeenThing& thing, const std::string& name, const TruthWishes& wishes) {
+OrderedJson thing_of(const SeenThing& thing, const std::string& name, const TruthRequest& request) {
     OrderedJson out = {{"id", thing.id}, {"name", name}, {"position_m", of(thing.world.position_world_m)}};
     const bool has_axes = thing.id != kSunId;
     if (has_axes) out["attitude_wxyz"] = of(thing.world.world_from_body);
@@ -73,7 +73,7 @@ OrderedJson thing_of(const SeenThing& thing, const std::string& name, const Trut
     out["distance_m"] = thing.distance_m;
     if (has_axes) out["phase_rad"] = thing.phase_rad;
     out["center_px"] = thing.has_center ? of(thing.center_px) : OrderedJson(nullptr);
-    if (!wishes.visibility) return out;
+    if (!request.visibility) return out;
     const bool visible = !thing.visible_box_px.empty();
     out["visible_px"] = thing.visible_px;
     out["visible_box_px"] = of(thing.visible_box_px);
@@ -85,15 +85,15 @@ OrderedJson thing_of(const SeenThing& thing, const std::string& name, const Trut
     return out;
 }
 
-OrderedJson object_of(const SeenThing& thing, const std::string& name, const TruthWishes& wishes) {
-    OrderedJson out = thing_of(thing, name, wishes);
+OrderedJson object_of(const SeenThing& thing, const std::string& name, const TruthRequest& request) {
+    OrderedJson out = thing_of(thing, name, request);
     out["radius_m"] = thing.radius_m;
     out["sunlit_fraction"] = thing.sunlit;
     return out;
 }
 
-OrderedJson body_of(const SeenThing& thing, const TruthWishes& wishes) {
-    OrderedJson out = thing_of(thing, std::string(name_of_body(thing.id)), wishes);
+OrderedJson body_of(const SeenThing& thing, const TruthRequest& request) {
+    OrderedJson out = thing_of(thing, std::string(name_of_body(thing.id)), request);
     out["equatorial_radius_m"] = thing.radius_m;
     out["polar_radius_m"] = thing.polar_radius_m;
     return out;
@@ -168,9 +168,9 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
                 stars = OrderedJson::array();
     for (const SeenThing& thing : t.things)
         if (thing.is_body)
-            bodies.push_back(body_of(thing, t.wishes));
+            bodies.push_back(body_of(thing, t.request));
         else
-            objects.push_back(object_of(thing, name_of_thing(thing), t.wishes));
+            objects.push_back(object_of(thing, name_of_thing(thing), t.request));
     for (const SeenPart& part : t.parts)
         parts.push_back({{"object", part.thing},
                          {"name", part.object < source_.parts.size() ? source_.parts[part.object] : ""},
@@ -185,7 +185,7 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
         out["boulders"] = ground_list(ground.boulders, "height_m");
         out["ground_left_out"] = ground.left_out;
     }
-    if (t.wishes.stars) {
+    if (t.request.stars) {
         const double per_px = 1.0 / source_.oversampling;
         if (with_stars)
             for (const SeenStar& star : t.stars) {

@@ -58,25 +58,25 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
         Layers layers(header, buffer);
         layers.say("time_utc", format_utc(truth.time));
         layers.say("time_tai_ns", std::to_string(truth.time.ns));
-        if (truth.wishes.object) {
+        if (truth.request.object) {
             layers.add("object.ID", Imf::UINT, t.object.data(), raster.width_px);
             std::string names;
             for (const std::string& line : legend) names += line + "\n";
             layers.say("object.names", names);
         }
-        if (truth.wishes.range) {
+        if (truth.request.range) {
             layers.add("range.D", Imf::FLOAT, t.range_m.data(), raster.width_px);
             layers.say("range.unit", "m along the ray");
         }
-        if (truth.wishes.depth) {
+        if (truth.request.depth) {
             layers.add("depth.Z", Imf::FLOAT, t.depth_m.data(), raster.width_px);
             layers.say("depth.unit", "m along the boresight");
         }
-        if (truth.wishes.normal) {
+        if (truth.request.normal) {
             layers.add_vector("normal", t.normal);
             layers.say("normal.unit", "1, camera axes");
         }
-        if (truth.wishes.position) {
+        if (truth.request.position) {
             layers.add_vector("position", t.position_m);
             layers.say("position.unit", "m, camera axes");
         }
@@ -164,11 +164,11 @@ void TruthFiles::add_line(std::string_view line) {
 
 void TruthFiles::write_layers(const FrameTruth& truth, std::uint64_t frame,
                               std::span<const std::string> legend) const {
-    if (!truth.wishes.layers()) return;
+    if (!truth.request.layers()) return;
     char stem[64];
     std::snprintf(stem, sizeof stem, "truth_%08llu", static_cast<unsigned long long>(frame));
     write_truth_exr(folder_ / (stem + std::string(".exr")), truth, legend);
-    if (truth.wishes.object) write_object_mask(folder_ / (stem + std::string(".object.png")), truth, legend);
+    if (truth.request.object) write_object_mask(folder_ / (stem + std::string(".object.png")), truth, legend);
 }
 
 PictureTruthFiles picture_truth_files(const std::filesystem::path& folder,
@@ -187,8 +187,8 @@ void write_picture_truth(const PictureTruthFiles& files, std::string_view text, 
     std::ofstream out(files.lines, std::ios::binary);
     out << text;
     if (!out.flush()) throw DeviceError(files.lines.string() + " cannot be written");
-    if (truth.wishes.layers()) write_truth_exr(files.layers, truth, legend);
-    if (truth.wishes.object) write_object_mask(files.mask, truth, legend);
+    if (truth.request.layers()) write_truth_exr(files.layers, truth, legend);
+    if (truth.request.object) write_object_mask(files.mask, truth, legend);
 }
 
 }  // namespace hilcam

@@ -28,7 +28,7 @@ namespace hilcam {
 struct Star;
 
 // The parts of the truth that somebody has asked for.
-struct TruthWishes {
+struct TruthRequest {
     bool visibility = true;  // pixels, boxes and shares of each thing: a ray through every pixel
     bool stars = true;
     double faintest_magnitude = 30;
@@ -73,7 +73,7 @@ struct SeenThing {
     double radius_m = 0;  // radius of the sphere about its origin that holds it; a body's equatorial radius
     double polar_radius_m = 0;  // bodies only
 
-    // This is filled with TruthWishes::visibility. A pixel is visible when the ray through its middle meets
+    // This is filled with TruthRequest::visibility. A pixel is visible when the ray through its middle meets
     // the thing first; the silhouette is what the thing alone would cover, in the frame and beside it, up to
     // one frame's width and height on each side. Of a thing below kSmall_px both are measured on 64 x 64 rays
     // over its own bounds instead, so that it need not meet a pixel's middle.
@@ -133,7 +133,7 @@ struct TruthLayers {
 
 struct FrameTruth {
     // --- before the frame
-    TruthWishes wishes;
+    TruthRequest request;
     FrameRaster raster;
 
     // --- told by the renderer

@@ -179,8 +179,8 @@ void Renderer::make_ground_ahead(const WorldSnapshot& world) {
     implementation_->setup.make_ground_ahead(world);
 }
 
-FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int height_px) const {
-    return hilcam::make_truth(implementation_->setup, wishes, width_px, height_px);
+FrameTruth Renderer::make_truth(const TruthRequest& request, int width_px, int height_px) const {
+    return hilcam::make_truth(implementation_->setup, request, width_px, height_px);
 }
 
 void Renderer::report_truth(FrameTruth& truth) const { TruthProbe(implementation_->setup, truth).report(); }

@@ -104,7 +104,7 @@ class Renderer {
     void place_for_truth(const WorldSnapshot& world);
 
     // A record with room for what frames show, up to a size of them. Owner thread.
-    FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
+    FrameTruth make_truth(const TruthRequest& request, int width_px, int height_px) const;
     // Fills `truth` with what the world shows that was placed last, by render(), motion() or place_for_truth(); its raster is
     // set. Loop, as render().
     void report_truth(FrameTruth& truth) const;

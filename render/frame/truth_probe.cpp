@@ -36,23 +36,23 @@ double phase_of(Vec3d to_sun_m, Vec3d to_camera_m) {
 
 }  // namespace
 
-FrameTruth make_truth(const FrameSetup& setup, const TruthWishes& wishes, int width_px, int height_px) {
+FrameTruth make_truth(const FrameSetup& setup, const TruthRequest& request, int width_px, int height_px) {
     FrameTruth truth;
-    truth.wishes = wishes;
+    truth.request = request;
     const std::size_t objects = setup.objects();
     truth.things.reserve(objects + 1 + kMaxBodies);
     truth.parts.reserve(objects);
     truth.point_boxes.reserve(objects);
-    if (wishes.stars) {
+    if (request.stars) {
         truth.stars.reserve(std::min(setup.max_stars(), kMaxTruthStars));
         truth.star_field.reserve(setup.max_stars());
     }
-    if (wishes.rays()) truth.layers.object = IdImage(width_px, height_px);
-    if (wishes.part) truth.layers.part = IdImage(width_px, height_px);
-    if (wishes.range) truth.layers.range_m = LengthImage(width_px, height_px);
-    if (wishes.depth) truth.layers.depth_m = LengthImage(width_px, height_px);
-    if (wishes.position) truth.layers.position_m = LengthImage(width_px, height_px, 3);
-    if (wishes.normal) truth.layers.normal = DirectionImage(width_px, height_px, 3);
+    if (request.rays()) truth.layers.object = IdImage(width_px, height_px);
+    if (request.part) truth.layers.part = IdImage(width_px, height_px);
+    if (request.range) truth.layers.range_m = LengthImage(width_px, height_px);
+    if (request.depth) truth.layers.depth_m = LengthImage(width_px, height_px);
+    if (request.position) truth.layers.position_m = LengthImage(width_px, height_px, 3);
+    if (request.normal) truth.layers.normal = DirectionImage(width_px, height_px, 3);
     return truth;
 }
 
@@ -76,14 +76,14 @@ void TruthProbe::report() {
     truth_.parts.clear();
     report_objects();
     report_sun_and_bodies();
-    if (truth_.wishes.rays()) trace_pixels();
-    if (truth_.wishes.visibility) {
+    if (truth_.request.rays()) trace_pixels();
+    if (truth_.request.visibility) {
         count_pixels();
         TruthOutlines outlines(setup_, rays_, truth_);
-        if (truth_.wishes.silhouettes) outlines.find_silhouettes();
+        if (truth_.request.silhouettes) outlines.find_silhouettes();
         for (SeenThing& thing : truth_.things) outlines.measure(thing);
     }
-    if (truth_.wishes.stars) report_stars();
+    if (truth_.request.stars) report_stars();
     truth_.took_ms = watch.ms();
 }
 
@@ -117,8 +117,8 @@ SeenThing TruthProbe::described(std::uint32_t id, const Pose& world, Vec3d from_
 }
 
 void TruthProbe::report_objects() {
-    HILCAM_CHECK(truth_.wishes.thing_of_object.empty() ||
-                 truth_.wishes.thing_of_object.size() == setup_.objects());
+    HILCAM_CHECK(truth_.request.thing_of_object.empty() ||
+                 truth_.request.thing_of_object.size() == setup_.objects());
     for (std::size_t i = 0; i < setup_.objects(); ++i) {
         const std::uint32_t owner = owner_of(truth_, i), id = owner + 1;
         const Pose& pose = world_.objects[i];
@@ -175,7 +175,7 @@ void TruthProbe::report_stars() {
     // In the catalogue's order: where there is no room for all, the fainter ones are left out.
     truth_.star_field.clear();
     field.each_star(setup_.stars(), [&](const Star& star, Vec3d dir) {
-        if (static_cast<double>(star.magnitude_v) <= truth_.wishes.faintest_magnitude)
+        if (static_cast<double>(star.magnitude_v) <= truth_.request.faintest_magnitude)
             truth_.star_field.push_back({&star, dir});
     });
     std::sort(truth_.star_field.begin(), truth_.star_field.end(),
@@ -265,7 +265,7 @@ void TruthProbe::trace_block(int x0, int y0) {
         }
     if (count == 0) return;
     std::array<RayMet, kPacketSize> met;
-    rays_.trace(std::span(points).first(count), truth_.wishes.normal, met);
+    rays_.trace(std::span(points).first(count), truth_.request.normal, met);
     for (std::size_t k = 0; k < count; ++k) write(pixels[k][0], pixels[k][1], met[k]);
 }
 

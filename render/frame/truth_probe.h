@@ -16,7 +16,7 @@ namespace hilcam {
 inline constexpr std::size_t kMaxTruthStars = 16384;
 
 // A record with room for all that TruthProbe tells of the set-up's frames, up to a size. Owner thread.
-FrameTruth make_truth(const FrameSetup& setup, const TruthWishes& wishes, int width_px, int height_px);
+FrameTruth make_truth(const FrameSetup& setup, const TruthRequest& request, int width_px, int height_px);
 
 class TruthProbe {
   public:

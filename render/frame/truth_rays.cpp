@@ -126,7 +126,7 @@ bool TruthRays::on_image(Vec2d p) const {
 }
 
 std::uint32_t owner_of(const FrameTruth& truth, std::size_t object) {
-    const std::vector<std::uint32_t>& owners = truth.wishes.thing_of_object;
+    const std::vector<std::uint32_t>& owners = truth.request.thing_of_object;
     return owners.empty() ? static_cast<std::uint32_t>(object) : owners[object];
 }
 

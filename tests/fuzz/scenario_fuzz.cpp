@@ -87,7 +87,7 @@ void look_at(const ScenarioConfig& s) {
     RadianceImage radiance = exposures.make_image();
     std::vector<PointSource> points;
     points.reserve(exposures.max_points());
-    TruthWishes wishes = truth_wishes(s);
+    TruthRequest wishes = truth_request(s);
     wishes.object = wishes.range = wishes.stars = true;
     FrameTruth truth = make_truth(s, *renderer, wishes);
     truth.raster = raster_of(s.camera, 1, {s.camera.binning_x, s.camera.binning_y});

@@ -8,22 +8,22 @@
 
 namespace hilcam {
 
-inline TruthWishes everything() {
-    TruthWishes wishes;
-    wishes.object = wishes.range = wishes.depth = wishes.normal = wishes.position = true;
-    return wishes;
+inline TruthRequest everything() {
+    TruthRequest request;
+    request.object = request.range = request.depth = request.normal = request.position = true;
+    return request;
 }
 
 // 128 x 128 px, 128 px of focal length: a tangent of a half to each side. No guard band.
 class TruthStage : public Stage {
   public:
     FrameRaster raster{128, 128, {}, {}};
-    TruthWishes wishes = everything();
+    TruthRequest request = everything();
 
     TruthStage() { camera(128, 0.5); }
     FrameTruth tell() {
         render();
-        FrameTruth truth = renderer->make_truth(wishes, 128, 128);
+        FrameTruth truth = renderer->make_truth(request, 128, 128);
         truth.raster = raster;
         renderer->report_truth(truth);
         return truth;

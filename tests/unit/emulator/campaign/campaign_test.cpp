@@ -114,9 +114,9 @@ TEST_F(CampaignTest, TheCameraStandsWhereTheViewSays) {
     CaseCamera camera(c);
     for (std::uint64_t n = 1; n <= 20; ++n) {
         const CasePlan plan = find_case(c, draw, n, camera);
-        TruthWishes wishes;
-        wishes.visibility = wishes.stars = false;
-        FrameTruth truth = truth_record(camera, wishes);
+        TruthRequest request;
+        request.visibility = request.stars = false;
+        FrameTruth truth = truth_record(camera, request);
         camera.camera().tell(truth);
         const SeenThing& plate = truth.things[0];
         const double size_px = 5 + 15 * draw.view_place(n, 0, CaseDraw::View::kSize);

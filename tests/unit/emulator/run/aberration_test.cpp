@@ -47,7 +47,7 @@ class Aberration : public FilesTest {
                 rest);
         const ScenarioConfig s = load_scenario(file, {});
         StillCamera camera(s);
-        FrameTruth t = make_truth(s, camera.renderer(), truth_wishes(s));
+        FrameTruth t = make_truth(s, camera.renderer(), truth_request(s));
         t.raster = raster_of(s.camera, 1, {});
         camera.render({1, 1}, &t);
         return t;

@@ -67,9 +67,9 @@ Rows seen(const ScenarioConfig& s, GroundSurvey::What what, double smallest_px) 
 class PictureHeights {
   public:
     PictureHeights(const ScenarioConfig& s, double camera_m) : camera_(s), camera_m_(camera_m) {
-        TruthWishes wishes = truth_wishes(s);
-        wishes.stars = wishes.visibility = false, wishes.position = true;
-        truth_ = make_truth(s, camera_.renderer(), wishes);
+        TruthRequest request = truth_request(s);
+        request.stars = request.visibility = false, request.position = true;
+        truth_ = make_truth(s, camera_.renderer(), request);
         truth_.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
         camera_.tell(truth_);
     }
@@ -197,7 +197,7 @@ TEST(GroundFootprint, PlacesAreThoseOfTheLens) {
 SeenGroundThings told_by_run(const ScenarioConfig& s) {
     const auto ground = ground_truth_of(s);
     StillCamera camera(s);
-    FrameTruth truth = make_truth(s, camera.renderer(), truth_wishes(s));
+    FrameTruth truth = make_truth(s, camera.renderer(), truth_request(s));
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
     camera.tell(truth);
     return ground->find(truth);

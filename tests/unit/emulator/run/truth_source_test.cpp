@@ -154,7 +154,7 @@ TEST_F(TruthTest, StarsAreWhereTheirLightIs) {
         "stars: {catalogue: stars.csv}\nspectrum_edges_um: [0.5, 0.7]\n");
     const ScenarioConfig s = load_scenario(file, {});
     StillCamera camera(s);
-    FrameTruth t = make_truth(s, camera.renderer(), truth_wishes(s));
+    FrameTruth t = make_truth(s, camera.renderer(), truth_request(s));
     t.raster = raster_of(s.camera, 1, {});
     camera.render({1, 1}, &t);
     const ElectronImage& light = camera.expose();

@@ -50,11 +50,11 @@ TruthSource source() {
 // What the renderer would make and fill; here by hand.
 FrameTruth slot(const TruthConfig& config) {
     FrameTruth truth;
-    truth.wishes = wishes_of(config);
+    truth.request = request_of(config);
     truth.geometry = geometry_of(camera_8x4(), 0);
-    if (truth.wishes.rays()) truth.layers.object = IdImage(8, 4);
-    if (truth.wishes.depth) truth.layers.depth_m = LengthImage(8, 4);
-    if (truth.wishes.normal) truth.layers.normal = DirectionImage(8, 4, 3);
+    if (truth.request.rays()) truth.layers.object = IdImage(8, 4);
+    if (truth.request.depth) truth.layers.depth_m = LengthImage(8, 4);
+    if (truth.request.normal) truth.layers.normal = DirectionImage(8, 4, 3);
     return truth;
 }
 

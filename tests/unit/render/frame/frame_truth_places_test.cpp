@@ -43,7 +43,7 @@ TEST(Truth, WhatTheLensFoldsBackHasNoPlace) {
     EXPECT_FALSE(s.tell().things[0].has_center);
     s.world.objects[0].position_world_m = {2, 0, 10};
     s.render_again();
-    FrameTruth t = s.renderer->make_truth(s.wishes, 128, 128);
+    FrameTruth t = s.renderer->make_truth(s.request, 128, 128);
     t.raster = s.raster;
     s.renderer->report_truth(t);
     ASSERT_TRUE(t.things[0].has_center);
@@ -121,7 +121,7 @@ TEST(Truth, StarsInViewAreThoseThatAreDrawn) {
     s.scene.stars = {star({0.25, -0.125, 1}, 0), star({0, 0, 1}, 1), star({3, 0, 1}, 2),
                      star({-0.3, 0.1, 1}, 3), star({-0.3, 0.2, 1}, 9)};
     s.add(plate(lambert(0.5), s.grid), {0, 0, 8});
-    s.wishes.faintest_magnitude = 5;
+    s.request.faintest_magnitude = 5;
     const FrameTruth t = s.tell();
     ASSERT_EQ(t.stars.size(), 2u);
     EXPECT_EQ(t.stars[0].row, 0u);

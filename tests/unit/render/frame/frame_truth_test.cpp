@@ -110,7 +110,7 @@ TEST(Truth, WhatIsHalfHiddenAndWhatIsHalfOutsideAreHalfVisible) {
 // The same two, and a cube of 8 px, small for the truth, half behind the plate.
 TEST(Truth, PixelSilhouettesHaveWhatIsHiddenAndWhatIsSmall) {
     TruthStage s;
-    s.wishes.silhouettes = true;
+    s.request.silhouettes = true;
     s.add(cube(lambert(0.5), s.grid), {0, 0, 4}, {});
     s.add(plate(lambert(0.5), s.grid), {-1, 0, 2});
     s.add(cube(lambert(0.5), s.grid, 0.1875f), {0, 0, 3}, {});
@@ -239,7 +239,7 @@ TEST(Truth, PartsCountAsTheirObject) {
     s.add(cube(lambert(0.5), s.grid), {-0.5, 0, 4}, {});
     s.add(cube(lambert(0.5), s.grid), {0, 0, -5}, {});
     s.add(cube(lambert(0.5), s.grid), {0.5, 0, 4}, {});
-    s.wishes.thing_of_object = {0, 1, 0};
+    s.request.thing_of_object = {0, 1, 0};
     const FrameTruth t = s.tell();
     ASSERT_EQ(t.things.size(), 3u);
     // Front faces from 64 - 1 / 3.5 * 128 = 27.4 to 100.6 px.
@@ -300,11 +300,11 @@ TEST(Truth, InThePenumbraTheSunlitFractionIsTheShareOfTheDisk) {
     s.scene.limb_darkening = false;
     s.scene.body(BodyId::kMoon) = {true, BodyLook(BodyId::kMoon, default_body(BodyId::kMoon), s.grid), {}};
     s.add(cube(lambert(0.5), s.grid), {0, 0, 5}, {});
-    s.wishes = {};
-    s.wishes.visibility = false;
+    s.request = {};
+    s.request.visibility = false;
     s.build();
     s.render_again();
-    FrameTruth t = s.renderer->make_truth(s.wishes, 8, 8);
+    FrameTruth t = s.renderer->make_truth(s.request, 8, 8);
     t.raster = s.raster;
     const double sun_rad = std::asin(kSunRadius_m / kAstronomicalUnit_m);
     const double moon_m = 1.25e7,
