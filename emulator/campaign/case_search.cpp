@@ -36,7 +36,7 @@ class Judge {
         request.stars = false;
         // What needs no rays comes first.
         request.visibility = false;
-        FrameTruth truth = told(request);
+        FrameTruth truth = reported(request);
         const SeenThing& target = truth.things[camera_.target()];
         if (const double sunlit = known(target.sunlit, 1); sunlit < require_.sunlit_fraction)
             return {"require.sunlit_fraction", sunlit};
@@ -50,9 +50,9 @@ class Judge {
     const RequireConfig& require_;
     CaseCamera& camera_;
 
-    FrameTruth told(const TruthRequest& request) {
+    FrameTruth reported(const TruthRequest& request) {
         FrameTruth truth = truth_record(camera_, request);
-        camera_.camera().tell(truth);
+        camera_.camera().report(truth);
         if (camera_.target() >= truth.things.size() || truth.things[camera_.target()].is_body)
             throw InputError("target: the scenario has no object " + std::to_string(camera_.target() + 1));
         return truth;
@@ -63,7 +63,7 @@ class Judge {
         request.stars = false;
         request.visibility = true;
         request.object = request.normal = require_.lit_share > 0;
-        const FrameTruth truth = told(request);
+        const FrameTruth truth = reported(request);
         const SeenThing& target = truth.things[camera_.target()];
         if (require_.in_field == RequireConfig::InField::kWhole &&
             (target.silhouette_cut || !is_inside(target.silhouette_box_px, truth.raster, require_.margin_px)))

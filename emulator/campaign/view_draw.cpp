@@ -54,7 +54,7 @@ class ViewMaker {
         TruthRequest request;
         request.visibility = request.stars = false;
         truth_ = truth_record(camera, request);
-        camera.camera().tell(truth_);
+        camera.camera().report(truth_);
     }
 
     void make() {

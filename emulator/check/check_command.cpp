@@ -165,8 +165,8 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
     if (const std::optional<StrayTime> stray = stray_time(*station, world, exposures))
         report.plan.push_back(
             fmt::format("stray light of the lens ({}): takes {:.2g} ms of the sensor's time", stray->parts,
-                        std::max(stray->ms, stray->told_ms)) +
-            (stray->ms < stray->told_ms ? " at most" : ""));
+                        std::max(stray->ms, stray->resolved_ms)) +
+            (stray->ms < stray->resolved_ms ? " at most" : ""));
     report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     if (about_objects.empty()) about_objects = verdict_on_objects(view, VerdictOn::kAll);

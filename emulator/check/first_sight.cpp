@@ -72,7 +72,7 @@ SeenObject seen(const SeenThing& thing, const LoadedObject& loaded, const FrameT
     return out;
 }
 
-void tell_site(const ScenarioConfig& s, FirstSight& out) {
+void report_site(const ScenarioConfig& s, FirstSight& out) {
     const std::optional<PlaceConfig> site = site_of(s);
     if (!site || s.origin.center() != site->body) return;
     const WorldFrame frame(parse_utc(s.time_utc), s.origin);
@@ -91,7 +91,7 @@ FirstSight first_sight(const ScenarioConfig& s, const Renderer& renderer,
     FirstSight out;
     out.camera = truth.camera;
     out.pointing = radec_of(truth.camera.world_from_body);
-    tell_site(s, out);
+    report_site(s, out);
     out.height_above_ground_m = truth.height_above_ground_m;
     out.ground = ground_sight(s, out.camera, sheet);
     out.sun_camera_dir = truth.sun_camera_dir;

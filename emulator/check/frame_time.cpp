@@ -61,7 +61,7 @@ std::optional<StrayTime> stray_time(CameraStation& station, WorldState& world, E
         if (i > 0) with_ms = std::min(with_ms, with), without_ms = std::min(without_ms, plain);
     }
     out.ms = with_ms - without_ms;
-    out.told_ms = 0.05 * with_ms;
+    out.resolved_ms = 0.05 * with_ms;
     return out;
 }
 

@@ -18,8 +18,8 @@ struct FrameTime {
 
 // The time that a lens's stray light takes of a frame.
 struct StrayTime {
-    double ms;       // part of the sensor's time; may be negative where it cannot be told
-    double told_ms;  // less than this cannot be told
+    double ms;           // part of the sensor's time; may be negative where it cannot be told
+    double resolved_ms;  // less than this cannot be told
     std::string parts;
 };
 // Returns how much longer the light of the first instant takes into the pixels with stray light than without, in turns, the

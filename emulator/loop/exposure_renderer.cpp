@@ -154,13 +154,13 @@ void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownC
     middle_.camera = jitter_.applied(middle_.camera, span.middle, span.exposure_s);
     middle_.rows_velocity_m_s = middle_.camera_velocity_m_s - seen_velocity_m_s(world, middle_);
     slow_down(span.moving, middle_);
-    told_moving_ = span.moving;
+    reported_moving_ = span.moving;
 }
 
 // Velocity and rate are both in the camera's time.
 void ExposureRenderer::report_truth(FrameTruth& truth) {
     renderer_.report_truth(truth);
-    truth.camera_velocity_m_s = told_moving_ * truth.camera_velocity_m_s;
+    truth.camera_velocity_m_s = reported_moving_ * truth.camera_velocity_m_s;
 }
 
 void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSource>& points,

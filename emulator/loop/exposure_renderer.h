@@ -107,8 +107,8 @@ class ExposureRenderer {
     std::vector<Spectrum> responses_;  // those of the detector's channels
     bool for_detector_, has_moments_;
     WorldSnapshot middle_, before_, after_, part_world_;
-    double told_moving_ = 1;  // speed of the world in the camera's time
-    RadianceImage part_;      // a part of exact motion
+    double reported_moving_ = 1;  // speed of the world in the camera's time
+    RadianceImage part_;          // a part of exact motion
     std::vector<PointSource> part_points_;
     std::size_t bins_;
 

@@ -33,7 +33,7 @@ bool RenderStage::run(FrameSlot& slot, const std::atomic<bool>& stopping) {
     if (!begin(slot, stopping)) return false;
     latch(slot);
     const FrameUse& use = slot.use;
-    for (FrameSink* sink : sinks_) sink->happened({CameraEvent::Kind::kExposureStart, use.id, use.begin_ns});
+    for (FrameSink* sink : sinks_) sink->on_event({CameraEvent::Kind::kExposureStart, use.id, use.begin_ns});
     render(slot);
     if (observers_.watcher)
         observers_.watcher->seen({use.id, use.begin_ns, use.exposure_mid, use.exposure_s, use.shutter_closed},
@@ -122,17 +122,17 @@ void RenderStage::render(FrameSlot& slot) {
 void RenderStage::render_light(FrameSlot& slot, const LightPartOrders::Order* order) {
     const std::int64_t begun_ns = monotonic_ns();
     FrameRecord& record = slot.record;
-    tell_pose_tags(slot);
+    report_pose_tags(slot);
     const bool with_truth = order && order->with_truth;
     FrameTruth* const truth = observers_.truth ? observers_.truth->begin(record, with_truth) : nullptr;
     record.has_truth = truth != nullptr;
     const ExposureRenderer::Result result =
         exposures_.render(world_, {slot.use.shown_at, slot.use.moving}, {seed_, record.id}, slot.radiance,
                           slot.points, slot.exposure, truth);
-    tell_impossible(slot);
+    report_impossible(slot);
     exposures_.look_beside(slot.beside);
     record.camera = exposures_.middle_world().camera;
-    tell_commands(result.shown, slot);
+    report_commands(result.shown, slot);
 
     stats_ = result.stats;
     if (result.parts_limited) counters_.motion_limited.fetch_add(1, std::memory_order_relaxed);
@@ -145,7 +145,7 @@ void RenderStage::render_light(FrameSlot& slot, const LightPartOrders::Order* or
 }
 
 // The first frame after time tags that went back says so.
-void RenderStage::tell_pose_tags(FrameSlot& slot) {
+void RenderStage::report_pose_tags(FrameSlot& slot) {
     const std::uint64_t flagged = poses_ ? poses_->flagged() : 0;
     if (flagged == flagged_) return;
     slot.use.faults |= kTagsWentBackBit;
@@ -153,7 +153,7 @@ void RenderStage::tell_pose_tags(FrameSlot& slot) {
     flagged_ = flagged;
 }
 
-void RenderStage::tell_impossible(FrameSlot& slot) {
+void RenderStage::report_impossible(FrameSlot& slot) {
     const std::uint64_t impossible = world_.impossible();
     if (impossible == impossible_) return;
     slot.use.faults |= kImpossibleMotionBit;
@@ -162,7 +162,7 @@ void RenderStage::tell_impossible(FrameSlot& slot) {
     impossible_ = impossible;
 }
 
-void RenderStage::tell_commands(const ShownCommand& shown, FrameSlot& slot) {
+void RenderStage::report_commands(const ShownCommand& shown, FrameSlot& slot) {
     FrameRecord& record = slot.record;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;

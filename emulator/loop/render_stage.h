@@ -46,9 +46,9 @@ class RenderStage {
     void latch(FrameSlot& slot);
     void render(FrameSlot& slot);
     void render_light(FrameSlot& slot, const LightPartOrders::Order* order);
-    void tell_pose_tags(FrameSlot& slot);
-    void tell_impossible(FrameSlot& slot);
-    void tell_commands(const ShownCommand& shown, FrameSlot& slot);
+    void report_pose_tags(FrameSlot& slot);
+    void report_impossible(FrameSlot& slot);
+    void report_commands(const ShownCommand& shown, FrameSlot& slot);
     void count_budget();
 
     ExposureRenderer& exposures_;

@@ -135,7 +135,7 @@ void SenseStage::keep(const FrameSlot& slot) {
 void SenseStage::publish(FrameSlot& slot) {
     const FrameRecord& record = slot.record;
     for (FrameSink* sink : sinks_)
-        sink->happened({CameraEvent::Kind::kExposureEnd, record.id, slot.use.end_ns});
+        sink->on_event({CameraEvent::Kind::kExposureEnd, record.id, slot.use.end_ns});
     const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, record);
     std::swap(frame_, before_);

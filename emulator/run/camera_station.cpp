@@ -56,7 +56,7 @@ CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number,
       light_parts_(apart_refusal(scenario_, all_levels(scenario_))),
       timed_faults_(scenario_.faults) {
     settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
-        for (const auto& sink : sinks_) sink->happened({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
+        for (const auto& sink : sinks_) sink->on_event({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
     });
     std::stable_sort(timed_faults_.begin(), timed_faults_.end(),
                      [](const FaultConfig& a, const FaultConfig& b) { return a.at_s < b.at_s; });
@@ -220,11 +220,12 @@ std::vector<FrameSink*> CameraStation::sinks() const {
 std::vector<std::string> CameraStation::new_faults() {
     std::vector<std::string> out;
     for (const auto& sink : sinks_)
-        if (sink->has_fault() && told_faults_.insert(sink.get()).second) out.push_back(sink->report().fault);
-    if (!told_render_fault_)
+        if (sink->has_fault() && reported_faults_.insert(sink.get()).second)
+            out.push_back(sink->report().fault);
+    if (!reported_render_fault_)
         if (const std::string fault = picture_fault(renderer()); !fault.empty()) {
             out.push_back(fault);
-            told_render_fault_ = true;
+            reported_render_fault_ = true;
         }
     return out;
 }

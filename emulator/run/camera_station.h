@@ -129,8 +129,8 @@ class CameraStation {
     FrameFates fates_;
     LightPartOrders light_parts_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
-    std::set<const FrameSink*> told_faults_;
-    bool told_render_fault_ = false;
+    std::set<const FrameSink*> reported_faults_;
+    bool reported_render_fault_ = false;
     std::vector<LoadedObject> objects_;
     LightLoading light_;
     std::unique_ptr<Renderer> renderer_;

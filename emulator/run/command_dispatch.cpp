@@ -179,7 +179,7 @@ CommandStatus CommandDispatch::move(const C& command, PoseWatch::Subject subject
     if (status == CommandStatus::kUnknownObject) return status;
     poses_.took(subject, tag, arrival, anew ? Verdict::kAnew : verdict);
     if (source.notes)
-        source.notes->tell_sender =
+        source.notes->notify_sender =
             verdict == Verdict::kBackwards && poses_.rules().backwards == WhenBackwards::kFlag;
     if (stopped) wake_cameras();
     return status;

@@ -347,8 +347,8 @@ void Emulator::print_level_changes() {
 
 // Once: the simulated time has left what a file of motion knows.
 void Emulator::print_held_motion() {
-    if (told_held_motion_ || first().world().held() == 0) return;
-    told_held_motion_ = true;
+    if (reported_held_motion_ || first().world().held() == 0) return;
+    reported_held_motion_ = true;
     spdlog::warn(
         "a source of motion does not know the simulated time any more: {}; what it moves stands still there",
         first().world().first_gap());
@@ -356,8 +356,8 @@ void Emulator::print_held_motion() {
 
 // Once: what a source of motion or a command leads to cannot be.
 void Emulator::print_impossible_motion() {
-    if (told_impossible_motion_ || first().world().impossible() == 0) return;
-    told_impossible_motion_ = true;
+    if (reported_impossible_motion_ || first().world().impossible() == 0) return;
+    reported_impossible_motion_ = true;
     spdlog::warn(
         "the motion of {} is no number or out of its bounds (docs/motion.md): it stays as it was, and frames "
         "have the flag impossible_motion",
@@ -379,11 +379,11 @@ void Emulator::print_light_left(std::int64_t now_ns) {
 
 // Once, when all cameras have the light that was made beside the run.
 void Emulator::print_light(std::int64_t now_ns) {
-    if (told_light_ || !light_maker_) return;
+    if (reported_light_ || !light_maker_) return;
     if (!light_maker_->is_done()) return print_light_left(now_ns);
     for (const auto& station : stations_)
         if (station->loop().counters().lacks_light.load()) return;
-    told_light_ = true;
+    reported_light_ = true;
     for (const auto& station : stations_)
         spdlog::info("{}: light between surfaces is kept after frame {}; its tables took {:.1f} s",
                      station->name(), station->loop().counters().last_without_light.load(),

@@ -97,7 +97,7 @@ class Emulator {
     std::int64_t begun_processor_ns_ = 0;
     std::uint64_t frames_printed_ = 0, misses_printed_ = 0;
     std::int64_t processor_printed_ns_ = 0;
-    bool told_held_motion_ = false, told_impossible_motion_ = false, told_light_ = false;
+    bool reported_held_motion_ = false, reported_impossible_motion_ = false, reported_light_ = false;
     std::int64_t next_fault_look_ns_ = 0;
     std::int64_t next_missed_line_ns_ = 0;
     std::int64_t next_light_line_ns_ = 0;

@@ -197,7 +197,7 @@ class StillView {
   public:
     StillView(const ScenarioConfig& s, double time_offset_s)
         : camera_(s, time_offset_s), truth_(empty_truth(s, camera_.renderer())), body_(ground_body(s)) {
-        camera_.tell(truth_);
+        camera_.report(truth_);
         view_.emplace(truth_, camera_.world().bodies[ground_body_id(s)], body_.figure);
         extent_ = extent_by_rays(*view_, body_.figure);
         if (!extent_.any())

@@ -46,7 +46,7 @@ void StillCamera::take(const ScenarioConfig& scenario, double time_offset_s) {
     renderer_->require_air(snapshot_);
 }
 
-void StillCamera::tell(FrameTruth& truth) {
+void StillCamera::report(FrameTruth& truth) {
     renderer_->place_for_truth(snapshot_);
     renderer_->report_truth(truth);
 }

@@ -32,7 +32,7 @@ class StillCamera {
     void take(const ScenarioConfig& scenario, double time_offset_s = 0);
     // Tells what the frame would show, pointing jitter apart, without a picture. truth: made for this renderer,
     // its raster set.
-    void tell(FrameTruth& truth);
+    void report(FrameTruth& truth);
     // Returns the velocity of an object in the world, from 0.
     Vec3d velocity_m_s(std::size_t object);
 

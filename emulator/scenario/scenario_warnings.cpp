@@ -121,8 +121,8 @@ bool is_inside(const BodyState& body, const Figure& figure, Vec3d place_world_m)
 }
 
 // Says where a camera stands that is inside a body, and what it may have been meant as.
-std::string told_inside(const ScenarioConfig& s, std::size_t camera, std::size_t body,
-                        const WorldSnapshot& world) {
+std::string report_inside(const ScenarioConfig& s, std::size_t camera, std::size_t body,
+                          const WorldSnapshot& world) {
     const Vec3d from_centre_m = world.camera.position_world_m - world.bodies.body[body].world_m;
     std::string line = fmt::format(
         "camera {} begins inside the body '{}', {:.6g} km from its centre: it sees "
@@ -146,7 +146,7 @@ void look_at_cameras(const ScenarioConfig& bench, Lines& out) {
             if (s.bodies[i].visible &&
                 is_inside(world.bodies.body[i], kFigures[i], world.camera.position_world_m))
                 out.push_back(bench.places.at(s.camera_motion ? "camera_motion" : "camera_pose",
-                                              told_inside(s, camera, i, world)));
+                                              report_inside(s, camera, i, world)));
     }
 }
 

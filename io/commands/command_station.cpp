@@ -106,7 +106,7 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
     if (decoded.status == CommandStatus::kAccepted) {
         const bool is_retry = known && sender.repeats(packet, arrival_ns);
         out.status = is_retry ? sender.once_status : perform(decoded, packet, arrival_ns, sender, notes);
-        if (notes.tell_sender)
+        if (notes.notify_sender)
             out.reason = name_of(CommandStatus::kTimeBackwards);
         else if (out.status != CommandStatus::kAccepted)
             out.reason =

@@ -122,8 +122,8 @@ enum class CommandStatus : std::uint8_t {
 
 // The remarks about a command that was carried out, or refused.
 struct CommandNotes {
-    bool went_back = false;    // its time tag lies before the newest of its thing: a sender's clock is wrong
-    bool tell_sender = false;  // that, in the acknowledgement
+    bool went_back = false;  // its time tag lies before the newest of its thing: a sender's clock is wrong
+    bool notify_sender = false;    // that, in the acknowledgement
     std::uint16_t refused_by = 0;  // the first camera, from 1, to refuse what several were asked; 0: none
     std::string why{};  // that refused it, in place of what the status means in general (command_station.cpp)
 };

@@ -76,7 +76,7 @@ class FrameSink {
     virtual bool must_be_waited_for() const noexcept { return false; }
     // Loop and any other thread, at the same time: never waits. An exposure's end is told by publish()'s
     // thread, right before that frame's publish().
-    virtual void happened(const CameraEvent&) noexcept {}
+    virtual void on_event(const CameraEvent&) noexcept {}
     // Ends the threads and closes everything; idempotent. Owner thread.
     virtual void stop() noexcept = 0;
     // Any thread.

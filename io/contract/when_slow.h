@@ -27,8 +27,8 @@ inline bool waits(WhenSlow value, bool has_live_output) {
 }
 
 // Says that frames were lost that nobody allowed to be lost. key: "outputs.files".
-inline std::string told_drops(const std::string& key, const std::filesystem::path& folder,
-                              std::uint64_t dropped, std::uint64_t written) {
+inline std::string report_of_drops(const std::string& key, const std::filesystem::path& folder,
+                                   std::uint64_t dropped, std::uint64_t written) {
     return key + ": " + std::to_string(dropped) + " of " + std::to_string(dropped + written) +
            " frames came too fast for '" + folder.string() + "' and were lost; accepted: " + key +
            ".when_slow: wait, which loses none, drop, which allows it, or a larger every_nth";

@@ -116,7 +116,7 @@ bool FilesSink::has_fault() const noexcept {
 }
 
 // The files that could not be written come before those that there was no time for.
-std::string FilesSink::told_loss() const {
+std::string FilesSink::report_of_loss() const {
     if (failed_ > 0)
         return first_failure_ + (failed_ == 1
                                      ? " (1 frame lost)"
@@ -124,7 +124,7 @@ std::string FilesSink::told_loss() const {
     const std::uint64_t dropped = mailbox_.dropped();
     return dropped == 0 || config_.when_slow == WhenSlow::kDrop
                ? ""
-               : told_drops("outputs.files", config_.folder, dropped, written_.load());
+               : report_of_drops("outputs.files", config_.folder, dropped, written_.load());
 }
 
 SinkReport FilesSink::report() const {
@@ -132,7 +132,7 @@ SinkReport FilesSink::report() const {
     return {.name = "files " + config_.folder.string(),
             .frames = written_.load(),
             .dropped = mailbox_.dropped() + failed_,
-            .fault = told_loss()};
+            .fault = report_of_loss()};
 }
 
 std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext& context,

@@ -63,7 +63,7 @@ class FilesSink : public FrameSink {
   private:
     void run();
     void write(const FrameMailbox::Item& item);
-    std::string told_loss() const;
+    std::string report_of_loss() const;
 
     FilesConfig config_;
     bool waits_;

@@ -94,11 +94,11 @@ struct GigeSink::Implementation {
     Latest<GigeStreamNow> for_loop;
     std::uint64_t era = 1;  // counts resets; the upper half of an acquisition's number
     std::atomic<std::uint64_t> finished{0};
-    struct Told {
+    struct Event {
         CameraEvent event;
         std::uint64_t block = 0;  // block of the event's frame; 0: none, or not known yet
     };
-    BoundedQueue<Told, 1024> events;
+    BoundedQueue<Event, 1024> events;
     std::optional<CameraEvent> exposure_end;  // the loop's: told when publish() knows its frame's block
     std::atomic<std::uint64_t> events_dropped{0};
     std::atomic<bool> controlled{false};
@@ -128,7 +128,7 @@ struct GigeSink::Implementation {
     void move_to_next_sockets();
 
     void serve_control();
-    void tell_device(std::int64_t now_ns);
+    void notify_device(std::int64_t now_ns);
     void notify(const CameraEvent& event, std::uint64_t block) {
         if (!events.push({event, block})) events_dropped.fetch_add(1, std::memory_order_relaxed);
         wake(wakeup);
@@ -242,13 +242,13 @@ void GigeSink::Implementation::serve_control() {
     while (!stopping.load()) {
         sockets->wait(wakeup, device->wake_ns() - monotonic_ns());
         strange_datagrams.fetch_add(sockets->take(answer), std::memory_order_relaxed);
-        tell_device(monotonic_ns());
+        notify_device(monotonic_ns());
         if (next_sockets) move_to_next_sockets();
     }
 }
 
-void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
-    for (Told told{}; events.pop(told);) device->happened(told.event, told.block, now_ns);
+void GigeSink::Implementation::notify_device(std::int64_t now_ns) {
+    for (Event event{}; events.pop(event);) device->on_event(event.event, event.block, now_ns);
     if (const std::uint64_t last = finished.exchange(0, std::memory_order_acquire); last >> 32 == era)
         device->acquisition_finished(static_cast<std::uint32_t>(last));
     const GigeSender::Counts& c = sender.counts();
@@ -305,7 +305,7 @@ bool GigeSink::has_room() const noexcept {
     return !taken || my.ring.waiting() <= FrameSpacing::kMaxQueued;
 }
 
-void GigeSink::happened(const CameraEvent& event) noexcept {
+void GigeSink::on_event(const CameraEvent& event) noexcept {
     Implementation& my = *implementation_;
     // A frame has its block id when it is published: whether the stream takes it is not known before, so an
     // exposure's start goes out without.

@@ -50,7 +50,7 @@ class GigeSink : public FrameSink {
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     bool has_room() const noexcept override;
-    void happened(const CameraEvent& event) noexcept override;
+    void on_event(const CameraEvent& event) noexcept override;
     void stop() noexcept override;
     SinkReport report() const override;
 

@@ -207,7 +207,7 @@ SinkReport TruthSink::report() const {
     const std::lock_guard lock(mutex_);
     out.fault = fault_;
     if (out.fault.empty() && loss_is_fault() && out.dropped > 0)
-        out.fault = told_drops("outputs.truth", config_.folder, out.dropped, out.frames);
+        out.fault = report_of_drops("outputs.truth", config_.folder, out.dropped, out.frames);
     return out;
 }
 

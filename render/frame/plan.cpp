@@ -129,8 +129,8 @@ std::string lamp_line(const FrameContext& f, std::size_t i) {
 std::string part_line(const SkyPart& part) {
     std::ostringstream line;
     line << part.body << ": " << part.text;
-    if (part.ms && *part.ms < part.told_ms)
-        line << "; takes less than " << std::round(10 * part.told_ms) / 10 << " ms of a core";
+    if (part.ms && *part.ms < part.resolved_ms)
+        line << "; takes less than " << std::round(10 * part.resolved_ms) / 10 << " ms of a core";
     else if (part.ms)
         line << "; takes " << std::round(10 * *part.ms) / 10 << " ms of a core";
     if (part.bytes > 0) line << "; " << std::round(1e-5 * static_cast<double>(part.bytes)) / 10 << " MB";

@@ -135,17 +135,17 @@ std::vector<SkyPart> sky_parts(const FrameContext& frame) {
             });
         }
         // Times of tiles scatter by some per cent.
-        const double told_ms = 0.02 * whole_ms;
+        const double resolved_ms = 0.02 * whole_ms;
         const std::string name = frame.background->name_of(body.id);
         const auto saved = [&](double ms) { return told ? std::optional(ms) : std::nullopt; };
         if (earth) {
             double rest_ms = whole_ms;
             for (const double ms : saved_ms) rest_ms -= std::max(0.0, ms);
             const EarthModel::PartInfo surface = earth->parts().front();
-            out.push_back({name, surface.text, saved(rest_ms), told_ms, surface.bytes});
+            out.push_back({name, surface.text, saved(rest_ms), resolved_ms, surface.bytes});
         }
         for (std::size_t k = 0; k < variants.size(); ++k)
-            out.push_back({name, variants[k].text, saved(saved_ms[k]), told_ms, variants[k].bytes});
+            out.push_back({name, variants[k].text, saved(saved_ms[k]), resolved_ms, variants[k].bytes});
     }
     return out;
 }

@@ -19,7 +19,7 @@ struct SkyPart {
     std::string body, text;  // "earth", "clouds: ..."
     // Time that the body's pixels would save without it, of one core; none: not in the picture, or not told.
     std::optional<double> ms;
-    double told_ms = 0;  // less than this cannot be told from nothing
+    double resolved_ms = 0;  // less than this cannot be told from nothing
     std::size_t bytes = 0;
 };
 // Returns the parts of all bodies that have some, in the order of disks(). Each is measured against the same tiles without it,

@@ -172,7 +172,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Endpoint from{0x7F000001, static_cast<std::uint16_t>(40000 + (rest[0] & 1))};
         now_ns += std::int64_t{rest[0] >> 4} * 100'000'000;
         const std::size_t length = std::min<std::size_t>(ByteReader(rest.subspan(1)).u16(), rest.size() - 3);
-        if (rest[0] & 8) device.happened({CameraEvent::Kind::kExposureStart, 1, now_ns}, 1, now_ns);
+        if (rest[0] & 8) device.on_event({CameraEvent::Kind::kExposureStart, 1, now_ns}, 1, now_ns);
         HILCAM_CHECK(device.handle(rest.subspan(3, length), from, now_ns, out, rest[0] & 2) <= out.size());
         check(device.stream_state());
         HILCAM_CHECK(device.wake_ns() <= now_ns + GigeDevice::kLongestSleep_ns);

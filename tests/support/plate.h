@@ -60,7 +60,7 @@ class Collector : public FrameSink {
         frames.push_back({record, frame.width(), frame.height(), {frame.all().begin(), frame.all().end()}});
         more_.notify_all();
     }
-    void happened(const CameraEvent& event) noexcept override {
+    void on_event(const CameraEvent& event) noexcept override {
         const std::lock_guard lock(mutex_);
         events.push_back(event);
     }

@@ -103,7 +103,7 @@ Status GigeAcquisition::set_automatic(std::uint64_t mode) {
 
 // Once ends when the exposure has been the same to a fiftieth for four frames, or after 64, whatever it is then: the control needs some ten
 // frames for a scene that stands, and never comes to rest on one that moves.
-void GigeAcquisition::happened(const CameraEvent& event) {
+void GigeAcquisition::on_event(const CameraEvent& event) {
     if (!finding_ || event.kind != CameraEvent::Kind::kExposureStart) return;
     constexpr double kSame = 0.02;
     constexpr int kSteadyFrames = 4, kMaxFrames = 64;

@@ -16,7 +16,7 @@ class GigeAcquisition {
     // Is called when a stream of frames has ended, whoever ended it.
     void on_end(std::function<void()> tell) { ended_ = std::move(tell); }
     // A frame's exposure has begun: automatic exposure that was to find its value once may have found it.
-    void happened(const CameraEvent& event);
+    void on_event(const CameraEvent& event);
     // The stream side has delivered a counted acquisition's last frame.
     void finished(std::uint32_t epoch) {
         if (epoch == core_.stream.epoch) stop();

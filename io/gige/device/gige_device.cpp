@@ -39,12 +39,12 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
       acquisition(core),
       transport(core, [this] { acquisition.stop(); }),
       messages(core),
-      access(core, {.switched = [this] { messages.happened(gvcp::Event::kPrimarySwitch); },
+      access(core, {.switched = [this] { messages.on_event(gvcp::Event::kPrimarySwitch); },
                     .released = [this] { left(); }}),
       clock(core),
       image(core),
       trigger(core),
-      actions(core, [this] { messages.happened(gvcp::Event::kActionLate); }),
+      actions(core, [this] { messages.on_event(gvcp::Event::kActionLate); }),
       faults(core),
       user_sets(core,
                 [this] {
@@ -110,11 +110,11 @@ std::uint64_t GigeDevice::foreign_resend_requests() const { return parts_->forei
 const GigeStreamState& GigeDevice::stream_state() const { return parts_->core.stream; }
 std::string GigeDevice::xml() const { return parts_->xml; }
 
-void GigeDevice::happened(const CameraEvent& event, std::uint64_t block, std::int64_t now_ns) {
+void GigeDevice::on_event(const CameraEvent& event, std::uint64_t block, std::int64_t now_ns) {
     parts_->core.now_ns = now_ns;
-    parts_->messages.happened(event, block);
-    parts_->trigger.happened(event);
-    parts_->acquisition.happened(event);
+    parts_->messages.on_event(event, block);
+    parts_->trigger.on_event(event);
+    parts_->acquisition.on_event(event);
 }
 
 // --- time

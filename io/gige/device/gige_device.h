@@ -54,7 +54,7 @@ class GigeDevice {
     // Takes an event from the loop, by way of the control thread; it becomes an EVENT if a client wants it.
     // An event's frame is FrameRecord::id; `block` is the stream's block id of that frame, 0 when it has
     // none.
-    void happened(const CameraEvent& event, std::uint64_t block, std::int64_t now_ns);
+    void on_event(const CameraEvent& event, std::uint64_t block, std::int64_t now_ns);
     void set_statistics(const GigeStreamStatistics& statistics);
 
     bool controlled() const;

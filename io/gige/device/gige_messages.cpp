@@ -56,7 +56,7 @@ bool GigeMessages::wanted(std::uint16_t id) const {
     return false;
 }
 
-void GigeMessages::happened(const CameraEvent& event, std::uint64_t block) {
+void GigeMessages::on_event(const CameraEvent& event, std::uint64_t block) {
     const std::uint16_t id = kGigeEvents[static_cast<std::size_t>(event.kind)].id;
     if (!wanted(id)) return;
     const std::uint64_t time = core_.device_ns(event.monotonic_ns);
@@ -65,7 +65,7 @@ void GigeMessages::happened(const CameraEvent& event, std::uint64_t block) {
     send({id, block != 0 ? std::uint16_t{0} : gvcp::Event::kNoChannel, block, time}, data);
 }
 
-void GigeMessages::happened(gvcp::Event::Id id) {
+void GigeMessages::on_event(gvcp::Event::Id id) {
     if (wanted(id)) send({id, gvcp::Event::kNoChannel, 0, core_.device_ns(core_.now_ns)}, {});
 }
 

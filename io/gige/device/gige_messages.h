@@ -31,8 +31,8 @@ class GigeMessages {
     explicit GigeMessages(GigeCore& core);
 
     void set_source_port(std::uint16_t port) { source_port_ = port; }
-    void happened(const CameraEvent& event, std::uint64_t block);
-    void happened(gvcp::Event::Id id);
+    void on_event(const CameraEvent& event, std::uint64_t block);
+    void on_event(gvcp::Event::Id id);
     void acknowledged(std::uint16_t request_id, const Endpoint& from);
     void tick();
     std::int64_t deadline_ns() const;  // deadline of the next repetition; INT64_MAX: none

@@ -82,7 +82,7 @@ void GigeTrigger::rearm() {
     if (core_.change({.triggered = true, .burst_frames = 1}) == Status::kSuccess) armed_ns_ = core_.now_ns;
 }
 
-void GigeTrigger::happened(const CameraEvent& event) {
+void GigeTrigger::on_event(const CameraEvent& event) {
     if (event.kind == CameraEvent::Kind::kExposureStart && event.monotonic_ns >= armed_ns_ &&
         core_.settings.acquisition_trigger && core_.stream.acquiring && core_.camera.settings().triggered)
         core_.change({.triggered = false});

@@ -16,7 +16,7 @@ class GigeTrigger {
 
     enum Selector : std::uint32_t { kFrameStart, kFrameBurstStart, kAcquisitionStart };
     // An exposure that has begun was triggered: an acquisition that waited for it goes on by itself.
-    void happened(const CameraEvent& event);
+    void on_event(const CameraEvent& event);
     // Has the next acquisition wait again. Is called when one has ended, and when settings were loaded.
     void rearm();
 

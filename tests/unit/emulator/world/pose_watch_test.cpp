@@ -121,7 +121,7 @@ TEST(TimeTags, ThatWentBackBeginTheThingAnewAndAreFlagged) {
     EXPECT_EQ(bench.pose(101, 11), CommandStatus::kAccepted);
     EXPECT_EQ(bench.pose(50, 5), CommandStatus::kAccepted);
     EXPECT_TRUE(bench.notes.went_back);
-    EXPECT_TRUE(bench.notes.tell_sender);
+    EXPECT_TRUE(bench.notes.notify_sender);
     EXPECT_EQ(bench.x_m(100), 5);  // nothing of before
     EXPECT_EQ(bench.poses.flagged(), 1u);
     EXPECT_EQ(bench.pose(51, 6), CommandStatus::kAccepted);  // and on from there
@@ -143,7 +143,7 @@ TEST(TimeTags, ThatWentBackAreRefusedWhereThatIsAsked) {
     EXPECT_EQ(bench.pose(100, 10), CommandStatus::kAccepted);
     EXPECT_EQ(bench.pose(50, 5), CommandStatus::kTimeBackwards);
     EXPECT_TRUE(bench.notes.went_back);
-    EXPECT_FALSE(bench.notes.tell_sender);
+    EXPECT_FALSE(bench.notes.notify_sender);
     EXPECT_EQ(bench.x_m(100), 10);
     EXPECT_EQ(bench.pose(101, 11), CommandStatus::kAccepted);  // the stream goes on
     EXPECT_EQ(bench.poses.went_back(), 1u);
@@ -153,7 +153,7 @@ TEST(TimeTags, ThatWentBackAreRefusedWhereThatIsAsked) {
     EXPECT_EQ(accepting.pose(50, 5), CommandStatus::kAccepted);
     EXPECT_EQ(accepting.x_m(100), 5);
     EXPECT_TRUE(accepting.notes.went_back);
-    EXPECT_FALSE(accepting.notes.tell_sender);
+    EXPECT_FALSE(accepting.notes.notify_sender);
     EXPECT_EQ(accepting.poses.flagged(), 0u);
     EXPECT_EQ(accepting.poses.went_back(), 1u);
 }

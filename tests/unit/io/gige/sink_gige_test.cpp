@@ -280,8 +280,8 @@ TEST(GigeSink, AnExposuresEndNamesItsFramesBlock) {
     constexpr unsigned kStart = kGigeEvents[0].id, kEnd = kGigeEvents[1].id, kNone = 0xFFFF;
     const auto expose = [&](std::uint64_t frame, unsigned block) {
         record.id = frame;
-        sink.happened({CameraEvent::Kind::kExposureStart, frame + 1, 1000});  // the loop is a frame ahead
-        sink.happened({CameraEvent::Kind::kExposureEnd, frame, 2000});
+        sink.on_event({CameraEvent::Kind::kExposureStart, frame + 1, 1000});  // the loop is a frame ahead
+        sink.on_event({CameraEvent::Kind::kExposureEnd, frame, 2000});
         sink.publish(image, record);
         EXPECT_EQ(next_event(), (Event{kStart, kNone, 0, frame + 1}));
         EXPECT_EQ(next_event(), (Event{kEnd, block == 0 ? kNone : 0, block, frame}));

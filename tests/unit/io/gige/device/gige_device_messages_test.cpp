@@ -35,8 +35,8 @@ std::vector<std::uint8_t> acknowledgement(const GigeBench::Sent& event) {
 TEST(GigeMessages, AnExposureBecomesEventData) {
     GigeBench bench;
     open_messages(bench, 0, 0);
-    bench.device.happened({CameraEvent::Kind::kExposureStart, 42, 123}, 7, bench.now_ns);
-    bench.device.happened({CameraEvent::Kind::kExposureEnd, 42, 124}, 7, bench.now_ns);  // not wanted
+    bench.device.on_event({CameraEvent::Kind::kExposureStart, 42, 123}, 7, bench.now_ns);
+    bench.device.on_event({CameraEvent::Kind::kExposureEnd, 42, 124}, 7, bench.now_ns);  // not wanted
     ASSERT_EQ(bench.messages.size(), 1u);
     EXPECT_EQ(bench.messages[0].to, kMessageSocket);
     ByteReader in(bench.messages[0].bytes);
@@ -54,7 +54,7 @@ TEST(GigeMessages, AnExposureBecomesEventData) {
     EXPECT_EQ(in.left(), 0u);
     // With 64-bit ids.
     bench.write(b::kGvspConfig, b::kExtendedIds);
-    bench.device.happened({CameraEvent::Kind::kExposureStart, 43, 200}, 1ull << 40, bench.now_ns);
+    bench.device.on_event({CameraEvent::Kind::kExposureStart, 43, 200}, 1ull << 40, bench.now_ns);
     ASSERT_EQ(bench.messages.size(), 2u);
     EXPECT_EQ(bench.messages[1].bytes[1], 0x10);
     EXPECT_EQ(bench.messages[1].bytes.size(), 8 + 24 + kEventDataBytes);
@@ -63,8 +63,8 @@ TEST(GigeMessages, AnExposureBecomesEventData) {
 TEST(GigeMessages, UnacknowledgedEventsAreRepeatedInOrder) {
     GigeBench bench;
     open_messages(bench, 100, 2);
-    bench.device.happened({CameraEvent::Kind::kExposureStart, 1, 10}, 1, bench.now_ns);
-    bench.device.happened({CameraEvent::Kind::kExposureStart, 2, 20}, 2, bench.now_ns);
+    bench.device.on_event({CameraEvent::Kind::kExposureStart, 1, 10}, 1, bench.now_ns);
+    bench.device.on_event({CameraEvent::Kind::kExposureStart, 2, 20}, 2, bench.now_ns);
     ASSERT_EQ(bench.messages.size(), 1u);  // the second waits for the first
     EXPECT_EQ(bench.messages[0].bytes[1], 0x01);
     bench.wait_ms(99);
@@ -188,7 +188,7 @@ TEST(GigeControlFaults, NothingLeavesOverALostLink) {
     bench.faults.order({.kind = FaultKind::kControlSlow, .value = 100});
     bench.read(b::kControl);
     bench.faults.order({.kind = FaultKind::kLinkDown});
-    bench.device.happened({CameraEvent::Kind::kExposureStart, 1, 10}, 1, bench.now_ns);
+    bench.device.on_event({CameraEvent::Kind::kExposureStart, 1, 10}, 1, bench.now_ns);
     bench.wait_ms(150);
     EXPECT_TRUE(bench.messages.empty());
     EXPECT_TRUE(bench.late.empty());

@@ -152,7 +152,7 @@ TEST(GigeSettings, AnAcquisitionWaitsForItsTrigger) {
     b.take_control();
     const auto exposure_starts = [&] {
         b.now_ns += 1'000'000;
-        b.device.happened({CameraEvent::Kind::kExposureStart, 1, b.now_ns}, 0, b.now_ns);
+        b.device.on_event({CameraEvent::Kind::kExposureStart, 1, b.now_ns}, 0, b.now_ns);
     };
     b.write(reg::kTriggerSelector, 2);  // AcquisitionStart
     EXPECT_EQ(b.read(reg::kTriggerMode), 0u);
@@ -217,7 +217,7 @@ TEST(GigeSettings, ExposureIsFoundOnce) {
     const auto frame = [&](double exposure_s) {
         b.camera.s.exposure_s = exposure_s;
         b.now_ns += 1'000'000;
-        b.device.happened({CameraEvent::Kind::kExposureStart, 1, b.now_ns}, 0, b.now_ns);
+        b.device.on_event({CameraEvent::Kind::kExposureStart, 1, b.now_ns}, 0, b.now_ns);
     };
     EXPECT_EQ(b.write(reg::kExposureAuto, 2), gvcp::kSuccess);
     for (const double exposure_s : {0.001, 0.01, 0.05, 0.05, 0.0501, 0.05}) {
