@@ -210,7 +210,7 @@ void scale_object(SceneObject& object, float factor) {
     }
 }
 
-// Objects of one make have the same meshes and the same looks, wherever they are and however they turn.
+// Objects of one prototype have the same meshes and the same looks, wherever they are and however they turn.
 std::string make_of(const ObjectConfig& config) {
     std::string make = fmt::format("{}\n{}\n{}\n{}\n{}\n", mesh_name_of(config), config.scale,
                                    config.mesh_surface, config.albedo_file.string(), config.albedo_reference);

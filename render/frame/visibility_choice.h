@@ -55,7 +55,8 @@ class VisibilityChoice {
     // By the pixels between their places, from 1.
     std::array<std::unique_ptr<VisibilityBuffer>, 2> ground_;
     std::vector<VisibilityBuffer::Shown> seen_;
-    // Sets of what may be seen from afar of those objects that are many of a make, by its levels; none: of all others.
+    // Sets of what may be seen from afar of those objects that are instances of one prototype, by its levels; none: of all
+    // others.
     using LevelSets = std::vector<std::unique_ptr<const PotentiallyVisibleSets>>;
     std::vector<std::shared_ptr<const LevelSets>> potentially_visible_sets_;
     std::optional<VisibilityBuffer::Capacity> impostor_capacity_;

@@ -38,7 +38,7 @@ inline constexpr std::size_t kDirectionLanes = 16;
 // normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
-// The albedos of an object's materials, its mirrors, and which of its probes lie side by side. Objects of one make share it.
+// The albedos of an object's materials, its mirrors, and which of its probes lie side by side. Objects of one prototype share it.
 struct ObjectAlbedos {
     // mesh: with the object's triangles. min_alpha: of facets as other surfaces see them.
     ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, const SurfaceProbes& probes,

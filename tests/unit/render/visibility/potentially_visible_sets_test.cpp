@@ -171,7 +171,7 @@ RadianceImage picture_of_cubes(bool alike) {
     return std::move(s.radiance);
 }
 
-TEST(PotentiallyVisibleSets, ManyOfAMakeAreSeenAsEachByItself) {
+TEST(PotentiallyVisibleSets, ManyInstancesAreSeenAsEachByItself) {
     const RadianceImage alike = picture_of_cubes(true), each = picture_of_cubes(false);
     double light = 0;
     for (std::size_t i = 0; i < each.all().size(); ++i) {
