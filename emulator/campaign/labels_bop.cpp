@@ -12,7 +12,7 @@
 #include "emulator/campaign/label_writer.h"
 #include "emulator/campaign/picture_case.h"
 #include "emulator/campaign/run_lengths.h"
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "io/system/durable_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/pixel_box.h"

@@ -12,7 +12,7 @@
 #include "emulator/campaign/view_draw.h"
 #include "emulator/run/picture_run.h"
 #include "emulator/run/truth_source.h"
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "io/system/durable_file.h"
 #include "io/truth/truth_files.h"
 #include "render/vocabulary/stopwatch.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "io/pictures/picture_file.h"
+#include "io/images/picture_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

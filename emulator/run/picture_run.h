@@ -1,8 +1,8 @@
 #pragma once
-// The notes on the run in the pictures of one of the scenario's cameras (io/pictures/picture_notes.h).
+// The notes on the run in the pictures of one of the scenario's cameras (io/images/picture_notes.h).
 
 #include "emulator/scenario/app_config.h"
-#include "io/pictures/picture_notes.h"
+#include "io/images/picture_notes.h"
 
 namespace hilcam {
 

@@ -14,7 +14,7 @@
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
 #include "emulator/scenario/apart_refusal.h"
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "sensor/published_frame.h"
 
 namespace hilcam {

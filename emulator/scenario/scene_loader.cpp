@@ -16,7 +16,7 @@
 #include "io/cache/atmosphere_cache.h"
 #include "io/files/atmosphere_file.h"
 #include "io/files/catalogue_file.h"
-#include "io/pictures/picture_file.h"
+#include "io/images/picture_file.h"
 #include "render/background/body_albedo.h"
 #include "render/earth/air_from_space.h"
 #include "render/earth/earth_albedo.h"

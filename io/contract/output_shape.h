@@ -14,7 +14,7 @@ struct OutputShape {
     int fixed_width = 0, fixed_height = 0;  // size of all frames, where an output needs one size
     double frame_rate_hz = 0;               // at power-up
     std::string camera_name{};
-    const PictureRun* run = nullptr;  // the notes that pictures have of the run (io/pictures/picture_notes.h)
+    const PictureRun* run = nullptr;  // the notes that pictures have of the run (io/images/picture_notes.h)
     bool has_live_output = false;     // another output hands the same frames to clients while they are made
     std::function<std::string()> status{};  // the run's figures as JSON; any thread, while the loop is there
 };

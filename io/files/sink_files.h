@@ -16,7 +16,7 @@
 #include "io/contract/run_folder.h"
 #include "io/contract/when_slow.h"
 #include "io/files/file_name_pattern.h"
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {

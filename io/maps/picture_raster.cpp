@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "io/images/picture_file.h"
 #include "io/maps/longitude_latitude.h"
-#include "io/pictures/picture_file.h"
 #include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/images/picture_file.h"
 #include "io/meshes/mesh_precheck.h"
-#include "io/pictures/picture_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 

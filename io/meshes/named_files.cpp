@@ -4,8 +4,8 @@
 #include <system_error>
 
 #include "io/files/text_lines.h"
-#include "io/pictures/picture_file.h"
-#include "io/pictures/picture_size.h"
+#include "io/images/picture_file.h"
+#include "io/images/picture_size.h"
 #include "io/system/input_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"

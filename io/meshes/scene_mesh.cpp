@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/images/picture_file.h"
 #include "io/meshes/left_out.h"
 #include "io/meshes/mesh_precheck.h"
 #include "io/meshes/node_names.h"
-#include "io/pictures/picture_file.h"
 #include "io/system/input_file.h"
 #include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"

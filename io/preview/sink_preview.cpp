@@ -6,7 +6,7 @@
 
 #include "io/contract/light_part_source.h"
 #include "io/contract/refused_settings.h"
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "io/preview/connection_limiter.h"
 #include "io/preview/preview_assets.h"
 #include "io/preview/preview_picture.h"

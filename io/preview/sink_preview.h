@@ -20,7 +20,7 @@
 #include "io/contract/frame_sink.h"
 #include "io/contract/output_shape.h"
 #include "io/contract/truth_listener.h"
-#include "io/pictures/picture_notes.h"
+#include "io/images/picture_notes.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {

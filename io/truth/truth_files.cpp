@@ -14,7 +14,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "io/pictures/picture_codecs.h"
+#include "io/images/picture_codecs.h"
 #include "io/system/fd.h"
 #include "io/system/monotonic.h"
 #include "io/system/wire_format.h"

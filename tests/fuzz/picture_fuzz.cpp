@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <string_view>
 
-#include "io/pictures/picture_codecs.h"
-#include "io/pictures/picture_file.h"
-#include "io/pictures/picture_size.h"
+#include "io/images/picture_codecs.h"
+#include "io/images/picture_file.h"
+#include "io/images/picture_size.h"
 #include "render/vocabulary/check.h"
 
 namespace {

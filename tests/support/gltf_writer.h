@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/pictures/picture_codecs.h"
+#include "io/images/picture_codecs.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"

@@ -9,7 +9,7 @@
 #include "emulator/scenario/app_config.h"
 #include "emulator/scenario/scene_loader.h"
 #include "io/config/config_yaml.h"
-#include "io/pictures/image_file.h"
+#include "io/images/image_file.h"
 #include "render/vocabulary/check.h"
 #include "tests/support/files.h"
 

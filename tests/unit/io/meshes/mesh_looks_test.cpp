@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "io/images/picture_codecs.h"
 #include "io/meshes/mesh_file.h"
-#include "io/pictures/picture_codecs.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
 #include "tests/support/gltf_writer.h"

@@ -17,8 +17,8 @@
 #include "io/files/height_map_file.h"
 #include "io/files/leap_seconds_file.h"
 #include "io/files/oem_file.h"
+#include "io/images/picture_file.h"
 #include "io/meshes/mesh_file.h"
-#include "io/pictures/picture_file.h"
 #include "tests/support/files.h"
 #include "tests/support/limits.h"
 

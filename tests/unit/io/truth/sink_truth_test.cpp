@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "io/contract/fault.h"
-#include "io/pictures/picture_file.h"
+#include "io/images/picture_file.h"
 #include "io/truth/sink_truth.h"
 #include "tests/support/files.h"
 #include "tests/support/gvsp_receiver.h"
