@@ -32,7 +32,8 @@ bool is_kept_by(const std::string& key) {
     const std::string of_object = below_element(key, "objects");
     const auto begins = [](const std::string& text, const char* with) { return text.starts_with(with); };
     return key == "objects" || begins(key, "atmosphere") || begins(key, "spectrum_edges") ||
-           begins(key, "quality.kept_") || begins(of_object, "mesh") || begins(of_object, "generate") ||
+           key == "quality.probes" || key == "quality.probe_directions" || key == "quality.source_step_deg" ||
+           key == "quality.earth_impostor" || begins(of_object, "mesh") || begins(of_object, "generate") ||
            (begins(of_object, "joints") && !is_taken_over(key, true));
 }
 

@@ -13,15 +13,15 @@ Fields fields(JitterBand& j) {
     return {
         vector3("rms_arcsec", j.rms_rad, kArcsecond_rad, {0, 36000},
                 "rms jitter about each of the body's axes"),
-        number("least_hz", j.least_hz, 1, {0, 1e5}, "frequency at which the flat spectrum begins"),
-        number("most_hz", j.most_hz, 1, {1e-6, 1e5}, "frequency at which the flat spectrum ends"),
+        number("min_hz", j.min_hz, 1, {0, 1e5}, "frequency at which the flat spectrum begins"),
+        number("max_hz", j.max_hz, 1, {1e-6, 1e5}, "frequency at which the flat spectrum ends"),
     };
 }
 
 void validate(const JitterBand& j) {
-    if (!(j.least_hz < j.most_hz))
-        throw InputError("least_hz: found " + std::to_string(j.least_hz) + "; accepted: below most_hz, " +
-                         std::to_string(j.most_hz));
+    if (!(j.min_hz < j.max_hz))
+        throw InputError("min_hz: found " + std::to_string(j.min_hz) + "; accepted: below max_hz, " +
+                         std::to_string(j.max_hz));
 }
 
 AttitudeJitter::AttitudeJitter(const JitterBand& band, std::uint64_t seed, std::uint32_t thing, TimeTai start)
@@ -33,7 +33,7 @@ AttitudeJitter::AttitudeJitter(const JitterBand& band, std::uint64_t seed, std::
         const auto words = random_words({seed, 0}, RandomPurpose::kAttitude, i, thing * 3 + axis);
         const auto uniform = [&](std::size_t w) { return static_cast<double>(uniform01(words[w])); };
         const double part = (static_cast<double>(i) + uniform(0)) / kSinusoids;
-        rate_rad_s = 2 * kPi * (band.least_hz + part * (band.most_hz - band.least_hz));
+        rate_rad_s = 2 * kPi * (band.min_hz + part * (band.max_hz - band.min_hz));
         // Two Gaussian quadratures of one deviation are a Rayleigh amplitude and a uniform phase.
         amplitude_rad = rms_rad * share * std::sqrt(-2 * std::log(uniform(1)));
         phase_rad = 2 * kPi * uniform(2);

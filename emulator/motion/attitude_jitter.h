@@ -18,7 +18,7 @@ struct AttitudeState;
 
 struct JitterBand {
     Vec3d rms_rad;  // about the body's axes
-    double least_hz = 0.1, most_hz = 10;
+    double min_hz = 0.1, max_hz = 10;
 };
 Fields fields(JitterBand& jitter);
 void validate(const JitterBand& jitter);

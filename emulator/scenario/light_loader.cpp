@@ -13,7 +13,7 @@ namespace {
 
 bool wants_indirect_cache(const ScenarioConfig& scenario) {
     const std::vector<RenderQuality> lower = lower_levels(scenario);
-    const auto keeps = [](const RenderQuality& q) { return q.path_model == "kept"; };
+    const auto keeps = [](const RenderQuality& q) { return q.path_model == "cached"; };
     return keeps(scenario.quality.render) || std::any_of(lower.begin(), lower.end(), keeps);
 }
 
@@ -33,7 +33,7 @@ TableOrder order_of(const SceneObject& object, float scale, std::size_t nodes,
     order.name = object.name;
     order.scale = scale;
     for (const Material& material : object.materials) order.glass.push_back(material.transmits());
-    order.settings = {static_cast<int>(scenario.quality.render.kept_directions), nodes,
+    order.settings = {static_cast<int>(scenario.quality.render.probe_directions), nodes,
                       !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
     return order;
 }
@@ -79,7 +79,7 @@ void load_tables(Scene& scene, const std::vector<float>& scales, const ScenarioC
     const Cache cache = user_cache(!scenario.is_used_once);
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (objects[i].like || !(area_m2[i] > 0)) continue;
-        const auto most = static_cast<double>(scenario.quality.render.kept_nodes);
+        const auto most = static_cast<double>(scenario.quality.render.probes);
         const double nodes = std::max(std::min(kMin, most), most * area_m2[i] / all_m2);
         load_table(objects, i, order_of(objects[i], scales[i], static_cast<std::size_t>(nodes), scenario),
                    cache, light);

@@ -216,7 +216,7 @@ Fields fields(TerrainConfig& t) {
         section("place", t.place, "place on a body, with which the terrain turns; replaces pose"),
         section("material", t.material, "material of the ground"),
         number("edge_px", t.edge_px, 1, {0.25, 64}, "greatest edge of the terrain's triangles on the screen"),
-        integer("most_triangles", t.most_triangles, {10'000, 50'000'000},
+        integer("max_triangles", t.max_triangles, {10'000, 50'000'000},
                 "greatest number of triangles at a time"),
         flag("wait", t.wait,
              "true: frames wait for the terrain that fits them, which gives the same frames every run but "

@@ -102,7 +102,7 @@ struct TerrainConfig {
     bool has_pose = false, has_radius = false;
     MaterialConfig material;
     double edge_px = 2;
-    std::int64_t most_triangles = 1'000'000;
+    std::int64_t max_triangles = 1'000'000;
     bool wait = false;
 };
 Fields fields(TerrainConfig& terrain);

@@ -38,11 +38,11 @@ SensorSampling sampling_of(const QualityConfig& q) {
 }
 
 void validate(const QualityConfig& q) {
-    const std::int64_t n = q.render.kept_directions;
+    const std::int64_t n = q.render.probe_directions;
     const std::int64_t samples = q.render.buffer_samples;
     if (samples != 1 && samples != 16 && samples != 64)
         throw refused("buffer_samples", std::to_string(samples), "1, 16, 64");
-    if (n != 16 && n != 60 && n != 256) throw refused("kept_directions", std::to_string(n), "16, 60, 256");
+    if (n != 16 && n != 60 && n != 256) throw refused("probe_directions", std::to_string(n), "16, 60, 256");
 }
 
 }  // namespace hilcam

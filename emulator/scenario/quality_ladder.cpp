@@ -35,7 +35,7 @@ Fields fields(LoopConfig& l) {
             flag("wait_for_light", l.wait_for_light,
                  "false: frames come at once while tables that are not on disk are still being made; they "
                  "are rendered by random paths and have the flag no_kept_light. true: no frame comes before. "
-                 "Counts for free_run and triggered with quality.path_model kept; lockstep, --frames, "
+                 "Counts for free_run and triggered with quality.path_model cached; lockstep, --frames, "
                  "--record, --replay and all other commands always wait")),
         or_word(number("frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
                        "time that a frame may take (with throughput: the longer of its two stages); the "

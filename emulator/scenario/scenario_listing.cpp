@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "io/config/renamed_keys.h"
 #include "io/system/crc32.h"
 #include "io/system/input_file.h"
 #include "render/vocabulary/overloaded.h"
@@ -110,7 +111,13 @@ std::map<std::string, std::string> parsed(const std::string& listing) {
     std::istringstream lines(listing);
     for (std::string line; std::getline(lines, line);) {
         const std::size_t equals = std::min(line.find(" = "), line.size());
-        out[line.substr(0, equals)] = line.substr(std::min(equals + 3, line.size()));
+        std::string key = line.substr(0, equals), value = line.substr(std::min(equals + 3, line.size()));
+        // Recordings of an earlier version have its names.
+        const std::size_t last = key.rfind('.') + 1;
+        if (const std::string_view now = renamed_key(key.substr(last)); !now.empty())
+            key = key.substr(0, last) + std::string(now);
+        if (const std::string_view now = renamed_value(key.substr(last), value); !now.empty()) value = now;
+        out[std::move(key)] = std::move(value);
     }
     return out;
 }

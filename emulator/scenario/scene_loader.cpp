@@ -73,7 +73,7 @@ std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const Spectr
     }
     terrain->name = t.name;
     terrain->edge_px = t.edge_px;
-    terrain->most_triangles = static_cast<std::size_t>(t.most_triangles);
+    terrain->max_triangles = static_cast<std::size_t>(t.max_triangles);
     terrain->wait = t.wait;
     return terrain;
 }

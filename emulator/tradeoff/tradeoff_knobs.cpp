@@ -28,7 +28,7 @@ const std::vector<KnobRow>& knob_rows() {
     static const std::vector<KnobRow> rows = {
         {"path model",
          "quality.path_model",
-         {"direct", "kept", "path"},
+         {"direct", "cached", "path"},
          Needs::kSurfaces,
          KnobRole::kPathModel},
         {"depth", "quality.max_depth", {"1", "2", "3", "4", "6"}, Needs::kSurfaces, KnobRole::kDepth},
@@ -197,14 +197,14 @@ std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
         fmt::format("quality.samples_per_axis={}", (kRaysPerAxis + oversampling - 1) / oversampling),
         // One pass of scattered rays: averaged frames then have no grid in common.
         "quality.noise_budget=0.1",
-        "quality.most_passes=1",
+        "quality.max_passes=1",
         "quality.contribution_threshold=0.0001",
         "quality.sun_disk=true",
         "quality.facets_behind_diffuse=0",
         // Not used; as they are by default, so that references do not depend on them.
-        fmt::format("quality.kept_directions={}", RenderQuality{}.kept_directions),
-        fmt::format("quality.kept_nodes={}", RenderQuality{}.kept_nodes),
-        fmt::format("quality.kept_step_deg={}", RenderQuality{}.kept_step_rad / kDegree_rad),
+        fmt::format("quality.probe_directions={}", RenderQuality{}.probe_directions),
+        fmt::format("quality.probes={}", RenderQuality{}.probes),
+        fmt::format("quality.source_step_deg={}", RenderQuality{}.source_step_rad / kDegree_rad),
         "quality.lod_error_px=0",
         "quality.watertight=true",
         "quality.rays_across=512",

@@ -6,6 +6,7 @@
 
 #include "io/config/config_keys.h"
 #include "io/config/data_sheet_words.h"
+#include "io/config/renamed_keys.h"
 #include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
@@ -92,6 +93,8 @@ std::string nearest_of(std::string_view word, std::span<const std::string> known
 }
 
 std::string advice_for(std::string_view key, const Fields& known, const Fields& root) {
+    if (const std::string_view now = renamed_key(key); !now.empty() && has_key(known, now))
+        return "; it was renamed to " + std::string(now);
     std::vector<std::string> keys;
     std::string list;
     for (const Field& field : known) {
@@ -116,6 +119,12 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
 }
 
 std::string key_advice(std::string_view whole_key, const Fields& root) {
+    const std::size_t last = whole_key.rfind('.') + 1;
+    if (const std::string_view now = renamed_key(whole_key.substr(last)); !now.empty()) {
+        const std::string whole = std::string(whole_key.substr(0, last)) + std::string(now);
+        const std::vector<std::string> keys = config_keys(root);
+        if (std::find(keys.begin(), keys.end(), whole) != keys.end()) return "; it was renamed to " + whole;
+    }
     const std::string nearest = nearest_of(whole_key, config_keys(root));
     if (!nearest.empty()) return "; nearest: " + nearest;
     const std::vector<std::string> places = places_of(whole_key, root);

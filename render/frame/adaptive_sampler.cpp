@@ -24,7 +24,7 @@ std::span<const Spectrum> AdaptiveSampler::trace(const FrameContext& frame, cons
         stats.not_finite += leave_out_not_finite(tile.pixels);
         take_pass(1 / static_cast<float>(n2), budget.noise, frame.bins);
         // The choice after the last pass is what is reported.
-        if (!choose(budget) || pass + 1 == budget.most_passes) break;
+        if (!choose(budget) || pass + 1 == budget.max_passes) break;
     }
     count(stats);
     return {mean_.data(), pixels()};

@@ -33,7 +33,7 @@ namespace hilcam {
 
 struct NoiseBudget {
     double share = 0;  // share of the sensor's noise; 0: none
-    int most_passes = 1;
+    int max_passes = 1;
     PixelNoise noise;
 };
 

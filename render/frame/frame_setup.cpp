@@ -21,7 +21,7 @@ bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
 RayDensity density_of(const RenderQuality& quality) {
     return {static_cast<int>(quality.samples_per_axis), static_cast<int>(quality.rays_across),
             static_cast<int>(quality.point_samples),
-            static_cast<int>(std::min(quality.point_samples, quality.point_samples_least))};
+            static_cast<int>(std::min(quality.point_samples, quality.min_point_samples))};
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
       lod_error_px_(levels.front().lod_error_px),
       density_(density_of(levels.front())),
       earth_view_(earth_.get(), scene.sun_irradiance_1au_w_m2_um, geometry, background_.top_m(BodyId::kEarth),
-                  levels.front().kept_earth),
+                  levels.front().earth_impostor),
       visibility_({embree_, objects_, levels_, shown_, radii_m_, plans_, world_}) {
     const RenderQuality& quality = levels.front();
     if (scene.terrain)
@@ -65,7 +65,7 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
     const bool emission = radiance_model_->emits() && any_material(objects_, [](const Material& m) {
                               return max_component(m.emission) > 0;
                           });
-    indirect_settings_ = {static_cast<float>(quality.kept_step_rad), lamps_.all().size(), emission};
+    indirect_settings_ = {static_cast<float>(quality.source_step_rad), lamps_.all().size(), emission};
     if (!scene.light_later) indirect_ = make_indirect_cache();
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
@@ -96,7 +96,7 @@ std::size_t FrameSetup::plain_ground_triangles(const ImageGeometry& geometry) co
                         geometry.distortion.none() && rays_->is_still();
     const bool is_plain =
         is_all && radiance_model_->reflects_plainly() && is_plain_ground(objects_.back().materials().front());
-    return is_plain ? terrain_->most_triangles() : 0;
+    return is_plain ? terrain_->max_triangles() : 0;
 }
 
 std::unique_ptr<IndirectCache> FrameSetup::make_indirect_cache() const {

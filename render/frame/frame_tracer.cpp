@@ -295,7 +295,7 @@ void FrameTracer::write_parts(const TileParts& tile, float share) const {
 
 void FrameTracer::trace_to_budget(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                                   TileStats& stats, RadianceImage& radiance) {
-    const NoiseBudget budget{quality().noise_budget, static_cast<int>(quality().most_passes), noise_};
+    const NoiseBudget budget{quality().noise_budget, static_cast<int>(quality().max_passes), noise_};
     write(samplers_[slot]->trace(frame, box, n, budget, *paths()[slot], stats), 1, box, radiance);
 }
 

@@ -36,7 +36,7 @@ double share_of_samples(double size_px) {
     return std::cbrt(std::min(1.0, size_px / kPoints_px * (size_px / kPoints_px)));
 }
 int point_samples_of(double size_px, const RayDensity& density) {
-    return std::max(density.point_samples_least,
+    return std::max(density.min_point_samples,
                     static_cast<int>(std::ceil(share_of_samples(size_px) * density.point_samples)));
 }
 // An even number, so that the picture has a middle; no smaller than that of an object of one pixel, which takes little beside its
@@ -162,7 +162,7 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
             q.sees_ground() ? "; ground that is alone is seen once a pixel, sixteen pixels at a time" : "",
             q.sees_ground() && q.ground_step_px > 1 ? ", by every second one each way" : "");
     if (q.noise_budget > 0)
-        add("noise budget: pixels are sampled again, ", q.most_passes,
+        add("noise budget: pixels are sampled again, ", q.max_passes,
             " times at most, while their error is above ", q.noise_budget, " of their sensor noise");
     add("path model ", q.path_model, ", ", f.max_depth, " surfaces deep, paths end below ",
         f.contribution_threshold);

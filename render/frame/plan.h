@@ -50,7 +50,7 @@ inline constexpr int kPicture_px = 128;
 struct RayDensity {
     int samples_per_axis;
     int rays_across;
-    int point_samples = 0, point_samples_least = 0;
+    int point_samples = 0, min_point_samples = 0;
     bool pictures_of_points = false, pictures_of_meshes = false;
 };
 

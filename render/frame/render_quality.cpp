@@ -21,7 +21,7 @@ Fields fields(RenderQuality& q) {
                     "terrain that is alone, with buffer_samples: 1: 1: each pixel is worked out; 2: every "
                     "second one of every second row, and those between by cubic convolution "
                     "(docs/ground.md has the error)")),
-        per_frame(text("path_model", q.path_model, "path model: kept | direct | path, or a plug-in's")),
+        per_frame(text("path_model", q.path_model, "path model: cached | direct | path, or a plug-in's")),
         per_frame(integer("max_depth", q.max_depth, {1, 64},
                           "number of surfaces that a light path may meet; 1: direct sunlight only")),
         per_frame(number(
@@ -30,15 +30,15 @@ Fields fields(RenderQuality& q) {
         per_frame(
             flag("sun_disk", q.sun_disk,
                  "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights")),
-        integer("kept_directions", q.kept_directions, {16, 256},
-                "kept: number of directions that each place's light comes from: 16, 60 or 256"),
-        integer("kept_nodes", q.kept_nodes, {1000, 4'000'000},
-                "kept: approximate number of places, on all objects together, at which light is kept"),
-        number("kept_step_deg", q.kept_step_rad, kDegree_rad, {0.01, 10},
-               "kept: step of the grid, in an object's own axes, to which directions of the Sun and the "
+        integer("probe_directions", q.probe_directions, {16, 256},
+                "cached: number of directions that each probe's light comes from: 16, 60 or 256"),
+        integer("probes", q.probes, {1000, 4'000'000},
+                "cached: approximate number of surface probes, on all objects together"),
+        number("source_step_deg", q.source_step_rad, kDegree_rad, {0.01, 10},
+               "cached: step of the grid, in an object's own axes, to which directions of the Sun and the "
                "bodies are rounded; an object that turns faster than two steps a second has a wider one, to "
                "10 degrees"),
-        flag("kept_earth", q.kept_earth,
+        flag("earth_impostor", q.earth_impostor,
              "true: the Earth by earth_surface.map is seen as a kept picture where the camera is three radii "
              "or more above it and its "
              "disk is 12 to 1280 pixels wide; false: each pixel is worked out"),
@@ -57,7 +57,7 @@ Fields fields(RenderQuality& q) {
                 "pictures of their own instead, of 128 x 128 pixels with 64 samples each; 0: none of it"),
         integer("point_samples", q.point_samples, {16, 512},
                 "rays in each direction of the grid by which an object of 8 pixels or less is measured"),
-        integer("point_samples_least", q.point_samples_least, {8, 512},
+        integer("min_point_samples", q.min_point_samples, {8, 512},
                 "smaller objects have fewer of these rays, as the power 2/3 of their size, which leaves the "
                 "error its share of their light's own noise, down to this number; from point_samples on: "
                 "all have as many"),
@@ -67,7 +67,7 @@ Fields fields(RenderQuality& q) {
                    "error of its rendering is above this; rays are then scattered over the pixel. 0: sampled "
                    "once, on the grid")),
         // Numbers are drawn by sample and depth: 63 passes of 16 x 16 samples fit (random.h).
-        integer("most_passes", q.most_passes, {1, 63},
+        integer("max_passes", q.max_passes, {1, 63},
                 "greatest number of passes with a noise budget, n x n rays each"),
     };
 }

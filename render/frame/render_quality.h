@@ -22,20 +22,20 @@ struct RenderQuality {
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h
     bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
-    std::int64_t kept_directions = 60;     // cached light: 16, 60 or 256
-    std::int64_t kept_nodes = 100'000;     // about, of all objects together
-    double kept_step_rad = 1.0 * kDegree_rad;
-    bool kept_earth = false;             // the Earth by its model from a kept picture, from afar
+    std::int64_t probe_directions = 60;    // cached light: 16, 60 or 256
+    std::int64_t probes = 100'000;         // about, of all objects together
+    double source_step_rad = 1.0 * kDegree_rad;
+    bool earth_impostor = false;         // the Earth by its model from a kept picture, from afar
     double facets_behind_diffuse = 0.4;  // least GGX alpha there; 0: as they are
     bool watertight = true;              // no ray slips through between two triangles
     double lod_error_px = 0.15;          // error of a coarser level of detail; 0: the mesh itself, always
     std::int64_t rays_across =
         128;  // rays across a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
     std::int64_t point_samples = 96;  // rays along one axis of the little picture of an object of few pixels
-    std::int64_t point_samples_least =
-        512;                        // fewer for smaller ones, down to so many; not more than point_samples
-    double noise_budget = 0;        // see adaptive_sampler.h; 0: a pixel is sampled once
-    std::int64_t most_passes = 16;  // over a pixel, with a noise budget
+    std::int64_t min_point_samples =
+        512;                       // fewer for smaller ones, down to so many; not more than point_samples
+    double noise_budget = 0;       // see adaptive_sampler.h; 0: a pixel is sampled once
+    std::int64_t max_passes = 16;  // over a pixel, with a noise budget
 
     // A noise budget is for rays.
     bool uses_buffer() const { return visibility == "buffer" && noise_budget == 0 && buffer_samples > 1; }

@@ -115,14 +115,14 @@ std::size_t GlobeTerrain::triangles_of(std::span<const Leaf> leaves) {
 }
 
 // Finds the tiles to be shown. edges: distance over an edge of a triangle there, from which it is fine enough.
-GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edges, std::size_t most_triangles,
+GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edges, std::size_t max_triangles,
                                             std::vector<Leaf>& leaves) {
     leaves.clear();
     std::vector<GroundTileKey> wave;
     wave.reserve(kCubeFaces);
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
-        if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBesideQuads) > most_triangles)
+        if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBesideQuads) > max_triangles)
             return Selected::kTooManyTriangles;
         if (!require_sketches(wave)) return Selected::kNotYet;
         std::vector<GroundTileKey> next;
@@ -138,7 +138,7 @@ GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edge
         }
         wave = std::move(next);
     }
-    if (triangles_of(leaves) > most_triangles) return Selected::kTooManyTriangles;
+    if (triangles_of(leaves) > max_triangles) return Selected::kTooManyTriangles;
     // Those that are seen come first, and have more than their sketches.
     const auto beside =
         std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
@@ -163,12 +163,12 @@ bool GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t b
 // The tiles to be shown, and the edges at which they are not too many. False: not all of them are made yet.
 bool GlobeTerrain::find_leaves(const TerrainView& view, double& edges, std::vector<Leaf>& leaves) {
     edges = std::max(kMinEdges, 1 / (view.edge_px * view.pixel_rad));
-    Selected selected = select(view, edges, view.most_triangles, leaves);
+    Selected selected = select(view, edges, view.max_triangles, leaves);
     while (selected == Selected::kTooManyTriangles) {
         const bool least = edges == kMinEdges;
         edges = std::max(kMinEdges, 0.9 * edges);
-        selected = select(view, edges, least ? std::numeric_limits<std::size_t>::max() : view.most_triangles,
-                          leaves);
+        selected =
+            select(view, edges, least ? std::numeric_limits<std::size_t>::max() : view.max_triangles, leaves);
     }
     return selected == Selected::kAll;
 }

@@ -78,7 +78,7 @@ class GlobeTerrain final : public Terrain {
     void mark_used(std::span<const GroundTileKey> keys, const Tiles& of) const;
     void keep_texels(std::size_t most);
     bool find_leaves(const TerrainView& view, double& edges, std::vector<Leaf>& leaves);
-    Selected select(const TerrainView& view, double edges, std::size_t most_triangles,
+    Selected select(const TerrainView& view, double edges, std::size_t max_triangles,
                     std::vector<Leaf>& leaves);
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
     static bool forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t before);

@@ -140,7 +140,7 @@ class TerrainBuilder {
         std::vector<TerrainTile> done;
         while (!open.empty()) {
             const TerrainTile t = open.top();
-            const bool full = (done.size() + open.size() + 3) * kTileTriangles > view_.most_triangles;
+            const bool full = (done.size() + open.size() + 3) * kTileTriangles > view_.max_triangles;
             if (full || t.step == 1 || t.edge_px <= view_.edge_px) {
                 open.pop();
                 done.push_back(t);

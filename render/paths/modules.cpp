@@ -23,7 +23,7 @@ Modules::Modules() {
     rays.add("rolling", [](const RayConfig& c) { return make_rolling_rays(c.line_time_s); });
     rays.add("pushbroom", [](const RayConfig& c) { return make_pushbroom_rays(c.line_time_s); });
     paths.add("direct", make_direct_paths);
-    paths.add("kept", make_cached_paths);
+    paths.add("cached", make_cached_paths);
     paths.add("path", make_traced_paths);
     radiance.add("reflected", [] { return make_radiance_equation(false); });
     radiance.add("emissive", [] { return make_radiance_equation(true); });

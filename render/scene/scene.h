@@ -58,7 +58,7 @@ struct SceneTerrain {
     std::optional<Geodetic> place;  // its axes there: x east, y north, z up; none: the body's own axes
     Material material;
     double edge_px = 2;
-    std::size_t most_triangles = 1'000'000;
+    std::size_t max_triangles = 1'000'000;
     bool wait = false;  // frames wait for the terrain that fits them
 };
 

@@ -68,7 +68,7 @@ Pose ShownTerrain::update(const WorldSnapshot& world, double focal_length_px, do
         camera_m,
         1 / focal_length_px,
         terrain_->edge_px,
-        terrain_->most_triangles,
+        terrain_->max_triangles,
         boresight,
         half_field_rad + kFieldMargin_rad,
         transposed(world_from_terrain) * normalized(world.bodies.sun_world_m - camera.position_world_m)};

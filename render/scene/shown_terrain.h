@@ -19,7 +19,7 @@ class ShownTerrain {
     ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> terrain, std::size_t index);
 
     // Returns the greatest number of triangles that its mesh is made of, about.
-    std::size_t most_triangles() const { return terrain_->most_triangles; }
+    std::size_t max_triangles() const { return terrain_->max_triangles; }
     // Frames wait for the mesh that they ask for.
     bool waits() const { return terrain_->wait; }
     // Returns the body with which it turns.

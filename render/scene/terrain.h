@@ -16,7 +16,7 @@ struct TerrainView {
     Vec3d camera_m;
     double pixel_rad = 1e-3;
     double edge_px = 2;  // greatest edge of a triangle on the screen
-    std::size_t most_triangles = 1'000'000;
+    std::size_t max_triangles = 1'000'000;
     Vec3d boresight{0, 0, 1};            // unit
     double half_field_rad = 3.14159265;  // angle from the boresight beyond which the camera sees nothing
     Vec3d sun_dir{0, 0, 1};              // towards the Sun, unit

@@ -81,7 +81,7 @@ TEST(IrradianceCache, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
     for (const std::uint8_t grey : {std::uint8_t{255}, kGrey}) {
         const double paths = brightest("path", 24, grey);
         EXPECT_GT(paths, 0);
-        EXPECT_LT(brightest("kept", 4, grey), 1.5 * paths) << int{grey};
+        EXPECT_LT(brightest("cached", 4, grey), 1.5 * paths) << int{grey};
     }
 }
 
@@ -92,8 +92,8 @@ TEST(IrradianceCache, PixelsOfMetalWithAPictureHaveTheirOwnColours) {
     std::vector<std::uint8_t> stripes;
     for (int i = 0; i < 12; ++i) stripes.insert(stripes.end(), {kGrey, kDarkGrey});
     const auto columns = [&](const MaterialConfig& material, float bar_m) {
-        const PlateAndBar plain("kept", material, bar_m, 4, {254}, "buffer"),
-            striped("kept", material, bar_m, 4, stripes, "buffer");
+        const PlateAndBar plain("cached", material, bar_m, 4, {254}, "buffer"),
+            striped("cached", material, bar_m, 4, stripes, "buffer");
         std::vector<double> out;
         for (std::size_t x = 0; x < PlateAndBar::kSize_px; ++x)
             out.push_back(striped.column(x) / plain.column(x));
@@ -163,7 +163,7 @@ TEST(IrradianceCache, WhatIsLitOfABarDoesNotShineBehindIt) {
     std::size_t places = 14000;
     constexpr int kTables = 14;
     for (int i = 0; i < kTables; ++i, places = places * 10 / 9)
-        kept += (light_beside_bar("kept", 4, places) - direct) / kTables;
+        kept += (light_beside_bar("cached", 4, places) - direct) / kTables;
     EXPECT_NEAR(kept / paths, 1, 0.05);
 }
 
@@ -171,7 +171,7 @@ TEST(IrradianceCache, WhatIsLitOfABarDoesNotShineBehindIt) {
 // together with those beside them. The light of a pixel scatters about that of its block by 0.47 of the mean; by each place's own
 // directions it is 1.14.
 TEST(IrradianceCache, PaintBelowABarThatFewDirectionsMeetIsEven) {
-    const PlateAndBar seen("kept", lambert(0.9), 0.03f, 4);
+    const PlateAndBar seen("cached", lambert(0.9), 0.03f, 4);
     double sum = 0, squares = 0;
     for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
         const double off = seen.pixels[i] - seen.blocks[PlateAndBar::block_of(i)];

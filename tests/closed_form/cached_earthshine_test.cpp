@@ -40,7 +40,7 @@ TEST(IrradianceCache, EarthshineIsHiddenByTheObjectsOwnParts) {
             // What the wall mirrors is kept as paint's: little, where it is dark.
             const bool mirrors = material.model == kModel<brdf::Metal>;
             const double error = !mirrors ? 0.06 : grey == 255 ? 0.08 : 0.04;
-            EXPECT_NEAR(light("kept", material, 2, grey) / paths, 1, error)
+            EXPECT_NEAR(light("cached", material, 2, grey) / paths, 1, error)
                 << material.model << ' ' << int{grey};
         }
 }
@@ -77,7 +77,7 @@ TEST(IrradianceCache, RoughMetalSendsAllOfTheEarthsLight) {
     for (const double roughness : {0.3, 0.5, 0.75, 1.0}) {
         const double paths = light("path", roughness, 8);
         EXPECT_GT(paths, 0);
-        EXPECT_NEAR(light("kept", roughness, 2) / paths, 1, 0.015) << roughness;
+        EXPECT_NEAR(light("cached", roughness, 2) / paths, 1, 0.015) << roughness;
     }
 }
 
@@ -99,7 +99,7 @@ TEST(IrradianceCache, FacetsReflectByTheAngleTheyAreMetAt) {
     for (const double tilt_deg : {30.0, 40.0, 50.0, 60.0, 70.0}) {
         const double paths = light("path", 16, tilt_deg);
         EXPECT_GT(paths, 0);
-        EXPECT_NEAR(light("kept", 1, tilt_deg) / paths, 1, 0.02) << tilt_deg;
+        EXPECT_NEAR(light("cached", 1, tilt_deg) / paths, 1, 0.02) << tilt_deg;
     }
 }
 
@@ -117,7 +117,7 @@ TEST(IrradianceCache, PaintHasAllOfTheEarthsLightAtAnyHeight) {
     for (const double distance_m : {6.8e6, 9e6, 1.5e7, 4.2e7, 8.4e7}) {
         const double paths = light("path", distance_m, 16);
         EXPECT_GT(paths, 0);
-        EXPECT_NEAR(light("kept", distance_m, 1) / paths, 1, 0.01) << distance_m;
+        EXPECT_NEAR(light("cached", distance_m, 1) / paths, 1, 0.01) << distance_m;
     }
 }
 
@@ -130,12 +130,12 @@ TEST(IrradianceCache, PolishedMetalSeesTheEarthPastItsLimb) {
         s.render();
         return s.mean();
     };
-    const double inside = light("kept", 2, 0.3);
+    const double inside = light("cached", 2, 0.3);
     EXPECT_GT(inside, 0);
     // The mirror's direction leaves the disk at a tilt of 35 degrees.
     for (const double tilt_deg : {30.0, 34.0, 36.0, 38.0, 42.0}) {
         const double tilt_rad = tilt_deg * kDegree_rad, paths = light("path", 16, tilt_rad);
-        EXPECT_NEAR(light("kept", 2, tilt_rad) / inside, paths / inside, 0.03) << tilt_deg;
+        EXPECT_NEAR(light("cached", 2, tilt_rad) / inside, paths / inside, 0.03) << tilt_deg;
     }
 }
 
@@ -154,7 +154,7 @@ TEST(IrradianceCache, PolishedMetalSeesALimbThatIsFlattened) {
     const double inside = light("path", 16, 34.2);
     EXPECT_GT(inside, 0);
     for (const double tilt_deg : {34.4, 34.6, 34.8, 35.0, 35.2})
-        EXPECT_NEAR(light("kept", 2, tilt_deg) / inside, light("path", 16, tilt_deg) / inside, 0.05)
+        EXPECT_NEAR(light("cached", 2, tilt_deg) / inside, light("path", 16, tilt_deg) / inside, 0.05)
             << tilt_deg;
 }
 
@@ -176,7 +176,7 @@ TEST(IrradianceCache, PolishedMetalMirrorsClouds) {
         constexpr int kPlaces = 8;
         for (int i = 0; i < kPlaces; ++i) {
             const double tilt_deg = 2 + 3 * i, truth = light("path", roughness, 8, tilt_deg);
-            const double error = light("kept", roughness, 2, tilt_deg) - truth;
+            const double error = light("cached", roughness, 2, tilt_deg) - truth;
             paths += truth, paths_squared += truth * truth, error_squared += error * error;
         }
         const double mean = paths / kPlaces, spread = std::sqrt(paths_squared / kPlaces - mean * mean);
@@ -226,7 +226,7 @@ TEST(IrradianceCache, TheGapsBetweenTilesAreLit) {
     for (const auto& [above_m, error] : {std::pair(2e-4f, 0.08), std::pair(2e-3f, 0.3)}) {
         const double paths = stage("path", above_m);
         EXPECT_GT(paths, 0);
-        EXPECT_NEAR(stage("kept", above_m) / paths, 1, error);
+        EXPECT_NEAR(stage("cached", above_m) / paths, 1, error);
     }
 }
 

@@ -42,7 +42,7 @@ Stage two_objects(const char* model) {
 }
 
 TEST(CachedMotion, LightGoesFromOneObjectToAnotherAsRandomPathsHaveIt) {
-    Stage direct = two_objects("direct"), paths = two_objects("path"), kept = two_objects("kept");
+    Stage direct = two_objects("direct"), paths = two_objects("path"), kept = two_objects("cached");
     for (Stage* s : {&direct, &paths, &kept}) s->render();
     const double between = paths.mean() - direct.mean();
     EXPECT_GT(between, 0.05 * direct.mean());
@@ -51,7 +51,7 @@ TEST(CachedMotion, LightGoesFromOneObjectToAnotherAsRandomPathsHaveIt) {
 
 // The wall turns away and comes back: what is shown depends on where it stands, and on nothing before.
 TEST(CachedMotion, AFrameIsAFunctionOfWhereTheObjectsStand) {
-    Stage s = two_objects("kept");
+    Stage s = two_objects("cached");
     s.render();
     const std::vector<float> first = picture(s);
     s.world.objects[1].world_from_body = from_rotation_vector({kPi, 0, 0.5});
@@ -66,7 +66,7 @@ TEST(CachedMotion, AFrameIsAFunctionOfWhereTheObjectsStand) {
 // is solved with it while it is there, and afterwards as if it had never been.
 TEST(CachedMotion, AFrameIsAFunctionOfWhoStandsNear) {
     const auto stage = [](Vec3d third_m) {
-        Stage s = two_objects("kept");
+        Stage s = two_objects("cached");
         s.add(cube(lambert(0.9), s.grid, 0.1f), third_m);
         return s;
     };
@@ -85,7 +85,7 @@ TEST(CachedMotion, AFrameIsAFunctionOfWhoStandsNear) {
 
 // While it turns, light is made ahead of time on a thread; a renderer that starts there has the same.
 TEST(CachedMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
-    Stage s = two_objects("kept");
+    Stage s = two_objects("cached");
     s.build();
     int compared = 0;
     for (int frame = 0; frame < 160; ++frame) {
@@ -94,7 +94,7 @@ TEST(CachedMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
         s.sun({-2, 0.3 + turn, -1});
         s.render_again();
         if (frame % 53 != 52) continue;
-        Stage fresh = two_objects("kept");
+        Stage fresh = two_objects("cached");
         fresh.world = s.world;
         fresh.render();
         EXPECT_EQ(picture(s), picture(fresh)) << frame;
@@ -106,7 +106,7 @@ TEST(CachedMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
 // Tables that come while frames are made: until then random paths, from then on what a renderer shows that
 // had them from the beginning. Nothing is waited for in between, and the frames are those of either.
 TEST(CachedMotion, LightThatComesLaterIsWhatWouldHaveBeenThere) {
-    Stage kept = two_objects("kept"), later = two_objects("kept"), paths = two_objects("path");
+    Stage kept = two_objects("cached"), later = two_objects("cached"), paths = two_objects("path");
     std::vector<std::shared_ptr<const TransferTable>> tables;
     for (SceneObject& object : later.scene.objects) tables.push_back(std::move(object.transfer));
     later.scene.light_later = true;
@@ -137,7 +137,7 @@ TEST(CachedMotion, LightThatComesLaterIsWhatWouldHaveBeenThere) {
 // A renderer that ends before it has taken what was given lets go of it, and of what is being solved.
 TEST(CachedMotion, LightThatIsNeverTakenIsLetGo) {
     for (const int calls : {0, 1}) {
-        Stage later = two_objects("kept");
+        Stage later = two_objects("cached");
         std::vector<std::shared_ptr<const TransferTable>> tables;
         for (SceneObject& object : later.scene.objects) tables.push_back(std::move(object.transfer));
         const std::weak_ptr<const TransferTable> watched = tables.front();
@@ -156,7 +156,7 @@ TEST(CachedMotion, LightThatIsNeverTakenIsLetGo) {
 TEST(CachedMotion, ObjectsFarApartGiveEachOtherNothing) {
     const auto stage = [](bool both) {
         Stage s;
-        s.quality.path_model = "kept";
+        s.quality.path_model = "cached";
         s.camera(32, 0.4);
         s.add(cube(lambert(0.8), s.grid), {0, 0, 4}, {0.3, 0.2, 0});
         if (both) s.add(cube(lambert(0.8), s.grid), {200, 0, 4});

@@ -66,7 +66,7 @@ struct Scenery {
                                                                      std::move(details), GlobeSettings{});
         stage.scene.terrain->material = make_material(lambert(0.5), stage.grid);
         stage.scene.terrain->edge_px = 1;
-        stage.scene.terrain->most_triangles = 4'000'000;
+        stage.scene.terrain->max_triangles = 4'000'000;
         const double turn = middle_m / kRadius_m;
         const Vec3d below = std::cos(turn) * up + std::sin(turn) * east;
         stage.world.camera.position_world_m = (kRadius_m + above_m) * below;

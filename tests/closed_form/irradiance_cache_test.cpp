@@ -16,8 +16,8 @@ namespace {
 // All bounces in a closed box, so that walls of every reflectance are as bright as the black body; a wall of
 // 0.9 sends light ten times around.
 TEST(IrradianceCache, AFurnaceIsWhiteInside) {
-    EXPECT_NEAR(furnace_mean("kept", 2, 0.3, 1) / furnace_black(), 1, 0.005);
-    EXPECT_NEAR(furnace_mean("kept", 2, 0.9, 1) / furnace_black(), 1, 0.02);
+    EXPECT_NEAR(furnace_mean("cached", 2, 0.3, 1) / furnace_black(), 1, 0.005);
+    EXPECT_NEAR(furnace_mean("cached", 2, 0.9, 1) / furnace_black(), 1, 0.02);
 }
 
 // A lamp in the middle of a white sphere: I / R^2 at every place, and all of the geometric series.
@@ -26,7 +26,7 @@ TEST(IrradianceCache, AnIntegratingSphereHasAllBounces) {
     constexpr float kIntensity_w_sr_um = 100;
     Stage s;
     s.scene.sun_irradiance_1au_w_m2_um = {};
-    s.quality.path_model = "kept";
+    s.quality.path_model = "cached";
     s.camera(16, 0.3);
     const Vec3d middle_m{0.2, 0.1, 0.3};
     s.add(sphere(60, lambert(kWhite), s.grid), middle_m);
@@ -46,7 +46,7 @@ TEST(IrradianceCache, ACornerIsAsRandomPathsHaveIt) {
     metal.roughness = 0.6;
     for (const MaterialConfig& material : {lambert(0.8), metal}) {
         Stage direct = corner_stage("direct", material, 2), paths = corner_stage("path", material, 8),
-              kept = corner_stage("kept", material, 2);
+              kept = corner_stage("cached", material, 2);
         paths.quality.facets_behind_diffuse = 0;
         for (Stage* s : {&direct, &paths, &kept}) s->render();
         const double between = paths.mean() - direct.mean();
@@ -62,7 +62,7 @@ TEST(IrradianceCache, APictureUnderALayerIsAsAMaterialOfItsReflectance) {
     const auto between = [](MaterialConfig material, double reflectance, std::uint8_t grey) {
         material.reflectance = Curve::constant(reflectance);
         Stage direct = corner_stage("direct", material, 2, grey),
-              kept = corner_stage("kept", material, 2, grey);
+              kept = corner_stage("cached", material, 2, grey);
         direct.render(), kept.render();
         return kept.mean() - direct.mean();
     };
@@ -83,7 +83,7 @@ TEST(IrradianceCache, APictureColoursMetal) {
     metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.6;
     Stage direct = corner_stage("direct", metal, 2, kGrey), paths = corner_stage("path", metal, 8, kGrey),
-          kept = corner_stage("kept", metal, 2, kGrey);
+          kept = corner_stage("cached", metal, 2, kGrey);
     paths.quality.facets_behind_diffuse = 0;
     for (Stage* s : {&direct, &paths, &kept}) s->render();
     EXPECT_NEAR((kept.mean() - direct.mean()) / (paths.mean() - direct.mean()), 1, 0.03);
@@ -92,7 +92,7 @@ TEST(IrradianceCache, APictureColoursMetal) {
 // Two endless plates, nearly: between them what the Sun brings in by a bounce is kept as paths have it, and
 // nothing depends on a seed.
 TEST(IrradianceCache, NothingIsLeftToChance) {
-    Stage s = corner_stage("kept", lambert(0.8), 1);
+    Stage s = corner_stage("cached", lambert(0.8), 1);
     s.render();
     const std::vector<float> first(s.radiance.plane(0).begin(), s.radiance.plane(0).end());
     s.renderer->render(s.world, {2, 7}, s.radiance, s.points, s.stats);
@@ -102,7 +102,7 @@ TEST(IrradianceCache, NothingIsLeftToChance) {
 
 // A frame does not depend on the frames before it, also where the light of another Sun was kept in between.
 TEST(IrradianceCache, AFrameIsAFunctionOfItsWorld) {
-    Stage s = corner_stage("kept", lambert(0.8), 1);
+    Stage s = corner_stage("cached", lambert(0.8), 1);
     s.render();
     const std::vector<float> first(s.radiance.plane(0).begin(), s.radiance.plane(0).end());
     s.sun({1, 0.3, -1});

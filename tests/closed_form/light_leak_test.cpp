@@ -41,7 +41,7 @@ void add(Mesh& mesh, const Mesh& other, Vec3f at_m) {
 // The brightest pixel inside, of sunlit white paint.
 double brightest_inside(const std::function<void(Mesh&)>& change) {
     Stage s;
-    s.quality.path_model = "kept";
+    s.quality.path_model = "cached";
     s.quality.max_depth = 6;
     s.quality.visibility = "buffer";
     s.sun({0.4, 0.7, -1});
@@ -131,7 +131,7 @@ TEST(LightLeak, CracksLetInNoMoreThanTheyShould) {
         s.render();
         return s.mean() / (static_cast<double>(kSun_w_m2_um) * static_cast<double>(kWallAlbedo) / kPi);
     };
-    EXPECT_LT(share_lit("kept"), share_lit("path") + kDark);
+    EXPECT_LT(share_lit("cached"), share_lit("path") + kDark);
 }
 
 // A wall that stands on the floor, somewhere in the cubes that light is cached in. On the side of the Sun the floor has the
@@ -141,7 +141,7 @@ TEST(LightLeak, NoneBelowAWallOnTheFloor) {
     constexpr double kShown_m = 0.8;  // half of what the picture shows
     constexpr std::size_t kSize_px = 64;
     Stage s;
-    s.quality.path_model = "kept";
+    s.quality.path_model = "cached";
     s.quality.visibility = "buffer";
     s.quality.rays_across = 0;  // the floor as the picture's pixels see it
     s.camera(kSize_px, 2 * std::atan(kShown_m / 4));

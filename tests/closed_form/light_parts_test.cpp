@@ -32,11 +32,11 @@ struct Way {
     std::string name() const { return std::string(path_model) + ", " + visibility; }
 };
 constexpr std::array kAllWays = {Way{"direct", "rays"}, Way{"direct", "buffer"}, Way{"path", "rays"},
-                                 Way{"path", "buffer"}, Way{"kept", "rays"},     Way{"kept", "buffer"}};
+                                 Way{"path", "buffer"}, Way{"cached", "rays"},   Way{"cached", "buffer"}};
 // Those by which light comes by way of other surfaces.
-constexpr std::array kWaysOfSeveral = {Way{"path", "rays"}, Way{"path", "buffer"}, Way{"kept", "rays"},
-                                       Way{"kept", "buffer"}};
-constexpr std::array kKeptWays = {Way{"kept", "rays"}, Way{"kept", "buffer"}};
+constexpr std::array kWaysOfSeveral = {Way{"path", "rays"}, Way{"path", "buffer"}, Way{"cached", "rays"},
+                                       Way{"cached", "buffer"}};
+constexpr std::array kKeptWays = {Way{"cached", "rays"}, Way{"cached", "buffer"}};
 
 // A camera that things fill, by one way.
 Stage stage_by(const Way& way, double half_width = 0.1) {
@@ -350,7 +350,7 @@ TEST(LightParts, TheEarthByItsModelOrItsKeptPictureIsBackground) {
     for (const bool kept : {false, true}) {
         Stage s = earth_stage(96, 0.2, kept, 2, noise_map(64), seeded_clouds(3, 64));
         s.world.bodies[BodyId::kEarth].world_m = {0, 0, 42e6};
-        expect_all_is(s, LightPart::kBackground, kept ? "kept" : "model");
+        expect_all_is(s, LightPart::kBackground, kept ? "cached" : "model");
     }
 }
 TEST(LightParts, TheSunsDiskIsBackground) {
@@ -393,7 +393,7 @@ class EvenAir final : public Atmosphere {
 };
 
 TEST(LightParts, AirBeforeSomethingBlackIsAir) {
-    for (const Way& way : {Way{"direct", "rays"}, Way{"path", "rays"}, Way{"kept", "buffer"}}) {
+    for (const Way& way : {Way{"direct", "rays"}, Way{"path", "rays"}, Way{"cached", "buffer"}}) {
         Stage s = stage_by(way);
         s.earth(0.3);
         s.world.bodies[BodyId::kEarth].world_m = {0, kEarthEquatorialRadius_m + 1e4, 0};

@@ -30,7 +30,7 @@ class MirrorImage {
         s.quality.contribution_threshold = 0.01f;
         s.quality.facets_behind_diffuse = 0;
         s.quality.samples_per_axis = samples;
-        s.quality.visibility = s.quality.path_model == "kept" ? "buffer" : "rays";
+        s.quality.visibility = s.quality.path_model == "cached" ? "buffer" : "rays";
         s.quality.buffer_samples = buffer_samples;
         s.quality.rays_across = 0;
         s.camera(size_px, 0.2);
@@ -74,7 +74,7 @@ double light_of_strip(const MaterialConfig& material) {
     };
     const double paths = light("path", 8);
     EXPECT_GT(paths, 0);
-    return light("kept", 1) / paths;
+    return light("cached", 1) / paths;
 }
 TEST(MirrorImage, AStripThatNoDirectionMeetsIsSeen) { EXPECT_NEAR(light_of_strip(lambert(0.9)), 1, 0.1); }
 
@@ -103,7 +103,7 @@ double error_of_strips(int buffer_samples, bool tiled = false, double reflectanc
             m.render(strips, reflectance);
         return std::vector<float>(m.s.radiance.plane(0).begin(), m.s.radiance.plane(0).end());
     };
-    const std::vector<float> kept = image("kept", 1), paths = image("path", 16);
+    const std::vector<float> kept = image("cached", 1), paths = image("path", 16);
     double squares = 0, truth = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const auto off = static_cast<double>(kept[i]) - static_cast<double>(paths[i]);
@@ -143,8 +143,8 @@ Bars bars_in_the_shade(double reflectance, const char* model, int samples) {
     return {m.s.mean(), m.s.stats.secondary_rays};
 }
 TEST(MirrorImage, FewRaysAreEnoughForWhatIsDark) {
-    const Bars dark = bars_in_the_shade(0.08, "kept", 1);
-    EXPECT_LT(2 * dark.rays, bars_in_the_shade(0.9, "kept", 1).rays);
+    const Bars dark = bars_in_the_shade(0.08, "cached", 1);
+    EXPECT_LT(2 * dark.rays, bars_in_the_shade(0.9, "cached", 1).rays);
     EXPECT_NEAR(dark.light / bars_in_the_shade(0.08, "path", 16).light, 1, 0.15);
 }
 

@@ -79,7 +79,7 @@ class Mirrored {
 TEST(MirrorSunlight, AFlatMirrorThrowsItsOwnOutline) {
     for (const bool apart : {false, true})
         for (const char* visibility : {"rays", "buffer"}) {
-            Mirrored m("kept", 0, 4);
+            Mirrored m("cached", 0, 4);
             m.s.quality.visibility = visibility;
             m.add_both(apart);
             m.s.render();
@@ -108,7 +108,7 @@ TEST(MirrorSunlight, AFlatMirrorThrowsItsOwnOutline) {
 // edge that lies x of its radii off the middle, 1/2 + (x sqrt(1 - x^2) + asin x) / pi.
 TEST(MirrorSunlight, TheDiskMakesAPenumbra) {
     Stage s;
-    s.quality.path_model = "kept";
+    s.quality.path_model = "cached";
     s.quality.sun_disk = true;
     s.quality.samples_per_axis = 16;
     s.quality.rays_across = 0;
@@ -159,7 +159,7 @@ double thrown_irradiance(const Material& material, Vec3f place) {
 }
 TEST(MirrorSunlight, ARoughMirrorThrowsWhatItsLobeSays) {
     for (const double roughness : {0.2, 0.33}) {
-        Mirrored m("kept", roughness);
+        Mirrored m("cached", roughness);
         m.add_both(true);
         m.s.render();
         const SceneObject mirror = m.mirror();
@@ -186,18 +186,18 @@ TEST(MirrorSunlight, IsWhatRandomPathsFind) {
         m.s.render();
         return m.s.mean();
     };
-    EXPECT_NEAR(light("kept", 2) / light("path", 16), 1, 0.05);
+    EXPECT_NEAR(light("cached", 2) / light("path", 16), 1, 0.05);
 }
 
 // Something small and black on the way, before the mirror and behind it: its shadow lies in the light's
 // middle.
 TEST(MirrorSunlight, WhatStandsInTheWayCastsAShadow) {
     for (const double roughness : {0.0, 0.2}) {
-        Mirrored free("kept", roughness);
+        Mirrored free("cached", roughness);
         free.add_both(true);
         free.s.render();
         for (const bool before : {true, false}) {
-            Mirrored m("kept", roughness);
+            Mirrored m("cached", roughness);
             m.add_both(true);
             if (before)
                 m.add(rectangle({-2.49f, 0, 3}, {0.1f, 0, 0}, {0, 0.1f, 0}, lambert(0), m.s.grid));
@@ -212,7 +212,7 @@ TEST(MirrorSunlight, WhatStandsInTheWayCastsAShadow) {
 }
 
 TEST(MirrorSunlight, AnEclipseTakesIt) {
-    Mirrored m("kept");
+    Mirrored m("cached");
     m.add_both(true);
     m.s.earth(0.3);
     m.s.world.bodies[BodyId::kEarth].world_m = {9e6, 0, 0.02 * 9e6};
@@ -222,7 +222,7 @@ TEST(MirrorSunlight, AnEclipseTakesIt) {
 
 // A frame does not depend on those before it, and no seed on any.
 TEST(MirrorSunlight, NothingIsLeftToChance) {
-    Mirrored m("kept", 0.2);
+    Mirrored m("cached", 0.2);
     m.add_both(false);
     m.s.render();
     const std::vector<float> first(m.s.radiance.plane(0).begin(), m.s.radiance.plane(0).end());

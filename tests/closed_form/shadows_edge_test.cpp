@@ -46,7 +46,7 @@ TEST_P(ShadowsEdge, IsAsWideAsTheSun) {
         EXPECT_NEAR(mean / lit, expected, 0.07) << x;
     }
 }
-INSTANTIATE_TEST_SUITE_P(ByModel, ShadowsEdge, testing::Values("direct", "kept"));
+INSTANTIATE_TEST_SUITE_P(ByModel, ShadowsEdge, testing::Values("direct", "cached"));
 
 }  // namespace
 }  // namespace hilcam

@@ -17,7 +17,7 @@ namespace {
 // Four neighbouring pixels share cached light, as it changes slowly.
 TEST(Visibility, CachedLightIsWhatRaysSee) {
     Stage s;
-    s.quality.path_model = "kept";
+    s.quality.path_model = "cached";
     s.sun({0.3, -0.5, -1});
     const std::vector<Vec3f> corner = {{-1, -1, 0}, {1, -1, 0},  {1, 1, 0},
                                        {-1, 1, 0},  {-1, 1, -2}, {1, 1, -2}};
@@ -36,7 +36,7 @@ MaterialConfig rough_metal(double roughness) {
 }
 // The Sun is behind the camera.
 void keep_light_of_earth_at(Vec3d earth_m, Stage& s) {
-    s.quality.path_model = "kept";
+    s.quality.path_model = "cached";
     s.earth(0.3);
     s.world.bodies[BodyId::kEarth].world_m = earth_m;
     s.sun({0, 0.2, 1});
@@ -80,7 +80,7 @@ class NearBy : public testing::Test {
   protected:
     Stage s;
     NearBy() {
-        s.quality.path_model = "kept";
+        s.quality.path_model = "cached";
         s.geometry.focal_length_px = 2000;
     }
     // A pixel at an edge, of which the place in its middle tells, is off by half of it at most.

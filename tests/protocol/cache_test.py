@@ -33,7 +33,7 @@ class Cache(unittest.TestCase):
         """A picture's bytes and what the log said."""
         out = self.top / "picture.png"
         out.unlink(missing_ok=True)
-        result = self.hilcam("render", SCENARIO, "--set", "quality.path_model=kept", "--set", "quality.kept_nodes=2000", "--set",
+        result = self.hilcam("render", SCENARIO, "--set", "quality.path_model=cached", "--set", "quality.probes=2000", "--set",
                              "quality.lod_error_px=0.5", "--out", out, cache=cache, **environment)
         assert result.returncode == expect, result.stderr
         return out.read_bytes() if out.exists() else None, result.stderr

@@ -810,7 +810,7 @@ class Kept(unittest.TestCase):
             "camera: {width_px: 64, height_px: 64, pitch_um: 10, focal_length_mm: 6.4, f_number: 8, transmission: 0.01, quantum_efficiency: 0.5,\n"
             "  full_well_e: 20000, gain_dn_e: 0.2, bits: 12, exposure_ms: 20}\n"
             "objects:\n  - {name: cube, mesh: cube.obj, pose: {position_m: [0, 0, 10]}}\n"
-            "earth: {visible: false}\nmoon: {visible: false}\nspectrum_edges_um: [0.5, 0.7]\nquality: {path_model: kept, kept_nodes: 1000}\n")
+            "earth: {visible: false}\nmoon: {visible: false}\nspectrum_edges_um: [0.5, 0.7]\nquality: {path_model: cached, probes: 1000}\n")
         self.cache = self.top / "cache"
 
     def tearDown(self):
@@ -830,11 +830,11 @@ class Kept(unittest.TestCase):
         self.assertEqual(len(set(frames)), 6)
 
     def test_tables_of_one_case_are_not_kept(self):
-        own = "count: 4\nvary: [{key: quality.kept_nodes, whole: [1500, 2500]}]\n"
+        own = "count: 4\nvary: [{key: quality.probes, whole: [1500, 2500]}]\n"
         self.assertEqual(len(self.make(own)), 1)  # the scenario's own
 
     def test_tables_of_a_choice_are_kept(self):
-        self.assertEqual(len(self.make("count: 4\nseed: 2\nvary: [{key: quality.kept_nodes, choice: [1500, 2500]}]\n")), 3)
+        self.assertEqual(len(self.make("count: 4\nseed: 2\nvary: [{key: quality.probes, choice: [1500, 2500]}]\n")), 3)
 
 
 class Programs(unittest.TestCase):

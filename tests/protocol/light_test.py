@@ -26,7 +26,7 @@ class Run:
     def __init__(self, folder, *extra):
         self.frames, self.log = folder / "frames", folder / "log"
         arguments = [
-            HILCAM, "run", SCENARIO, "--duration", "280", "--set", "quality.path_model=kept", "--set", "quality.kept_nodes=15000", "--set",
+            HILCAM, "run", SCENARIO, "--duration", "280", "--set", "quality.path_model=cached", "--set", "quality.probes=15000", "--set",
              "clock.paused=true", "--set", "camera.frame_rate_hz=10", "--set", f"outputs.files.folder={self.frames}",
              *extra]
         with self.log.open("w") as log:
@@ -102,7 +102,7 @@ class Light(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="hilcam_prepare_") as folder:
             def hilcam(*arguments):
                 return subprocess.run(
-                    [HILCAM, *arguments, "--set", "quality.path_model=kept", "--set", "quality.kept_nodes=15000"], capture_output=True,
+                    [HILCAM, *arguments, "--set", "quality.path_model=cached", "--set", "quality.probes=15000"], capture_output=True,
                     text=True, timeout=280, env=os.environ | {"HILCAM_CACHE": folder})
             first = hilcam("prepare", SCENARIO)
             self.assertEqual(first.returncode, 0, first.stderr)

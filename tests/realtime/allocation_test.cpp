@@ -72,7 +72,7 @@ TEST_F(Allocation, NorWithASmallObject) {
 
 TEST_F(Allocation, NorWithAKeptPictureOfTheEarth) {
     EXPECT_EQ(
-        allocations({"quality.kept_earth=true", "camera_pose.position_m=[0, 0, 0]",
+        allocations({"quality.earth_impostor=true", "camera_pose.position_m=[0, 0, 0]",
                      "camera_pose.look_at_m=[-1, 0.5, 0]",
                      std::string("earth_surface.map=") + HILCAM_SOURCE_DIR + "/configs/maps/earth.map"}),
         0);
@@ -110,7 +110,7 @@ TEST_F(Allocation, NorWhileTilesOfTheEarthsLayersAreRead) {
 TEST_F(Allocation, NorInALandingByEverySecondPixel) {
     const Seen seen =
         watch_run({"quality.ground_step_px=2", "loop.frame_budget_ms=0", "camera.width_px=256",
-                   "camera.height_px=192", "camera.focal_length_mm=4", "terrain.most_triangles=60000",
+                   "camera.height_px=192", "camera.focal_length_mm=4", "terrain.max_triangles=60000",
                    "outputs.gige.interface=", "commands.udp.address="},
                   Loop::kPaced, {}, "configs/scenarios/lunar_landing.yaml");
     EXPECT_EQ(seen.allocations, 0);
@@ -203,7 +203,7 @@ TEST_F(Allocation, NorWhenLightComesThatWasMadeBesideTheRun) {
     {
         const ScenarioConfig scenario =
             load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml",
-                          std::vector<std::string>{"quality.path_model=kept", "quality.kept_nodes=20000"});
+                          std::vector<std::string>{"quality.path_model=cached", "quality.probes=20000"});
         RunLimits limits;
         limits.outputs = false;
         limits.light_beside = true;

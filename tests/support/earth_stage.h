@@ -17,7 +17,7 @@ inline Stage earth_stage(int size_px, double half_width, bool kept, int rays, Ea
     s.earth(0.3);
     s.scene.earth = std::make_shared<const EarthModel>(EarthConfig{}, std::move(ground), std::move(clouds),
                                                        nullptr, s.grid);
-    s.quality.kept_earth = kept;
+    s.quality.earth_impostor = kept;
     s.quality.visibility = kept ? "buffer" : "rays";
     s.quality.samples_per_axis = kept ? 1 : rays;
     s.sun({0.3, 0.5, -1});

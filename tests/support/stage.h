@@ -141,10 +141,10 @@ class Stage {
         scene.body(BodyId::kEarth) = {true, BodyLook(BodyId::kEarth, config, grid), {}};
     }
     void sun(Vec3d dir) { world.bodies.sun_world_m = kAstronomicalUnit_m * normalized(dir); }
-    // Turned half about x, so that the plate's +z faces the camera. With path model `kept`, light is cached on
+    // Turned half about x, so that the plate's +z faces the camera. With path model `cached`, light is cached on
     // it.
     void add(SceneObject object, Vec3d position, Vec3d rotation = {kPi, 0, 0}) {
-        if (quality.path_model == "kept")
+        if (quality.path_model == "cached")
             object.transfer = std::make_shared<const TransferTable>(
                 object.mesh, std::vector<std::uint8_t>(object.mesh.surfaces.size()), transfer);
         scene.objects.push_back(std::move(object));

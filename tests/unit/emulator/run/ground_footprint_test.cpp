@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 // The landing example's scene from straight above its site, with other ground where a test asks for it.
 ScenarioConfig above_the_site(double height_m, std::vector<std::string> more = {}) {
-    std::vector<std::string> overrides = {"terrain.edge_px=1.5", "terrain.most_triangles=600000",
+    std::vector<std::string> overrides = {"terrain.edge_px=1.5", "terrain.max_triangles=600000",
                                           "camera.width_px=320", "camera.height_px=256",
                                           "camera_pose.position_m=[0, 0, " + std::to_string(height_m) + "]"};
     overrides.insert(overrides.end(), more.begin(), more.end());

@@ -34,7 +34,7 @@ class LightBeside : public FilesTest {
     ScenarioConfig scenario(const std::vector<std::string>& overrides = {}, int nodes = 2000) {
         const std::string mesh = "mesh: " + (folder_ / "cube.obj").string();
         std::vector<std::string> all = {
-            "quality.path_model=kept", "quality.kept_nodes=" + std::to_string(nodes),
+            "quality.path_model=cached", "quality.probes=" + std::to_string(nodes),
             "objects=[{name: a, " + mesh + "}, {name: b, " + mesh + ", pose: {position_m: [3, 0, 0]}}]"};
         all.insert(all.end(), overrides.begin(), overrides.end());
         return load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", all);

@@ -107,7 +107,7 @@ class PartsOfPictures : public FilesTest {
                 "earth: {albedo: 0.3}\nmoon: {visible: false}\n"
                 "spectrum_edges_um: [0.45, 0.55, 0.7]\nquality: " HILCAM_SOURCE_DIR "/configs/quality/" +
                 quality + ".yaml\n");
-        std::vector<std::string> overrides = {"quality.kept_nodes=1500", "quality.guard_px=8"};
+        std::vector<std::string> overrides = {"quality.probes=1500", "quality.guard_px=8"};
         overrides.insert(overrides.end(), more.begin(), more.end());
         return load_scenario(file, overrides);
     }

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 class ProbeReport : public PlateTest {
   protected:
     ScenarioConfig plates(const std::string& path_model) {
-        const auto file = scenario("", "quality: {path_model: " + path_model + ", kept_nodes: 2000}\n");
+        const auto file = scenario("", "quality: {path_model: " + path_model + ", probes: 2000}\n");
         write("plate.obj",
               "v -0.05 -0.05 0\nv 0.05 -0.05 0\nv 0.05 0.05 0\nv -0.05 0.05 0\n"
               "v -0.05 -0.05 -0.1\nv 0.05 -0.05 -0.1\nv 0.05 0.05 -0.1\nv -0.05 0.05 -0.1\n"
@@ -26,7 +26,7 @@ class ProbeReport : public PlateTest {
 };
 
 TEST_F(ProbeReport, SaysWhatEachDirectionMeets) {
-    const ScenarioConfig s = plates("kept");
+    const ScenarioConfig s = plates("cached");
     const auto first = nlohmann::json::parse(probe_report(s, {"plate", 0}));
     const auto probes = first["probes"].get<std::uint32_t>();
     ASSERT_GT(probes, 100u);
@@ -55,7 +55,7 @@ TEST_F(ProbeReport, RefusesWhatThereIsNot) {
     const auto refusal = [this](const ScenarioConfig& s, const ProbeChoice& choice) {
         return error_of([&] { (void)probe_report(s, choice); });
     };
-    const ScenarioConfig s = plates("kept");
+    const ScenarioConfig s = plates("cached");
     EXPECT_THAT(refusal(s, {"plat", 0}),
                 HasSubstr("--probe plat: the scenario has no such object; accepted: plate"));
     EXPECT_THAT(refusal(s, {"plate", 1'000'000}),

@@ -46,7 +46,7 @@ class ScaledObject : public FilesTest {
                 "objects:\n  - {name: corner, mesh: corner.obj, scale: " +
                 text(scale) + "}\n" + more +
                 "earth: {visible: false}\nmoon: {visible: false}\nspectrum_edges_um: [0.5, 0.7]\n"
-                "quality: {path_model: kept, kept_nodes: 2000, lod_error_px: 0.5}\n");
+                "quality: {path_model: cached, probes: 2000, lod_error_px: 0.5}\n");
         return load_scenario(file, {});
     }
     static std::vector<double> electrons(const ScenarioConfig& s) {

@@ -236,7 +236,7 @@ TEST_F(MotionScenario, RatesAreThoseOfThePosesForEverySource) {
         "law: nadir, second: orbit_normal",
         "law: sun",
         "law: object, of: iss",
-        "law: held, rate_deg_s: [1, 2, 3], jitter: {rms_arcsec: [10, 20, 30], least_hz: 0.01, most_hz: 0.1}"};
+        "law: held, rate_deg_s: [1, 2, 3], jitter: {rms_arcsec: [10, 20, 30], min_hz: 0.01, max_hz: 0.1}"};
     for (const std::string& place : places)
         for (const std::string& turn : turns) {
             // The plane of what is no orbit turns: lvlh_axes() takes it to be at rest.

@@ -4,12 +4,17 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "emulator/check/check_command.h"
 #include "emulator/check/scenario_verdict.h"
+#include "emulator/scenario/app_config.h"
+#include "emulator/scenario/scenario_listing.h"
+#include "io/config/config_keys.h"
+#include "io/config/renamed_keys.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
@@ -416,6 +421,25 @@ TEST_F(ScenarioWithoutMistakes, NothingIsToldOfIt) {
     write("plate.obj", "v 0 -0.05 -0.05\nv 0 0.05 -0.05\nv 0 0.05 0.05\nv 0 -0.05 0.05\nf 1 2 3\nf 1 3 4\n");
     const auto file = write("scenario.yaml", kScenario);
     EXPECT_THAT(check_scenario(load_scenario(file, {})).warnings, testing::IsEmpty());
+}
+
+// A key that is renamed to one that there is not would send its reader astray, and so would a new key of an old name.
+TEST(Scenario, EarlierNamesAreKeysOfTodayByTheirNewOnesAlone) {
+    ScenarioConfig scenario;
+    std::set<std::string, std::less<>> today;
+    for (const std::string& key : config_keys(fields(scenario))) today.insert(key.substr(key.rfind('.') + 1));
+    for (const char* was : {"kept_directions", "kept_nodes", "kept_step_deg", "kept_earth",
+                            "point_samples_least", "most_passes", "most_triangles", "least_hz", "most_hz"}) {
+        EXPECT_TRUE(today.contains(renamed_key(was))) << was;
+        EXPECT_FALSE(today.contains(was)) << was;
+    }
+}
+
+TEST(Scenario, ARecordingOfEarlierNamesIsRead) {
+    EXPECT_EQ(listing_difference("quality.kept_nodes = 5\nquality.path_model = kept\n",
+                                 "quality.path_model = cached\nquality.probes = 5\n"),
+              "");
+    EXPECT_NE(listing_difference("quality.kept_nodes = 5\n", "quality.probes = 6\n"), "");
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::vector<float> row_of(Mesh mesh, std::size_t parts, Vec2f middle = {0, 0}, b
     Stage stage;
     stage.camera(64, 0.5);
     stage.quality.max_depth = depth;
-    if (kept) stage.quality.path_model = "kept";
+    if (kept) stage.quality.path_model = "cached";
     SceneObject object;
     for (const MeshSurface& surface : mesh.surfaces)
         object.materials.push_back(make_material(surface, stage.grid));

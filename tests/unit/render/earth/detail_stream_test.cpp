@@ -117,7 +117,7 @@ TEST_F(DetailStreamTest, FramesShowTheFinerLevels) {
         config.cloud_thickness = 0;
         s.scene.earth =
             std::make_shared<const EarthModel>(config, std::move(ground), EarthMap(), nullptr, s.grid, finer);
-        s.quality.kept_earth = false;
+        s.quality.earth_impostor = false;
         s.sun({0.3, 0.5, -1});
         s.world.bodies[BodyId::kEarth].world_m = {
             0, 0, kFigures[index_of(BodyId::kEarth)].equatorial_radius_m + height_m};

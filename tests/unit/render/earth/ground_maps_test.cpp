@@ -83,7 +83,7 @@ double light_at(const std::string& day, bool kept) {
     config.cloud_thickness = 0;
     s.scene.earth = std::make_shared<const EarthModel>(config, four_seasons(), CloudMaps(even_ground(0)),
                                                        nullptr, s.grid);
-    s.quality.kept_earth = kept;
+    s.quality.earth_impostor = kept;
     s.quality.visibility = kept ? "buffer" : "rays";
     s.quality.samples_per_axis = kept ? 1 : 4;
     s.sun({0.3, 0.5, -1});

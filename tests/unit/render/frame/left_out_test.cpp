@@ -29,7 +29,7 @@ const std::vector<Pose> kNowhere = {{{kNoNumber, 0, 0}, {}},
 
 // By paths, and with light that is cached.
 TEST(LeftOut, AnObjectThatIsNowhereIsNotInThePicture) {
-    for (const char* model : {"path", "kept"}) {
+    for (const char* model : {"path", "cached"}) {
         Stage alone;
         alone.quality.path_model = model;
         alone.add(plate(lambert(0.5), alone.grid), {0, 0, 9});

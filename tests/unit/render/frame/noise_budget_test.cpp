@@ -50,7 +50,7 @@ std::vector<float> converged() {
     BudgetStage s;
     s.quality.samples_per_axis = 8;
     s.quality.noise_budget = 1e-6;
-    s.quality.most_passes = 63;
+    s.quality.max_passes = 63;
     s.build();
     return s.electrons(1000);
 }
@@ -98,7 +98,7 @@ TEST(NoiseBudget, TheErrorAgainstAConvergedPictureIsWithinIt) {
         BudgetStage s;
         s.quality.samples_per_axis = 2;
         s.quality.noise_budget = budget;
-        s.quality.most_passes = 63;
+        s.quality.max_passes = 63;
         s.build();
         const Errors within = errors_of(s, truth, budget, 4);
         ASSERT_GT(s.stats.lit_px, 300u);
@@ -113,7 +113,7 @@ TEST(NoiseBudget, TheErrorAgainstAConvergedPictureIsWithinIt) {
         EXPECT_GT(within.mean_square, 0.1) << budget;
 
         // The same without a budget for more: most of the light is not within it.
-        s.quality.most_passes = 1;
+        s.quality.max_passes = 1;
         s.build();
         EXPECT_GT(errors_of(s, truth, budget, 4).mean_square, most) << budget;
         EXPECT_LT(s.stats.within_budget_px, s.stats.lit_px);
@@ -124,7 +124,7 @@ TEST(NoiseBudget, HalfTheBudgetCostsMoreAndAWeakSignalNothing) {
     const auto rays = [](double budget, float electrons_scale) {
         BudgetStage s;
         s.quality.noise_budget = budget;
-        s.quality.most_passes = 63;
+        s.quality.max_passes = 63;
         s.build();
         PixelNoise noise = sensor();
         noise.electrons_per_radiance = electrons_scale * noise.electrons_per_radiance;
@@ -168,7 +168,7 @@ TEST(NoiseBudget, SamplesThatAgreeByChanceAreNotTrusted) {
     s.quality.rays_across = 0;
     s.quality.max_depth = 1;
     s.quality.noise_budget = 0.3;
-    s.quality.most_passes = 63;
+    s.quality.max_passes = 63;
     SceneObject strip = plate(lambert(1), s.grid);
     for (Vec3f& v : strip.mesh.vertices_m) v.y *= 0.005f;
     s.add(std::move(strip), {0, 0.01, 3.2});  // 20 px long, 0.1 px wide, inside a row of pixels
@@ -204,7 +204,7 @@ TEST(NoiseBudget, OffItChangesNoBit) {
     const auto picture = [](std::int64_t passes, bool told) {
         BudgetStage s;
         s.quality.samples_per_axis = 2;
-        s.quality.most_passes = passes;
+        s.quality.max_passes = passes;
         s.build();
         if (told) s.renderer->set_pixel_noise(sensor());
         s.render_again();
@@ -224,7 +224,7 @@ TEST(QualityLevels, ALevelIsTheQualityThatItNames) {
     const std::vector<RenderQuality> levels = {
         level([](RenderQuality& q) { q.samples_per_axis = 2, q.sun_disk = true; }),
         level([](RenderQuality& q) { q.noise_budget = 0.5; }),
-        level([](RenderQuality& q) { q.path_model = "kept", q.max_depth = 2; }),
+        level([](RenderQuality& q) { q.path_model = "cached", q.max_depth = 2; }),
         level([](RenderQuality& q) { q.path_model = "direct", q.samples_per_axis = 3; }),
         level([](RenderQuality& q) { q.contribution_threshold = 0.5; })};
     const auto prepare = [](BudgetStage& s, const RenderQuality& own, std::span<const RenderQuality> lower) {

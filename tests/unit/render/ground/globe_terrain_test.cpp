@@ -61,7 +61,7 @@ TEST(GlobeTerrain, RaysMeetTheHeightsOfTheMap) {
         view.camera_m = surface.point(up, kAbove_m);
         view.boresight = -up;
         view.half_field_rad = 0.4;
-        view.most_triangles = 2'000'000;
+        view.max_triangles = 2'000'000;
         const TerrainMesh made = terrain.mesh(view);
         EXPECT_LE(made.mesh.triangles.size(), 2'000'000u);
         EXPECT_GT(made.mesh.triangles.size(), 200'000u);
@@ -99,7 +99,7 @@ TEST(GlobeTerrain, MemoryIsBoundedAndTheSameViewGivesTheSameMesh) {
         view.camera_m = (kMoonFigure.equatorial_radius_m + 15'000) * place_on_sphere(lon, 5);
         view.boresight = -normalized(view.camera_m);
         view.half_field_rad = 0.2;
-        view.most_triangles = 300'000;
+        view.max_triangles = 300'000;
         return terrain.mesh(view);
     };
     const TerrainMesh first = mesh_at(0);
@@ -156,7 +156,7 @@ TEST(GlobeTerrain, ThereAreNoGapsBetweenTiles) {
                 kMoonFigure, relief(1440, 3000), std::vector<std::unique_ptr<const GroundDetail>>{},
                 GlobeSettings{});
             s.scene.terrain->material = make_material(lambert(0.5), s.grid);
-            s.scene.terrain->most_triangles = 1'000'000;
+            s.scene.terrain->max_triangles = 1'000'000;
             s.scene.terrain->edge_px = 4;
             const Vec3d up = place_on_sphere(lon, lat);
             s.world.camera.position_world_m = (kMoonFigure.equatorial_radius_m + 20'000) * up;

@@ -37,7 +37,7 @@ class Waves final : public HeightMap {
 TEST(Terrain, AMapLargerThanMemoryIsReadWhereItIsLookedAt) {
     const Waves map(1'000'000, 1, 3);
     TerrainView view{
-        .camera_m = {12'345, -54'321, 100}, .pixel_rad = 1e-3, .edge_px = 2, .most_triangles = 200'000};
+        .camera_m = {12'345, -54'321, 100}, .pixel_rad = 1e-3, .edge_px = 2, .max_triangles = 200'000};
     const TerrainMesh terrain = terrain_mesh(map, 0, view);
     EXPECT_LE(terrain.mesh.triangles.size(), 200'000u);
     EXPECT_GT(terrain.mesh.triangles.size(), 100'000u);
@@ -87,7 +87,7 @@ TEST(Terrain, OnASphereDistancesAlongTheGroundStay) {
     constexpr double kMoon_m = 1737.4e3;
     const Waves map(4097, 100, 0);
     const TerrainMesh terrain = terrain_mesh(
-        map, kMoon_m, {.camera_m = {0, 0, 1e5}, .pixel_rad = 1e-3, .edge_px = 2, .most_triangles = 100'000});
+        map, kMoon_m, {.camera_m = {0, 0, 1e5}, .pixel_rad = 1e-3, .edge_px = 2, .max_triangles = 100'000});
     double farthest_rad = 0;
     std::size_t on_sphere = 0;
     for (const Vec3f& v : terrain.mesh.vertices_m) {
@@ -112,7 +112,7 @@ TEST(Terrain, ThereAreNoGapsBetweenTiles) {
         s.scene.terrain = std::make_unique<SceneTerrain>();
         s.scene.terrain->ground = std::make_unique<TerrainPatch>(std::make_unique<Waves>(20'001, 2, 30), 0);
         s.scene.terrain->material = make_material(lambert(0.5), s.grid);
-        s.scene.terrain->most_triangles = 60'000;
+        s.scene.terrain->max_triangles = 60'000;
         s.scene.terrain->edge_px = 4;
         // The camera looks along +z; the ground's up is -z: east x, north -y.
         s.scene.terrain->pose = {{0, 0, 500}, from_rotation_vector({kPi + slant, 0, 0})};
@@ -135,7 +135,7 @@ struct OverWaves : Stage {
         waves = map.get();
         scene.terrain->ground = std::make_unique<TerrainPatch>(std::move(map), 0);
         scene.terrain->material = make_material(lambert(0.5), grid);
-        scene.terrain->most_triangles = 50'000;
+        scene.terrain->max_triangles = 50'000;
         scene.terrain->pose = {{0, 0, 500}, from_rotation_vector({kPi, 0, 0})};
         sun({0.3, 0.2, -1});
     }
