@@ -10,6 +10,7 @@
 #include "io/config/config_advice.h"
 #include "io/config/config_files.h"
 #include "io/config/config_manual.h"
+#include "io/config/renamed_keys.h"
 #include "io/config/yaml_flag.h"
 #include "io/system/text_number.h"
 #include "render/vocabulary/plain_number.h"
@@ -95,6 +96,8 @@ void YamlValue::read(const FlagField& f) const {
 
 void YamlValue::read(const TextField& f) const {
     if (!node_.IsScalar()) refuse("a text");
+    if (const std::string_view now = renamed_value(field_.key, node_.Scalar()); !now.empty())
+        refuse(std::string(now) + ", as it was renamed");
     *f.value = node_.Scalar();
 }
 
