@@ -153,9 +153,9 @@ std::uint64_t size_of(const CaseRange& range) { return range.last - range.first 
 }  // namespace
 
 void add_problem(CampaignOutcome& outcome, std::string line) {
-    constexpr std::size_t kMax = 20;
+    constexpr std::size_t kMaxNamed = 20;
     ++outcome.problems;
-    if (outcome.failures.size() < kMax) outcome.failures.push_back(std::move(line));
+    if (outcome.failures.size() < kMaxNamed) outcome.failures.push_back(std::move(line));
 }
 
 std::string interruption_text(std::uint64_t done, std::uint64_t all) {

@@ -164,13 +164,13 @@ class Report {
 
     void add_groups(int of_rank, const char* title) {
         // What is less than a thousandth of the pixel is counted alone.
-        constexpr double kMin = 1e-3;
+        constexpr double kMinShare = 1e-3;
         std::size_t count = 0, left_out = 0;
         double left_out_e = 0;
         for (const Group& group : groups_) {
             if (rank(group) != of_rank) continue;
             if (count++ == 0) out_ << title << '\n';
-            if (std::abs(group.electrons) < kMin * std::abs(all_))
+            if (std::abs(group.electrons) < kMinShare * std::abs(all_))
                 ++left_out, left_out_e += group.electrons;
             else
                 add_group(group);

@@ -13,7 +13,7 @@ constexpr double kStep_px = 0.25;
 constexpr std::size_t kSamples = static_cast<std::size_t>(2 * kLimbReach_px / kStep_px) + 1;
 // Places on the whole limb: enough that a narrow field, in which a thousandth of it is, still has some.
 constexpr int kCandidates = 65536;
-constexpr std::size_t kMax = 512, kMin = 8;
+constexpr std::size_t kMaxPoints = 512, kMinPoints = 8;
 
 // The body as the camera has it.
 class Limb {
@@ -143,9 +143,9 @@ std::vector<LimbPlace> limb_places(const BodyState& body, const Figure& figure, 
     std::vector<LimbPlace> seen;
     for (int i = 0; i < kCandidates; ++i)
         if (const auto place = place_at(limb, geometry, 2 * kPi * i / kCandidates)) seen.push_back(*place);
-    if (seen.size() < kMin) return {};
+    if (seen.size() < kMinPoints) return {};
     std::vector<LimbPlace> out;
-    const std::size_t count = std::min(kMax, seen.size());
+    const std::size_t count = std::min(kMaxPoints, seen.size());
     for (std::size_t i = 0; i < count; ++i) out.push_back(seen[i * seen.size() / count]);
     return out;
 }

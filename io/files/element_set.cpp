@@ -29,8 +29,8 @@ std::optional<int> catalogue_number(std::string_view text) {
             first = static_cast<int>(10 + letter) * 10'000;
             text.remove_prefix(1);
         }
-    constexpr std::size_t kMaxDigits = 9;  // the CCSDS's NORAD_CAT_ID has as many
-    if (text.empty() || text.size() > kMaxDigits) return {};
+    constexpr std::size_t kMaxNumberDigits = 9;  // the CCSDS's NORAD_CAT_ID has as many
+    if (text.empty() || text.size() > kMaxNumberDigits) return {};
     int number = 0;
     for (const char c : text) {
         if (c < '0' || c > '9') return {};
