@@ -12,7 +12,6 @@
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
-#include "io/system/text_number.h"
 #include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {

@@ -66,11 +66,11 @@ double mean(const RadianceImage& image) {
 // The parts of a stage's picture, which it then has. The stage may have been built.
 LightParts parts_of(Stage& stage, PixelRecord* record = nullptr) {
     if (!stage.renderer) stage.build();
-    LightParts parts(stage.radiance);
-    stage.renderer->keep_parts(&parts, record);
+    PartsBuffer buffer = stage.renderer->make_parts_buffer(stage.radiance);
+    stage.renderer->keep_parts(&buffer, record);
     stage.render_again();
     stage.renderer->keep_parts(nullptr);
-    return parts;
+    return std::move(buffer.parts);
 }
 
 // Wants the entries of some pixels in the picture's middle to be all of their light.

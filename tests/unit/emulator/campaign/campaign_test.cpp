@@ -117,7 +117,7 @@ TEST_F(CampaignTest, TheCameraStandsWhereTheViewSays) {
         TruthRequest request;
         request.visibility = request.stars = false;
         FrameTruth truth = truth_record(camera, request);
-        camera.camera().tell(truth);
+        camera.camera().report(truth);
         const SeenThing& plate = truth.things[0];
         const double size_px = 5 + 15 * draw.view_place(n, 0, CaseDraw::View::kSize);
         const double phase_deg = 10 + 140 * draw.view_place(n, 0, CaseDraw::View::kPhase);

@@ -71,7 +71,7 @@ class PictureHeights {
         request.stars = request.visibility = false, request.position = true;
         truth_ = make_truth(s, camera_.renderer(), request);
         truth_.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
-        camera_.tell(truth_);
+        camera_.report(truth_);
     }
     double at(int x, int y) const {
         return camera_m_ -
@@ -199,7 +199,7 @@ SeenGroundThings told_by_run(const ScenarioConfig& s) {
     StillCamera camera(s);
     FrameTruth truth = make_truth(s, camera.renderer(), truth_request(s));
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
-    camera.tell(truth);
+    camera.report(truth);
     return ground->find(truth);
 }
 

@@ -126,11 +126,14 @@ std::vector<float> values_of(const RadianceImage& image) { return {image.all().b
 struct TakenApart {
     StillCamera camera;
     std::vector<float> without, with;
-    LightParts parts;
+    PartsBuffer buffer;
+    const LightParts& parts = buffer.parts;
 
     explicit TakenApart(const ScenarioConfig& s, StillCamera::Light light = StillCamera::Light::kRadiance)
-        : camera(s, 0, light), without(values_of(camera.render(kKey))), parts(camera.radiance()) {
-        camera.renderer().keep_parts(&parts);
+        : camera(s, 0, light),
+          without(values_of(camera.render(kKey))),
+          buffer(camera.renderer().make_parts_buffer(camera.radiance())) {
+        camera.renderer().keep_parts(&buffer);
         with = values_of(camera.render(kKey));
         camera.renderer().keep_parts(nullptr);
     }

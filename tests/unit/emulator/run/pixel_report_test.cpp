@@ -43,8 +43,8 @@ class PixelReport : public PlateTest {
         StillCamera camera(s, 0, StillCamera::Light::kRadiance);
         PixelRecord record;
         record.box = radiance_pixels(camera, pixel);
-        LightParts parts(camera.radiance());
-        camera.renderer().keep_parts(&parts, &record);
+        PartsBuffer buffer = camera.renderer().make_parts_buffer(camera.radiance());
+        camera.renderer().keep_parts(&buffer, &record);
         const RadianceImage& radiance = camera.render({1, 1});
         Told told{pixel_report(camera, pixel, record), 0};
         const auto m = static_cast<double>(s.quality.oversampling);

@@ -22,7 +22,7 @@ SectionField section_of(Quality& q) {
             {}};
 }
 
-std::string refusal_of(const std::string& yaml, const std::vector<std::string>& overrides = {}) {
+std::string answer_to(const std::string& yaml, const std::vector<std::string>& overrides = {}) {
     Quality q;
     try {
         read_config_text(yaml, "old.yaml", ".", section_of(q), overrides);
@@ -33,24 +33,24 @@ std::string refusal_of(const std::string& yaml, const std::vector<std::string>& 
 }
 
 TEST(RenamedKeys, AnEarlierKeyIsAnsweredByItsNewName) {
-    EXPECT_EQ(refusal_of("probes: 3\nkept_nodes: 4\n"),
+    EXPECT_EQ(answer_to("probes: 3\nkept_nodes: 4\n"),
               "old.yaml:2:1: kept_nodes: unknown key; it was renamed to probes");
-    EXPECT_EQ(refusal_of("probes: 3\n", {"kept_nodes=4"}),
+    EXPECT_EQ(answer_to("probes: 3\n", {"kept_nodes=4"}),
               "--set kept_nodes: unknown key; it was renamed to probes");
     Quality q;
     EXPECT_EQ(key_advice("kept_nodes", section_of(q).fields), "; it was renamed to probes");
 }
 
 TEST(RenamedKeys, AKeyThatNeverWasIsNot) {
-    EXPECT_EQ(refusal_of("kept_lodes: 4\n").find("renamed"), std::string::npos);
+    EXPECT_EQ(answer_to("kept_lodes: 4\n").find("renamed"), std::string::npos);
     // Its new name is none of this section.
-    EXPECT_EQ(refusal_of("most_hz: 4\n").find("renamed"), std::string::npos);
+    EXPECT_EQ(answer_to("most_hz: 4\n").find("renamed"), std::string::npos);
 }
 
 TEST(RenamedKeys, AnEarlierWordIsAnsweredByItsNewOne) {
-    EXPECT_EQ(refusal_of("path_model: kept\n"),
+    EXPECT_EQ(answer_to("path_model: kept\n"),
               "old.yaml:1:13: path_model: found 'kept'; accepted: cached, as it was renamed (path model)");
-    EXPECT_EQ(refusal_of("path_model: cached\n"), "");
+    EXPECT_EQ(answer_to("path_model: cached\n"), "");
 }
 
 }  // namespace
