@@ -163,17 +163,18 @@ class Report {
     }
 
     void add_groups(int of_rank, const char* title) {
-        // What is less than a thousandth of the pixel is counted alone.
+        // The brightest is always named, as what a mirror shows hangs on the mirror; others below a thousandth of the pixel are counted.
         constexpr double kMinShare = 1e-3;
         std::size_t count = 0, left_out = 0;
         double left_out_e = 0;
         for (const Group& group : groups_) {
             if (rank(group) != of_rank) continue;
-            if (count++ == 0) out_ << title << '\n';
-            if (std::abs(group.electrons) < kMinShare * std::abs(all_))
-                ++left_out, left_out_e += group.electrons;
-            else
+            const bool is_first = count++ == 0;
+            if (is_first) out_ << title << '\n';
+            if (is_first || std::abs(group.electrons) >= kMinShare * std::abs(all_))
                 add_group(group);
+            else
+                ++left_out, left_out_e += group.electrons;
         }
         if (left_out > 0)
             out_ << "  " << left_out

@@ -26,7 +26,7 @@ Fields fields(RenderQuality& q) {
                           "number of surfaces that a light path may meet; 1: direct sunlight only")),
         per_frame(number(
             "contribution_threshold", q.contribution_threshold, 1, {0, 1},
-            "a path whose largest throughput falls below this ends (kept), or lives on by chance (path)")),
+            "a path whose largest throughput falls below this ends (cached), or lives on by chance (path)")),
         per_frame(
             flag("sun_disk", q.sun_disk,
                  "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights")),
