@@ -99,7 +99,7 @@ TEST(Plugin, ANameIsTakenOnceAndAnUnknownOneListsTheKnown) {
         FAIL();
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(),
-                     "quality.path_model: found 'pathh'; accepted: direct | distance | kept | path");
+                     "quality.path_model: found 'pathh'; accepted: cached | direct | distance | path");
     }
 }
 
@@ -110,10 +110,11 @@ TEST(Plugin, AModelThatHasBecomeAPlugInIsNamedWithItsPlace) {
         make_path_model(modules, "hemisphere");
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(),
-                     "quality.path_model: found 'hemisphere', which is the example of a plug-in now "
-                     "(tests/plugin/hemisphere_plugin.cpp, named under 'plugins'); accepted: direct | kept | "
-                     "path");
+        EXPECT_STREQ(
+            error.what(),
+            "quality.path_model: found 'hemisphere', which is the example of a plug-in now "
+            "(tests/plugin/hemisphere_plugin.cpp, named under 'plugins'); accepted: cached | direct | "
+            "path");
     }
     const std::vector<std::filesystem::path> files = {HILCAM_PLUGIN_HEMISPHERE};
     load_plugins(files, modules);

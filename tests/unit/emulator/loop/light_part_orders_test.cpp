@@ -43,7 +43,7 @@ struct Desk {
     }
     // What the loop does with an order: a number that says which part and frame it was.
     static std::uint16_t number(LightPart part, std::uint64_t frame) {
-        return static_cast<std::uint16_t>(100 * static_cast<int>(part) + static_cast<int>(frame));
+        return static_cast<std::uint16_t>(1000 * static_cast<int>(part) + static_cast<int>(frame));
     }
     void finish(LightPartOrders::Order& order, std::uint64_t frame) {
         order.buffer->parts.of(order.part).row(0)[0] = number(order.part, frame);
@@ -134,12 +134,10 @@ TEST(LightPartOrders, AFrameThatEndsWithTheLoopIsStillGiven) {
 TEST(LightPartOrders, ManyAreServedOneByOne) {
     Desk desk;
     std::atomic<bool> over{false};
-    std::atomic<std::uint64_t> frame{0};
+    std::uint64_t frame = 0;  // of those that are taken apart: no two have one number
     std::thread loop([&] {
-        for (; !over; std::this_thread::yield()) {
-            ++frame;
-            if (LightPartOrders::Order* const order = desk.orders.begin()) desk.finish(*order, frame % 100);
-        }
+        for (; !over; std::this_thread::yield())
+            if (LightPartOrders::Order* const order = desk.orders.begin()) desk.finish(*order, ++frame);
         desk.orders.close();
     });
     const auto look = [&](LightPart part) {
