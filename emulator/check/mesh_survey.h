@@ -37,8 +37,8 @@ struct MeshSurvey {
     std::uint64_t sliver_triangles = 0;     // three places on a line
     std::uint64_t repeated_triangles = 0;   // on the same places as another
     std::uint64_t opposed_normals = 0;      // triangles whose normals in the file look to their other side
-    std::uint64_t leaning_normals =
-        0;  // facets of an STL whose stored normal is more than 26 degrees off the plane of their corners
+    // An STL stores a normal for each facet. It is more than 26 degrees off the plane of the facet's corners in so many.
+    std::uint64_t leaning_normals = 0;
     bool has_normals = false;
     bool probably_mm = false;
     // The step of single precision at the farthest coordinate, where it is more than a ten-thousandth of the

@@ -104,7 +104,7 @@ RadianceImage ExposureRenderer::make_image() const {
     return image;
 }
 
-// The sum of parts has no halves: its blur is wider than a pixel.
+// The sum of parts has no moments: its blur is wider than a pixel.
 RadianceImage ExposureRenderer::make_part() const {
     const ImageGeometry& g = renderer_.geometry();
     if (for_detector_) return {g.padded_width(), g.padded_height(), responses_};

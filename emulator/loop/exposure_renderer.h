@@ -56,8 +56,8 @@ class ExposureRenderer {
     // See Renderer. Loop, before an exposure.
     bool take_light() { return renderer_.take_light(); }
 
-    // From the next exposure on takes its light apart, too (Renderer::keep_parts); null: no more. Not with exact motion, whose parts
-    // of an exposure are pictures of their own. Loop, before an exposure.
+    // Makes the renderer take the light of the next exposures apart (Renderer::keep_parts); null ends that. Exact motion renders an
+    // exposure as several pictures, which cannot be taken apart. Loop, before an exposure.
     void keep_parts(PartsBuffer* buffer) { renderer_.keep_parts(buffer); }
     // Memory for that: for one part of the light. Any thread.
     PartsBuffer make_parts_buffer(LightPart part) const {

@@ -61,7 +61,7 @@ void LightPartOrders::carry_out(const Wish& wish, Clock::time_point deadline) {
 
 // False: time is up, or the loop has ended before it began.
 bool LightPartOrders::wait_until_done(Clock::time_point deadline) {
-    // Of CLOCK_MONOTONIC, as steady_clock is.
+    // The semaphore counts by CLOCK_MONOTONIC, and so does steady_clock.
     const std::int64_t until_ns = std::chrono::nanoseconds(deadline.time_since_epoch()).count();
     // The loop ends an order before it ends: once it has, an order is done, or will not be.
     while (state_.load(std::memory_order_acquire) != State::kDone) {

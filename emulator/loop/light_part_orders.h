@@ -1,9 +1,10 @@
 #pragma once
 // Orders to the loop to take its next frame apart into the parts of its light, one at a time.
 //
-// Who asks makes the memory and waits; the loop fills it and allocates nothing. While nobody asks, a frame costs one relaxed load.
-// The buffer belongs to who asks but for kInWork, when it is the loop's. Who gives up before the loop has begun takes the order back;
-// later, the frame is finished without him, and the next who asks gets it, or has its memory freed.
+// The client of an order allocates its buffer and waits; the loop fills the buffer and allocates nothing. While there is no order, a
+// frame costs one relaxed load. The loop owns the buffer while the state is kInWork, and the client owns it at all other times. A client
+// that gives up before the loop begins withdraws its order. If it gives up later, the loop still finishes the frame, and the next client
+// gets that frame or frees its memory.
 
 #include <atomic>
 #include <chrono>
@@ -79,7 +80,7 @@ class LightPartOrders : public LightPartSource {
     std::atomic<State> state_{State::kIdle};
     std::atomic<bool> closed_{false};
     TimedSemaphore news_;  // the loop's: an order is done, or none will be any more
-    Order order_;          // the loop's while it is in work, else that of whose turn it is
+    Order order_;  // the loop owns it while the state is kInWork; else the client that has the turn does
 
     std::mutex mutex_;  // guards what follows
     std::condition_variable turns_;

@@ -20,16 +20,6 @@ FrameRaster raster(const ScenarioConfig& s) {
                      {s.camera.binning_x, s.camera.binning_y});
 }
 
-// Pixels of the image along one axis that a pixel of the frame is made of.
-struct Reach {
-    int first, last;  // the one after it
-};
-Reach reach_of(const RasterAxis& axis, int frame_px, int guard_px) {
-    const double a = axis.image_px(frame_px), b = axis.image_px(frame_px + 1);
-    return {static_cast<int>(std::lround(std::min(a, b))) + guard_px,
-            static_cast<int>(std::lround(std::max(a, b))) + guard_px};
-}
-
 std::string option(FramePixel pixel) {
     return "--pixel " + std::to_string(pixel.x) + ' ' + std::to_string(pixel.y);
 }
@@ -37,7 +27,7 @@ std::string option(FramePixel pixel) {
 // Returns the number of the filter over a pixel. InputError where pixels under several filters are binned into one.
 int channel_of(const CameraModel& model, const FrameRaster& lies, int oversampling, FramePixel pixel) {
     const Mosaic mosaic(model);
-    const Reach x = reach_of(lies.x, pixel.x, 0), y = reach_of(lies.y, pixel.y, 0);
+    const PixelReach x = reach_of(lies.x, pixel.x), y = reach_of(lies.y, pixel.y);
     const int channel = mosaic.channel(x.first / oversampling, y.first / oversampling);
     for (int row = y.first / oversampling; row < y.last / oversampling; ++row)
         for (int column = x.first / oversampling; column < x.last / oversampling; ++column)
@@ -227,18 +217,19 @@ PixelBox radiance_pixels(const StillCamera& camera, FramePixel pixel) {
                          std::to_string(lies.width_px - 1) + " and 0 to " +
                          std::to_string(lies.height_px - 1));
     const ImageGeometry& image = camera.renderer().geometry();
-    const auto lit = [&](const Reach& all, int size_px) {
-        return Reach{std::max(all.first, image.guard_px), std::min(all.last, image.guard_px + size_px)};
+    const auto lit = [](const PixelReach& all, int size_px) {
+        return PixelReach{std::max(all.first, 0), std::min(all.last, size_px)};
     };
     channel_of(camera.scenario().camera, lies, static_cast<int>(camera.scenario().quality.oversampling),
                pixel);
-    const Reach x = lit(reach_of(lies.x, pixel.x, image.guard_px), image.width_px),
-                y = lit(reach_of(lies.y, pixel.y, image.guard_px), image.height_px);
+    const PixelReach x = lit(reach_of(lies.x, pixel.x), image.width_px),
+                     y = lit(reach_of(lies.y, pixel.y), image.height_px);
     if (x.first >= x.last || y.first >= y.last)
         throw InputError(option(pixel) + ": is a black pixel, which no light reaches; accepted: one beyond " +
                          std::to_string(camera.scenario().camera.black_columns) + " black columns and " +
                          std::to_string(camera.scenario().camera.black_rows) + " black rows");
-    return {x.first, y.first, x.last, y.last};
+    const int guard_px = image.guard_px;
+    return {x.first + guard_px, y.first + guard_px, x.last + guard_px, y.last + guard_px};
 }
 
 std::string pixel_report(const StillCamera& camera, FramePixel pixel, const PixelRecord& record) {

@@ -101,7 +101,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
     tile_pixels_.resize(pool_slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
     if (buffer)
-        seen_.resize(pool_slots()), edges_.resize(pool_slots()), tile_moments_.resize(pool_slots()),
+        seen_.resize(pool_slots()), penumbrae_.resize(pool_slots()), tile_moments_.resize(pool_slots()),
             tile_kinds_.resize(pool_slots());
     if (ground) ground_seen_.resize(pool_slots());
     clusters_.resize(pool_slots());
@@ -142,7 +142,7 @@ TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
     // Tiles smaller than the image's blocks share a mark: it stays off.
     const bool marks = levels_[level_].tiles.edge_px() == RadianceImage::kBlock_px;
     if (!marks) radiance.clear_marks();
-    find_halves(setup, marks, radiance);
+    find_moments(setup, marks, radiance);
     for (GroundSeen& seen : ground_seen_) seen.x_px = seen.y_px = -1;
     if (parts_) parts_->parts.clear();
     if (record_) record_->entries.clear();
@@ -174,7 +174,7 @@ TileStats FrameTracer::sum_of_stats(int tiles) const {
 }
 
 // Frames that the visibility buffer makes know where in their pixels light falls.
-void FrameTracer::find_halves(const FrameSetup& setup, bool marks, RadianceImage& radiance) {
+void FrameTracer::find_moments(const FrameSetup& setup, bool marks, RadianceImage& radiance) {
     SubpixelLight* const moments = radiance.moments();
     moments_ = moments && marks && quality().uses_buffer() && setup.frame().visibility ? moments : nullptr;
     if (moments) moments->set_used(moments_ != nullptr);
@@ -255,7 +255,7 @@ void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats, clusters_[slot]};
     tile.seen = seen;
-    if (seen) tile.penumbra = &edges_[slot];
+    if (seen) tile.penumbra = &penumbrae_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
     if (moments_) {
         tile.moment_responses = moments_->responses();

@@ -94,11 +94,11 @@ class FrameTracer {
         int x_px = -1, y_px = -1;
         bool any = false;
     };
-    std::vector<GroundSeen> ground_seen_;    // one per slot; none where rays see
-    bool ground_has_steps_ = false;          // at some level
-    std::optional<GroundUpsampler> places_;  // none before the first frame, and where no level has them
-    std::vector<VisibilityTile> seen_;       // likewise
-    std::vector<PenumbraSampler> edges_;     // likewise
+    std::vector<GroundSeen> ground_seen_;     // one per slot; none where rays see
+    bool ground_has_steps_ = false;           // at some level
+    std::optional<GroundUpsampler> places_;   // none before the first frame, and where no level has them
+    std::vector<VisibilityTile> seen_;        // likewise
+    std::vector<PenumbraSampler> penumbrae_;  // likewise
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
     std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame
@@ -114,7 +114,7 @@ class FrameTracer {
             });
     }
     TileStats sum_of_stats(int tiles) const;
-    void find_halves(const FrameSetup& setup, bool marks, RadianceImage& radiance);
+    void find_moments(const FrameSetup& setup, bool marks, RadianceImage& radiance);
     void trace_tile(const FrameSetup& setup, const PixelBox& box, std::size_t slot, TileStats& stats,
                     RadianceImage& radiance);
     const VisibilityTile* ground_at(const FrameContext& frame, const PixelBox& box, std::size_t slot);

@@ -18,6 +18,7 @@
 #include "tests/support/corner.h"
 #include "tests/support/earth_detail_stage.h"
 #include "tests/support/earth_stage.h"
+#include "tests/support/even_air.h"
 #include "tests/support/furnace.h"
 #include "tests/support/stage.h"
 
@@ -374,23 +375,6 @@ TEST(LightParts, APixelWithoutANumberHasNone) {
     for (std::size_t i = 0; i < kLightParts; ++i)
         EXPECT_TRUE(is_nothing(parts.of(static_cast<LightPart>(i)))) << kLightPartNames[i];
 }
-
-// Air that shines evenly up to its top, and lets all light through.
-class EvenAir final : public Atmosphere {
-  public:
-    double top_m() const override { return 1e5; }
-    Sight look(Vec3d, Vec3d, double, Vec3d) const override { return {all(1), all(1)}; }
-    Spectrum sun_transmittance(Vec3d, Vec3d) const override { return all(1); }
-    Spectrum sky_irradiance(Vec3d, Vec3d) const override { return {}; }
-    std::string describe() const override { return "even"; }
-
-  private:
-    static Spectrum all(float value) {
-        Spectrum out;
-        out.bin.fill(value);
-        return out;
-    }
-};
 
 TEST(LightParts, AirBeforeSomethingBlackIsAir) {
     for (const Way& way : {Way{"direct", "rays"}, Way{"path", "rays"}, Way{"cached", "buffer"}}) {

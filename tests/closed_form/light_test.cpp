@@ -8,6 +8,7 @@
 #include "render/earth/earth_model.h"
 #include "render/paths/path_models.h"
 #include "render/sky/sun.h"
+#include "tests/support/even_air.h"
 #include "tests/support/furnace.h"
 #include "tests/support/stage.h"
 
@@ -20,23 +21,6 @@ MaterialConfig mirror() {
     m.reflectance = Curve::constant(1);
     return m;
 }
-
-// Air that shines evenly up to its top.
-class EvenAir final : public Atmosphere {
-  public:
-    double top_m() const override { return 1e5; }
-    Sight look(Vec3d, Vec3d, double, Vec3d) const override { return {all(1), all(1)}; }
-    Spectrum sun_transmittance(Vec3d, Vec3d) const override { return all(1); }
-    Spectrum sky_irradiance(Vec3d, Vec3d) const override { return {}; }
-    std::string describe() const override { return "even"; }
-
-  private:
-    static Spectrum all(float value) {
-        Spectrum out;
-        out.bin.fill(value);
-        return out;
-    }
-};
 
 // What is drawn at the very edge of a body's cone may lie outside of it by rounding. That is drawn once in eight million times:
 // a frame in which it is is looked for.
