@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/frame/finite_light.h"
+#include "render/glossy/glossy_reuse.h"
 #include "render/ground_shading/ground_light.h"
 
 namespace hilcam {
@@ -42,6 +43,21 @@ void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, R
         });
 }
 
+// Adds to what is there.
+void add(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance) {
+    const std::span<const Spectrum> responses = radiance.responses();
+    const int width = box.x1 - box.x0;
+    for (int plane = 0; plane < radiance.planes(); ++plane)
+        for (int y = box.y0; y < box.y1; ++y) {
+            float* out = radiance.row(y, plane).data() + box.x0;
+            const Spectrum* in = pixels.data() + (y - box.y0) * width;
+            for (int x = 0; x < width; ++x)
+                out[x] += share * (responses.empty()
+                                       ? in[x][plane]
+                                       : sum_of_products(responses[static_cast<std::size_t>(plane)], in[x]));
+        }
+}
+
 void copy(const RadianceImage& from, const PixelBox& box, RadianceImage& to) {
     for (int p = 0; p < from.planes(); ++p)
         for (int y = box.y0; y < box.y1; ++y)
@@ -67,6 +83,19 @@ bool write(const Tile& tile, float share, bool may_leave, SubpixelLight& moments
         std::copy_n(tile.kinds.begin() + (y - box.y0) * static_cast<std::ptrdiff_t>(width), width,
                     moments.kinds(y).begin() + box.x0);
     return true;
+}
+
+// Adds a tile's differences to what is there.
+void add(const Tile& tile, float share, SubpixelLight& moments) {
+    const PixelBox& box = tile.box;
+    const auto width = static_cast<std::size_t>(box.x1 - box.x0);
+    const float* in = tile.moments.data();
+    for (int channel = 0; channel < static_cast<int>(tile.moment_responses.size()); ++channel)
+        for (int difference = 0; difference < SubpixelLight::kDifferences; ++difference)
+            for (int y = box.y0; y < box.y1; ++y, in += width) {
+                float* out = moments.row(y, difference, channel).data() + box.x0;
+                for (std::size_t x = 0; x < width; ++x) out[x] += share * in[x];
+            }
 }
 
 std::size_t pool_slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
@@ -104,6 +133,9 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
         seen_.resize(pool_slots()), penumbrae_.resize(pool_slots()), tile_moments_.resize(pool_slots()),
             tile_kinds_.resize(pool_slots());
     if (ground) ground_seen_.resize(pool_slots());
+    if (std::any_of(path_sets_.begin(), path_sets_.end(),
+                    [](const PathSet& set) { return set.models.front()->uses_indirect_cache(); }))
+        glossy_ = GlossyBuffer(width_, height_, static_cast<std::size_t>(max_tiles), PathModel::kMaxSamples);
     clusters_.resize(pool_slots());
     for (std::size_t i = 0; budget && i < pool_slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
@@ -157,14 +189,32 @@ TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
         if (marks) radiance.mark_dark(tile.x0, tile.y0, !anything);
         stats = {};
         if (moments_) moments_->mark_unknown(tile.x0, tile.y0, true);
+        if (glossy_.parts() > 0) glossy_.skip(static_cast<std::size_t>(index));
         if (anything)
-            trace_tile(setup, tile, slot, stats, radiance);
+            trace_tile(setup, index, slot, radiance);
         else if (!was_dark)
             fill_zero(radiance, tile);
         tiles_done_.fetch_add(1, std::memory_order_relaxed);
     });
+    if (glossy_.parts() > 0 && setup.frame().indirect) add_glossy(setup.frame(), radiance);
     sum += sum_of_stats(all);
     return sum;
+}
+
+// Adds what the lobes reflect that rays have followed, once all of these have come back.
+void FrameTracer::add_glossy(const FrameContext& frame, RadianceImage& radiance) {
+    if (getenv("GLOSSY")) {
+        std::size_t n = 0, r = 0, narrow = 0; 
+        for (std::size_t i = 0; i < glossy_.parts(); ++i) { n += glossy_.part(i).points().size(); r += glossy_.part(i).rays(); for (const GlossyPoint& p : glossy_.part(i).points()) narrow += p.alpha < 0.12f; }
+        fprintf(stderr, "glossy points %zu rays %zu narrow %zu\n", n, r, narrow);
+    }
+    timespec t0, t1; clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t0);
+    for_each_tile([&](int index, const PixelBox&, std::size_t slot) {
+        const GlossyBuffer::Part& part = glossy_.part(static_cast<std::size_t>(index));
+        if (!part.points().empty()) add_glossy_of(frame, part, slot, tile_stats_[static_cast<std::size_t>(index)], radiance);
+    });
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t1);
+    if (getenv("GLOSSY")) fprintf(stderr, "gather %.2f ms\n", 1e3 * double(t1.tv_sec - t0.tv_sec) + 1e-6 * double(t1.tv_nsec - t0.tv_nsec));
 }
 
 TileStats FrameTracer::sum_of_stats(int tiles) const {
@@ -185,8 +235,9 @@ void FrameTracer::find_moments(const FrameSetup& setup, bool marks, RadianceImag
     for (std::vector<SubpixelKind>& of_tile : tile_kinds_) of_tile.resize(PathModel::kMaxSamples);
 }
 
-void FrameTracer::trace_tile(const FrameSetup& setup, const PixelBox& box, std::size_t slot, TileStats& stats,
-                             RadianceImage& radiance) {
+void FrameTracer::trace_tile(const FrameSetup& setup, int index, std::size_t slot, RadianceImage& radiance) {
+    const PixelBox box = levels_[level_].tiles[index];
+    TileStats& stats = tile_stats_[static_cast<std::size_t>(index)];
     if (setup.frame().ground && setup.frame().ground_step_px > 1 && places_->give(box, radiance)) {
         stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
         if (parts_ && parts_->parts.has(LightPart::kSun))
@@ -201,11 +252,15 @@ void FrameTracer::trace_tile(const FrameSetup& setup, const PixelBox& box, std::
     }
     const int edge = tile_edge_px(seen ? 1 : n);
     const bool once = quality().noise_budget == 0;
+    // What is traced in several parts, as many rays see it, has room for none of them.
+    GlossyBuffer::Part* const glossy = glossy_.parts() > 0 && edge >= box.x1 - box.x0 && edge >= box.y1 - box.y0
+                                           ? &glossy_.begin(static_cast<std::size_t>(index), box)
+                                           : nullptr;
     for (int y = box.y0; y < box.y1; y += edge)
         for (int x = box.x0; x < box.x1; x += edge) {
             const PixelBox part{x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)};
             if (once)
-                trace_once(setup.frame(), part, n, slot, seen, stats, radiance);
+                trace_once(setup.frame(), part, n, slot, seen, glossy, stats, radiance);
             else
                 trace_to_budget(setup.frame(), part, n, slot, stats, radiance);
         }
@@ -249,12 +304,13 @@ void FrameTracer::trace_places_of(const FrameContext& frame, const PixelBox& box
 }
 
 void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
-                             VisibilityTile* seen, TileStats& stats, RadianceImage& radiance) {
+                             VisibilityTile* seen, GlossyBuffer::Part* glossy, TileStats& stats,
+                             RadianceImage& radiance) {
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats, clusters_[slot]};
-    tile.seen = seen;
+    tile.seen = seen, tile.glossy = glossy;
     if (seen) tile.penumbra = &penumbrae_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
     if (moments_) {
@@ -273,6 +329,7 @@ void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int
         tile.parts = &parts;
     }
     if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
+    if (glossy) glossy_.link(*glossy);
     if (parts_) leave_out_not_finite(pixels, parts), write_parts(parts, share);
     if (const std::uint64_t left_out = leave_out_not_finite(pixels); left_out > 0) {
         stats.not_finite += left_out;
@@ -284,6 +341,42 @@ void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int
     // A block of several tiles has one mark.
     const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;
     if (moments_ && write(tile, share, alone, *moments_)) moments_->mark_unknown(box.x0, box.y0, false);
+}
+
+// The pixels of one tile.
+void FrameTracer::add_glossy_of(const FrameContext& frame, const GlossyBuffer::Part& part, std::size_t slot,
+                                TileStats& stats, RadianceImage& radiance) {
+    const PixelBox& box = part.box();
+    const int width = box.x1 - box.x0;
+    const auto count = static_cast<std::size_t>(width * (box.y1 - box.y0));
+    const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
+    std::fill(pixels.begin(), pixels.end(), Spectrum{});
+    Tile tile{frame, box, 1, pixels, stats, clusters_[slot]};
+    if (moments_) {
+        tile.moment_responses = moments_->responses();
+        tile.moments = std::span(tile_moments_[slot])
+                           .first(count * SubpixelLight::kDifferences * tile.moment_responses.size());
+        std::fill(tile.moments.begin(), tile.moments.end(), 0.0f);
+    }
+    const float share = 1.0f / kVisibilitySamples;
+    TileParts parts{box, {}, record_, share};
+    if (parts_) {
+        parts.sums = std::span(parts_->tile_sums[slot]).first(count * kImageParts);
+        std::fill(parts.sums.begin(), parts.sums.end(), Spectrum{});
+        tile.parts = &parts;
+    }
+    for (const GlossyPoint& point : part.points()) {
+        const int x = box.x0 + static_cast<int>(point.pixel) % width, y = box.y0 + static_cast<int>(point.pixel) / width;
+        const GlossyLight light = reused_light(glossy_, frame.indirect->planetshine(), point, x, y);
+        tile.add(point.pixel, LightPart::kGlossyRays, point.moments, light.surfaces);
+        tile.add(point.pixel, LightPart::kPlanetshine, point.moments, light.bodies);
+    }
+    if (parts_) leave_out_not_finite(pixels, parts);
+    stats.not_finite += leave_out_not_finite(pixels);
+    for (const LightPart of : {LightPart::kGlossyRays, LightPart::kPlanetshine})
+        if (parts_ && parts_->parts.has(of)) add(parts.of(of), share, box, parts_->parts.of(of));
+    add(pixels, share, box, radiance);
+    if (moments_) add(tile, share, *moments_);
 }
 
 void FrameTracer::write_parts(const TileParts& tile, float share) const {

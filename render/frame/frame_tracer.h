@@ -21,6 +21,7 @@
 #include "render/frame/frame_setup.h"
 #include "render/frame/parts_buffer.h"
 #include "render/frame/render_quality.h"
+#include "render/glossy/glossy_buffer.h"
 #include "render/ground_shading/ground_upsampler.h"
 #include "render/sunlight/penumbra_sampler.h"
 #include "render/vocabulary/radiance_image.h"
@@ -101,6 +102,7 @@ class FrameTracer {
     std::vector<PenumbraSampler> penumbrae_;  // likewise
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
+    GlossyBuffer glossy_;  // no parts where no level caches light
     std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame
 
     const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
@@ -115,13 +117,15 @@ class FrameTracer {
     }
     TileStats sum_of_stats(int tiles) const;
     void find_moments(const FrameSetup& setup, bool marks, RadianceImage& radiance);
-    void trace_tile(const FrameSetup& setup, const PixelBox& box, std::size_t slot, TileStats& stats,
-                    RadianceImage& radiance);
+    void trace_tile(const FrameSetup& setup, int index, std::size_t slot, RadianceImage& radiance);
+    void add_glossy(const FrameContext& frame, RadianceImage& radiance);
+    void add_glossy_of(const FrameContext& frame, const GlossyBuffer::Part& part, std::size_t slot,
+                       TileStats& stats, RadianceImage& radiance);
     const VisibilityTile* ground_at(const FrameContext& frame, const PixelBox& box, std::size_t slot);
     TileStats trace_places(const FrameContext& frame, const RadianceImage& radiance);
     void trace_places_of(const FrameContext& frame, const PixelBox& box, std::size_t slot, TileStats& stats);
     void trace_once(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
-                    VisibilityTile* seen, TileStats& stats, RadianceImage& radiance);
+                    VisibilityTile* seen, GlossyBuffer::Part* glossy, TileStats& stats, RadianceImage& radiance);
     void write_parts(const TileParts& tile, float share) const;
     void trace_to_budget(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                          TileStats& stats, RadianceImage& radiance);

@@ -67,7 +67,6 @@ void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> poin
     if (points.empty()) return;
     Together block;
     Lobes lobes;
-    float room = kMaxGlossy;
     for (std::size_t first = 0; first < points.size();) {
         const std::size_t end = gather(tile, points, first, block);
         std::fill(requests.begin() + static_cast<std::ptrdiff_t>(first),
@@ -79,7 +78,7 @@ void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> poin
             if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
         for (Place& place : places) reflect_clusters(tile.frame, lobes, place);
         for (const Use& use : std::span(block.uses.data(), block.use_count))
-            add_use(tile, use, requests, room);
+            add_use(tile, use, requests);
     }
 }
 
@@ -101,20 +100,18 @@ std::size_t IndirectCache::gather(const Tile& tile, std::span<const ShadingPoint
 
 void IndirectCache::reflect_clusters(const FrameContext& frame, Lobes& lobes, Place& place) const {
     const ShadingPoint& at = *place.at;
-    place.met = {}, place.bodies = {}, place.directions = 0;
+    place.met = {}, place.bodies = {}, place.unhidden = {}, place.free = {}, place.directions = 0;
     place.mirrors_near = true, place.has_bodies = false;
-    place.follower = GlossyRequest::kNobody;
     if (!at.surface.material->has_facets()) return;
     if (at.surface.alpha < kMinCachedAlpha) place.mirrors_near = is_near(frame, place);
     if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(frame, lobes, place);
     if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
 }
 
-// Adds what a shading point has of its place's light to its pixel, or leaves its lobe to rays. room: for so many more samples.
-void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests,
-                            float& room) const {
+// Adds what a shading point has of its place's light to its pixel, or leaves its lobe to rays.
+void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests) const {
     const ShadingPoint& at = *use.at;
-    Place& place = *use.place;
+    const Place& place = *use.place;
     GlossyRequest& request = requests[use.number];
     request.mirrors_near = place.mirrors_near;
     request.has_bodies = place.has_bodies;
@@ -125,18 +122,11 @@ void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest>
     Spectrum met, bodies;  // light of other surfaces and of bodies in the lobe
     if (surface.material->has_facets()) {
         met = has_own_colors(surface) ? lobe_albedo(at) * place.met : place.met;
-        request.wants_glossy_rays =
-            at.weight_samples <= room && hangs_on_few(tile, at, met, place.directions);
-        if (request.wants_glossy_rays) {
-            room -= at.weight_samples, follow_together(use.number, place, requests);
-            const Spectrum plain = has_own_colors(surface) ? plain_lobe_albedo(at) * place.met : met;
-            request.cached_lobe = max_component(at.throughput * plain);
-            request.cached_lobe_directions = place.directions;
+        request.point = leave_to_rays(tile, at, place, met);
+        if (request.point)
             met = {};
-        } else {
-            bodies = sum_of_bodies(at, place.bodies);
-            reflected += met + bodies;
-        }
+        else
+            bodies = sum_of_bodies(at, place.bodies), reflected += met + bodies;
     }
     tile.add(at, LightPart::kDiffuse, at.throughput * reflected);
     if (!tile.parts) return;
@@ -146,14 +136,42 @@ void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest>
     tile.move(at, LightPart::kDiffuse, LightPart::kGlossy, at.throughput * met);
 }
 
-void IndirectCache::follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests) {
-    if (place.follower == GlossyRequest::kNobody || place.followers == kMaxTogether) {
-        place.follower = number, place.followers = 1;
-        return;
+// Rays follow the lobes of what the camera sees, where what stands near could be seen in them: where a pixel has by it more than
+// half the threshold, against white paint in the Sun. From there to twice as much they count more and more against the cache's
+// directions, so that no edge shows where they begin.
+float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, const Place& place,
+                                   const Spectrum& met) const {
+    constexpr float kOfThreshold = 0.5f, kOfFree = 4;
+    if (!tile.glossy || at.depth != 1 || tile.frame.max_depth < 2 || at.surface.alpha < kNarrowestLobe) return 0;
+    if (at.surface.alpha < kMinCachedAlpha) {
+        const Spectrum weight = at.throughput * lobe_albedo(at);
+        return place.mirrors_near && at.importance(weight) >= tile.frame.contribution_threshold ? 1.0f : 0.0f;
     }
-    ++place.followers;
-    requests[number].wants_glossy_rays = false;
-    requests[number].next = requests[place.follower].next, requests[place.follower].next = number;
+    float light = max_component(met);
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
+        light += std::min(1.0f, kOfFree * (1 - place.free[b])) * max_component(colored(at.surface, place.unhidden[b]));
+    const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
+    const float white = max_component(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
+    const float least = kOfThreshold * samples * tile.frame.contribution_threshold * white;
+    return std::clamp(at.weight_samples * light / least - 1, 0.0f, 1.0f);
+}
+
+// Null: the cache has the lobe's light.
+GlossyPoint* IndirectCache::leave_to_rays(Tile& tile, const ShadingPoint& at, const Place& place,
+                                          const Spectrum& met) const {
+    const float share = share_of_rays(tile, at, place, met);
+    GlossyPoint* const point = share > 0 ? tile.glossy->add_point() : nullptr;
+    if (!point) return nullptr;
+    point->point_m = at.point_m, point->normal = at.normal, point->view_dir = at.view_dir;
+    point->alpha = at.surface.alpha, point->footprint_m = at.footprint_m;
+    point->object = at.object, point->surface = at.surface_number, point->back = at.back;
+    point->pixel = at.pixel, point->triangle = at.triangle, point->moments = at.moments;
+    point->weight = at.throughput * lobe_albedo(at);
+    point->cached = at.throughput * met;
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
+        point->bodies[b] = at.throughput * colored(at.surface, place.unhidden[b]), point->free[b] = place.free[b];
+    point->directions = place.directions, point->share = share;
+    return point;
 }
 
 void IndirectCache::find(const FrameContext& frame, std::span<Place> places) const {
@@ -247,6 +265,7 @@ void IndirectCache::reflect_lobe(const FrameContext& frame, Lobes& lobes, Place&
         by_parts = sent_of_bodies(at);
     else if (sent = lobes.bodies.find(at, 0); !sent)
         sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
+    place.unhidden = *sent, place.free = met->free;
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
         place.bodies[b] = {(share * met->free[b]) * (*sent)[b].radiance, (*sent)[b].facet_cosine};
 }
@@ -299,26 +318,9 @@ IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameContext& frame, c
 }
 
 Spectrum IndirectCache::lobe_albedo(const ShadingPoint& at) const {
-    const Spectrum plain = plain_lobe_albedo(at);
-    return has_own_colors(at.surface) ? facet_tint(at.surface) * plain : plain;
-}
-
-Spectrum IndirectCache::plain_lobe_albedo(const ShadingPoint& at) const {
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-    return objects_[at.object].light->albedo(at.surface_number).lobe(no);
-}
-
-Spectrum IndirectCache::lobe_tint(const ShadingPoint& at) const {
-    Spectrum none;
-    none.bin.fill(1);
-    return has_own_colors(at.surface) ? facet_tint(at.surface) : none;
-}
-
-IndirectCache::LobeRays::LobeRays(const IndirectCache& scene, const ShadingPoint& at) : scene_(scene) {
-    const SentOfBodies sent = scene.sent_of_bodies(at);
-    Bsdf plain = at.surface;
-    plain.highlight = plain.material->highlight;
-    for (std::size_t b = 0; b < scene.planetshine_.bodies().size(); ++b) sent_[b] = colored(plain, sent[b]);
+    const Spectrum plain = objects_[at.object].light->albedo(at.surface_number).lobe(no);
+    return has_own_colors(at.surface) ? facet_tint(at.surface) * plain : plain;
 }
 
 IndirectCache::SentOfBodies IndirectCache::sent_of_bodies(const ShadingPoint& at) const {
@@ -329,22 +331,6 @@ IndirectCache::SentOfBodies IndirectCache::sent_of_bodies(const ShadingPoint& at
         sent[b] =
             at.clusters ? sent_by_parts(b, at, reflectance) : sent_of_body(b, at, at.normal, reflectance);
     return sent;
-}
-
-// The light that a lobe meets is known by the directions of its probe, some tens of them, and by the means of the probes
-// that those meet. Light that hangs on a few may be the light of what is beside: of a bar that one direction meets, of
-// the lit rim of a gap narrower than the probes are apart. True where that would be seen: where a pixel has by it more
-// than half the threshold, against white paint in the Sun, and half as much as the pixel has without it, or more.
-bool IndirectCache::hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met,
-                                 float directions) {
-    constexpr float kFew = 8, kBeside = 2, kOfThreshold = 0.5f;
-    if (at.depth != 1 || at.surface.alpha < kMinCachedAlpha) return false;
-    if (tile.frame.max_depth < 2 || !(directions > 0 && directions < kFew)) return false;
-    const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
-    const float light = at.weight_samples * max_component(met);
-    const float white = max_component(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
-    return light > kOfThreshold * samples * tile.frame.contribution_threshold * white &&
-           kBeside * light > max_component(tile.pixels[at.pixel]);
 }
 
 // Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.

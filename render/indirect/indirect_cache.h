@@ -54,8 +54,6 @@ class IndirectCache {
     // Says in words what is cached on an object.
     std::string describe(std::size_t object) const;
 
-    // The most samples of what the camera sees whose wide lobes one call of add_reflected() leaves to rays.
-    static constexpr std::size_t kMaxGlossy = 4096;
     // Adds to the tile's pixels what shading points whose light is cached reflect of it, narrow lobes apart. requests: gets what
     // is left to rays, by the shading point's number. Loop, any thread.
     void add_reflected(Tile& tile, std::span<const ShadingPoint> points,
@@ -64,38 +62,9 @@ class IndirectCache {
     void add_mirror_sunlight(Tile& tile, std::span<const ShadingPoint> points) const {
         mirror_sunlight_.add_light(tile, points);
     }
-    // The most shading points whose lobes the same rays follow.
-    static constexpr std::size_t kMaxTogether = 16;
-    // The bodies' light that a lobe sends, if nothing is in the way, to rays that are drawn as it sends: an equal share
-    // to each that is towards the body, or to all where none is. Loop, any thread.
-    class LobeRays {
-      public:
-        // Their light has the material's own colour: lobe_tint() is not in it.
-        LobeRays(const IndirectCache& scene, const ShadingPoint& at);
-        void count(Vec3f dir) {
-            ++all_;
-            for (std::size_t b = 0; b < scene_.planetshine_.bodies().size(); ++b)
-                if (scene_.planetshine_.is_met(b, dir)) ++rays_[b];
-        }
-        Spectrum share(Vec3f dir) const {
-            Spectrum sum;
-            for (std::size_t b = 0; b < scene_.planetshine_.bodies().size(); ++b)
-                if (rays_[b] == 0 || scene_.planetshine_.is_met(b, dir))
-                    sum += (1 / static_cast<float>(rays_[b] > 0 ? rays_[b] : all_)) * sent_[b];
-            return sum;
-        }
-
-      private:
-        const IndirectCache& scene_;
-        std::array<Spectrum, Planetshine::kMaxBodies> sent_{};
-        std::array<int, Planetshine::kMaxBodies> rays_{};  // towards each
-        int all_ = 0;
-    };
     // Returns what the facets of a shading point whose light is cached reflect of light from everywhere. Loop, any thread.
     Spectrum lobe_albedo(const ShadingPoint& at) const;
-    // Returns the two parts of it: that of the material, and the ratio of a texture's colour to it.
-    Spectrum plain_lobe_albedo(const ShadingPoint& at) const;
-    Spectrum lobe_tint(const ShadingPoint& at) const;
+    const Planetshine& planetshine() const { return planetshine_; }
     // Adds what a lobe too narrow to be cached reflects of the bodies; mirror: its middle. Loop, any thread.
     void add_bodies_in_lobe(const FrameContext& frame, const ShadingPoint& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
@@ -137,12 +106,11 @@ class IndirectCache {
         // texture colours facets, theirs is what white ones would reflect.
         Spectrum diffuse, met;
         SentOfBodies bodies;
+        SentOfBodies unhidden;                               // the latter, if nothing were in the way
+        std::array<float, Planetshine::kMaxBodies> free;  // share of each that nothing is in the way of
         float directions;   // that bring what is met (IrradianceCache::Lobe)
         bool mirrors_near;  // see GlossyRequest
         bool has_bodies;    // likewise
-        std::uint32_t
-            follower;  // number of the first whose lobe is left to rays, which are those of all of them; kNobody: none
-        std::size_t followers;
     };
     // A shading point, its number, and the place whose light it has.
     struct Use {
@@ -185,9 +153,9 @@ class IndirectCache {
     void reflect_far_bodies(Place& place) const;
     MetByLobe met_by_lobe(const FrameContext& frame, const Place& place, bool whole) const;
     SentOfBodies sent_of_bodies(const ShadingPoint& at) const;
-    void add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests, float& room) const;
-    static void follow_together(std::uint32_t number, Place& place, std::span<GlossyRequest> requests);
-    static bool hangs_on_few(const Tile& tile, const ShadingPoint& at, const Spectrum& met, float directions);
+    void add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests) const;
+    float share_of_rays(const Tile& tile, const ShadingPoint& at, const Place& place, const Spectrum& met) const;
+    GlossyPoint* leave_to_rays(Tile& tile, const ShadingPoint& at, const Place& place, const Spectrum& met) const;
     Planetshine::Glossy sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
                                      float reflectance) const;
     Planetshine::Glossy sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const;

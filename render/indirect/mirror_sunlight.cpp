@@ -18,13 +18,14 @@ namespace {
 constexpr float kHalfSun_rad = 0.0033f;
 // A mirror throws next to nothing at flatter angles.
 constexpr float kMinCosine = 0.01f;
-// GGX's slopes in one direction are spread by a^2 / (2 (a^2 + x^2)^1.5) (its density of both, Heitz, JCGT
-// 3(2), 2014, integrated): the share within x is x / (a^2 + x^2)^0.5. Even spreads of these half widths, in
-// a, with these shares have it to 0.025.
+// The share of GGX's slopes within r alpha is r^2 / (1 + r^2) (its density, Walter et al., EGSR 2007, eq. 33, integrated). Even
+// spreads over disks of r = 1/2, 1, 2, 4 and 8 with these shares have it there. Squares stand for the disks: of these half sides
+// [alpha] they have the share within a strip, too, to 0.03.
 struct Rectangle {
     float half, share;
 };
-constexpr std::array<Rectangle, 3> kRectangles{{{0.65f, 0.357f}, {1.55f, 0.437f}, {4.6f, 0.206f}}};
+constexpr std::array<Rectangle, 5> kRectangles{
+    {{0.415f, 0.1f}, {0.83f, 0.3f}, {1.66f, 0.353f}, {3.32f, 0.1735f}, {6.64f, 0.0585f}}};
 
 // A shading point on its way to a mirror.
 struct MirrorRay {
@@ -141,26 +142,30 @@ class Asker {
         const Vec2f blur{shown_.blur.x * asked.distance_m, shown_.blur.y * asked.distance_m};
         asked.even = std::clamp(std::min(blur.x / coarse.x, blur.y / coarse.y) - 1, 0.0f, 1.0f);
         asked.filled = 0;
+        float most = 0;
+        Vec2f brightest = place;
         // The largest first: most see nothing of it.
         for (auto part = kRectangles.rbegin(); part != kRectangles.rend(); ++part) {
-            asked.filled += part->share * shape_.filled(place, {std::max(2 * part->half * blur.x, coarse.x),
-                                                                std::max(2 * part->half * blur.y, coarse.y)});
+            const Vec2f size{std::max(2 * part->half * blur.x, coarse.x), std::max(2 * part->half * blur.y, coarse.y)};
+            const float filled = part->share * shape_.filled(place, size);
+            asked.filled += filled;
             if (asked.filled == 0) return false;
+            if (filled > most) most = filled, brightest = shape_.middle_within(place, size);
         }
         const float least = frame_.contribution_threshold;
         if (least > 0)
             asked.filled *=
                 std::clamp(asked.filled * max_component(shown_.reflectance) / least - 1, 0.0f, 1.0f);
         if (!(asked.filled > 0)) return false;
-        if (asked.even > 0) aim_at_mirror(place, asked);
+        if (asked.even > 0) aim_at_mirror(place, brightest, asked);
         return true;
     }
 
-    // The light that a rough mirror throws past its edge comes from there.
-    void aim_at_mirror(Vec2f place, MirrorRay& asked) const {
-        const Vec2f off{std::clamp(place.x, 0.0f, shape_.width_m) - place.x,
-                        std::clamp(place.y, 0.0f, shape_.height_m) - place.y};
-        if (off.x == 0 && off.y == 0) return;
+    // The light that a rough mirror throws comes from where the mirror is, be it no more than a ring. One place of it tells whether
+    // it is seen and lit: that in the middle of what throws the most.
+    void aim_at_mirror(Vec2f place, Vec2f brightest, MirrorRay& asked) const {
+        const Vec2f from = shape_.nearest_filled(brightest);
+        const Vec2f off{from.x - place.x, from.y - place.y};
         const Vec3f way =
             asked.distance_m * asked.dir + asked.even * (off.x * shown_.across + off.y * shown_.down);
         asked.cosine = -dot(way, shown_.normal);
@@ -194,7 +199,7 @@ class Asker {
             if (met)
                 from = asked.start_m + hits_.distance[k] * asked.dir + asked.at->offset_m * shown_.normal;
         }
-        const float share = asked.even * asked.filled + (met ? 1 - asked.even : 0.0f);
+        const float share = met ? asked.even * asked.filled + 1 - asked.even : 0.0f;
         const Spectrum light = share * asked.light;
         if (max_component(light) > 0) sunlight_.add(from, asked.sun, {asked.at, light});
     }

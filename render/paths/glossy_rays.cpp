@@ -6,7 +6,7 @@
 #include <span>
 
 #include "render/brdf/microfacet.h"
-#include "render/visibility/place_sequence.h"
+#include "render/glossy/glossy_reuse.h"
 
 namespace hilcam {
 namespace {
@@ -53,20 +53,51 @@ void add_in_narrow_lobe(const Tile& tile, const ShadingPoint& at, Vec3f mirror, 
     }
 }
 
-// One for two of a pixel's samples, and for four of those beyond: of a square of four pixels, 20 rays instead of 32.
-float rays_for(float samples) {
-    constexpr float kOfPixel = 0.5f, kBeyond = 0.25f, kPixel = kVisibilitySamples;
-    return std::max(1.0f, kOfPixel * std::min(samples, kPixel) + kBeyond * std::max(samples - kPixel, 0.0f));
+// Rays of a lobe, by its pixel's samples that see it. Neighbours on smooth surfaces share theirs; where each leans its own way, or
+// lobes are narrow, they share less.
+int lobe_rays(const ShadingPoint& at) {
+    static const int kSmooth = getenv("KS") ? atoi(getenv("KS")) : 1, kNarrow = getenv("KN") ? atoi(getenv("KN")) : 2, kWrinkled = getenv("KW") ? atoi(getenv("KW")) : 4;
+    constexpr float kFewSamples = 4;
+    if (at.weight_samples < kFewSamples) return 1;
+    if (at.clusters) return kWrinkled;
+    return at.surface.alpha < kMinCachedAlpha ? kNarrow : kSmooth;
+}
+
+// Adds rays along a lobe, drawn as it sends.
+void add_along_lobe(Tile& tile, const ShadingPoint& at, const GlossyPoint& lobe, NextRays& rays) {
+    const int width = tile.box.x1 - tile.box.x0;
+    const int x = tile.box.x0 + static_cast<int>(at.pixel) % width, y = tile.box.y0 + static_cast<int>(at.pixel) / width;
+    const int count = lobe_rays(at);
+    const Frame local(at.normal);
+    const float no = std::max(dot(at.normal, at.view_dir), 1e-2f);
+    // What the ray finds is held against thresholds as the lobe's share.
+    const float scale = max_component(lobe.weight) / static_cast<float>(count);
+    if (!(scale > 0)) return;
+    for (int i = 0; i < count && !rays.full(); ++i) {
+        const GlossyPlace place = glossy_place(x, y, i);
+        const Vec3f facet =
+            local.to_world(sample_visible_normal(lobe.alpha, local.to_local(at.view_dir), place.u1, place.u2));
+        const Vec3f dir = normalized(reflect(at.view_dir, facet));
+        if (!(dot(at.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)) continue;
+        GlossyRay* const own = tile.glossy->add_ray(lobe);
+        if (!own) return;
+        own->met_m = dir, own->per_scale = 1 / scale;
+        const Planetshine& planetshine = tile.frame.indirect->planetshine();
+        for (std::size_t b = 0; b < planetshine.bodies().size(); ++b) own->towards[b] = planetshine.brightness(b, dir);
+        own->per_density_sr = 1 / ggx_density(lobe.alpha, no, std::min(dot(at.normal, facet), 1.0f));
+        NextRay ray{&at, at.start(), dir, 0, at.surface.alpha, false, {}};
+        ray.throughput.bin.fill(scale);
+        ray.sees_bodies = false, ray.part = LightPart::kGlossyRays, ray.glossy = own;
+        rays.add(ray);
+    }
 }
 
 }  // namespace
 
-void GlossyRays::add_of(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
-    const ShadingPoint& at = asking.points[number];
-    const GlossyRequest& request = asking.requests[number];
+void add_glossy_rays(Tile& tile, const ShadingPoint& at, const GlossyRequest& request, NextRays& rays) {
     const Bsdf& surface = at.surface;
     if (surface.is_glass()) return add_through_glass(tile, at, rays);
-    if (request.wants_glossy_rays) send_glossy_rays(tile, asking, number, rays);
+    if (request.point) return add_along_lobe(tile, at, *request.point, rays);
     if (!surface.material->has_facets() || surface.alpha >= kMinCachedAlpha) return;
     const Spectrum weight = at.throughput * tile.frame.indirect->lobe_albedo(at);
     // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
@@ -87,73 +118,6 @@ void GlossyRays::add_of(Tile& tile, const Asking& asking, std::size_t number, Ne
     }
     // Where nothing stands near, the bodies in a lobe are all there is, and indirect_cache.h has them.
     if (request.mirrors_near) add_in_narrow_lobe(tile, at, mirror, weight, rays);
-}
-
-// Gives the pixels of shading points that the same rays serve, from the first on, their shares of what these find.
-GlossyRays::Followers GlossyRays::share_rays(const Tile& tile, const Asking& asking, std::size_t number) {
-    const ShadingPoint& first = asking.points[number];
-    const GlossyRequest& request = asking.requests[number];
-    Followers out;
-    const std::size_t begin = share_count_;
-    for (std::size_t i = number; i != GlossyRequest::kNobody; i = asking.requests[i].next) {
-        const ShadingPoint& at = asking.points[i];
-        out.point[out.count++] = &at;
-        out.samples += at.weight_samples;
-        const float samples = at.weight_samples / first.weight_samples;
-        shares_[share_count_++] = {at.pixel, at.moments, samples * tile.frame.indirect->lobe_tint(at)};
-    }
-    out.lobe = &lobes_[lobe_count_++];
-    *out.lobe = {
-        {shares_.data() + begin, out.count}, request.cached_lobe, request.cached_lobe_directions, {}, {}, {}};
-    return out;
-}
-
-// Rays drawn as the lobe sends; each that leaves has an equal share of what that sends in all.
-void GlossyRays::send_glossy_rays(Tile& tile, const Asking& asking, std::size_t number, NextRays& rays) {
-    const ShadingPoint& at = asking.points[number];
-    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
-    const auto quarter = static_cast<float>(at.pixel % width % 2 + 2 * (at.pixel / width % 2));
-    const Followers followers = share_rays(tile, asking, number);
-    const std::size_t count =
-        std::min(static_cast<std::size_t>(std::lround(rays_for(followers.samples))), GlossyLobe::kMaxRays);
-    const Frame local(at.normal);
-    const std::size_t first = rays.count;
-    for (std::size_t i = 0; i < count && !rays.full(); ++i) {
-        const ShadingPoint& from = *followers.point[i % followers.count];
-        const auto sample = static_cast<float>(at.sample + i);
-        const Vec3f facet = local.to_world(sample_visible_normal(
-            at.surface.alpha, local.to_local(at.view_dir), std::fmod(0.5f + kPlasticAlong * sample, 1.0f),
-            std::fmod(0.25f * quarter + kPlasticAbout * sample, 1.0f)));
-        const Vec3f dir = normalized(reflect(at.view_dir, facet));
-        if (dot(from.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)
-            rays.add({&at,
-                      from.start(),
-                      dir,
-                      0,
-                      at.surface.alpha,
-                      false,
-                      {},
-                      false,
-                      false,
-                      {},
-                      LightPart::kGlossyRays});
-    }
-    const std::span<NextRay> own = rays.room.subspan(first, rays.count - first);
-    const Spectrum weight = (1 / static_cast<float>(std::max<std::size_t>(own.size(), 1))) *
-                            (at.throughput * tile.frame.indirect->plain_lobe_albedo(at));
-    IndirectCache::LobeRays bodies(*tile.frame.indirect, at);
-    for (const NextRay& ray : own) bodies.count(ray.dir);
-    std::uint8_t of_lobe = 0;
-    for (NextRay& ray : own) {
-        ray.throughput = weight, ray.if_free = at.throughput * bodies.share(ray.dir);
-        ray.lobe = followers.lobe, ray.lobe_ray = of_lobe++;
-    }
-}
-
-void GlossyRays::add_found(Tile& tile) const {
-    const std::span<const GlossyLobe> lobes = std::span(lobes_).first(lobe_count_);
-    const float share = found_over_believed(lobes);
-    for (const GlossyLobe& lobe : lobes) tile.add(lobe, share * lobe.believed());
 }
 
 }  // namespace hilcam

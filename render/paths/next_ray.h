@@ -22,10 +22,8 @@ struct NextRay {
     Spectrum throughput;
     bool whole_lobe = false;            // it stands for all of a narrow facet lobe about it
     bool sees_bodies = true;            // false: their light in its lobe has been counted
-    Spectrum if_free{};                 // light that it adds where it meets nothing
     LightPart part = LightPart::kPath;  // the part of what it meets
-    GlossyLobe* lobe = nullptr;         // the lobe that it is one of the rays of; null: none
-    std::uint8_t lobe_ray = 0;          // which of them
+    GlossyRay* glossy = nullptr;        // it is one of a lobe's; null: it is not
     // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
     bool may_be_many = false;
 

@@ -43,13 +43,12 @@ class TracedPaths final : public PathModel {
     // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
     // where others need fewer.
     static constexpr std::size_t kMinOfMirror = 8;
-    static constexpr std::size_t kMaxRays = (kMinOfMirror + 1) * kMax + IndirectCache::kMaxGlossy;
+    static constexpr std::size_t kMaxRays = (kMinOfMirror + 5) * kMax;
     std::array<ShadingPoint, kMaxRays> a_, b_;
     std::array<NextRay, kMaxRays> next_;
     std::array<GlossyRequest, kMaxRays> requests_;  // one for each shading point in work that keeps light
     ShadingPoint* current_ = a_.data();
     ShadingPoint* following_ = b_.data();
-    GlossyRays glossy_rays_;
     // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
@@ -57,7 +56,6 @@ class TracedPaths final : public PathModel {
 
     void trace_on(Tile& tile, std::size_t count) {
         const FrameContext& frame = tile.frame;
-        glossy_rays_.clear();
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.indirect) {
@@ -73,11 +71,10 @@ class TracedPaths final : public PathModel {
             const bool last = depth == frame.max_depth;
             NextRays rays{next_};
             for (std::size_t i = 0; i < keep; ++i)
-                glossy_rays_.add_of(tile, {{current_, keep}, requests_}, i, rays);
+                add_glossy_rays(tile, current_[i], requests_[i], rays);
             choose(tile, {current_ + keep, count - keep}, last, rays);
             count = follow(tile, rays.count, last);
         }
-        glossy_rays_.add_found(tile);
     }
 
     // Draws a direction at each shading point. At the last surface only exact ones go on: no lamp has been counted in them.
@@ -172,8 +169,7 @@ class TracedPaths final : public PathModel {
             return false;
         point.pixel = ray.from->pixel, point.sample = ray.from->sample;
         point.moments = ray.from->moments;
-        point.lobe = ray.from->lobe ? ray.from->lobe : ray.lobe;
-        point.lobe_ray = ray.from->lobe ? ray.from->lobe_ray : ray.lobe_ray;
+        point.glossy_ray = ray.from->glossy_ray ? ray.from->glossy_ray : ray.glossy;
         point.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
         point.throughput = ray.throughput;
         point.ray_part = ray.from->depth > 1 ? ray.from->ray_part : ray.part;
@@ -269,10 +265,9 @@ class TracedPaths final : public PathModel {
                 if (!meets_object(frame, hits, k, ray.origin_m, ray.dir)) {
                     if (ray.sees_bodies)
                         add_background(tile, ray);
-                    else if (ray.lobe)
-                        ray.lobe->sky += ray.if_free;
                     continue;
                 }
+                if (ray.glossy) ray.glossy->set_met(ray.origin_m + hits.distance[k] * ray.dir);
                 if (!last && add_met(frame, hits, k, ray, found)) ++found;
             }
         }

@@ -113,6 +113,17 @@ bool Planetshine::is_clear_of_bodies(Vec3f dir) const {
                         [&](const Cone& cone) { return dot(cone.axis, dir) >= cone.cosine; });
 }
 
+float Planetshine::brightness(std::size_t body, Vec3f dir) const {
+    if (!is_met(body, dir)) return 0;
+    const Disk& disk = disks_[body].of[kEven];
+    float nearest = -1, brightest = 0;
+    for (std::size_t i = 0; i < kParts[kEven]; ++i) {
+        const float cosine = disk.x[i] * dir.x + disk.y[i] * dir.y + disk.z[i] * dir.z;
+        if (cosine > nearest) nearest = cosine, brightest = disk.brightest[i];
+    }
+    return brightest;
+}
+
 Vec3f Planetshine::DirectionMap::direction(int index) {
     const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
     const float y = 2 * static_cast<float>(index / (kSteps + 1)) / kSteps - 1;
@@ -147,11 +158,11 @@ void Planetshine::place(const Background& background, float margin_rad) {
         const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
         if (count_ == kMaxBodies || max_component(lamp.max_over_sun) * solid_angle < kMinOverSun) continue;
         place_disks(background, number, disks_[count_]);
-        const Disk& disk = disks_[count_].of.back();
+        const Disk& disk = disks_[count_].of[kEven];
         Body& body = bodies_[count_];
         body = {to_float(lamp.world_dir), {}, 1, {}};
         const auto add_to = [&disk](Vec3f normal, Spectrum& sum) {
-            for (std::size_t i = 0; i < kPatches; ++i)
+            for (std::size_t i = 0; i < kParts[kEven]; ++i)
                 sum += std::max(0.0f, disk.x[i] * normal.x + disk.y[i] * normal.y + disk.z[i] * normal.z) *
                        disk.irradiance[i];
         };
@@ -167,7 +178,7 @@ void Planetshine::place(const Background& background, float margin_rad) {
     }
 }
 
-// Equal areas on the cone by a golden-angle spiral (Vogel 1979), four for each patch.
+// Equal areas on the cone by a golden-angle spiral (Vogel 1979).
 void Planetshine::place_disks(const Background& background, std::size_t number, Disks& disks) const {
     const PlanetshineSource& lamp = background.planetshine_sources()[number];
     const float half_angle = half_angle_rad(lamp);
@@ -184,12 +195,13 @@ void Planetshine::place_disks(const Background& background, std::size_t number, 
         background.add_bodies({}, to_double(looks[i].dir), weight, looks[i].irradiance, look_rad);
     }
     for (std::size_t k = 0; k < kParts.size(); ++k) {
+        if (k > kEven && narrowest_alpha_ >= disks.of[kEven].min_alpha) break;
         // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half
         // of that.
         disks.of[k].min_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
         place_parts(looks, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
     }
-    if (narrowest_alpha_ < disks.of.back().min_alpha)
+    if (narrowest_alpha_ < std::min(disks.of[kEven].min_alpha, disks.of.back().min_alpha))
         disks.map.place(background, axis, lamp.one_minus_cosine, narrowest_alpha_);
 }
 
@@ -294,13 +306,13 @@ Planetshine::Glossy Planetshine::narrow_lobe(std::size_t body, Vec3f normal, Vec
 void Planetshine::place_light(const Disk& disk, Body& body) {
     Vec3f mean{};
     float sum = 0, square = 0;
-    for (std::size_t i = 0; i < kPatches; ++i) {
+    for (std::size_t i = 0; i < kParts[kEven]; ++i) {
         const float light = max_component(disk.irradiance[i]);
         mean = mean + light * Vec3f{disk.x[i], disk.y[i], disk.z[i]};
         sum += light;
     }
     body.light_dir = normalized(mean);
-    for (std::size_t i = 0; i < kPatches; ++i) {
+    for (std::size_t i = 0; i < kParts[kEven]; ++i) {
         const Vec3f off = Vec3f{disk.x[i], disk.y[i], disk.z[i]} - body.light_dir;
         square += max_component(disk.irradiance[i]) * dot(off, off);
     }
@@ -372,7 +384,7 @@ void Planetshine::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy>
     const Disks& disks = disks_[body];
     const float alpha = lobes.alpha;
     // The fewer parts where facets turn by half of alpha, at most, from one to the next.
-    const std::size_t parts = alpha < 2 * disks.of.front().min_alpha ? 1 : 0;
+    const std::size_t parts = alpha < disks.of[kEven].min_alpha ? 2 : (alpha < 2 * disks.of.front().min_alpha ? 1 : 0);
     const Disk& disk = disks.of[parts];
     Seen seen;
     look(disks, disk, kParts[parts], bodies_[body].world_dir, lobes, seen);

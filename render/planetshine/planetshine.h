@@ -37,6 +37,9 @@ class Planetshine {
     bool is_met(std::size_t body, Vec3f world_dir) const {
         return dot(bodies_[body].world_dir, world_dir) >= disks_[body].cosine;
     }
+    // Returns the body's radiance in a direction, as far as a disk of 64 parts tells it: its greatest bin, 0 beside the disk. Unit,
+    // world. Loop, any thread.
+    float brightness(std::size_t body, Vec3f world_dir) const;
     // No body of the background, be it in bodies() or not, lies in this direction or beside it. Unit, world.
     bool is_clear_of_bodies(Vec3f dir) const;
     // Irradiance [W m^-2 um^-1] on a surface with this normal. Loop, any thread.
@@ -72,11 +75,12 @@ class Planetshine {
         static Vec3f direction(int index);
         Spectrum at(Vec3f dir) const;
     };
-    // A body's disk in parts of equal solid angle; and in fewer, for lobes that are wide against them. Fewer than these would
-    // save nothing, as loops take sixteen at once.
-    static constexpr std::size_t kPatches = 64;
-    static constexpr std::array<std::size_t, 2> kParts = {16, kPatches};
-    static constexpr std::size_t kLooks = 4 * kPatches;
+    // A body's disk in parts of equal solid angle; in fewer for lobes that are wide against them, in more for those that are
+    // narrow. Fewer than these would save nothing, as loops take sixteen at once.
+    static constexpr std::size_t kPatches = 256;
+    static constexpr std::array<std::size_t, 3> kParts = {16, 64, kPatches};
+    static constexpr std::size_t kLooks = kPatches;
+    static constexpr std::size_t kEven = 1;  // of kParts: that for surfaces without lobes
     struct Look {
         Vec3f dir;
         Spectrum irradiance;  // on a surface across the way

@@ -237,7 +237,47 @@ void FlatMirror::draw(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
         }
 }
 
+// From all filled cells at once outwards, ring by ring.
+void FlatMirror::find_nearest() {
+    constexpr std::size_t kAll = std::size_t{kCells} * kCells;
+    static_assert(kAll - 1 <= 0xFFFF);
+    nearest_.assign(kAll, 0);
+    std::vector<std::uint8_t> known(kAll);
+    std::vector<std::uint16_t> ring;
+    for (std::size_t i = 0; i < kAll; ++i)
+        if (sums_[(i / kCells + 1) * (kCells + 1) + i % kCells + 1] != 0)
+            known[i] = 1, nearest_[i] = static_cast<std::uint16_t>(i), ring.push_back(nearest_[i]);
+    for (std::vector<std::uint16_t> next; !ring.empty(); std::swap(ring, next), next.clear())
+        for (const std::uint16_t cell : ring) {
+            const int x = cell % kCells, y = cell / kCells;
+            for (int row = std::max(0, y - 1); row <= std::min(kCells - 1, y + 1); ++row)
+                for (int column = std::max(0, x - 1); column <= std::min(kCells - 1, x + 1); ++column) {
+                    const auto beside = static_cast<std::size_t>(row * kCells + column);
+                    if (std::exchange(known[beside], 1) != 0) continue;
+                    nearest_[beside] = nearest_[cell], next.push_back(static_cast<std::uint16_t>(beside));
+                }
+        }
+}
+
+Vec2f FlatMirror::middle_within(Vec2f middle_m, Vec2f size_m) const {
+    const auto middle = [](float at, float size, float whole) {
+        return 0.5f * (std::clamp(at - 0.5f * size, 0.0f, whole) + std::clamp(at + 0.5f * size, 0.0f, whole));
+    };
+    return {middle(middle_m.x, size_m.x, width_m), middle(middle_m.y, size_m.y, height_m)};
+}
+
+Vec2f FlatMirror::nearest_filled(Vec2f place_m) const {
+    const auto cell = [](float at, float size) {
+        return static_cast<std::size_t>(std::clamp(at / size, 0.0f, static_cast<float>(kCells - 1)));
+    };
+    const Vec2f size_m = cell_m();
+    const std::uint16_t found = nearest_[cell(place_m.y, size_m.y) * kCells + cell(place_m.x, size_m.x)];
+    return {(static_cast<float>(found % kCells) + 0.5f) * size_m.x,
+            (static_cast<float>(found / kCells) + 0.5f) * size_m.y};
+}
+
 void FlatMirror::sum_up() {
+    find_nearest();
     constexpr std::size_t kRow = kCells + 1;
     for (std::size_t y = 1; y <= kCells; ++y)
         for (std::size_t x = 1; x <= kCells; ++x) {

@@ -31,6 +31,11 @@ class FlatMirror {
     // The share of a rectangle that the mirror fills. middle_m: along the sides from the corner; size_m:
     // along them, at least a cell's, else as one of that size. Continuous in all four. Loop, any thread.
     float filled(Vec2f middle_m, Vec2f size_m) const;
+    // Returns the middle of the part of a rectangle that lies in the mirror's own. Both as filled() has them.
+    Vec2f middle_within(Vec2f middle_m, Vec2f size_m) const;
+    // Returns the place that the mirror fills which is nearest to another in its plane: the middle of a cell. Along the sides from
+    // the corner. Loop, any thread.
+    Vec2f nearest_filled(Vec2f place_m) const;
     // The map is this fine.
     Vec2f cell_m() const { return {width_m / kCells, height_m / kCells}; }
     // True when a place of the body lies in it, about; normal: there, either way.
@@ -48,6 +53,9 @@ class FlatMirror {
     // values.
     std::vector<std::uint32_t> sums_ = std::vector<std::uint32_t>((kCells + 1) * (kCells + 1));
 
+    std::vector<std::uint16_t> nearest_;  // by cell: the filled cell that is nearest
+
+    void find_nearest();
     double sum_to(double x, double y) const;
 };
 

@@ -109,7 +109,7 @@ void place_shading_point(const FrameContext& frame, const HitPacket& hits, int l
     point.offset_m = rounding_m(point.point_m, origin_m);
 
     point.object = hits.object[k], point.triangle = hits.triangle[k];
-    point.lobe = nullptr;
+    point.glossy_ray = nullptr;
     point.sun_visibility = object.sun_visibility.empty() || frame.objects->size() > 1
                                ? SunVisibility::kAsk
                                : object.sun_visibility[hits.triangle[k]];

@@ -7,13 +7,14 @@
 #include "render/scene/brdf.h"
 #include "render/scene/embree_scene.h"
 #include "render/shading/frame_context.h"
-#include "render/shading/glossy_lobe.h"
 #include "render/vocabulary/light_part.h"
 #include "render/vocabulary/spectrum.h"
 #include "render/vocabulary/subpixel_light.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
+
+struct GlossyRay;
 
 // A shading point that many samples of a pixel see may be a crumpled thing: a normal cluster is a part of it that leans
 // otherwise.
@@ -61,8 +62,7 @@ struct PathThroughput {
     float weight_samples;   // samples of sixteen a pixel that see it, where it is not one ray's
     std::uint16_t depth;    // 1: seen by the camera
     LightPart ray_part;     // where a ray has met it: the part of its light
-    std::uint8_t lobe_ray;  // which of a lobe's rays that is
-    GlossyLobe* lobe;       // the lobe whose rays have met it; null: its light is its pixel's
+    GlossyRay* glossy_ray;  // the ray along a lobe whose path has met it; null: its light is its pixel's
 
     // Returns the figure that thresholds are held against: the largest throughput of one of the samples for which
     // a ray stands.

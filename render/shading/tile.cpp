@@ -25,18 +25,18 @@ LightPart part_of(const ShadingPoint& at, LightPart part) { return at.depth > 1 
 
 void Tile::note(const ShadingPoint& at, LightPart of_source, const Spectrum& light) const {
     const LightPart part = part_of(at, of_source);
-    if (!at.lobe) {
+    if (!at.glossy_ray) {
         parts->add(at.pixel, part, light);
         if (parts->is_recorded(at.pixel)) parts->record->add(entry_of(*this, at, part, parts->share * light));
         return;
     }
     // How much of it each pixel gets is known when all rays have come back.
-    for (const PixelShare& share : at.lobe->pixels) {
-        if (!parts->is_recorded(share.pixel)) continue;
-        PixelRecord::Entry entry = entry_of(*this, at, part, parts->share * (share.share * light));
-        entry.is_shared = true;
-        parts->record->add(entry);
-    }
+    const GlossyPoint& of = glossy->point_of(*at.glossy_ray);
+    if (!parts->is_recorded(of.pixel)) return;
+    PixelRecord::Entry entry =
+        entry_of(*this, at, part, (parts->share * at.glossy_ray->per_scale) * (of.weight * light));
+    entry.is_shared = true;
+    parts->record->add(entry);
 }
 
 void Tile::note(std::uint32_t pixel, LightPart part, const Spectrum& light) const {
@@ -48,7 +48,7 @@ void Tile::note(std::uint32_t pixel, LightPart part, const Spectrum& light) cons
 }
 
 void Tile::note_move(const ShadingPoint& at, LightPart from, LightPart to, const Spectrum& light) const {
-    if (at.lobe || at.depth > 1) return;  // light of a ray is all of the ray's part
+    if (at.glossy_ray || at.depth > 1) return;  // light of a ray is all of the ray's part
     parts->move(at.pixel, from, to, light);
     if (!parts->is_recorded(at.pixel)) return;
     parts->record->add(entry_of(*this, at, from, -parts->share * light));

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "render/glossy/glossy_buffer.h"
 #include "render/shading/frame_context.h"
 #include "render/shading/normal_clusters.h"
 #include "render/shading/shading_point.h"
@@ -56,6 +57,7 @@ struct Tile {
     std::span<const Spectrum> moment_responses{};
     std::span<SubpixelKind> kinds{};  // by pixel; likewise
 
+    GlossyBuffer::Part* glossy = nullptr;  // gets the lobes that rays are to follow; null: the cache alone has their light
     const TileParts* parts = nullptr;  // for the parts of the light; null: nobody asks
 
     // Adds light that a shading point sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for
@@ -65,18 +67,15 @@ struct Tile {
     }
     void add(const ShadingPoint& at, LightPart part, const SubpixelMoments& shares, const Spectrum& light) {
         if (parts) note(at, part, light);
-        if (at.lobe) return at.lobe->add(at.lobe_ray, light);
+        if (at.glossy_ray) {
+            at.glossy_ray->light += light;
+            return;
+        }
         add(at.pixel, shares, light);
     }
     // Counts light that was added as one part as another.
     void move(const ShadingPoint& at, LightPart from, LightPart to, const Spectrum& light) const {
         if (parts) note_move(at, from, to, light);
-    }
-    // Adds what all rays of a lobe have found to the pixels that have it, as far as it is believed.
-    void add(const GlossyLobe& lobe, float light_believed) {
-        const Spectrum light = lobe.sum(light_believed);
-        for (const PixelShare& share : lobe.pixels)
-            add(share.pixel, LightPart::kGlossyRays, share.moments, share.share * light);
     }
     // Notes light that somebody adds to a pixel by himself, where parts are asked for.
     void note(std::uint32_t pixel, LightPart part, const Spectrum& light) const;

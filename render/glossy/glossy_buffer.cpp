@@ -1,0 +1,68 @@
+#include "render/glossy/glossy_buffer.h"
+
+#include <algorithm>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+
+// Rays that a part has room for, by its samples: smooth surfaces have one a pixel, wrinkled ones four.
+constexpr std::size_t kRaysPerSample = 4;
+
+GlossyBuffer::GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t samples)
+    : width_(width_px),
+      height_(height_px),
+      parts_(parts),
+      points_(std::make_unique_for_overwrite<GlossyPoint[]>(parts * samples)),
+      rays_(std::make_unique_for_overwrite<GlossyRay[]>(parts * samples * kRaysPerSample)),
+      first_of_pixel_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), kNone) {
+    HILCAM_CHECK(parts * samples * kRaysPerSample < kNone);
+    for (std::size_t i = 0; i < parts; ++i) {
+        Part& part = parts_[i];
+        part.first_point_ = static_cast<std::uint32_t>(i * samples);
+        part.first_ray_ = static_cast<std::uint32_t>(i * samples * kRaysPerSample);
+        part.points_ = {points_.get() + part.first_point_, samples};
+        part.rays_ = {rays_.get() + part.first_ray_, samples * kRaysPerSample};
+    }
+}
+
+GlossyRay* GlossyBuffer::Part::add_ray(const GlossyPoint& of) {
+    if (ray_count_ == rays_.size()) return nullptr;
+    GlossyRay& ray = rays_[ray_count_++];
+    ray.light = {}, ray.towards = {};
+    ray.point = first_point_ + static_cast<std::uint32_t>(&of - points_.data());
+    ray.free = true;
+    return &ray;
+}
+
+void GlossyBuffer::clear_pixels(const PixelBox& box) {
+    for (int y = box.y0; y < box.y1; ++y)
+        std::fill(first_of_pixel_.begin() + static_cast<std::ptrdiff_t>(index(box.x0, y)),
+                  first_of_pixel_.begin() + static_cast<std::ptrdiff_t>(index(box.x1 - 1, y)) + 1, kNone);
+}
+
+GlossyBuffer::Part& GlossyBuffer::begin(std::size_t number, const PixelBox& box) {
+    skip(number);
+    parts_[number].box_ = box;
+    return parts_[number];
+}
+
+void GlossyBuffer::skip(std::size_t number) {
+    Part& part = parts_[number];
+    if (part.linked_) clear_pixels(part.box_);
+    part.point_count_ = part.ray_count_ = 0, part.linked_ = false;
+}
+
+void GlossyBuffer::link(Part& part) {
+    if (part.ray_count_ == 0) return;
+    const int width = part.box_.x1 - part.box_.x0;
+    for (std::size_t i = 0; i < part.ray_count_; ++i) {
+        GlossyRay& ray = part.rays_[i];
+        const auto pixel = static_cast<int>(points_[ray.point].pixel);
+        std::uint32_t& first = first_of_pixel_[index(part.box_.x0 + pixel % width, part.box_.y0 + pixel / width)];
+        ray.next = first, first = part.first_ray_ + static_cast<std::uint32_t>(i);
+    }
+    part.linked_ = true;
+}
+
+}  // namespace hilcam
