@@ -84,7 +84,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
                          std::span<const RenderQuality> levels)
     : width_(geometry.padded_width()), height_(geometry.padded_height()) {
     int max_tiles = 0;
-    bool budget = false, buffer = false, ground = false;
+    bool buffer = false, ground = false;
     for (const RenderQuality& quality : levels) {
         // The visibility buffer's samples cost no memory of a path model's.
         const bool rays = !quality.uses_buffer();
@@ -96,7 +96,6 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
         max_tiles = std::max(max_tiles, levels_.back().tiles.size());
         buffer = buffer || !rays, ground = ground || quality.sees_ground();
         ground_has_steps_ = ground_has_steps_ || (quality.sees_ground() && quality.ground_step_px > 1);
-        budget = budget || quality.noise_budget > 0;
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
     tile_pixels_.resize(pool_slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
@@ -105,8 +104,6 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
             tile_kinds_.resize(pool_slots());
     if (ground) ground_seen_.resize(pool_slots());
     clusters_.resize(pool_slots());
-    for (std::size_t i = 0; budget && i < pool_slots(); ++i)
-        samplers_.push_back(std::make_unique<AdaptiveSampler>());
 }
 
 FrameTracer::Paths FrameTracer::make_paths(const Modules& modules, const std::string& name) {
@@ -200,14 +197,10 @@ void FrameTracer::trace_tile(const FrameSetup& setup, const PixelBox& box, std::
         if (setup.frame().visibility) seen = &seen_[slot];
     }
     const int edge = tile_edge_px(seen ? 1 : n);
-    const bool once = quality().noise_budget == 0;
     for (int y = box.y0; y < box.y1; y += edge)
         for (int x = box.x0; x < box.x1; x += edge) {
             const PixelBox part{x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)};
-            if (once)
-                trace_once(setup.frame(), part, n, slot, seen, stats, radiance);
-            else
-                trace_to_budget(setup.frame(), part, n, slot, stats, radiance);
+            trace_part(setup.frame(), part, n, slot, seen, stats, radiance);
         }
 }
 
@@ -248,12 +241,13 @@ void FrameTracer::trace_places_of(const FrameContext& frame, const PixelBox& box
     stats.covered_px = 0;  // pixels are counted where they are made of it
 }
 
-void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
+void FrameTracer::trace_part(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                              VisibilityTile* seen, TileStats& stats, RadianceImage& radiance) {
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats, clusters_[slot]};
+    tile.scattered = quality().scatters_rays();
     tile.seen = seen;
     if (seen) tile.penumbra = &penumbrae_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
@@ -291,12 +285,6 @@ void FrameTracer::write_parts(const TileParts& tile, float share) const {
         const auto part = static_cast<LightPart>(i);
         if (parts_->parts.has(part)) write(tile.of(part), share, tile.box, parts_->parts.of(part));
     }
-}
-
-void FrameTracer::trace_to_budget(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
-                                  TileStats& stats, RadianceImage& radiance) {
-    const NoiseBudget budget{quality().noise_budget, static_cast<int>(quality().max_passes), noise_};
-    write(samplers_[slot]->trace(frame, box, n, budget, *paths()[slot], stats), 1, box, radiance);
 }
 
 }  // namespace hilcam
