@@ -5,7 +5,7 @@ namespace hilcam {
 Fields fields(RenderQuality& q) {
     return {
         per_frame(integer("samples_per_axis", q.samples_per_axis, {1, 16},
-                          "n of the n x n grid of rays in each pixel")),
+                          "n of the n x n rays in each pixel, on a grid unless sun_disk is true")),
         per_frame(
             text("visibility", q.visibility,
                  "rays; or buffer: what the camera sees is found by many samples a pixel at once. That needs "
@@ -27,11 +27,11 @@ Fields fields(RenderQuality& q) {
         per_frame(number(
             "contribution_threshold", q.contribution_threshold, 1, {0, 1},
             "a path whose largest throughput falls below this ends (cached), or lives on by chance (path)")),
-        per_frame(
-            flag("sun_disk", q.sun_disk,
-                 "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights; "
-                 "with visibility: rays they go through places by chance all over the pixel, which frames "
-                 "that are averaged need; false: the Sun is a point, and rays are on the grid")),
+        per_frame(flag(
+            "sun_disk", q.sun_disk,
+            "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights. "
+            "Rays (visibility: rays) then go through random places of their pixels in place of a grid, so "
+            "that averaged frames have no grid in common")),
         integer("probe_directions", q.probe_directions, {16, 256},
                 "cached: number of directions that each probe's light comes from: 16, 60 or 256"),
         integer("probes", q.probes, {1000, 4'000'000},

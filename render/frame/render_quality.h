@@ -21,10 +21,9 @@ struct RenderQuality {
     std::string path_model = "path";
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h
-    bool sun_disk =
-        false;  // sunlight and rays by chance over disk and pixel; false: a point, and a grid of rays
-    std::int64_t probe_directions = 60;  // cached light: 16, 60 or 256
-    std::int64_t probes = 100'000;       // about, of all objects together
+    bool sun_disk = false;                 // light from places by chance on the disk; false: from its middle
+    std::int64_t probe_directions = 60;    // cached light: 16, 60 or 256
+    std::int64_t probes = 100'000;         // about, of all objects together
     double source_step_rad = 1.0 * kDegree_rad;
     bool earth_impostor = false;         // the Earth by its model from a kept picture, from afar
     double facets_behind_diffuse = 0.4;  // least GGX alpha there; 0: as they are

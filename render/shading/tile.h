@@ -38,8 +38,8 @@ struct Tile {
     std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
     TileStats& stats;
     NormalClusters& clusters;  // clusters of what is seen
-    bool scattered =
-        false;  // rays at places of a sequence in each pixel (place_sequence.h); false: on the regular grid
+    // Rays go through places of a sequence in each pixel (place_sequence.h); false: through a regular grid.
+    bool scattered = false;
     VisibilityTile* seen = nullptr;  // for what the visibility buffer finds; null: rays do
     const VisibilityTile* ground =
         nullptr;                          // for what the frame's buffer of the ground finds; null: likewise

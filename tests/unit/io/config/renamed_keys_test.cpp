@@ -54,7 +54,7 @@ TEST(RenamedKeys, ARemovedKeyIsAnsweredByWhatReplacesIt) {
         "scatters its rays";
     EXPECT_EQ(answer_to("probes: 3\nnoise_budget: 0.3\n"),
               "old.yaml:2:1: noise_budget: unknown key" + instead);
-    EXPECT_EQ(answer_to("", {"max_passes=4"}), "--set max_passes: unknown key" + instead);
+    EXPECT_EQ(answer_to("probes: 3\n", {"max_passes=4"}), "--set max_passes: unknown key" + instead);
     Quality q;
     EXPECT_EQ(key_advice("most_passes", section_of(q).fields), instead);
     // A section of something else never had it.
