@@ -6,10 +6,9 @@
 
 namespace hilcam {
 
-SensorNoise::SensorNoise(const CameraModel& c, double gain_db, int charges_per_reading)
-    : floor_e2_((square(c.dark_noise_e()) + 1 / (12 * square(c.system_gain_dn_e(gain_db)))) /
-                    charges_per_reading +
-                square(c.dsnu_e) + square(c.fixed_pattern.row_e) + square(c.fixed_pattern.column_e)),
+SensorNoise::SensorNoise(const CameraModel& c, double gain_db)
+    : floor_e2_(square(c.dark_noise_e()) + 1 / (12 * square(c.system_gain_dn_e(gain_db))) + square(c.dsnu_e) +
+                square(c.fixed_pattern.row_e) + square(c.fixed_pattern.column_e)),
       dark_share2_(square(c.fixed_pattern.dark_current_fraction)),
       light_share2_(square(c.prnu_fraction) + square(c.fixed_pattern.column_gain_fraction)) {}
 
@@ -20,7 +19,5 @@ double SensorNoise::variance_e2(double mean_e, double dark_e) const {
 double SensorNoise::sigma_e(double mean_e, double dark_e) const {
     return std::sqrt(variance_e2(mean_e, dark_e));
 }
-
-double SensorNoise::light_share() const { return std::sqrt(light_share2_); }
 
 }  // namespace hilcam

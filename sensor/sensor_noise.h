@@ -17,16 +17,12 @@ namespace hilcam {
 
 class SensorNoise {
   public:
-    // charges_per_reading: that are binned before they are read; each has its share of the reading's
-    // variance.
-    SensorNoise(const CameraModel& camera, double gain_db, int charges_per_reading = 1);
+    SensorNoise(const CameraModel& camera, double gain_db);
 
     // Returns the variance of a pixel with that mean charge [e-, 0 or more], of which dark_e is dark current.
     // Any thread.
     double variance_e2(double mean_e, double dark_e) const;
     double sigma_e(double mean_e, double dark_e) const;
-    // Standard deviation of the pixels' answers to the same light, over its mean.
-    double light_share() const;
 
   private:
     double floor_e2_;     // the part that does not depend on the charge

@@ -20,7 +20,6 @@ struct Run {
     BenchFloor floor;
     std::size_t triangles;
     std::vector<PathModelSpeed> path_models;
-    std::optional<double> within_budget;
 };
 
 // The world at nine places of the circle, the first one where it begins; without one, as the scenario has it.
@@ -90,7 +89,6 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options, std::a
     run.stages = stage_times(meters);
     run.latency = percentiles_of(meters.latency);
     run.render = emulator.loop().render_stats();
-    run.within_budget = within_budget(emulator.loop().counters());
     const std::vector<WorldSnapshot> snapshots = around(emulator, flight);
     std::vector<double> floor, fft;
     for (const WorldSnapshot& snapshot : snapshots) {
@@ -139,7 +137,6 @@ Bench over_runs(const std::vector<Run>& runs) {
     out.floor = {median_of(runs, [](const Run& r) { return r.floor.embree_ms; }),
                  median_of(runs, [](const Run& r) { return r.floor.fft_pair_ms; }),
                  median_of(runs, [](const Run& r) { return r.floor.copy_ms; })};
-    out.within_noise_budget = last.within_budget;
     out.path_models = last.path_models;
     return out;
 }

@@ -43,7 +43,6 @@ struct Bench {
     StageTimes stages;
     Percentiles latency;  // from a pose's arrival to the first frame that shows it, handed over
     BenchFloor floor;
-    std::optional<double> within_noise_budget;
     std::vector<PathModelSpeed> path_models;  // where the options ask for them
 
     double ratio_to_floor() const { return p50_ms / floor.sum_ms(); }

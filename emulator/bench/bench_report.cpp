@@ -58,7 +58,6 @@ json bench_json(const Bench& b) {
           {"bounce_shadow", b.rendered.bounce_shadow_rays},
           {"lamp", b.rendered.lamp_rays},
           {"path", b.rendered.secondary_rays}}},
-        {"within_noise_budget", or_null(b.within_noise_budget)},
         {"path_models", path_models_json(b.path_models)},
         {"runs", b.options.runs},
         {"frames_per_run", b.options.frames},

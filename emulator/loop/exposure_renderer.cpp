@@ -48,8 +48,6 @@ void accumulate(const RenderStats& part, float share, RenderStats& sum) {
     sum.setup_ms += part.setup_ms;
     sum.trace_ms += part.trace_ms;
     sum.points_ms += part.points_ms;
-    sum.lit_px += part.lit_px;
-    sum.within_budget_px += part.within_budget_px;
 }
 
 // The rows of a rolling or scanning camera are lit one after the other, while the world moves less.
@@ -84,7 +82,6 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
       focal_length_px_(camera.focal_length_m / camera.pitch_m),
       oversampling_(static_cast<double>(config.sampling.oversampling)),
       jitter_(camera.jitter, config.seed, config.start),
-      noise_(camera, grid, config.sampling),
       responses_(channel_responses(camera, grid)),
       for_detector_(config.for_detector),
       has_moments_(is_halved(config.sampling.samples_per_axis)),
@@ -206,12 +203,10 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
         result.parts_limited = plan.parts_limited;
         set_rates(motion, result.parts, exposure);
         if (result.parts > 1) {
-            report_noise(exposure, result.parts);
             render_parts(world, span, key, radiance, points, result);
             return result;
         }
     }
-    report_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
     if (radiance.moments() && radiance.moments()->used())
         exposure.ray_grid = halved(ray_grid_of(renderer_.quality()));
@@ -228,13 +223,6 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
 void ExposureRenderer::look_beside(std::vector<SideLight>& lights) const {
     lights.clear();
     if (looks_beside_) renderer_.find_side_light(lights);
-}
-
-// The mean of parts may come from worse ones: each draws its own samples.
-void ExposureRenderer::report_noise(const Exposure& exposure, int parts) {
-    PixelNoise noise = noise_.of(exposure);
-    noise.averaged *= static_cast<float>(parts);
-    renderer_.set_pixel_noise(noise);
 }
 
 void ExposureRenderer::render_parts(const WorldState& world, const Span& span, RandomKey key,

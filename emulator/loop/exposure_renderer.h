@@ -26,7 +26,6 @@
 #include "render/frame/renderer.h"
 #include "sensor/camera_model.h"
 #include "sensor/chain.h"
-#include "sensor/expected_noise.h"
 #include "sensor/motion.h"
 
 namespace hilcam {
@@ -103,7 +102,6 @@ class ExposureRenderer {
     bool looks_beside_;
     double focal_length_px_, oversampling_;
     PointingJitter jitter_;
-    ExpectedNoise noise_;
     std::vector<Spectrum> responses_;  // those of the detector's channels
     bool for_detector_, has_moments_;
     WorldSnapshot middle_, before_, after_, part_world_;
@@ -125,7 +123,6 @@ class ExposureRenderer {
     void sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
                       WorldSnapshot& out) const;
     void sample_ends(const WorldState& world, const Span& span, bool with_bodies);
-    void report_noise(const Exposure& exposure, int parts);
     RadianceImage make_part() const;
     void render_parts(const WorldState& world, const Span& span, RandomKey key, RadianceImage& radiance,
                       std::vector<PointSource>& points, Result& result);

@@ -47,10 +47,6 @@ struct LoopCounters {
     std::array<std::atomic<std::int64_t>, kMaxLevels> processor_ns_at_level{};
     std::array<std::atomic<std::uint64_t>, kMaxLevels> timed_frames_at_level{};
     std::atomic<double> budget_ms{0};  // budget of the newest frame; 0: it might take as long as it liked
-    // With a noise budget: pixels with light, those within it, of all frames; the share in the newest and the
-    // worst frame (1 without light).
-    std::atomic<std::uint64_t> lit_px{0}, within_budget_px{0};
-    std::atomic<double> within_budget{1}, worst_within_budget{1};
 };
 
 struct LoopFigures {

@@ -139,7 +139,6 @@ void RenderStage::render_light(FrameSlot& slot, const LightPartOrders::Order* or
     meters_.setup.record_ms(stats_.setup_ms);
     meters_.trace.record_ms(stats_.trace_ms);
     meters_.stars.record_ms(stats_.points_ms);
-    count_budget();
     slot.render_ns = monotonic_ns() - begun_ns;
     meters_.render.record(slot.render_ns);
 }
@@ -171,17 +170,6 @@ void RenderStage::report_commands(const ShownCommand& shown, FrameSlot& slot) {
         !script_ && shown.arrival_monotonic_ns > shown_arrival_ns_ ? shown.arrival_monotonic_ns : 0;
     shown_arrival_ns_ = std::max(shown_arrival_ns_, shown.arrival_monotonic_ns);
     if (observers_.recorder) world_.shown_numbers(slot.shown_numbers);
-}
-
-void RenderStage::count_budget() {
-    if (stats_.lit_px == 0) return counters_.within_budget.store(1, std::memory_order_relaxed);
-    counters_.lit_px.fetch_add(stats_.lit_px, std::memory_order_relaxed);
-    counters_.within_budget_px.fetch_add(stats_.within_budget_px, std::memory_order_relaxed);
-    const double share = static_cast<double>(stats_.within_budget_px) / static_cast<double>(stats_.lit_px);
-    counters_.within_budget.store(share, std::memory_order_relaxed);
-    // One writer.
-    if (share < counters_.worst_within_budget.load(std::memory_order_relaxed))
-        counters_.worst_within_budget.store(share, std::memory_order_relaxed);
 }
 
 }  // namespace hilcam

@@ -49,7 +49,6 @@ class RenderStage {
     void report_pose_tags(FrameSlot& slot);
     void report_impossible(FrameSlot& slot);
     void report_commands(const ShownCommand& shown, FrameSlot& slot);
-    void count_budget();
 
     ExposureRenderer& exposures_;
     WorldState& world_;

@@ -53,7 +53,7 @@ CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number,
       limits_(limits),
       settings_(scenario_.camera, mode_of(scenario_)),
       faults_(seed_of_camera(scenario_, number - 1)),
-      light_parts_(apart_refusal(scenario_, all_levels(scenario_))),
+      light_parts_(apart_refusal(scenario_)),
       timed_faults_(scenario_.faults) {
     settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
         for (const auto& sink : sinks_) sink->on_event({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});

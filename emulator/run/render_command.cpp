@@ -121,8 +121,7 @@ void check_names(PictureStage stage, const RenderFiles& files) {
 
 // Refuses what cannot be taken apart. A pixel tells of itself where it is worked out itself.
 void require_parts(const ScenarioConfig& s, bool pixel) {
-    const std::array quality{render_quality_of(s)};
-    if (const std::string why = apart_refusal(s, quality); !why.empty())
+    if (const std::string why = apart_refusal(s); !why.empty())
         throw InputError("--parts and --pixel: " + why);
     if (pixel && s.quality.render.sees_ground() && s.quality.render.ground_step_px > 1)
         throw InputError(

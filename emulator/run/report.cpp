@@ -40,12 +40,6 @@ void to_json(json& out, const Percentiles& p) {
     out = {{"p50", p.p50_ms}, {"p99", p.p99_ms}, {"p99.9", p.p999_ms}, {"max", p.max_ms}};
 }
 
-std::optional<double> within_budget(const LoopCounters& counters) {
-    const std::uint64_t lit_px = counters.lit_px.load();
-    if (lit_px == 0) return {};
-    return rounded(static_cast<double>(counters.within_budget_px.load()) / static_cast<double>(lit_px));
-}
-
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 namespace {
@@ -118,8 +112,7 @@ json quality_report(CameraStation& station) {
                    {"core_ms_at_level", core_ms_at_level(station)},
                    {"level", counters.level.load()},
                    {"level_changes", counters.level_changes.load()},
-                   {"frames_at_level", frames_at_level},
-                   {"within_noise_budget", or_null(within_budget(counters))}};
+                   {"frames_at_level", frames_at_level}};
     for (const Field& field : per_frame_fields(quality))
         std::visit(
             [&]<class Target>(const Target& target) {
@@ -129,8 +122,6 @@ json quality_report(CameraStation& station) {
                     report[field.key] = *target.value;
             },
             field.target);
-    if (within_budget(counters))
-        report["worst_within_noise_budget"] = rounded(counters.worst_within_budget.load());
     return report;
 }
 

@@ -20,9 +20,6 @@ void to_json(nlohmann::json& out, const Percentiles& percentiles);
 // Holds each stage's percentiles by the stage's name.
 using StageTimes = std::map<std::string, Percentiles>;
 StageTimes stage_times(const StageMeters& meters);
-// Returns the share of the lit pixels of all frames whose rendering error was within the noise budget;
-// nothing where there is no budget.
-std::optional<double> within_budget(const LoopCounters& counters);
 // Returns null for nothing.
 nlohmann::json or_null(const std::optional<double>& value);
 

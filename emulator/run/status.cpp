@@ -142,18 +142,15 @@ json flags_status() {
     return flags;
 }
 
-// The newest frame's level and share of pixels within the noise budget; 0 ms: the governor is off.
+// The newest frame's level; 0 ms: the governor is off.
 // light_made: of the tables that frames wait for; null: of none.
 json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters, const LightMaker* light) {
     json quality = {{"level", counters.level.load()},
                     {"levels", 1 + lower_levels(scenario).size()},
                     {"level_changes", counters.level_changes.load()},
                     {"frame_budget_ms", counters.budget_ms.load()},
-                    {"noise_budget", scenario.quality.render.noise_budget},
-                    {"within_noise_budget", nullptr},
                     {"light_made", nullptr}};
     if (light && counters.lacks_light.load()) quality["light_made"] = light->share();
-    if (counters.lit_px.load() > 0) quality["within_noise_budget"] = counters.within_budget.load();
     return quality;
 }
 

@@ -189,7 +189,7 @@ RenderQuality render_quality_of(const ScenarioConfig& s) {
     const ImageGeometry image =
         geometry_of(s.camera, static_cast<int>(s.quality.guard_px), static_cast<int>(s.quality.oversampling));
     if (!VisibilityBuffer::takes(image) || models_of(s).rays.model != "pinhole" ||
-        (s.terrain && quality.buffer_samples > 1) || quality.noise_budget > 0)
+        (s.terrain && quality.buffer_samples > 1))
         quality.visibility = "rays";
     return quality;
 }

@@ -115,7 +115,7 @@ std::string governor_off(const ScenarioConfig& scenario);
 // The qualities below the configured one that it may choose; none when it does not run.
 std::vector<RenderQuality> lower_levels(const ScenarioConfig& scenario);
 // The scenario's quality as its first camera can have it: a visibility buffer needs a lens that leaves
-// straight lines straight, rows of one instant, no terrain and no noise budget.
+// straight lines straight, rows of one instant, and no terrain.
 RenderQuality render_quality_of(const ScenarioConfig& scenario);
 // Returns how the radiance images of all of them are made.
 SensorSampling sampling_of(const ScenarioConfig& scenario);

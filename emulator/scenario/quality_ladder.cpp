@@ -109,18 +109,16 @@ namespace {
 struct Limits {
     std::int64_t samples_per_axis, max_depth;
     double contribution_threshold, lod_error_px;
-    double budget_factor;  // on the noise budget; 0: none any more
     bool direct;
 };
 
-RenderQuality limited(const RenderQuality& from, const RenderQuality& configured, const Limits& to) {
+RenderQuality limited(const RenderQuality& from, const Limits& to) {
     RenderQuality q = from;
     q.samples_per_axis = std::min(q.samples_per_axis, to.samples_per_axis);
     q.buffer_samples = std::min<std::int64_t>(q.buffer_samples, 16);
     q.max_depth = std::min(q.max_depth, to.max_depth);
     q.contribution_threshold = std::max(q.contribution_threshold, to.contribution_threshold);
     q.lod_error_px = std::max(q.lod_error_px, to.lod_error_px);
-    q.noise_budget = to.budget_factor * configured.noise_budget;
     q.sun_disk = false;
     if (to.direct) q.path_model = "direct";
     return q;
@@ -137,15 +135,15 @@ std::vector<RenderQuality> levels_of_ground(RenderQuality quality) {
 
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
     if (configured.sees_ground()) return levels_of_ground(configured);
-    const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false},
-                            {1, 2, 0.5, 0.5, 4, false},
-                            {1, 2, 0.5, 1, 0, false},
-                            {1, 1, 1, 1, 0, false},
-                            {1, 1, 1, 2, 0, true}};
+    const Limits steps[] = {{2, 3, 0.005, 0.25, false},
+                            {1, 2, 0.5, 0.5, false},
+                            {1, 2, 0.5, 1, false},
+                            {1, 1, 1, 1, false},
+                            {1, 1, 1, 2, true}};
     std::vector<RenderQuality> levels;
     RenderQuality last = configured;
     for (const Limits& step : steps) {
-        const RenderQuality next = limited(last, configured, step);
+        const RenderQuality next = limited(last, step);
         if (difference(last, next).empty()) continue;
         levels.push_back(next);
         last = next;
@@ -154,7 +152,7 @@ std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
 }
 
 RayGrid ray_grid_of(const RenderQuality& q) {
-    if (q.noise_budget > 0) return kScatteredRays;
+    if (q.scatters_rays()) return kScatteredRays;
     if (q.uses_buffer()) return q.pixel_samples().across();
     return static_cast<RayGrid>(q.samples_per_axis);
 }

@@ -52,7 +52,7 @@ Fields per_frame_fields(RenderQuality& quality);
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& level);
 
 // Steps down from a quality, each as far as it makes anything faster: towards configs/quality/fast.yaml,
-// then coarser meshes and no noise budget, no bounce, direct light alone. Sixteen samples a pixel stay where there is a
+// then coarser meshes, no bounce, direct light alone. Sixteen samples a pixel stay where there is a
 // visibility buffer. For ground that is alone in the scene: to every second pixel of it.
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured);
 

@@ -116,6 +116,8 @@ std::map<std::string, std::string> parsed(const std::string& listing) {
         const std::size_t last = key.rfind('.') + 1;
         if (const std::string_view now = renamed_key(key.substr(last)); !now.empty())
             key = key.substr(0, last) + std::string(now);
+        const RemovedKey* const removed = removed_key(key.substr(last));
+        if (removed && (removed->no_effect.empty() || removed->no_effect == value)) continue;
         if (const std::string_view now = renamed_value(key.substr(last), value); !now.empty()) value = now;
         out[std::move(key)] = std::move(value);
     }

@@ -34,7 +34,6 @@ const std::vector<KnobRow>& knob_rows() {
         {"depth", "quality.max_depth", {"1", "2", "3", "4", "6"}, Needs::kSurfaces, KnobRole::kDepth},
         {"visibility", "quality.visibility", {"rays", "buffer"}, Needs::kMeshes},
         {"samples per axis", "quality.samples_per_axis", {"1", "2", "3", "4"}},
-        {"noise budget", "quality.noise_budget", {"0", "2", "1", "0.5", "0.3"}, Needs::kSurfaces},
         {"contribution threshold",
          "quality.contribution_threshold",
          {"0.5", "0.02", "0.001"},
@@ -195,10 +194,9 @@ std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
         // here.
         "quality.max_depth=8",
         fmt::format("quality.samples_per_axis={}", (kRaysPerAxis + oversampling - 1) / oversampling),
-        // One pass of scattered rays: averaged frames then have no grid in common.
-        "quality.noise_budget=0.1",
-        "quality.max_passes=1",
         "quality.contribution_threshold=0.0001",
+        // With the Sun's disk rays are scattered: averaged frames then have no grid in common.
+        "quality.visibility=rays",
         "quality.sun_disk=true",
         "quality.facets_behind_diffuse=0",
         // Not used; as they are by default, so that references do not depend on them.

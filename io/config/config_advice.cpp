@@ -95,6 +95,8 @@ std::string nearest_of(std::string_view word, std::span<const std::string> known
 std::string advice_for(std::string_view key, const Fields& known, const Fields& root) {
     if (const std::string_view now = renamed_key(key); !now.empty() && has_key(known, now))
         return "; it was renamed to " + std::string(now);
+    if (const RemovedKey* const removed = removed_key(key); removed && has_key(known, removed->beside))
+        return "; it was removed: " + std::string(removed->instead);
     std::vector<std::string> keys;
     std::string list;
     for (const Field& field : known) {
@@ -120,12 +122,18 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
 
 std::string key_advice(std::string_view whole_key, const Fields& root) {
     const std::size_t last = whole_key.rfind('.') + 1;
-    if (const std::string_view now = renamed_key(whole_key.substr(last)); !now.empty()) {
-        const std::string whole = std::string(whole_key.substr(0, last)) + std::string(now);
-        const std::vector<std::string> keys = config_keys(root);
-        if (std::find(keys.begin(), keys.end(), whole) != keys.end()) return "; it was renamed to " + whole;
-    }
-    const std::string nearest = nearest_of(whole_key, config_keys(root));
+    const std::vector<std::string> keys = config_keys(root);
+    // The whole key of another one in the same section; empty: the section has none such.
+    const auto beside = [&](std::string_view word) {
+        std::string whole = std::string(whole_key.substr(0, last)).append(word);
+        return std::find(keys.begin(), keys.end(), whole) != keys.end() ? whole : std::string();
+    };
+    if (const std::string now = beside(renamed_key(whole_key.substr(last))); !now.empty())
+        return "; it was renamed to " + now;
+    if (const RemovedKey* const removed = removed_key(whole_key.substr(last));
+        removed && !beside(removed->beside).empty())
+        return "; it was removed: " + std::string(removed->instead);
+    const std::string nearest = nearest_of(whole_key, keys);
     if (!nearest.empty()) return "; nearest: " + nearest;
     const std::vector<std::string> places = places_of(whole_key, root);
     if (places.empty() || places.size() > kMaxPlaces)

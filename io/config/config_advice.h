@@ -10,7 +10,7 @@
 namespace hilcam {
 
 // Returns what helps with a key that is none of `known`, the keys of its place: "; nearest known key: ...;
-// known keys: ...", the name that it has now (renamed_keys.h), that its unit is another here, what a data sheet's word is
+// known keys: ...", the name that it has now or what replaces it (renamed_keys.h), that its unit is another here, what a data sheet's word is
 // here (data_sheet_words.h), or where in the whole configuration it belongs. An element
 // is appended to each of the root's lists (config_keys.h): whoever asks for advice reads no further.
 std::string advice_for(std::string_view key, const Fields& known, const Fields& root);

@@ -13,10 +13,17 @@ constexpr std::array kRenamedKeys = {
     RenamedKey{"kept_step_deg", "source_step_deg"},
     RenamedKey{"kept_earth", "earth_impostor"},
     RenamedKey{"point_samples_least", "min_point_samples"},
-    RenamedKey{"most_passes", "max_passes"},
     RenamedKey{"most_triangles", "max_triangles"},
     RenamedKey{"least_hz", "min_hz"},
     RenamedKey{"most_hz", "max_hz"},
+};
+
+constexpr std::string_view kSamplesForPasses =
+    "each pixel is sampled alike: samples_per_axis says how often, and sun_disk: true scatters its rays";
+constexpr std::array kRemovedKeys = {
+    RemovedKey{"noise_budget", "samples_per_axis", "0", kSamplesForPasses},
+    RemovedKey{"max_passes", "samples_per_axis", "", kSamplesForPasses},
+    RemovedKey{"most_passes", "samples_per_axis", "", kSamplesForPasses},
 };
 
 struct RenamedValue {
@@ -27,6 +34,12 @@ constexpr std::array kRenamedValues = {
 };
 
 }  // namespace
+
+const RemovedKey* removed_key(std::string_view key) {
+    const auto* const found = std::find_if(kRemovedKeys.begin(), kRemovedKeys.end(),
+                                           [&](const RemovedKey& row) { return row.was == key; });
+    return found == kRemovedKeys.end() ? nullptr : found;
+}
 
 std::string_view renamed_key(std::string_view key) {
     const auto found = std::find_if(kRenamedKeys.begin(), kRenamedKeys.end(),

@@ -153,8 +153,7 @@ function showChips() {
     chip("shown", number(picture.shownRate()) + " frames/s"),
     chip("missed", number(status.deadline_misses), status.deadline_misses ? "warn" : ""),
     ...(status.quality?.levels > 1 ? [chip("quality level", number(status.quality.level), status.quality.level ? "warn" : "")] : []),
-    ...(status.quality?.light_made != null ? [chip("light between surfaces", number(100 * status.quality.light_made, 2) + " % made", "warn")] : []),
-    ...(status.quality?.within_noise_budget != null ? [chip("within noise budget", number(100 * status.quality.within_noise_budget) + " %")] : []));
+    ...(status.quality?.light_made != null ? [chip("light between surfaces", number(100 * status.quality.light_made, 2) + " % made", "warn")] : []));
 }
 const STAGES = [["setup", "set up"], ["trace", "trace"], ["stars", "stars"], ["collapse", "collapse"], ["convolve", "convolve"],
   ["points", "points"], ["digitise", "digitise"], ["publish", "publish"], ["render", "render, all"], ["sense", "sense, all"]];

@@ -113,7 +113,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
                          std::span<const RenderQuality> levels)
     : width_(geometry.padded_width()), height_(geometry.padded_height()) {
     int max_tiles = 0;
-    bool budget = false, buffer = false, ground = false;
+    bool buffer = false, ground = false;
     for (const RenderQuality& quality : levels) {
         // The visibility buffer's samples cost no memory of a path model's.
         const bool rays = !quality.uses_buffer();
@@ -125,7 +125,6 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
         max_tiles = std::max(max_tiles, levels_.back().tiles.size());
         buffer = buffer || !rays, ground = ground || quality.sees_ground();
         ground_has_steps_ = ground_has_steps_ || (quality.sees_ground() && quality.ground_step_px > 1);
-        budget = budget || quality.noise_budget > 0;
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
     tile_pixels_.resize(pool_slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
@@ -137,8 +136,6 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
                     [](const PathSet& set) { return set.models.front()->uses_indirect_cache(); }))
         glossy_ = GlossyBuffer(width_, height_, static_cast<std::size_t>(max_tiles), PathModel::kMaxSamples);
     clusters_.resize(pool_slots());
-    for (std::size_t i = 0; budget && i < pool_slots(); ++i)
-        samplers_.push_back(std::make_unique<AdaptiveSampler>());
 }
 
 FrameTracer::Paths FrameTracer::make_paths(const Modules& modules, const std::string& name) {
@@ -203,18 +200,10 @@ TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
 
 // Adds what the lobes reflect that rays have followed, once all of these have come back.
 void FrameTracer::add_glossy(const FrameContext& frame, RadianceImage& radiance) {
-    if (getenv("GLOSSY")) {
-        std::size_t n = 0, r = 0, narrow = 0; 
-        for (std::size_t i = 0; i < glossy_.parts(); ++i) { n += glossy_.part(i).points().size(); r += glossy_.part(i).rays(); for (const GlossyPoint& p : glossy_.part(i).points()) narrow += p.alpha < 0.12f; }
-        fprintf(stderr, "glossy points %zu rays %zu narrow %zu\n", n, r, narrow);
-    }
-    timespec t0, t1; clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t0);
     for_each_tile([&](int index, const PixelBox&, std::size_t slot) {
         const GlossyBuffer::Part& part = glossy_.part(static_cast<std::size_t>(index));
         if (!part.points().empty()) add_glossy_of(frame, part, slot, tile_stats_[static_cast<std::size_t>(index)], radiance);
     });
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t1);
-    if (getenv("GLOSSY")) fprintf(stderr, "gather %.2f ms\n", 1e3 * double(t1.tv_sec - t0.tv_sec) + 1e-6 * double(t1.tv_nsec - t0.tv_nsec));
 }
 
 TileStats FrameTracer::sum_of_stats(int tiles) const {
@@ -251,18 +240,14 @@ void FrameTracer::trace_tile(const FrameSetup& setup, int index, std::size_t slo
         if (setup.frame().visibility) seen = &seen_[slot];
     }
     const int edge = tile_edge_px(seen ? 1 : n);
-    const bool once = quality().noise_budget == 0;
     // What is traced in several parts, as many rays see it, has room for none of them.
     GlossyBuffer::Part* const glossy = glossy_.parts() > 0 && edge >= box.x1 - box.x0 && edge >= box.y1 - box.y0
-                                           ? &glossy_.begin(static_cast<std::size_t>(index), box)
+                                           ? &glossy_.begin(static_cast<std::size_t>(index), box, 1 / static_cast<float>(n * n))
                                            : nullptr;
     for (int y = box.y0; y < box.y1; y += edge)
         for (int x = box.x0; x < box.x1; x += edge) {
             const PixelBox part{x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)};
-            if (once)
-                trace_once(setup.frame(), part, n, slot, seen, glossy, stats, radiance);
-            else
-                trace_to_budget(setup.frame(), part, n, slot, stats, radiance);
+            trace_part(setup.frame(), part, n, slot, seen, glossy, stats, radiance);
         }
 }
 
@@ -303,13 +288,14 @@ void FrameTracer::trace_places_of(const FrameContext& frame, const PixelBox& box
     stats.covered_px = 0;  // pixels are counted where they are made of it
 }
 
-void FrameTracer::trace_once(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
+void FrameTracer::trace_part(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                              VisibilityTile* seen, GlossyBuffer::Part* glossy, TileStats& stats,
                              RadianceImage& radiance) {
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats, clusters_[slot]};
+    tile.scattered = quality().scatters_rays();
     tile.seen = seen, tile.glossy = glossy;
     if (seen) tile.penumbra = &penumbrae_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
@@ -358,7 +344,7 @@ void FrameTracer::add_glossy_of(const FrameContext& frame, const GlossyBuffer::P
                            .first(count * SubpixelLight::kDifferences * tile.moment_responses.size());
         std::fill(tile.moments.begin(), tile.moments.end(), 0.0f);
     }
-    const float share = 1.0f / kVisibilitySamples;
+    const float share = part.share();
     TileParts parts{box, {}, record_, share};
     if (parts_) {
         parts.sums = std::span(parts_->tile_sums[slot]).first(count * kImageParts);
@@ -384,12 +370,6 @@ void FrameTracer::write_parts(const TileParts& tile, float share) const {
         const auto part = static_cast<LightPart>(i);
         if (parts_->parts.has(part)) write(tile.of(part), share, tile.box, parts_->parts.of(part));
     }
-}
-
-void FrameTracer::trace_to_budget(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
-                                  TileStats& stats, RadianceImage& radiance) {
-    const NoiseBudget budget{quality().noise_budget, static_cast<int>(quality().max_passes), noise_};
-    write(samplers_[slot]->trace(frame, box, n, budget, *paths()[slot], stats), 1, box, radiance);
 }
 
 }  // namespace hilcam

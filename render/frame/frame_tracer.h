@@ -17,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "render/frame/adaptive_sampler.h"
 #include "render/frame/frame_setup.h"
 #include "render/frame/parts_buffer.h"
 #include "render/frame/render_quality.h"
@@ -41,10 +40,8 @@ class FrameTracer {
     // Takes effect from the next frame on. Loop.
     void use_level(std::size_t level);
     const RenderQuality& quality() const { return levels_[level_].quality; }
-    // Sets the sensor's noise, against which the noise budget is weighed from the next frame on. Loop.
-    void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
-    // From the next frame on takes pictures apart, too, and notes what recorded pixels are made of; null: no more. Not with a noise
-    // budget. buffer: has the tracer's slots(). Loop, between two frames: nothing is allocated.
+    // From the next frame on takes pictures apart, too, and notes what recorded pixels are made of; null: no more.
+    // buffer: has the tracer's slots(). Loop, between two frames: nothing is allocated.
     void keep_parts(PartsBuffer* buffer, PixelRecord* record);
     // Any thread.
     std::size_t slots() const { return tile_pixels_.size(); }
@@ -80,7 +77,6 @@ class FrameTracer {
     std::vector<Level> levels_;
     std::size_t level_ = 0;
     std::vector<PathSet> path_sets_;
-    PixelNoise noise_;
     SubpixelLight* moments_ = nullptr;  // the present frame's; null: it is made without
     // The pixels of the tile in work, one list per slot.
     std::vector<std::vector<Spectrum>> tile_pixels_;
@@ -100,7 +96,6 @@ class FrameTracer {
     std::optional<GroundUpsampler> places_;   // none before the first frame, and where no level has them
     std::vector<VisibilityTile> seen_;        // likewise
     std::vector<PenumbraSampler> penumbrae_;  // likewise
-    std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
     GlossyBuffer glossy_;  // no parts where no level caches light
     std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame
@@ -124,11 +119,9 @@ class FrameTracer {
     const VisibilityTile* ground_at(const FrameContext& frame, const PixelBox& box, std::size_t slot);
     TileStats trace_places(const FrameContext& frame, const RadianceImage& radiance);
     void trace_places_of(const FrameContext& frame, const PixelBox& box, std::size_t slot, TileStats& stats);
-    void trace_once(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
+    void trace_part(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
                     VisibilityTile* seen, GlossyBuffer::Part* glossy, TileStats& stats, RadianceImage& radiance);
     void write_parts(const TileParts& tile, float share) const;
-    void trace_to_budget(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
-                         TileStats& stats, RadianceImage& radiance);
 };
 
 }  // namespace hilcam

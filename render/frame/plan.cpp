@@ -159,11 +159,9 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
         add(f.bins, " spectral bins; ", q.buffer_samples, " samples per pixel by the visibility buffer");
     else
         add(f.bins, " spectral bins; ", q.samples_per_axis, " x ", q.samples_per_axis, " rays per pixel",
+            q.scatters_rays() ? ", scattered over it" : "",
             q.sees_ground() ? "; ground that is alone is seen once a pixel, sixteen pixels at a time" : "",
             q.sees_ground() && q.ground_step_px > 1 ? ", by every second one each way" : "");
-    if (q.noise_budget > 0)
-        add("noise budget: pixels are sampled again, ", q.max_passes,
-            " times at most, while their error is above ", q.noise_budget, " of their sensor noise");
     add("path model ", q.path_model, ", ", f.max_depth, " surfaces deep, paths end below ",
         f.contribution_threshold);
     add("rays begin at the ", f.start_before_m > 0 ? "objects (far away against their size)" : "camera");

@@ -5,6 +5,8 @@
 //     static void add(hilcam::Modules& modules) { modules.paths.add("mine", ...); }
 //     HILCAM_PLUGIN(add)
 //
+// A path model needs less of the renderer, and is rebuilt less often: render/paths/path_plugin.h.
+//
 // What it passes are C++ objects, so it has to match the program exactly: interface version, compiler and the
 // sizes of what is shared are checked before any of its code runs but the one function that gives them.
 
@@ -17,7 +19,7 @@
 namespace hilcam {
 
 // Raised with every change of what plug-ins see.
-inline constexpr std::uint32_t kPluginInterface = 30;
+inline constexpr std::uint32_t kPluginInterface = 31;
 
 struct PluginInfo {
     std::uint32_t interface_version;

@@ -5,7 +5,7 @@ namespace hilcam {
 Fields fields(RenderQuality& q) {
     return {
         per_frame(integer("samples_per_axis", q.samples_per_axis, {1, 16},
-                          "n of the n x n grid of rays in each pixel")),
+                          "n of the n x n rays in each pixel, on a grid unless sun_disk is true")),
         per_frame(
             text("visibility", q.visibility,
                  "rays; or buffer: what the camera sees is found by many samples a pixel at once. That needs "
@@ -27,9 +27,11 @@ Fields fields(RenderQuality& q) {
         per_frame(number(
             "contribution_threshold", q.contribution_threshold, 1, {0, 1},
             "a path whose largest throughput falls below this ends (cached), or lives on by chance (path)")),
-        per_frame(
-            flag("sun_disk", q.sun_disk,
-                 "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights")),
+        per_frame(flag(
+            "sun_disk", q.sun_disk,
+            "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights. "
+            "Rays (visibility: rays) then go through random places of their pixels in place of a grid, so "
+            "that averaged frames have no grid in common")),
         integer("probe_directions", q.probe_directions, {16, 256},
                 "cached: number of directions that each probe's light comes from: 16, 60 or 256"),
         integer("probes", q.probes, {1000, 4'000'000},
@@ -61,14 +63,6 @@ Fields fields(RenderQuality& q) {
                 "smaller objects have fewer of these rays, as the power 2/3 of their size, which leaves the "
                 "error its share of their light's own noise, down to this number; from point_samples on: "
                 "all have as many"),
-        per_frame(
-            number("noise_budget", q.noise_budget, 1, {0, 100},
-                   "share of a pixel's own sensor noise: the pixel is sampled again only while the standard "
-                   "error of its rendering is above this; rays are then scattered over the pixel. 0: sampled "
-                   "once, on the grid")),
-        // Numbers are drawn by sample and depth: 63 passes of 16 x 16 samples fit (random.h).
-        integer("max_passes", q.max_passes, {1, 63},
-                "greatest number of passes with a noise budget, n x n rays each"),
     };
 }
 

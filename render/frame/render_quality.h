@@ -21,7 +21,7 @@ struct RenderQuality {
     std::string path_model = "path";
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h
-    bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
+    bool sun_disk = false;                 // light from places by chance on the disk; false: from its middle
     std::int64_t probe_directions = 60;    // cached light: 16, 60 or 256
     std::int64_t probes = 100'000;         // about, of all objects together
     double source_step_rad = 1.0 * kDegree_rad;
@@ -33,15 +33,15 @@ struct RenderQuality {
         128;  // rays across a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
     std::int64_t point_samples = 96;  // rays along one axis of the little picture of an object of few pixels
     std::int64_t min_point_samples =
-        512;                       // fewer for smaller ones, down to so many; not more than point_samples
-    double noise_budget = 0;       // see adaptive_sampler.h; 0: a pixel is sampled once
-    std::int64_t max_passes = 16;  // over a pixel, with a noise budget
+        512;  // fewer for smaller ones, down to so many; not more than point_samples
 
-    // A noise budget is for rays.
-    bool uses_buffer() const { return visibility == "buffer" && noise_budget == 0 && buffer_samples > 1; }
+    bool uses_buffer() const { return visibility == "buffer" && buffer_samples > 1; }
+    // Light that is drawn by chance over the Sun's disk is drawn over the pixel, too (Cook, Porter & Carpenter, Distributed Ray
+    // Tracing, SIGGRAPH 84): frames that are averaged then have no grid in common.
+    bool scatters_rays() const { return sun_disk && !uses_buffer(); }
     // Ground alone is seen once a pixel, sixteen pixels at a time (ground_light.h).
     bool sees_ground() const {
-        return visibility == "buffer" && noise_budget == 0 && buffer_samples == 1 && samples_per_axis == 1 &&
+        return visibility == "buffer" && buffer_samples == 1 && samples_per_axis == 1 &&
                path_model == "direct" && !sun_disk;
     }
     PixelSamples pixel_samples() const { return PixelSamples(buffer_samples == 64 ? 8 : 4); }

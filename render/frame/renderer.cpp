@@ -112,7 +112,6 @@ bool Renderer::take_light() { return implementation_->setup.take_light(); }
 
 void Renderer::stop_looking_ahead() { implementation_->setup.stop_looking_ahead(); }
 const RenderQuality& Renderer::quality() const { return implementation_->tracer.quality(); }
-void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->tracer.set_pixel_noise(noise); }
 
 std::size_t Renderer::max_points() const {
     const FrameSetup& setup = implementation_->setup;
@@ -147,8 +146,6 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
 
     static_cast<RayCounts&>(stats) = sum;
     stats.coverage = sum.covered_px / (static_cast<double>(g.padded_width()) * g.padded_height());
-    stats.lit_px = sum.lit_px;
-    stats.within_budget_px = sum.within_budget_px;
     stats.not_finite = sum.not_finite;
     my.left_out.fetch_add(my.setup.left_out(), std::memory_order_relaxed);
     my.not_finite.fetch_add(sum.not_finite, std::memory_order_relaxed);

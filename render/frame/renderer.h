@@ -23,7 +23,6 @@
 #include "render/scene/scene.h"
 #include "render/shading/pixel_record.h"
 #include "render/vocabulary/image_geometry.h"
-#include "render/vocabulary/pixel_noise.h"
 #include "render/vocabulary/point_source.h"
 #include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/random.h"
@@ -35,13 +34,10 @@ namespace hilcam {
 struct PathModelSpeed;  // render_bench.h
 
 struct RenderStats : RayCounts {
-    double coverage = 0;   // share of the frame's samples that meet an object
-    double setup_ms = 0;   // instances, plan, background
-    double trace_ms = 0;   // rays and shading
-    double points_ms = 0;  // stars, and what is smaller than a pixel
-    // Counts of a frame with a noise budget: pixels that light falls on, points apart, and those of them
-    // within the budget.
-    std::uint64_t lit_px = 0, within_budget_px = 0;
+    double coverage = 0;           // share of the frame's samples that meet an object
+    double setup_ms = 0;           // instances, plan, background
+    double trace_ms = 0;           // rays and shading
+    double points_ms = 0;          // stars, and what is smaller than a pixel
     std::uint64_t not_finite = 0;  // pixels and points whose light was no number, and was left out
 };
 
@@ -68,12 +64,9 @@ class Renderer {
     // Ends the threads that make cached light and the Earth's picture before frames ask for them: they are the same
     // without. For who makes single pictures, or is about to fork. Owner thread.
     void stop_looking_ahead();
-    // Sets the sensor's noise, against which the noise budget is weighed in the next frames; until then,
-    // pixels are sampled once. Loop.
-    void set_pixel_noise(const PixelNoise& noise);
 
     // From the next frame on also takes pictures apart: buffer gets what each part of the light has in them, and record what lies in
-    // its pixels; null: no more. Pictures are the same to the last bit. buffer: make_parts_buffer()'s. Not with a noise budget. Loop,
+    // its pixels; null: no more. Pictures are the same to the last bit. buffer: make_parts_buffer()'s. Loop,
     // between frames: nothing is allocated.
     void keep_parts(PartsBuffer* buffer, PixelRecord* record = nullptr);
     // Returns memory for that. like: an image like those that render() fills. only: the one part that is wanted; none: all are. Any

@@ -41,9 +41,9 @@ void GlossyBuffer::clear_pixels(const PixelBox& box) {
                   first_of_pixel_.begin() + static_cast<std::ptrdiff_t>(index(box.x1 - 1, y)) + 1, kNone);
 }
 
-GlossyBuffer::Part& GlossyBuffer::begin(std::size_t number, const PixelBox& box) {
+GlossyBuffer::Part& GlossyBuffer::begin(std::size_t number, const PixelBox& box, float share) {
     skip(number);
-    parts_[number].box_ = box;
+    parts_[number].box_ = box, parts_[number].share_ = share;
     return parts_[number];
 }
 

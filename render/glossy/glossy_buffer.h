@@ -72,14 +72,15 @@ class GlossyBuffer {
         // A ray of the point that was added last.
         GlossyRay* add_ray(const GlossyPoint& of);
         std::span<const GlossyPoint> points() const { return points_.first(point_count_); }
-        std::size_t rays() const { return ray_count_; }
         const PixelBox& box() const { return box_; }
+        float share() const { return share_; }
         // Returns whose ray it is, of this part.
         const GlossyPoint& point_of(const GlossyRay& ray) const { return points_[ray.point - first_point_]; }
 
       private:
         friend class GlossyBuffer;
         PixelBox box_{};
+        float share_ = 1;
         std::span<GlossyPoint> points_;
         std::span<GlossyRay> rays_;
         std::size_t point_count_ = 0, ray_count_ = 0;
@@ -94,7 +95,8 @@ class GlossyBuffer {
     std::size_t parts() const { return parts_.size(); }
     const Part& part(std::size_t number) const { return parts_[number]; }
     // Empties a part. Loop; different threads may see to different parts.
-    Part& begin(std::size_t number, const PixelBox& box);
+    // share: of a pixel that one of its samples is.
+    Part& begin(std::size_t number, const PixelBox& box, float share);
     // Empties a part that has nothing this time.
     void skip(std::size_t number);
     // Gives a part's rays to their pixels, when all have come back.

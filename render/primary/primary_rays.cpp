@@ -120,7 +120,7 @@ class PrimaryRays {
         even_ = even;
         const float step = 1.0f / static_cast<float>(n);
         for (int s = 0; s < n * n; ++s) {
-            const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
+            const auto sample = static_cast<std::uint16_t>(s);
             if (tile_.scattered)
                 scatter(sample);
             else
@@ -227,8 +227,8 @@ class PrimaryRays {
     }
 
     bool wants(int x, int y) const {
-        if (!uncovered_) return tile_.wants(x, y);
-        return uncovered_[(y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0] != 0;
+        return !uncovered_ ||
+               uncovered_[(y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0] != 0;
     }
 
     // The packet's samples, all at the same place of their pixels.
@@ -344,9 +344,7 @@ class PrimaryRays {
             const auto pixel =
                 static_cast<std::uint32_t>(static_cast<int>(y_of_[k]) * width + static_cast<int>(x_of_[k]));
             if (objects && meets_object(k)) {
-                // One pass tells.
-                if (tile_.first_sample == 0)
-                    tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
+                tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
                 add_vertex(i, pixel, sample);
             } else if (bodies_ || sun_) {
                 add_backdrop_to(pixel, k, sample, sun_cosine[k]);

@@ -21,15 +21,12 @@ namespace hilcam {
 class PenumbraSampler;
 
 struct TileStats : RayCounts {
-    double covered_px = 0;  // by objects
-    // Counts with a noise budget: pixels with light, and those of them whose error is within it.
-    std::uint64_t lit_px = 0, within_budget_px = 0;
+    double covered_px = 0;         // by objects
     std::uint64_t not_finite = 0;  // pixels and points whose light was no number, and was left out
 
     TileStats& operator+=(const TileStats& other) {
         RayCounts::operator+=(other);
         covered_px += other.covered_px;
-        lit_px += other.lit_px, within_budget_px += other.within_budget_px;
         not_finite += other.not_finite;
         return *this;
     }
@@ -42,11 +39,9 @@ struct Tile {
     std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
     TileStats& stats;
     NormalClusters& clusters;  // clusters of what is seen
-    // The fields below are those of a pass over pixels that are sampled more than once (adaptive_sampler.h).
-    bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
-    std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
-    const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
-    VisibilityTile* seen = nullptr;        // for what the visibility buffer finds; null: rays do
+    // Rays go through places of a sequence in each pixel (place_sequence.h); false: through a regular grid.
+    bool scattered = false;
+    VisibilityTile* seen = nullptr;  // for what the visibility buffer finds; null: rays do
     const VisibilityTile* ground =
         nullptr;                          // for what the frame's buffer of the ground finds; null: likewise
     PenumbraSampler* penumbra = nullptr;  // where that is so, to find shadows' edges; null: they are hard
@@ -86,9 +81,6 @@ struct Tile {
     }
     void set_kind(std::uint32_t pixel, SubpixelKind kind) {
         if (!kinds.empty() && kinds[pixel] != SubpixelKind::kObject) kinds[pixel] = kind;
-    }
-    bool wants(int x, int y) const {
-        return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];
     }
     std::uint32_t frame_pixel(int x, int y) const {
         return static_cast<std::uint32_t>(y * frame.geometry.padded_width() + x);

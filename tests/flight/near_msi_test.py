@@ -46,7 +46,7 @@ objects:
     pose: {position_m: [0, 0, 0], attitude_dcm: [%(thing_from_world)s]}
     materials: {surfaces: [{name: "*", material: %(material)s}]}
 spectrum_edges_um: [0.92, 0.98]
-quality: {visibility: rays, samples_per_axis: 3, path_model: path, max_depth: 3, lod_error_px: 0, noise_budget: 1, watertight: true}
+quality: {visibility: rays, samples_per_axis: 4, path_model: path, max_depth: 3, lod_error_px: 0, sun_disk: true, watertight: true}
 """
 
 

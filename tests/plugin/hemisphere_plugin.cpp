@@ -14,20 +14,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 #include <vector>
 
-#include "render/frame/plugin.h"
-#include "render/primary/primary_hits.h"
-#include "render/shading/shadow_rays.h"
+#include "render/brdf/microfacet.h"
+#include "render/paths/path_plugin.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
 
 namespace {
 
 using namespace hilcam;
 
 constexpr std::size_t kDirections = 60;
-constexpr std::size_t kMaxRays = kDirections + 2;  // the fixed directions and the two exact ones
+static_assert(kDirections + 2 <= PathView::kMaxRays);  // the fixed directions and the two exact ones
 
 // All 120 triangles' middles: the orbit of one point under the symmetries of the dodecahedron, kept where z >
 // 0. The plane z = 0 is one of its 15 planes of symmetry, so that exactly half of them are above it.
@@ -77,211 +76,100 @@ const float kSolidAngle = [] {
     return kPiF / sum;
 }();
 
-// Returns the albedo of a facet lobe over what a mirror in its place reflects at this cosine.
-float lobe_share(const Bsdf& at, float no) {
-    const LobeAlbedo* const facets = facets_of(*at.material);
-    if (!facets) return 1;
-    const auto* const dielectric = std::get_if<brdf::Dielectric>(&at.material->brdf);
-    return (*facets)(no) / (dielectric ? fresnel_dielectric(dielectric->refractive_index, no) : 1.0f);
-}
-
 // --- Light of the Earth, the Moon and the planets
 
 // True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool counts(const FrameContext& frame, const ShadingPoint& at, const PlanetshineSource& body) {
+bool counts(const PathView& view, const PathPoint& at, const PathBody& body) {
     const float solid_angle = 2 * kPiF * body.one_minus_cosine;
-    return at.importance(at.throughput) * max_component(body.max_over_sun) * solid_angle >=
-               frame.contribution_threshold &&
-           dot(at.geometric_normal, to_float(body.world_dir)) >= -std::sqrt(body.cone_sine_squared);
+    return at.importance(at.throughput) * body.max_over_sun * solid_angle >= view.contribution_threshold() &&
+           dot(at.geometric_normal, body.dir) >= -std::sqrt(body.cone_sine_squared);
 }
 
-bool is_in_a_body(const FrameContext& frame, const ShadingPoint& at, Vec3f dir) {
-    const auto bodies = frame.background->planetshine_sources();
-    return std::any_of(bodies.begin(), bodies.end(), [&](const PlanetshineSource& body) {
-        const Vec3f axis = to_float(body.world_dir), across = cross(axis, dir);
-        return dot(axis, dir) > 0 && dot(across, across) <= body.cone_sine_squared && counts(frame, at, body);
+bool is_in_a_body(const PathView& view, const PathPoint& at, Vec3f dir) {
+    const auto bodies = view.bodies();
+    return std::any_of(bodies.begin(), bodies.end(), [&](const PathBody& body) {
+        const Vec3f across = cross(body.dir, dir);
+        return dot(body.dir, dir) > 0 && dot(across, across) <= body.cone_sine_squared &&
+               counts(view, at, body);
     });
 }
 
 // Equal areas on a body's cone by a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179): 64 directions
 // are within 1 % of a half-lit disk.
 constexpr int kOnBody = 64;
-Vec3f on_body(const PlanetshineSource& body, const Frame& axis, int i) {
+Vec3f on_body(const PathBody& body, const Frame& axis, int i) {
     const float below = (static_cast<float>(i) + 0.5f) / kOnBody * body.one_minus_cosine;  // 1 - z
     const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * (static_cast<float>(i) * 0.61803399f);
     return axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
-// Light of a body's place that is on its way to a shading point.
-struct FromBody {
-    const ShadingPoint* at;
-    Spectrum weight;  // on the light that comes along dir
-    Vec3f dir;
-};
-
-void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
-    const FrameContext& frame = tile.frame;
-    const auto lit = [&](const FromBody& from, const Spectrum* glass) {
-        Spectrum weight = glass ? from.weight * *glass : from.weight, light;
-        frame.background->add_bodies(from.at->start(), to_double(from.dir), weight, light);
-        tile.add(*from.at, LightPart::kPlanetshine, light);
-    };
-    ShadowRays<FromBody, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
-    for (const PlanetshineSource& body : frame.background->planetshine_sources()) {
-        const Frame axis(to_float(body.world_dir));
-        const float density = 1 / (2 * kPiF * std::max(1e-20f, body.one_minus_cosine)) * kOnBody;
-        for (const ShadingPoint& at : points) {
-            if (!at.surface.has_lobes() || !counts(frame, at, body)) continue;
-            Bsdf surface = at.surface;
-            if (surface.alpha < kNarrowAlpha) surface.alpha = 0;
-            for (int i = 0; i < kOnBody; ++i) {
-                const Vec3f dir = on_body(body, axis, i);
-                const float ni = dot(at.normal, dir);
-                if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
-                const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
-                const Spectrum weight = (ni / density) * (at.throughput * brdf_value(surface, c));
-                if (max_component(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
-            }
-        }
+void add_light_of(PathView& view, const PathBody& body, const PathPoint& at) {
+    if (!at.scatters || !counts(view, at, body)) return;
+    const Frame axis(body.dir);
+    const float density = 1 / (2 * kPiF * std::max(1e-20f, body.one_minus_cosine)) * kOnBody;
+    std::array<PathDirection, kOnBody> directions;
+    std::size_t count = 0;
+    for (int i = 0; i < kOnBody; ++i) {
+        const Vec3f dir = on_body(body, axis, i);
+        const Spectrum weight = (dot(at.normal, dir) / density) * view.brdf(at, dir);
+        if (max_component(weight) > 0) directions[count++] = {dir, weight};
     }
+    view.add_body_light(at, {directions.data(), count});
 }
 
 // --- The model
 
-class HemispherePaths final : public PathModel {
+class HemispherePaths final : public PathPlugin {
   public:
-    void trace(Tile& tile) override {
-        reserve_depth(tile.frame.max_depth);
-        PrimaryHits seen(tile);
-        while (const std::size_t count = seen.next(first_)) follow(tile, {first_.data(), count});
+    void light(PathView& view, std::span<const PathPoint> points) override {
+        view.add_direct_light(points);
+        for (const PathBody& body : view.bodies())
+            for (const PathPoint& at : points) add_light_of(view, body, at);
+        for (const PathPoint& at : points) view.follow(at, {rays_.data(), choose(view, at)}, *this);
     }
-    // A level of children per depth.
-    void reserve_depth(int max_depth) override {
-        const auto levels = static_cast<std::size_t>(max_depth);
-        if (levels_.size() < levels) levels_.resize(levels);
-    }
+    float narrowest_alpha() const override { return kNarrowAlpha; }
 
   private:
-    struct Ray {
-        Vec3f origin_m, dir;
-        Spectrum throughput;
-        bool exact;     // sees bodies, which are lamps for the others
-        bool sees_sun;  // exact by itself: no highlight has counted the Sun
-        LightPart part;
-    };
-    struct Level {
-        std::array<ShadingPoint, kMaxRays> points;
-    };
-    std::array<ShadingPoint, kMaxShadingPoints> first_;
-    std::array<Ray, kMaxRays> rays_;
-    std::vector<Level> levels_;
+    std::array<PathRay, PathView::kMaxRays> rays_;  // those of the point in work
 
-    void follow(Tile& tile, std::span<const ShadingPoint> points) {
-        if (points.empty()) return;
-        tile.frame.radiance->add_light(tile, points, BodySampling::kNone);
-        add_body_light(tile, points);
-        // Light that comes by way of each shading point is summed by itself: a pixel gets 60^depth contributions,
-        // and single precision loses the small ones when each is added to all that came before.
-        Spectrum nobodys;
-        for (const ShadingPoint& at : points) {
-            Spectrum& pixel = tile.pixels[at.pixel];
-            Spectrum& part = tile.parts ? tile.parts->of(LightPart::kPath)[at.pixel] : nobodys;
-            const Spectrum before = std::exchange(pixel, {}), part_before = std::exchange(part, {});
-            follow(tile, children(tile, at));
-            pixel += before, part += part_before;
-        }
-    }
-
-    std::size_t choose(const FrameContext& frame, const ShadingPoint& at) {
-        const float least = frame.contribution_threshold;
+    std::size_t choose(const PathView& view, const PathPoint& at) {
         std::size_t count = 0;
-        const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-        Bsdf surface = at.surface;
-        const bool narrow = surface.alpha > 0 && surface.alpha < kNarrowAlpha;
-        float share = 1;  // share of the lobe for which the one direction stands
-        if (narrow) {
-            share = lobe_share(surface, no);
-            surface.alpha = 0;
-        }
-        for (int part = 0; part < 2; ++part) {
-            const BrdfSample sample = brdf_exact(surface, at.normal, at.view_dir, part);
-            if (!sample.valid || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
-            const Spectrum weight = share * (at.throughput * sample.weight);
-            const LightPart of = sample.transmits ? LightPart::kTransmission : LightPart::kMirrorRays;
+        const float least = view.contribution_threshold();
+        for (int number = 0; number < 2; ++number) {
+            const auto exact = view.exact_direction(at, number);
+            if (!exact) continue;
+            const Spectrum weight = at.throughput * exact->weight;
+            const LightPart part = exact->transmits ? LightPart::kTransmission : LightPart::kMirrorRays;
             if (at.importance(weight) >= least)
-                rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true, !narrow, of};
+                rays_[count++] = {.dir = exact->dir,
+                                  .throughput = weight,
+                                  .part = part,
+                                  .background_part = part,
+                                  .below = exact->transmits,
+                                  .sees_sun = exact->sees_sun};
         }
         // At the last surface only exact directions go on, to the background.
-        if (!surface.has_lobes() || at.depth >= frame.max_depth) return count;
+        if (!at.scatters || at.depth >= view.max_depth()) return count;
         const Frame local(at.normal);
         for (const Vec3f& direction : kHemisphere) {
             const Vec3f dir = local.to_world(direction);
-            if (dot(at.geometric_normal, dir) <= 0) continue;
-            const Cosines c{no, direction.z, dot(at.view_dir, dir)};
-            const Spectrum weight = (kSolidAngle * direction.z) * (at.throughput * brdf_value(surface, c));
+            const Spectrum weight = (kSolidAngle * direction.z) * (at.throughput * view.brdf(at, dir));
             // All directions together against the threshold.
-            if (static_cast<float>(kDirections) * at.importance(weight) >= least && max_component(weight) > 0)
-                rays_[count++] = {at.start(), dir, weight, false, false, LightPart::kPath};
+            if (static_cast<float>(kDirections) * at.importance(weight) < least || max_component(weight) <= 0)
+                continue;
+            // Bodies are lamps for these directions; only in air is there a sky between them, which is the Earth's own light.
+            rays_[count++] = {.dir = dir,
+                              .throughput = weight,
+                              .part = LightPart::kPath,
+                              .background_part = LightPart::kPlanetshine,
+                              .spread_rad = kSpread_rad,
+                              .sees_bodies = view.in_air() && !is_in_a_body(view, at, dir)};
         }
         return count;
     }
-
-    std::span<const ShadingPoint> children(Tile& tile, const ShadingPoint& at) {
-        const FrameContext& frame = tile.frame;
-        const std::size_t ray_count = choose(frame, at);
-        const bool last = at.depth >= frame.max_depth;
-        Level& level = levels_[at.depth - 1];
-        RayPacket packet;
-        HitPacket hits;
-        std::size_t found = 0;
-        for (std::size_t first = 0; first < ray_count; first += kPacketSize) {
-            packet.count = static_cast<int>(std::min<std::size_t>(kPacketSize, ray_count - first));
-            for (int i = 0; i < packet.count; ++i) {
-                const Ray& ray = rays_[first + static_cast<std::size_t>(i)];
-                packet.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
-            }
-            frame.scene->intersect(packet, Coherence::kIncoherent, hits);
-            tile.stats.secondary_rays += static_cast<std::uint64_t>(packet.count);
-            for (int i = 0; i < packet.count; ++i) {
-                const Ray& ray = rays_[first + static_cast<std::size_t>(i)];
-                if (hits.object[static_cast<std::size_t>(i)] == HitPacket::kMiss) {
-                    add_background(tile, at, ray);
-                    continue;
-                }
-                if (last) continue;
-                ShadingPoint& point = level.points[found];
-                if (!make_shading_point(frame, hits, i, ray.origin_m, ray.dir, 0,
-                                        {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, point))
-                    continue;
-                point.pixel = at.pixel, point.sample = at.sample, point.moments = at.moments;
-                point.depth = static_cast<std::uint16_t>(at.depth + 1);
-                point.throughput = ray.throughput;
-                point.ray_part = at.depth > 1 ? at.ray_part : ray.part;
-                point.weight_samples = at.weight_samples;
-                ++found;
-            }
-        }
-        return {level.points.data(), found};
-    }
-
-    // Bodies are lamps for the 60 directions; only in air is there a sky between them.
-    static void add_background(Tile& tile, const ShadingPoint& at, const Ray& ray) {
-        const Background& background = *tile.frame.background;
-        Spectrum weight = ray.throughput;
-        if (!ray.exact && !(background.camera_in_air() && !is_in_a_body(tile.frame, at, ray.dir))) return;
-        Spectrum light;
-        if (!background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light) && ray.sees_sun)
-            background.add_sun_disk(to_double(ray.dir), weight, light);
-        // The sky is the Earth's own light.
-        tile.add(at, ray.exact ? ray.part : LightPart::kPlanetshine, light);
-    }
 };
-
-void add(Modules& modules) {
-    modules.paths.add("hemisphere", [] { return std::make_unique<HemispherePaths>(); });
-}
 
 }  // namespace
 
-HILCAM_PLUGIN(add)
+HILCAM_PATH_PLUGIN("hemisphere", HemispherePaths)

@@ -1,5 +1,5 @@
-// The path model of tests/plugin/hemisphere_plugin.cpp, loaded as a user's would be: what has a closed form, and
-// the program's own random paths beside it where there is none.
+// The path models of tests/plugin/hemisphere_plugin.cpp and random_plugin.cpp, loaded as a user's would be: what has a closed form,
+// and the program's own random paths beside it where there is none.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 const Modules& modules() {
     static const Modules loaded = [] {
         Modules all;
-        const std::vector<std::filesystem::path> files = {HILCAM_PLUGIN_HEMISPHERE};
+        const std::vector<std::filesystem::path> files = {HILCAM_PLUGIN_HEMISPHERE, HILCAM_PLUGIN_RANDOM};
         load_plugins(files, all);
         return all;
     }();
@@ -38,15 +38,17 @@ class PlugInStage : public Stage {
 
 // What is deeper than the directions go is a geometric series, every direction's the same; sums of sixty parts
 // in single precision.
-TEST(HemispherePlugIn, AFurnaceIsWhiteInside) {
-    for (const int depth : {1, 2, 3}) {
-        PlugInStage s("hemisphere", depth);
-        s.camera(2, 0.3);
-        s.quality.samples_per_axis = 1;
-        add_furnace(s, 0.3);
-        s.render();
-        EXPECT_NEAR(s.mean() / (furnace_black() * (1 - std::pow(0.3, depth))), 1, 1e-5) << depth;
-    }
+TEST(PathPlugIns, AFurnaceIsWhiteInside) {
+    for (const char* model : {"hemisphere", "random"})
+        for (const int depth : {1, 2, 3}) {
+            PlugInStage s(model, depth);
+            s.camera(2, 0.3);
+            s.quality.samples_per_axis = 1;
+            add_furnace(s, 0.3);
+            s.render();
+            EXPECT_NEAR(s.mean() / (furnace_black() * (1 - std::pow(0.3, depth))), 1, 1e-5)
+                << model << " " << depth;
+        }
 }
 
 MaterialConfig mirror() {
@@ -57,9 +59,10 @@ MaterialConfig mirror() {
 }
 
 // Three perpendicular mirrors show the Sun where the camera is, after three reflections and not before.
-TEST(HemispherePlugIn, MirrorsAreFollowedInTheirOwnDirection) {
+class PathPlugInsBy : public testing::TestWithParam<const char*> {};
+TEST_P(PathPlugInsBy, MirrorsAreFollowedInTheirOwnDirection) {
     for (const int depth : {2, 3}) {
-        PlugInStage s("hemisphere", depth);
+        PlugInStage s(GetParam(), depth);
         // Faces x = 0, y = 0 and z = 0 of the first octant, turned so that (1, 1, 1) is towards the camera.
         s.add(object_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {2, 2, 0}, {2, 0, 2}, {0, 2, 2}},
                         {{0, 1, 4}, {0, 4, 2}, {0, 1, 5}, {0, 5, 3}, {0, 2, 6}, {0, 6, 3}}, mirror(), s.grid),
@@ -82,6 +85,8 @@ TEST(HemispherePlugIn, MirrorsAreFollowedInTheirOwnDirection) {
         }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Models, PathPlugInsBy, testing::Values("hemisphere", "random"));
 
 // A floor beside a sunlit wall, where 60 directions resolve what the wall throws on it.
 TEST(HemispherePlugIn, AgreesWithRandomPathsOnDiffusePlates) {

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "render/paths/path_plugin.h"
 #include "render/vocabulary/check.h"
 #include "tests/support/stage.h"
 
@@ -42,6 +43,9 @@ TEST(Plugin, WhatDoesNotFitIsRefusedWithItsReason) {
     EXPECT_THAT(error_of(HILCAM_PLUGIN_OTHER_VERSION),
                 HasSubstr("is for plug-in interface " + std::to_string(kPluginInterface + 1) +
                           "; this program has " + std::to_string(kPluginInterface)));
+    EXPECT_THAT(error_of(HILCAM_PLUGIN_OTHER_PATH_VERSION),
+                HasSubstr("is for path models' interface " + std::to_string(kPathPluginInterface + 1) +
+                          "; this program has " + std::to_string(kPathPluginInterface)));
     EXPECT_THAT(error_of("no_such_plugin.so"), HasSubstr("no_such_plugin.so: there is no such file"));
     EXPECT_THAT(error_of(HILCAM_NO_PLUGIN), HasSubstr("is no hilcam plug-in"));
     EXPECT_THAT(error_of(__FILE__), HasSubstr("cannot be loaded"));
@@ -82,6 +86,7 @@ TEST(Plugin, AnEntryThatGivesNothingIsRefused) {
     EXPECT_THAT(error_of(HILCAM_EMPTY_PLUGIN), HasSubstr("its hilcam_plugin() gives nothing"));
     setenv("HILCAM_EMPTY_PLUGIN", "1", 1);
     EXPECT_THAT(error_of(HILCAM_EMPTY_PLUGIN), HasSubstr("it has no function that adds models"));
+    EXPECT_THAT(error_of(HILCAM_PLUGIN_OTHER_PATH_VERSION), HasSubstr("it has no path model"));
     unsetenv("HILCAM_EMPTY_PLUGIN");
 }
 

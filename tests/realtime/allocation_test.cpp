@@ -117,14 +117,16 @@ TEST_F(Allocation, NorInALandingByEverySecondPixel) {
     EXPECT_GT(seen.terrain_allocations, 0);  // a mesh was made meanwhile
 }
 
-TEST_F(Allocation, NorWithANoiseBudget) { EXPECT_EQ(allocations({"quality.noise_budget=0.2"}), 0); }
+TEST_F(Allocation, NorWithScatteredRays) {
+    EXPECT_EQ(allocations({"quality.visibility=rays", "quality.sun_disk=true"}), 0);
+}
 
 // A rate that no frame holds sends it down the ladder, one that all hold up again, while it is watched.
 TEST_F(Allocation, NorWhileTheGovernorChangesTheLevel) {
     const Seen seen =
-        watch_run({"loop.levels=[{path_model: path, max_depth: 1}, {noise_budget: 0, samples_per_axis: 1}, "
-                   "{path_model: direct, noise_budget: 0, samples_per_axis: 3}]",
-                   "quality.noise_budget=0.5", "quality.samples_per_axis=2", "camera.exposure_ms=0.1",
+        watch_run({"loop.levels=[{path_model: path, max_depth: 1}, {sun_disk: false, samples_per_axis: 1}, "
+                   "{path_model: direct, sun_disk: false, samples_per_axis: 3}]",
+                   "quality.sun_disk=true", "quality.samples_per_axis=2", "camera.exposure_ms=0.1",
                    "camera.frame_rate_range_hz=[1, 5000]"},
                   Loop::kGoverned);
     EXPECT_EQ(seen.allocations, 0);

@@ -71,5 +71,5 @@ install(TARGETS hilcam-make-spacecraft RUNTIME DESTINATION ${HILCAM_INSTALL_HELP
 install(DIRECTORY configs/scenarios configs/meshes DESTINATION ${data} COMPONENT examples)
 install(DIRECTORY tools/flight_software_example tools/landing_example tools/flight_software_glue DESTINATION ${doc}-examples/examples COMPONENT examples)
 install(FILES tools/quickstart_client.py DESTINATION ${doc}-examples/examples COMPONENT examples)
-install(FILES tests/plugin/distance_plugin.cpp tests/plugin/hemisphere_plugin.cpp DESTINATION ${doc}-examples/examples/plugins COMPONENT examples)
+install(FILES tests/plugin/distance_plugin.cpp tests/plugin/hemisphere_plugin.cpp tests/plugin/random_plugin.cpp DESTINATION ${doc}-examples/examples/plugins COMPONENT examples)
 install(FILES tools/packaging/examples.md DESTINATION ${doc}-examples/examples RENAME README.md COMPONENT examples)

@@ -156,11 +156,6 @@ TEST_F(RenderToFile, PartsAndPixelsThatCannotBeAreRefused) {
               "--parts and --pixel: quality.motion: found exact, which averages several instants; the light "
               "of one can be "
               "taken apart; accepted: fast, off");
-    EXPECT_EQ(
-        refused(PictureStage::kFrame, {.out = png, .pixel = FramePixel{1, 1}}, "quality.noise_budget=0.5"),
-        "--parts and --pixel: quality.noise_budget: found more than 0, which samples some pixels more often; "
-        "light can be taken "
-        "apart where all are sampled alike; accepted: 0");
     EXPECT_EQ(refused(PictureStage::kFrame, {.out = png, .pixel = FramePixel{64, 0}}),
               "--pixel 64 0: the frame has no such pixel; accepted: 0 to 63 and 0 to 63");
     for (const auto& [files, option] :

@@ -118,7 +118,6 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
          {"reference.yaml", "still.yaml", "balanced.yaml", "realtime.yaml", "fast.yaml"}) {
         RenderQuality last = shipped(name);
         const std::string visibility = last.visibility;
-        last.noise_budget = name == "reference.yaml" ? 0.1 : 0;
         const std::vector<RenderQuality> levels = built_in_levels(last);
         EXPECT_GE(levels.size(), 3u) << name;
         EXPECT_LT(levels.size(), kMaxLevels);
@@ -129,9 +128,6 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
             EXPECT_GE(q.contribution_threshold, last.contribution_threshold);
             EXPECT_GE(q.lod_error_px, last.lod_error_px);
             EXPECT_LE(q.sun_disk, last.sun_disk);
-            // A smaller budget is more work, none at all the least.
-            EXPECT_TRUE(q.noise_budget == 0 || q.noise_budget >= last.noise_budget);
-            EXPECT_FALSE(last.noise_budget == 0 && q.noise_budget > 0);
             last = q;
         }
         EXPECT_EQ(last.path_model, "direct");
@@ -156,11 +152,15 @@ TEST(QualityLadder, GroundAloneGoesToEverySecondPixel) {
 TEST(QualityLadder, TheSensorIsToldOfEveryRayGrid) {
     ScenarioConfig s;
     s.quality.render.samples_per_axis = 4;
-    s.quality.render.noise_budget = 0.2;
+    EXPECT_EQ(sampling_of(s).samples_per_axis, 4);
+    s.quality.render.sun_disk = true;
     EXPECT_EQ(sampling_of(s).samples_per_axis, kScatteredRays);
     EXPECT_TRUE(sampling_of(s).other_grids.empty());
     s.loop.frame_budget_s = 0.01;
-    EXPECT_EQ(sampling_of(s).other_grids, std::vector<RayGrid>{1});
+    EXPECT_EQ(sampling_of(s).other_grids, (std::vector<RayGrid>{2, 1}));
+    // The visibility buffer's samples are where they are.
+    s.quality.render.visibility = "buffer";
+    EXPECT_EQ(sampling_of(s).samples_per_axis, halved(4));
 }
 
 }  // namespace

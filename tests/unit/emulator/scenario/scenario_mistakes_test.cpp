@@ -429,8 +429,12 @@ TEST(Scenario, EarlierNamesAreKeysOfTodayByTheirNewOnesAlone) {
     std::set<std::string, std::less<>> today;
     for (const std::string& key : config_keys(fields(scenario))) today.insert(key.substr(key.rfind('.') + 1));
     for (const char* was : {"kept_directions", "kept_nodes", "kept_step_deg", "kept_earth",
-                            "point_samples_least", "most_passes", "most_triangles", "least_hz", "most_hz"}) {
+                            "point_samples_least", "most_triangles", "least_hz", "most_hz"}) {
         EXPECT_TRUE(today.contains(renamed_key(was))) << was;
+        EXPECT_FALSE(today.contains(was)) << was;
+    }
+    for (const char* was : {"noise_budget", "max_passes", "most_passes"}) {
+        EXPECT_TRUE(today.contains(removed_key(was)->beside)) << was;
         EXPECT_FALSE(today.contains(was)) << was;
     }
 }
@@ -440,6 +444,12 @@ TEST(Scenario, ARecordingOfEarlierNamesIsRead) {
                                  "quality.path_model = cached\nquality.probes = 5\n"),
               "");
     EXPECT_NE(listing_difference("quality.kept_nodes = 5\n", "quality.probes = 6\n"), "");
+    // What changed no frame is no difference.
+    EXPECT_EQ(
+        listing_difference("quality.max_passes = 16\nquality.noise_budget = 0\nseed = 1\n", "seed = 1\n"),
+        "");
+    EXPECT_EQ(listing_difference("quality.noise_budget = 0.3\n", ""),
+              "quality.noise_budget: '0.3' there, '(no such key)' here");
 }
 
 }  // namespace

@@ -12,12 +12,13 @@ namespace hilcam {
 namespace {
 
 struct Quality {
-    std::int64_t probes = 1;
+    std::int64_t probes = 1, samples_per_axis = 1;
     std::string path_model;
 };
 
 SectionField section_of(Quality& q) {
     return {{integer("probes", q.probes, {0, 10}, "number of probes"),
+             integer("samples_per_axis", q.samples_per_axis, {1, 16}, "number of rays"),
              text("path_model", q.path_model, "path model")},
             {}};
 }
@@ -45,6 +46,21 @@ TEST(RenamedKeys, AKeyThatNeverWasIsNot) {
     EXPECT_EQ(answer_to("kept_lodes: 4\n").find("renamed"), std::string::npos);
     // Its new name is none of this section.
     EXPECT_EQ(answer_to("most_hz: 4\n").find("renamed"), std::string::npos);
+}
+
+TEST(RenamedKeys, ARemovedKeyIsAnsweredByWhatReplacesIt) {
+    const std::string instead =
+        "; it was removed: each pixel is sampled alike: samples_per_axis says how often, and sun_disk: true "
+        "scatters its rays";
+    EXPECT_EQ(answer_to("probes: 3\nnoise_budget: 0.3\n"),
+              "old.yaml:2:1: noise_budget: unknown key" + instead);
+    EXPECT_EQ(answer_to("probes: 3\n", {"max_passes=4"}), "--set max_passes: unknown key" + instead);
+    Quality q;
+    EXPECT_EQ(key_advice("most_passes", section_of(q).fields), instead);
+    // A section of something else never had it.
+    Fields other = {integer("width_px", q.probes, {0, 10}, "width")};
+    EXPECT_EQ(key_advice("noise_budget", other).find("removed"), std::string::npos);
+    EXPECT_EQ(advice_for("noise_budget", other, other).find("removed"), std::string::npos);
 }
 
 TEST(RenamedKeys, AnEarlierWordIsAnsweredByItsNewOne) {
