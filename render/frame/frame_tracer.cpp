@@ -353,7 +353,7 @@ void FrameTracer::add_glossy_of(const FrameContext& frame, const GlossyBuffer::P
     }
     for (const GlossyPoint& point : part.points()) {
         const int x = box.x0 + static_cast<int>(point.pixel) % width, y = box.y0 + static_cast<int>(point.pixel) / width;
-        const GlossyLight light = reused_light(glossy_, frame.indirect->planetshine(), point, x, y);
+        const GlossyLight light = reused_light(glossy_, point, x, y);
         tile.add(point.pixel, LightPart::kGlossyRays, point.moments, light.surfaces);
         tile.add(point.pixel, LightPart::kPlanetshine, point.moments, light.bodies);
     }

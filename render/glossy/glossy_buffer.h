@@ -38,6 +38,7 @@ struct GlossyPoint {
     std::array<float, Planetshine::kMaxBodies> free;       // share of each that the cache's directions find free
     float directions;  // that bring `cached`
     float share;       // 0 to 1: of what rays find, against what the cache has
+    int reach_px;      // the rays of pixels nearer than this serve it, too (glossy_reach_px())
 
     bool same_surface(const GlossyPoint& other) const {
         return object == other.object && surface == other.surface && back == other.back;

@@ -14,7 +14,6 @@
 
 namespace hilcam {
 
-// The pattern's size and the reach of a lobe to both sides [px].
 inline constexpr int kGlossyPattern_px = 8;
 
 // The numbers in [0, 1) that choose the directions of a pixel's rays: of any 8 x 8 pixels each lies in another of 8 x 8 squares, and
@@ -23,12 +22,15 @@ struct GlossyPlace {
     float u1, u2;
 };
 GlossyPlace glossy_place(int x, int y, int ray);
+// Returns how far off pixels are whose rays serve a lobe with so many of its own: about a hundred rays are enough, and those of pixels
+// further off tell less.
+inline int glossy_reach_px(int rays) { return rays < 4 ? kGlossyPattern_px : kGlossyPattern_px / 2; }
 
 // Light that a lobe sends to its pixel: radiance, times its samples.
 struct GlossyLight {
     Spectrum surfaces, bodies;
 };
 // x, y: the pixel of the point. Loop, any thread.
-GlossyLight reused_light(const GlossyBuffer& buffer, const Planetshine& planetshine, const GlossyPoint& at, int x, int y);
+GlossyLight reused_light(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y);
 
 }  // namespace hilcam

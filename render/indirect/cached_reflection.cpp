@@ -26,6 +26,18 @@ bool has_own_colors(const Bsdf& at) { return at.material->varies() && at.materia
 bool is_tinted(const Bsdf& at) { return at.base.bin != at.material->base.bin; }
 Spectrum base_tint(const Bsdf& at) { return ratio(at.base, at.material->base); }
 
+// Directions that differ by no more are one to a lobe: a degree, of lobes that are seven wide at least.
+constexpr float kSameLobe = 0.9998f;  // cosine
+
+// True when two shading points lie the same way, and are of one surface. A texture may give their facets colours of their own.
+bool lies_alike(const ShadingPoint& a, const ShadingPoint& b) {
+    return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
+           dot(a.normal, b.normal) > kSameLobe;
+}
+// True when they send lobes of one kind the same way besides.
+bool sends_alike(const ShadingPoint& a, const ShadingPoint& b) {
+    return lies_alike(a, b) && a.surface.alpha == b.surface.alpha && dot(a.view_dir, b.view_dir) > kSameLobe;
+}
 // Numbers the square of four pixels that a shading point is seen in: cached light is too smooth to differ there.
 std::uint32_t quad_of(const Tile& tile, const ShadingPoint& at) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
@@ -66,7 +78,6 @@ void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> poin
                                   std::span<GlossyRequest> requests) const {
     if (points.empty()) return;
     Together block;
-    Lobes lobes;
     for (std::size_t first = 0; first < points.size();) {
         const std::size_t end = gather(tile, points, first, block);
         std::fill(requests.begin() + static_cast<std::ptrdiff_t>(first),
@@ -76,7 +87,7 @@ void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> poin
         find(tile.frame, places);
         for (Place& place : places)
             if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
-        for (Place& place : places) reflect_clusters(tile.frame, lobes, place);
+        for (Place& place : places) reflect_clusters(tile.frame, place);
         for (const Use& use : std::span(block.uses.data(), block.use_count))
             add_use(tile, use, requests);
     }
@@ -98,13 +109,13 @@ std::size_t IndirectCache::gather(const Tile& tile, std::span<const ShadingPoint
     return next;
 }
 
-void IndirectCache::reflect_clusters(const FrameContext& frame, Lobes& lobes, Place& place) const {
+void IndirectCache::reflect_clusters(const FrameContext& frame, Place& place) const {
     const ShadingPoint& at = *place.at;
     place.met = {}, place.bodies = {}, place.unhidden = {}, place.free = {}, place.directions = 0;
     place.mirrors_near = true, place.has_bodies = false;
     if (!at.surface.material->has_facets()) return;
     if (at.surface.alpha < kMinCachedAlpha) place.mirrors_near = is_near(frame, place);
-    if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(frame, lobes, place);
+    if (at.surface.alpha >= kNarrowestLobe && is_lit(place)) reflect_lobe(frame, place);
     if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
 }
 
@@ -168,7 +179,7 @@ GlossyPoint* IndirectCache::leave_to_rays(Tile& tile, const ShadingPoint& at, co
     point->pixel = at.pixel, point->triangle = at.triangle, point->moments = at.moments;
     point->weight = at.throughput * lobe_albedo(at);
     point->cached = at.throughput * met;
-    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
+    for (std::size_t b = 0; b < point->bodies.size(); ++b)
         point->bodies[b] = at.throughput * colored(at.surface, place.unhidden[b]), point->free[b] = place.free[b];
     point->directions = place.directions, point->share = share;
     return point;
@@ -248,26 +259,17 @@ Spectrum IndirectCache::radiance_of(const Place& place, const Spectrum& irradian
     return (1 / kPiF) * (objects_[at.object].light->albedo(at.surface_number).base(no) * irradiance);
 }
 
-void IndirectCache::reflect_lobe(const FrameContext& frame, Lobes& lobes, Place& place) const {
+void IndirectCache::reflect_lobe(const FrameContext& frame, Place& place) const {
     const ShadingPoint& at = *place.at;
     // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
     // does, it has all of them.
     const bool narrow = at.surface.alpha < kMinCachedAlpha, whole = narrow && !place.mirrors_near;
     const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
-    const std::uint32_t probe = place.found ? place.nearest : SurfaceProbes::kClosed;
-    const MetByLobe* met = lobes.met.find(at, probe);
-    if (!met || met->whole != whole) met = &lobes.met.keep(at, probe, met_by_lobe(frame, place, whole));
-    place.met = met->radiance, place.directions = met->directions;
-    // Two shading points of several parts are not alike: what one sends is not cached for others.
-    SentOfBodies by_parts;
-    const SentOfBodies* sent = &by_parts;
-    if (at.clusters)
-        by_parts = sent_of_bodies(at);
-    else if (sent = lobes.bodies.find(at, 0); !sent)
-        sent = &lobes.bodies.keep(at, 0, sent_of_bodies(at));
-    place.unhidden = *sent, place.free = met->free;
+    const MetByLobe met = met_by_lobe(frame, place, whole);
+    place.met = met.radiance, place.directions = met.directions;
+    place.unhidden = sent_of_bodies(at), place.free = met.free;
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
-        place.bodies[b] = {(share * met->free[b]) * (*sent)[b].radiance, (*sent)[b].facet_cosine};
+        place.bodies[b] = {(share * met.free[b]) * place.unhidden[b].radiance, place.unhidden[b].facet_cosine};
 }
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
@@ -314,7 +316,7 @@ IndirectCache::MetByLobe IndirectCache::met_by_lobe(const FrameContext& frame, c
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.cached;
     if (!has_own_colors(at.surface)) radiance = lobe_albedo(at) * radiance;
-    return {radiance, lobe.free, lobe.directions, whole};
+    return {radiance, lobe.free, lobe.directions};
 }
 
 Spectrum IndirectCache::lobe_albedo(const ShadingPoint& at) const {

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "render/indirect/glossy_request.h"
-#include "render/indirect/lobe_memo.h"
 #include "render/indirect/mirror_sunlight.h"
 #include "render/planetshine/planetshine.h"
 #include "render/radiosity/solve_ahead.h"
@@ -130,11 +129,6 @@ class IndirectCache {
         // Share of each body's light that comes without a way.
         std::array<float, Planetshine::kMaxBodies> free;
         float directions;
-        bool whole;  // the bodies are not looked for, as nothing is in their way
-    };
-    struct Lobes {
-        LobeMemo<MetByLobe> met;
-        LobeMemo<SentOfBodies> bodies;
     };
     std::size_t gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
                        Together& block) const;
@@ -148,8 +142,8 @@ class IndirectCache {
     Spectrum direct_irradiance(std::size_t body, const Place& place) const;
     Spectrum reflect_bodies(const Place& place) const;
     Spectrum radiance_of(const Place& place, const Spectrum& irradiance) const;
-    void reflect_clusters(const FrameContext& frame, Lobes& lobes, Place& place) const;
-    void reflect_lobe(const FrameContext& frame, Lobes& lobes, Place& place) const;
+    void reflect_clusters(const FrameContext& frame, Place& place) const;
+    void reflect_lobe(const FrameContext& frame, Place& place) const;
     void reflect_far_bodies(Place& place) const;
     MetByLobe met_by_lobe(const FrameContext& frame, const Place& place, bool whole) const;
     SentOfBodies sent_of_bodies(const ShadingPoint& at) const;

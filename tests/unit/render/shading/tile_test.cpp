@@ -15,8 +15,7 @@ Spectrum of(float value) {
     return out;
 }
 
-// A lobe whose rays serve two pixels: each has its share, where in the pixel its own samples are.
-TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
+TEST(Tile, LightFallsWhereItsSamplesAre) {
     const FrameContext frame;
     std::array<Spectrum, 4> pixels{};
     std::array<float, 12> moments{};
@@ -25,24 +24,30 @@ TEST(Tile, LightThatIsSharedFallsWhereEachOfThemIs) {
     NormalClusters clusters;
     Tile tile{frame, {0, 0, 2, 2}, 1, pixels, stats, clusters};
     tile.moments = moments, tile.moment_responses = responses;
-    const std::array<PixelShare, 2> parts{PixelShare{1, {1, 0, 0}, of(1)}, {2, {0, -1, 0}, of(0.25f)}};
     ShadingPoint at{};
     at.pixel = 3;
-    at.moments = {1, 1, 1};
+    at.moments = {1, -1, 0.5f};
     tile.add(at, LightPart::kSun, of(2));
-    GlossyLobe lobe;
-    lobe.pixels = parts;
-    at.lobe = &lobe;
-    tile.add(at, LightPart::kSun, of(4));
-    EXPECT_EQ(pixels[1][0], 0) << "until all rays have come back";
-    tile.add(lobe, lobe.believed());
-    EXPECT_EQ(pixels[0][0], 0);
-    EXPECT_EQ(pixels[1][0], 4);
-    EXPECT_EQ(pixels[2][0], 1);
     EXPECT_EQ(pixels[3][0], 2);
     // By difference, then by pixel.
-    const std::array<float, 12> expected{0, 40, 0, 20, 0, 0, -10, 20, 0, 0, 0, 20};
+    const std::array<float, 12> expected{0, 0, 0, 20, 0, 0, 0, -20, 0, 0, 0, 10};
     EXPECT_EQ(moments, expected);
+}
+
+// Light that a lobe's ray meets is kept with the ray, until all have come back.
+TEST(Tile, LightThatARayHasMetIsTheRays) {
+    const FrameContext frame;
+    std::array<Spectrum, 4> pixels{};
+    TileStats stats;
+    NormalClusters clusters;
+    Tile tile{frame, {0, 0, 2, 2}, 1, pixels, stats, clusters};
+    GlossyRay ray;
+    ray.light = of(1);
+    ShadingPoint at{};
+    at.glossy_ray = &ray;
+    tile.add(at, LightPart::kSun, of(4));
+    EXPECT_EQ(ray.light[0], 5);
+    for (const Spectrum& pixel : pixels) EXPECT_EQ(pixel[0], 0);
 }
 
 }  // namespace
