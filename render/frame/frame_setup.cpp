@@ -71,7 +71,8 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
                                    : stars_.size();
-    visibility_.make(geometry, levels, terrain_ != nullptr, plain_ground_triangles(geometry));
+    visibility_.make(geometry, levels,
+                     {terrain_ != nullptr, plain_ground_triangles(geometry), rays_->row_motion() != nullptr});
     frame_.scene = &embree_;
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());

@@ -17,7 +17,7 @@
 namespace hilcam {
 
 // Raised with every change of what plug-ins see.
-inline constexpr std::uint32_t kPluginInterface = 30;
+inline constexpr std::uint32_t kPluginInterface = 31;
 
 struct PluginInfo {
     std::uint32_t interface_version;
