@@ -32,9 +32,10 @@ class VisibilityChoice {
     explicit VisibilityChoice(const Objects& objects) : objects_(objects) {}
 
     struct Needs {
-        bool has_terrain;              // then objects have no buffer
-        std::size_t ground_triangles;  // of terrain that is all there is, and plain (is_plain_ground()), at most; 0: there is none
-        bool has_rows;                 // rows are of several instants (RayGenerator::row_motion())
+        bool has_terrain;  // then objects have no buffer
+        // Triangles of terrain that is all there is, and plain (is_plain_ground()), at most; 0: there is none.
+        std::size_t ground_triangles;
+        bool has_rows;  // rows are of several instants (RayGenerator::row_motion())
     };
     // Makes what frames of these qualities need. Owner thread.
     void make(const ImageGeometry& geometry, std::span<const RenderQuality> levels, const Needs& needs);

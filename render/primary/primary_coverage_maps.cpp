@@ -107,9 +107,8 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
         point.offset_m += CoverageMap::kLoose * coverage_map.texel_m;
         const Vec2f place = coverage.place[layer];
         const Vec2f off{place.x - 0.5f, place.y - 0.5f};
-        point.point_m =
-            to_float(eye + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
-                     static_cast<double>(off.y) * pixel.per_y_m);
+        point.point_m = to_float(eye + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
+                                 static_cast<double>(off.y) * pixel.per_y_m);
         finish(k, coverage.share[layer] / shown * samples,
                moved(moments, {place.x - middle_px.x, place.y - middle_px.y}), place, point);
     }

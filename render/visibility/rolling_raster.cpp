@@ -38,7 +38,8 @@ struct Ways {
     // Their places as a pinhole shows them.
     HWY_INLINE void place(V u, V& at_x, V& at_y) const {
         const V scale = hn::Div(value(p.focal_px), z.at(u));
-        at_x = times_plus(x.at(u), scale, value(p.center_x)), at_y = times_plus(y.at(u), scale, value(p.center_y));
+        at_x = times_plus(x.at(u), scale, value(p.center_x)),
+        at_y = times_plus(y.at(u), scale, value(p.center_y));
     }
     // The instant of the row in which they are then.
     HWY_INLINE V row(V u) const {
@@ -69,14 +70,16 @@ struct Ways {
     }
 };
 
-float roll(std::span<const Vec3f> vertices_m, const RollingProjection& p, const ScreenLens* lens, ScreenVertex* out) {
+float roll(std::span<const Vec3f> vertices_m, const RollingProjection& p, const ScreenLens* lens,
+           ScreenVertex* out) {
     // Depth is rounded, and is to be no less than a tile's own.
     constexpr float kNearer = 1 + 1e-5f;
     V fastest = hn::Zero(Floats());
     std::size_t left = vertices_m.size();
     for_vertices(vertices_m, out, [&](V x, V y, V z, float* to) {
         const Ways ways{p, lens, track_of(p, &Mat3f::x, &Vec3f::x, x, y, z),
-                        track_of(p, &Mat3f::y, &Vec3f::y, x, y, z), track_of(p, &Mat3f::z, &Vec3f::z, x, y, z)};
+                        track_of(p, &Mat3f::y, &Vec3f::y, x, y, z),
+                        track_of(p, &Mat3f::z, &Vec3f::z, x, y, z)};
         const V nearest = hn::Min(ways.z.at(value(0)), hn::Min(ways.z.at(value(-1)), ways.z.at(value(1))));
         const V u = ways.instant(), speed = ways.speed();
         Projected at;
@@ -108,7 +111,8 @@ std::size_t tiles_of_rolling(const ScreenVertex* vertices, std::span<const Trian
         HWY_ALIGN float speed[kTrianglesAtOnce];
         for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
             const TriangleCorners& corners = triangles[std::min(t + k, triangles.size() - 1)];
-            speed[k] = std::max({vertices[corners[0]].speed, vertices[corners[1]].speed, vertices[corners[2]].speed});
+            speed[k] = std::max(
+                {vertices[corners[0]].speed, vertices[corners[1]].speed, vertices[corners[2]].speed});
         }
         const V rows = hn::Min(hn::Sub(most(c.y), least(c.y)), value(static_cast<float>(height_px)));
         return times_plus(hn::Mul(hn::Load(d, speed), value(kBowed)), rows, value(margin_px));
@@ -131,8 +135,8 @@ void set_up_rolling(const RollingMesh& of, const std::array<std::uint32_t, kTria
                 x[lane] = v.x, y[lane] = v.y, z[lane] = v.z;
             }
             for (const bool is_upper : {true, false}) {
-                const Projected at = projected(is_upper ? of.upper : of.lower, hn::Load(d, x), hn::Load(d, y),
-                                               hn::Load(d, z));
+                const Projected at =
+                    projected(is_upper ? of.upper : of.lower, hn::Load(d, x), hn::Load(d, y), hn::Load(d, z));
                 Corners& out = is_upper ? rows.upper : rows.lower;
                 out.x[i] = at.x, out.y[i] = at.y, out.depth[i] = at.depth;
             }
@@ -141,7 +145,8 @@ void set_up_rolling(const RollingMesh& of, const std::array<std::uint32_t, kTria
         move_into_tile(tile_x_px, tile_y_px, lens, rows.lower);
         const auto halfway = [](V a, V b) { return hn::Mul(value(0.5f), hn::Add(a, b)); };
         for (std::size_t i = 0; i < 3; ++i) {
-            c.x[i] = halfway(rows.upper.x[i], rows.lower.x[i]), c.y[i] = halfway(rows.upper.y[i], rows.lower.y[i]);
+            c.x[i] = halfway(rows.upper.x[i], rows.lower.x[i]),
+            c.y[i] = halfway(rows.upper.y[i], rows.lower.y[i]);
             c.depth[i] = halfway(rows.upper.depth[i], rows.lower.depth[i]);
         }
         set_up_lanes(of.mesh, numbers.data(), c, rows, k, s);
@@ -159,19 +164,20 @@ HWY_EXPORT(roll);
 HWY_EXPORT(tiles_of_rolling);
 HWY_EXPORT(set_up_rolling);
 
-float roll_vertices(std::span<const Vec3f> vertices_m, const RollingProjection& projection, const ScreenLens* lens,
-                    ScreenVertex* out) {
+float roll_vertices(std::span<const Vec3f> vertices_m, const RollingProjection& projection,
+                    const ScreenLens* lens, ScreenVertex* out) {
     return HWY_DYNAMIC_DISPATCH(roll)(vertices_m, projection, lens, out);
 }
 std::size_t find_rolling_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                                std::uint32_t first, int width_px, int height_px, float margin_px,
                                const ScreenLens* lens, TileRange* ranges) {
     if (triangles.empty()) return 0;
-    return HWY_DYNAMIC_DISPATCH(tiles_of_rolling)(vertices, triangles, first, width_px, height_px, margin_px, lens, ranges);
+    return HWY_DYNAMIC_DISPATCH(tiles_of_rolling)(vertices, triangles, first, width_px, height_px, margin_px,
+                                                  lens, ranges);
 }
-void set_up_rolling_triangles(const RollingMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
-                              std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens,
-                              TriangleSetup& setup) {
+void set_up_rolling_triangles(const RollingMesh& mesh,
+                              const std::array<std::uint32_t, kTrianglesAtOnce>& numbers, std::size_t count,
+                              int tile_x_px, int tile_y_px, const TileLens* lens, TriangleSetup& setup) {
     HWY_DYNAMIC_DISPATCH(set_up_rolling)(mesh, numbers, count, tile_x_px, tile_y_px, lens, setup);
 }
 

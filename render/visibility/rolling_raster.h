@@ -25,8 +25,8 @@ struct RollingProjection {
 };
 // Writes where vertices appear, as a pinhole shows the place from which the lens bends them; depth is the greatest in the frame. lens:
 // null without. Returns how far a vertex that is in the picture moves from one row to the next, at most [px].
-float roll_vertices(std::span<const Vec3f> vertices_m, const RollingProjection& projection, const ScreenLens* lens,
-                    ScreenVertex* out);
+float roll_vertices(std::span<const Vec3f> vertices_m, const RollingProjection& projection,
+                    const ScreenLens* lens, ScreenVertex* out);
 
 // find_tiles() for these vertices. margin_px: how far they may be beside their places.
 std::size_t find_rolling_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
@@ -39,8 +39,8 @@ struct RollingMesh {
     const Vec3f* vertices_m;
     ScreenProjection upper, lower;
 };
-void set_up_rolling_triangles(const RollingMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
-                              std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens,
-                              TriangleSetup& setup);
+void set_up_rolling_triangles(const RollingMesh& mesh,
+                              const std::array<std::uint32_t, kTrianglesAtOnce>& numbers, std::size_t count,
+                              int tile_x_px, int tile_y_px, const TileLens* lens, TriangleSetup& setup);
 
 }  // namespace hilcam

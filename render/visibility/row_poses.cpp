@@ -26,11 +26,12 @@ bool RowPoses::place(const RowMotion& motion, const ImageGeometry& buffer, int b
     half_turn_rad_ = half_s * length(motion.camera.rate_body_rad_s);
     half_way_m_ = half_s * length(motion.camera.velocity_world_m_s);
     if (!(half_turn_rad_ <= kMaxHalfTurn_rad)) return false;
-    const std::size_t rows = tile_rows(buffer.padded_height()) * kVisibilityTile_px / static_cast<std::size_t>(buffer_px);
+    const std::size_t rows =
+        tile_rows(buffer.padded_height()) * kVisibilityTile_px / static_cast<std::size_t>(buffer_px);
     for (std::size_t row = 0; row < rows; ++row) rows_[row] = at(static_cast<double>(row) + 0.5);
     for (std::size_t edge = 0; edge < edges_.size(); ++edge)
         edges_[edge] = at(static_cast<double>(edge) * kVisibilityTile_px / buffer_px);
-    first_ = at(0), middle_ = at(0.5 * height_px), last_ = at(height_px);
+    first_ = at(0), last_ = at(height_px);
     return true;
 }
 

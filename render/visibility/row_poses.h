@@ -30,13 +30,14 @@ class RowPoses {
     // y_px: of the buffer.
     const At& of_row(int y_px) const { return rows_[static_cast<std::size_t>(y_px / buffer_px_)]; }
     // Those at the upper and lower edge of the tiles that begin at y_px.
-    const At& upper_edge(int y_px) const { return edges_[static_cast<std::size_t>(y_px / kVisibilityTile_px)]; }
+    const At& upper_edge(int y_px) const {
+        return edges_[static_cast<std::size_t>(y_px / kVisibilityTile_px)];
+    }
     const At& lower_edge(int y_px) const { return (&upper_edge(y_px))[1]; }
-    // Those at the upper edge, the middle and the lower edge of the picture.
+    // Those at the upper and lower edge of the picture.
     const At& first() const { return first_; }
-    const At& middle() const { return middle_; }
     const At& last() const { return last_; }
-    // How far the camera turns, and moves, from the picture's middle to its edge.
+    // The camera turns, and moves, by so much from the picture's middle to its edge.
     double half_turn_rad() const { return half_turn_rad_; }
     double half_way_m() const { return half_way_m_; }
 
@@ -45,7 +46,7 @@ class RowPoses {
   private:
     int buffer_px_ = 1;
     std::vector<At> rows_, edges_;
-    At first_, middle_, last_;
+    At first_, last_;
     double half_turn_rad_ = 0, half_way_m_ = 0;
 };
 

@@ -24,8 +24,8 @@ namespace HWY_NAMESPACE {
 
 static_assert(kTrianglesAtOnce == 16);
 constexpr int kSide_px = kVisibilityTile_px;
-constexpr float kPlace_px = 1e-3f;  // ten times what corners are rounded by
-constexpr float kEdge_px = 0.01f;   // ten times what edges are rounded by
+constexpr float kPlace_px = 1e-3f;      // ten times what corners are rounded by
+constexpr float kEdge_px = 0.01f;       // ten times what edges are rounded by
 constexpr float kFarBeside_px = 16384;  // where floats still tell a thousandth of a pixel
 
 // Vertices on the screen.
@@ -146,7 +146,7 @@ HWY_INLINE Bent bend(const ScreenLens& lens, Corners& c) {
                                hn::Or(hn::Lt(y0, number(lens.min_y)), hn::Gt(y1, number(lens.max_y))));
     const V extent = hn::Max(hn::Sub(x1, x0), hn::Sub(y1, y0));
     for (std::size_t i = 0; i < 3; ++i) distort(lens, c.x[i], c.y[i]);
-    // Beside the picture the polynomial may fold back: such corners have no place.
+    // The polynomial may fold back beside the picture: such corners have no place.
     return {hn::Or(hn::Not(known), leaves), hn::And(known, beside),
             times_plus(hn::Mul(extent, extent), number(lens.bend_per_px),
                        number(lens.tile_error_px + kPlace_px))};
@@ -248,7 +248,7 @@ HWY_INLINE void move_into_tile(int tile_x_px, int tile_y_px, const TileLens* len
     for (int i = 0; i < 3; ++i) c.x[i] = hn::Sub(c.x[i], left), c.y[i] = hn::Sub(c.y[i], top);
 }
 
-// How the depth of triangles changes on the screen.
+// The depth of triangles changes on the screen by so much for each pixel to the right and down.
 struct DepthSlopes {
     V right, down;
 };

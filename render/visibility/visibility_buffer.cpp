@@ -21,34 +21,6 @@ constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
 constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
 constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are put in order together
 
-Mat3f to_single(const Mat3d& m) { return {to_float(m.x), to_float(m.y), to_float(m.z)}; }
-
-ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_body, Vec3d origin_m,
-                               double radius_m, double depth_origin_m) {
-    const auto single = [](double v) { return static_cast<float>(v); };
-    ScreenProjection p;
-    p.axes = to_single(camera_from_body);
-    p.distance = single(origin_m.z);
-    p.beyond_origin = single(origin_m.z - depth_origin_m);
-    p.focal_px = single(g.focal_length_px);
-    const Vec2d center{g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
-    if (origin_m.z > 2 * radius_m) {
-        // From where the body's origin is seen: what is left is small, and keeps its digits.
-        const double lean_x = origin_m.x / origin_m.z, lean_y = origin_m.y / origin_m.z;
-        p.offset_x = single(center.x + g.focal_length_px * lean_x), p.lean_x = single(-lean_x);
-        p.offset_y = single(center.y + g.focal_length_px * lean_y), p.lean_y = single(-lean_y);
-    } else {
-        p.offset_x = single(center.x), p.start_x = single(origin_m.x);
-        p.offset_y = single(center.y), p.start_y = single(origin_m.y);
-    }
-    return p;
-}
-
-// The polynomial of second degree in u that has these values at -1, 0 and 1, by powers of u.
-std::array<Vec3f, 3> through(Vec3d first, Vec3d middle, Vec3d last) {
-    return {to_float(middle), to_float(0.5 * (last - first)), to_float(0.5 * (first + last) - middle)};
-}
-
 }  // namespace
 
 VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity)
@@ -107,43 +79,19 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
 }
 
 ScreenProjection VisibilityBuffer::projection(const Placed& placed, const InCamera& at) const {
-    return projection_of(geometry_, at.camera_from_body, at.origin_m, placed.shown.radius_m, depth_origin_m_);
+    return screen_projection(geometry_, at, placed.shown.radius_m, depth_origin_m_);
 }
 
-VisibilityBuffer::InCamera VisibilityBuffer::in_camera(const Placed& placed, const RowPoses::At& at) {
+InCamera VisibilityBuffer::in_camera(const Placed& placed, const RowPoses::At& at) {
     const Mat3d camera_from_world = transposed(at.world_from_camera);
     return {camera_from_world * placed.world_from_body, camera_from_world * (placed.offset_m - at.moved_m)};
 }
 
-RollingProjection VisibilityBuffer::rolling_projection(const Placed& placed) const {
-    const InCamera first = in_camera(placed, rows_->first()), &middle = placed.in_camera,
-                   last = in_camera(placed, rows_->last());
-    const auto row = [&](Vec3d Mat3d::*of) {
-        return through(first.camera_from_body.*of, middle.camera_from_body.*of, last.camera_from_body.*of);
-    };
-    const auto x = row(&Mat3d::x), y = row(&Mat3d::y), z = row(&Mat3d::z);
-    const auto single = [](double v) { return static_cast<float>(v); };
-    return {{{{x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]}}},
-            through(first.origin_m, middle.origin_m, last.origin_m),
-            single(geometry_.focal_length_px),
-            single(geometry_.center_px().x + geometry_.guard_px),
-            single(geometry_.center_px().y + geometry_.guard_px),
-            single(depth_origin_m_),
-            single(geometry_.padded_width()),
-            single(geometry_.padded_height())};
-}
-
-// How far places that roll_vertices() finds may be off [px]: by the third power of the turn, which its polynomials leave out and which
-// is 1/15.6 of it at most between three places where they are right (the least remainder of degree three), by that of a turn and a way
-// together, and by rounding.
-float VisibilityBuffer::rolling_margin_px() const {
-    const LensTiles::Slopes& s = lens_.slopes();
-    const double x = std::max(-s.left, s.right), y = std::max(-s.top, s.bottom);
-    const double per_rad_px = geometry_.focal_length_px * (1 + x * x + y * y), turn_rad = rows_->half_turn_rad();
-    const double way_px = static_cast<double>(kMaxRowSpeed_px) * geometry_.padded_height();
-    constexpr double kRounding_px = 0.02, kThird = 0.1, kMixed = 0.3;
-    return static_cast<float>(kRounding_px + kThird * per_rad_px * turn_rad * turn_rad * turn_rad +
-                              kMixed * way_px * turn_rad * turn_rad);
+float VisibilityBuffer::roll(const Placed& placed, std::span<const Vec3f> vertices_m,
+                             ScreenVertex* out) const {
+    const InRollingCamera at{in_camera(placed, rows_->first()), placed.in_camera,
+                             in_camera(placed, rows_->last())};
+    return roll_vertices(vertices_m, rolling_projection(geometry_, at, depth_origin_m_), lens_.screen(), out);
 }
 
 // All vertices in runs, whatever object they are of: many small ones take as many threads as a large one. False: what is in the picture
@@ -162,8 +110,7 @@ bool VisibilityBuffer::project() {
             const std::span<const Vec3f> part = all.subspan(from - first, to - from);
             if (!rolling_)
                 project_vertices(part, object->projection, vertices_.data() + from);
-            else if (roll_vertices(part, rolling_projection(*object), lens_.screen(), vertices_.data() + from) >
-                     kMaxRowSpeed_px)
+            else if (roll(*object, part, vertices_.data() + from) > kMaxRowSpeed_px)
                 slow = false;
         }
     };
@@ -211,11 +158,11 @@ class VisibilityBuffer::Sorter {
         const ScreenVertex* const vertices = &my_.vertices_[object.first_vertex];
         const auto number = static_cast<std::uint32_t>(first);
         const int width_px = my_.geometry_.padded_width(), height_px = my_.geometry_.padded_height();
-        const std::size_t found =
-            my_.rolling_ ? find_rolling_tiles(vertices, triangles, number, width_px, height_px, my_.margin_px_,
-                                              my_.lens_.screen(), ranges_.data())
-                         : find_tiles(vertices, triangles, number, width_px, height_px, my_.lens_.screen(),
-                                      ranges_.data());
+        const std::size_t found = my_.rolling_
+                                      ? find_rolling_tiles(vertices, triangles, number, width_px, height_px,
+                                                           my_.margin_px_, my_.lens_.screen(), ranges_.data())
+                                      : find_tiles(vertices, triangles, number, width_px, height_px,
+                                                   my_.lens_.screen(), ranges_.data());
         const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
         for (std::size_t i = 0; i < found; ++i) {
             TileRange& range = ranges_[i];
@@ -229,7 +176,8 @@ class VisibilityBuffer::Sorter {
     bool add_all(std::uint32_t placed, const TileRange& range, bool cut) {
         for (int y = range.y0; y <= range.y1; ++y)
             for (int x = range.x0; x <= range.x1; ++x)
-                if (!add(static_cast<std::size_t>(y * my_.tiles_across_ + x), placed, range, cut)) return false;
+                if (!add(static_cast<std::size_t>(y * my_.tiles_across_ + x), placed, range, cut))
+                    return false;
         return true;
     }
 
@@ -241,8 +189,10 @@ class VisibilityBuffer::Sorter {
         if (!my_.rolling_) return !bounds(object.in_camera, range) || add_all(placed, range, true);
         for (int row = 0; row < my_.tiles_down_; ++row) {
             TileRange upper = range, lower = range;
-            const bool in_upper = bounds(in_camera(object, my_.rows_->upper_edge(row * kVisibilityTile_px)), upper);
-            const bool in_lower = bounds(in_camera(object, my_.rows_->lower_edge(row * kVisibilityTile_px)), lower);
+            const bool in_upper =
+                bounds(in_camera(object, my_.rows_->upper_edge(row * kVisibilityTile_px)), upper);
+            const bool in_lower =
+                bounds(in_camera(object, my_.rows_->lower_edge(row * kVisibilityTile_px)), lower);
             if (!in_upper && !in_lower) continue;
             if (!in_upper) upper = lower;
             if (!in_lower) lower = upper;
@@ -282,7 +232,7 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown, c
     HILCAM_CHECK(!rolling_ || rows_);
     if (rolling_ && !rows_->place(*rows, geometry_, rows_px)) return false;
     if (!take(camera, shown)) return false;
-    if (rolling_) margin_px_ = rolling_margin_px();
+    if (rolling_) margin_px_ = rolling_margin_px(geometry_, lens_.slopes(), *rows_, kMaxRowSpeed_px);
     if (!project()) return false;
     std::atomic<bool> room = true;
     tbb::parallel_for(std::size_t{0}, kGroups, [&](std::size_t group) {
@@ -316,11 +266,13 @@ bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>
     return std::all_of(placed.planes.begin(), placed.planes.end(), [&](const Placed::Plane& plane) {
         const double reach_m = std::abs(plane.along.x) * half.x + std::abs(plane.along.y) * half.y +
                                std::abs(plane.along.z) * half.z;
-        return dot(plane.along, middle) + plane.offset_m + reach_m >= -(rounding_m + moves_m * length(plane.along));
+        return dot(plane.along, middle) + plane.offset_m + reach_m >=
+               -(rounding_m + moves_m * length(plane.along));
     });
 }
 
-CornersInCamera VisibilityBuffer::corners_m(const Placed& placed, const InCamera& at, std::uint32_t triangle) {
+CornersInCamera VisibilityBuffer::corners_m(const Placed& placed, const InCamera& at,
+                                            std::uint32_t triangle) {
     CornersInCamera out;
     const TriangleCorners& corners = placed.drawn.triangles[triangle];
     for (std::size_t i = 0; i < 3; ++i)
@@ -382,8 +334,8 @@ void VisibilityBuffer::set_up(std::uint32_t block, int x_px, int y_px, TriangleS
     const TileLens* const lens = lens_.forward(x_px, y_px);
     if (!rolling_) return set_up_triangles(mesh, triangles, head.count, x_px, y_px, lens, setup);
     set_up_rolling_triangles(
-        {mesh, placed.drawn.vertices_m.data(), projection(placed, upper), projection(placed, lower)}, triangles,
-        head.count, x_px, y_px, lens, setup);
+        {mesh, placed.drawn.vertices_m.data(), projection(placed, upper), projection(placed, lower)},
+        triangles, head.count, x_px, y_px, lens, setup);
 }
 
 // Fills blocks from near to far, so that what is hidden is found to be so before it is looked at.
@@ -424,7 +376,7 @@ Vec3d VisibilityBuffer::direction(int x_px, int y_px, Vec2f within_px) const {
               top = y_px / kVisibilityTile_px * kVisibilityTile_px;
     const Mat3d& world_from_camera = rolling_ ? rows_->of_row(y_px).world_from_camera : world_from_camera_;
     return world_from_camera * lens_.view(left, top).at(x_px - left + static_cast<double>(within_px.x),
-                                                         y_px - top + static_cast<double>(within_px.y));
+                                                        y_px - top + static_cast<double>(within_px.y));
 }
 
 VisibilityBuffer::Seen VisibilityBuffer::seen(std::uint32_t id) const {

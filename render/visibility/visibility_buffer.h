@@ -24,8 +24,8 @@
 #include "render/scene/embree_scene.h"
 #include "render/visibility/cut_triangles.h"
 #include "render/visibility/lens_tiles.h"
-#include "render/visibility/rolling_raster.h"
 #include "render/visibility/row_poses.h"
+#include "render/visibility/screen_projections.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/visibility/visibility_tile.h"
 #include "render/vocabulary/image_geometry.h"
@@ -72,7 +72,8 @@ class VisibilityBuffer {
     };
     // Sorts the triangles of a frame. rows: how the camera moves between rows, each of which is rows_px of the buffer's; null: all
     // are one instant. False: there is no room for the triangles, or they move too fast. Loop.
-    bool place(const Pose& camera, std::span<const Shown> shown, const RowMotion* rows = nullptr, int rows_px = 1);
+    bool place(const Pose& camera, std::span<const Shown> shown, const RowMotion* rows = nullptr,
+               int rows_px = 1);
 
     // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. False:
     // nothing. Loop, any thread.
@@ -117,11 +118,6 @@ class VisibilityBuffer {
         float nearest;
         std::uint32_t order, block;
     };
-    // An object in the camera's axes, at an instant.
-    struct InCamera {
-        Mat3d camera_from_body;
-        Vec3d origin_m;
-    };
     struct Placed {
         Shown shown;
         // The triangles that are drawn of it, and whose ids stand for its triangles; none: each has its own.
@@ -163,8 +159,7 @@ class VisibilityBuffer {
     bool project();
     ScreenProjection projection(const Placed& placed, const InCamera& at) const;
     static InCamera in_camera(const Placed& placed, const RowPoses::At& at);
-    RollingProjection rolling_projection(const Placed& placed) const;
-    float rolling_margin_px() const;
+    float roll(const Placed& placed, std::span<const Vec3f> vertices_m, ScreenVertex* out) const;
     std::array<Placed::Plane, 5> planes_of(const Mat3d& camera_from_body, Vec3d origin_camera_m) const;
     bool may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const;
     static CornersInCamera corners_m(const Placed& placed, const InCamera& at, std::uint32_t triangle);

@@ -25,8 +25,9 @@ void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, Scree
 std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                   std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
                   TileRange* ranges) {
-    return lens ? tiles_with<true>(vertices, triangles, first, width_px, height_px, lens, NoMargin{}, ranges)
-                : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, NoMargin{}, ranges);
+    return lens
+               ? tiles_with<true>(vertices, triangles, first, width_px, height_px, lens, NoMargin{}, ranges)
+               : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, NoMargin{}, ranges);
 }
 
 void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
