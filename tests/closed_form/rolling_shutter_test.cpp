@@ -107,6 +107,22 @@ TEST(RollingShutter, ACubeIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.1);
 }
 
+// The boxes in which bodies are looked for are as much wider as the camera turns: the limb is where rays of all rows have it.
+TEST(RollingShutter, TheEarthBehindACubeIsWhatRaysSee) {
+    for (const double x_m :
+         {9e6, -24e6}) {  // its limb in the picture, and all of it beside the field of the middle row
+        Stage s = rolling_stage();
+        s.earth(0.3);
+        s.world.bodies[BodyId::kEarth].world_m = {x_m, 0, 3e7};
+        s.sun({0.3, 0.5, -1});
+        s.add(cube(lambert(0.5), s.grid), {0.2, -0.1, 3}, {0.4, 0.7, -0.2});
+        s.world.camera_rate_rad_s = {-10, 50, 10};
+        const Difference d = difference_from_rays(s);
+        EXPECT_LT(std::abs(d.mean), 2e-3);
+        EXPECT_LT(d.greatest, 0.14);  // two samples of sixteen
+    }
+}
+
 // What moves by more than a quarter of a pixel from one row to the next is left to rays, sixteen a pixel.
 TEST(RollingShutter, WhatMovesTooFastIsLeftToRays) {
     Stage s = rolling_stage();
