@@ -29,7 +29,8 @@ void EarthView::place(const WorldSnapshot& world, Background& background, FrameC
 }
 
 void EarthView::place_picture(const Background& background, FrameContext& frame) {
-    const bool smooth = frame.rays->is_still() || frame.rays->row_motion();  // directions, from pixel to pixel
+    const bool smooth =
+        frame.rays->is_still() || frame.rays->row_motion();  // directions, from pixel to pixel
     if (!picture_ || !smooth || !background.earth_in_patches()) return;
     const PlacedBody& earth = background.disks().front();
     if (picture_->place(earth.camera_m, earth.sun_dir, background.map_numbers()))

@@ -109,8 +109,7 @@ TEST(RollingShutter, ACubeIsWhatRaysSee) {
 
 // The boxes in which bodies are looked for are as much wider as the camera turns: the limb is where rays of all rows have it.
 TEST(RollingShutter, TheEarthBehindACubeIsWhatRaysSee) {
-    for (const double x_m :
-         {9e6, -24e6}) {  // its limb in the picture, and all of it beside the field of the middle row
+    for (const double x_m : {9e6, -24e6}) {  // in the middle, and at the edge of the picture
         Stage s = rolling_stage();
         s.earth(0.3);
         s.world.bodies[BodyId::kEarth].world_m = {x_m, 0, 3e7};
