@@ -116,9 +116,9 @@ TEST(RollingShutter, TheEarthBehindACubeIsWhatRaysSee) {
         s.sun({0.3, 0.5, -1});
         s.add(cube(lambert(0.5), s.grid), {0.2, -0.1, 3}, {0.4, 0.7, -0.2});
         s.world.camera_rate_rad_s = {-10, 50, 10};
-        const Difference d = difference_from_rays(s);
+        const Difference d = difference_from_rays(s, 8);
         EXPECT_LT(std::abs(d.mean), 2e-3);
-        EXPECT_LT(d.greatest, 0.14);  // two samples of sixteen
+        EXPECT_LT(d.greatest, 0.14);
     }
 }
 
