@@ -188,7 +188,8 @@ RenderQuality render_quality_of(const ScenarioConfig& s) {
     RenderQuality quality = s.quality.render;
     const ImageGeometry image =
         geometry_of(s.camera, static_cast<int>(s.quality.guard_px), static_cast<int>(s.quality.oversampling));
-    if (!VisibilityBuffer::takes(image) || models_of(s).rays.model != "pinhole" ||
+    const std::string rays = models_of(s).rays.model;
+    if (!VisibilityBuffer::takes(image) || (rays != "pinhole" && rays != "rolling") ||
         (s.terrain && quality.buffer_samples > 1))
         quality.visibility = "rays";
     return quality;

@@ -29,7 +29,9 @@ void EarthView::place(const WorldSnapshot& world, Background& background, FrameC
 }
 
 void EarthView::place_picture(const Background& background, FrameContext& frame) {
-    if (!picture_ || !frame.rays->is_still() || !background.earth_in_patches()) return;
+    const bool smooth =
+        frame.rays->is_still() || frame.rays->row_motion();  // directions, from pixel to pixel
+    if (!picture_ || !smooth || !background.earth_in_patches()) return;
     const PlacedBody& earth = background.disks().front();
     if (picture_->place(earth.camera_m, earth.sun_dir, background.map_numbers()))
         frame.earth_impostor = &picture_->picture();

@@ -71,7 +71,8 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
                                    : stars_.size();
-    visibility_.make(geometry, levels, terrain_ != nullptr, plain_ground_triangles(geometry));
+    visibility_.make(geometry, levels,
+                     {terrain_ != nullptr, plain_ground_triangles(geometry), rays_->row_motion() != nullptr});
     frame_.scene = &embree_;
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());
@@ -213,7 +214,7 @@ RayDensity FrameSetup::density_for(std::size_t i) const {
     return out;
 }
 
-// Rows with poses of their own meet objects anywhere: no mask, no boxes; here and below.
+// Rows with poses of their own meet objects anywhere: no mask.
 void FrameSetup::place_objects() {
     const bool still = rays_->is_still();
     object_mask_.clear();
@@ -242,11 +243,17 @@ void FrameSetup::place_objects() {
     frame_.object_mask = still ? &object_mask_ : &full_mask_;
 }
 
+// Rows see directions up to the camera's sweep away.
 void FrameSetup::place_background() {
     const PixelBox everything{0, 0, frame_.geometry.padded_width(), frame_.geometry.padded_height()};
+    const bool bounded = rays_->is_still() || rays_->row_motion();
+    const double sweep_rad = rays_->sweep_rad();
     const auto bounds = [&](Vec3d dir, double cosine) {
-        return rays_->is_still() ? screen_bounds_of_cone(frame_.geometry, world_.camera, dir, cosine)
-                                 : everything;
+        if (!bounded) return everything;
+        if (!(sweep_rad > 0)) return screen_bounds_of_cone(frame_.geometry, world_.camera, dir, cosine);
+        const double wider_rad = std::acos(cosine) + sweep_rad;
+        if (wider_rad > 0.5 * kPi) return everything;
+        return screen_bounds_of_cone(frame_.geometry, world_.camera, dir, std::cos(wider_rad));
     };
     frame_.body_box_count = background_.disks().size();
     for (std::size_t i = 0; i < frame_.body_box_count; ++i) {

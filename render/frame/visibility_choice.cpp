@@ -22,13 +22,15 @@ constexpr std::size_t kManyLike = 16, kMaxInSets = 20'000;
 }  // namespace
 
 void VisibilityChoice::make(const ImageGeometry& geometry, std::span<const RenderQuality> levels,
-                            bool has_terrain, std::size_t ground_triangles) {
+                            const Needs& needs) {
+    const auto [has_terrain, ground_triangles, has_rows] = needs;
     for (const RenderQuality& level : levels) {
         if (level.uses_buffer() && !has_terrain && VisibilityBuffer::takes(geometry)) {
             const PixelSamples samples = level.pixel_samples();
             std::unique_ptr<VisibilityBuffer>& made = samples.quarters() == 1 ? standard_ : fine_;
             if (!made)
-                made = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), capacity());
+                made = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()),
+                                                          capacity(has_rows));
             if (potentially_visible_sets_.empty()) make_potentially_visible_sets();
         }
         if (!level.sees_ground() || ground_triangles == 0) continue;
@@ -81,8 +83,8 @@ const PotentiallyVisibleSet* VisibilityChoice::potentially_visible_set(const Fra
                        (objects_.world.camera.position_world_m - pose.position_world_m));
 }
 
-VisibilityBuffer::Capacity VisibilityChoice::capacity() const {
-    VisibilityBuffer::Capacity out{objects_.all.size(), 0, 0};
+VisibilityBuffer::Capacity VisibilityChoice::capacity(bool rows) const {
+    VisibilityBuffer::Capacity out{objects_.all.size(), 0, 0, rows};
     for (std::size_t i = 0; i < objects_.all.size(); ++i) {
         const MeshView mesh = objects_.scene.mesh(i, 0);
         out.vertices = std::min(kMaxTriangles, out.vertices + mesh.vertices_m.size());
@@ -136,13 +138,14 @@ void VisibilityChoice::place(FrameContext& frame) {
         return;
     }
     VisibilityBuffer* const of_objects = buffer(frame.samples);
-    if (!of_objects || !uses_buffer_ || !frame.rays->is_still()) return;
+    const RowMotion* const rows = frame.rays->row_motion();
+    if (!of_objects || !uses_buffer_ || !(frame.rays->is_still() || rows)) return;
     for (std::size_t i = 0; i < objects_.all.size(); ++i)
         if (objects_.plans[i].use == ObjectUse::kMesh) {
             seen_.push_back(shown(i));
             seen_.back().visible = potentially_visible_set(frame, i);
         }
-    if (of_objects->place(objects_.world.camera, seen_))
+    if (of_objects->place(objects_.world.camera, seen_, rows, frame.samples.buffer_px()))
         frame.visibility = of_objects;
     else
         light_by_rays(frame);

@@ -31,10 +31,14 @@ class VisibilityChoice {
     };
     explicit VisibilityChoice(const Objects& objects) : objects_(objects) {}
 
-    // Makes what frames of these qualities need. ground_triangles: of terrain that is all there is, and plain (is_plain_ground()), at most; 0:
-    // there is none. has_terrain: then objects have no buffer. Owner thread.
-    void make(const ImageGeometry& geometry, std::span<const RenderQuality> levels, bool has_terrain,
-              std::size_t ground_triangles);
+    struct Needs {
+        bool has_terrain;  // then objects have no buffer
+        // Triangles of terrain that is all there is, and plain (is_plain_ground()), at most; 0: there is none.
+        std::size_t ground_triangles;
+        bool has_rows;  // rows are of several instants (RayGenerator::row_motion())
+    };
+    // Makes what frames of these qualities need. Owner thread.
+    void make(const ImageGeometry& geometry, std::span<const RenderQuality> levels, const Needs& needs);
     // Loop.
     void set_quality(const RenderQuality& quality);
 
@@ -64,7 +68,7 @@ class VisibilityChoice {
     int ground_step_px_ = 1;
 
     void make_potentially_visible_sets();
-    VisibilityBuffer::Capacity capacity() const;
+    VisibilityBuffer::Capacity capacity(bool rows) const;
     std::optional<VisibilityBuffer::Capacity> capacity_for_impostors() const;
     VisibilityBuffer* buffer(const PixelSamples& samples) const {
         return (samples.quarters() == 1 ? standard_ : fine_).get();

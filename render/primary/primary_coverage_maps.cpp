@@ -48,7 +48,7 @@ PrimaryHits::CoverageMapPixel PrimaryHits::look_at_coverage_map(std::size_t k, V
     const PixelRays pixel = rays_of(fragments_[k]);
     const Vec3d up = to_double(coverage_map_.normal);
     const Vec3d corner_m = coverage_map_.corner_m - to_double(packet_.origin.at(k)) + to_double(origins_[k]) -
-                           tile_.frame.camera_m;
+                           eye_m(tile_.frame, tile_.box.y0 + fragments_[k].y);
     const double facing = dot(pixel.middle, up), way = dot(corner_m, up) / facing;
     const auto on_plane = [&](Vec3d step) { return way * (step - (dot(step, up) / facing) * pixel.middle); };
     const double per_m = 1 / static_cast<double>(coverage_map_.is->texel_m);
@@ -72,6 +72,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
     const FrameContext& frame = tile_.frame;
     const CoverageMap& coverage_map = *coverage_map_.is;
     const CoverageMapPixel pixel = look_at_coverage_map(k, surface_frame.view_dir);
+    const Vec3d eye = eye_m(frame, tile_.box.y0 + fragments_[k].y);
     const CoverageMap::Coverage& coverage = pixel.coverage;
     float shown = 0;
     Vec2f middle_px{};
@@ -106,9 +107,8 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
         point.offset_m += CoverageMap::kLoose * coverage_map.texel_m;
         const Vec2f place = coverage.place[layer];
         const Vec2f off{place.x - 0.5f, place.y - 0.5f};
-        point.point_m =
-            to_float(frame.camera_m + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
-                     static_cast<double>(off.y) * pixel.per_y_m);
+        point.point_m = to_float(eye + pixel.middle_m + static_cast<double>(off.x) * pixel.per_x_m +
+                                 static_cast<double>(off.y) * pixel.per_y_m);
         finish(k, coverage.share[layer] / shown * samples,
                moved(moments, {place.x - middle_px.x, place.y - middle_px.y}), place, point);
     }

@@ -146,7 +146,9 @@ PrimaryHits::Aim PrimaryHits::aim_at(const Fragment& fragment, Vec2f place_px) c
     const FrameContext& frame = tile_.frame;
     const Vec3d dir =
         direction_through(frame, tile_.box.x0 + fragment.x, tile_.box.y0 + fragment.y, place_px);
-    return {dir, frame.start_before_m > 0 ? frame.start_of(normalized(dir)) : to_float(frame.camera_m)};
+    const Vec3d eye = eye_m(frame, tile_.box.y0 + fragment.y);
+    return {dir,
+            frame.start_before_m > 0 ? frame.start_of(normalized(dir), eye - frame.camera_m) : to_float(eye)};
 }
 
 // The first fragments, as many as are of one object.

@@ -141,7 +141,9 @@ class PrimaryRays {
         const Vec3d dir = normalized(linear_ ? corner_ + static_cast<double>(at_x) * linear_->right +
                                                    static_cast<double>(at_y) * linear_->down
                                              : direction_seen(frame_, x + 2, y + 2, {}));
-        const double block_rad = 3 / frame_.geometry.focal_length_px;  // its middle to its corners
+        // From its middle to its corners: two rows away, which a camera that turns from row to row sees elsewhere.
+        const double two_rows_rad = 4 * frame_.rays->sweep_rad() / frame_.geometry.padded_height();
+        const double block_rad = 3 / frame_.geometry.focal_length_px + two_rows_rad;
         Block out = Block::kDark;
         for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
             const PlacedBody& body = frame_.background->disks()[i];

@@ -9,6 +9,7 @@
 
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pose.h"
+#include "render/vocabulary/row_motion.h"
 
 namespace hilcam {
 
@@ -53,6 +54,9 @@ class RayGenerator {
     virtual const LinearRays* linear() const { return nullptr; }
     // All rays leave the camera at one instant and place, where project_px() says.
     virtual bool is_still() const { return true; }
+    // Returns how the camera moves between rows where each row of the picture is a row of the sensor at an instant of its own, else
+    // null. Placed with the frame.
+    virtual const RowMotion* row_motion() const { return nullptr; }
 };
 
 }  // namespace hilcam

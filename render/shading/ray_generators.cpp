@@ -47,7 +47,7 @@ class RowRays : public RayGenerator {
 
     void place(const ImageGeometry& geometry, const Motion& camera) override {
         geometry_ = geometry;
-        camera_ = camera;
+        motion_ = {camera, line_time_s_, 0.5 * geometry.height_px};
     }
     // A row's pose is worked out once for the rays that follow each other in it.
     void generate(std::span<const Vec2d> points_px, std::span<CameraRay> rays) const override {
@@ -66,7 +66,7 @@ class RowRays : public RayGenerator {
     }
     bool is_still() const override { return false; }
     double sweep_rad() const override {
-        return length(camera_.rate_body_rad_s) * 0.5 * geometry_.padded_height() * line_time_s_;
+        return length(motion_.camera.rate_body_rad_s) * 0.5 * geometry_.padded_height() * line_time_s_;
     }
 
   protected:
@@ -76,9 +76,9 @@ class RowRays : public RayGenerator {
     };
     // At the instant of a place down the image; the middle of row i is at i + 0.5.
     RowPose pose_at(double y_px) const {
-        const double dt_s = (y_px - 0.5 * geometry_.height_px) * line_time_s_;
-        const Pose pose = propagate(camera_, camera_.time + to_ns(dt_s));
-        return {pose.position_world_m - camera_.pose.position_world_m, to_matrix(pose.world_from_body)};
+        const Pose pose = motion_.pose_at(y_px);
+        return {pose.position_world_m - motion_.camera.pose.position_world_m,
+                to_matrix(pose.world_from_body)};
     }
     // Finds where the sensor has a thing at that instant. False: behind it.
     bool project(Vec3d dir, double distance_m, double y_px, Sighting& seen) const {
@@ -98,7 +98,7 @@ class RowRays : public RayGenerator {
 
     double line_time_s_;
     ImageGeometry geometry_;
-    Motion camera_;
+    RowMotion motion_;
 
   private:
     static Vec3d in_camera(const RowPose& at, Vec3d dir, double distance_m) {
@@ -114,6 +114,7 @@ class RollingRays final : public RowRays {
   public:
     using RowRays::RowRays;
 
+    const RowMotion* row_motion() const override { return &motion_; }
     // The row y with y = (the thing's place at the instant of y), by the secant method: one step for a thing
     // that moves evenly.
     bool find(Vec3d dir, double distance_m, Sighting& seen) const override {

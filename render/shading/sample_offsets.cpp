@@ -23,6 +23,11 @@ Vec3d direction_through(const FrameContext& frame, int x_px, int y_px, Vec2f wit
                 : direction_seen(frame, x_px, y_px, within_px);
 }
 
+Vec3d eye_m(const FrameContext& frame, int y_px) {
+    if (frame.rays->is_still()) return frame.camera_m;
+    return frame.camera_m + frame.visibility->moved_m(frame.samples.buffer_px() * y_px);
+}
+
 namespace {
 
 // The least cosine to the viewer of a plane that is seen, not its edge.
@@ -34,6 +39,7 @@ SampleOffsets::SampleOffsets(const Tile& tile, const ShadingPoint& at)
     : frame_(tile.frame), at_(at), facing_(dot(at.geometric_normal, at.view_dir)) {
     const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
     x_px_ = tile.box.x0 + pixel % width, y_px_ = tile.box.y0 + pixel / width;
+    eye_m_ = eye_m(frame_, y_px_);
     dir_ = direction_through(frame_, x_px_, y_px_, at.place_px);
     per_dir_m_ = static_cast<double>(at.footprint_m) * frame_.geometry.focal_length_px / length(dir_);
 }
@@ -43,8 +49,8 @@ Vec3f SampleOffsets::on(const NormalCluster& cluster, int sample) const {
                 normal = to_double(cluster.geometric_normal);
     const double along = dot(dir, normal);
     if (std::abs(along) < static_cast<double>(kMinFacingOfWay) * length(dir)) return cluster.start_m;
-    const double way = dot(to_double(cluster.start_m) - frame_.camera_m, normal) / along;
-    return to_float(frame_.camera_m + way * dir);
+    const double way = dot(to_double(cluster.start_m) - eye_m_, normal) / along;
+    return to_float(eye_m_ + way * dir);
 }
 
 Vec3f SampleOffsets::to(int sample) const {

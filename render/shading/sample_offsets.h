@@ -10,6 +10,8 @@ namespace hilcam {
 Vec3d direction_seen(const FrameContext& frame, int x_px, int y_px, Vec2f within_px);
 // The same by the camera's own rays, where these are linear.
 Vec3d direction_through(const FrameContext& frame, int x_px, int y_px, Vec2f within_px);
+// Returns the place from which the camera sees a row of pixels [ray space].
+Vec3d eye_m(const FrameContext& frame, int y_px);
 
 // The ways from a shading point that samples see to where each of them meets its plane, and up by ShadingPoint::lift_m [m, ray
 // space]; none where the plane is seen from its edge. Loop, any thread.
@@ -26,6 +28,7 @@ class SampleOffsets {
     const FrameContext& frame_;
     const ShadingPoint& at_;
     int x_px_, y_px_;
+    Vec3d eye_m_;
     float facing_;  // cosine of the plane's normal to the viewer
     Vec3d dir_;     // through the shading point
     double per_dir_m_;

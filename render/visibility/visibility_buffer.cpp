@@ -9,6 +9,7 @@
 
 #include "render/scene/coplanar_groups.h"
 #include "render/scene/surface.h"
+#include "render/visibility/cut_triangles.h"
 #include "render/visibility/potentially_visible_sets.h"
 
 namespace hilcam {
@@ -19,27 +20,6 @@ constexpr std::size_t kRun =
 constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
 constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
 constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are put in order together
-
-ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_body, Vec3d origin_m,
-                               double radius_m, double depth_origin_m) {
-    const auto single = [](double v) { return static_cast<float>(v); };
-    ScreenProjection p;
-    p.axes = {to_float(camera_from_body.x), to_float(camera_from_body.y), to_float(camera_from_body.z)};
-    p.distance = single(origin_m.z);
-    p.beyond_origin = single(origin_m.z - depth_origin_m);
-    p.focal_px = single(g.focal_length_px);
-    const Vec2d center{g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
-    if (origin_m.z > 2 * radius_m) {
-        // From where the body's origin is seen: what is left is small, and keeps its digits.
-        const double lean_x = origin_m.x / origin_m.z, lean_y = origin_m.y / origin_m.z;
-        p.offset_x = single(center.x + g.focal_length_px * lean_x), p.lean_x = single(-lean_x);
-        p.offset_y = single(center.y + g.focal_length_px * lean_y), p.lean_y = single(-lean_y);
-    } else {
-        p.offset_x = single(center.x), p.start_x = single(origin_m.x);
-        p.offset_y = single(center.y), p.start_y = single(origin_m.y);
-    }
-    return p;
-}
 
 }  // namespace
 
@@ -58,6 +38,7 @@ VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Capacity
     const std::size_t blocks = capacity.triangles / 4 + 32 * tiles + kMin;
     blocks_.resize(blocks);
     heads_.resize(blocks);
+    if (capacity.rows) rows_.emplace(geometry.padded_height());
 }
 
 bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
@@ -70,7 +51,8 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
     for (const Shown& object : shown) {
         if (placed_.size() == capacity_.objects) return false;
         const Vec3d offset_m = object.pose.position_world_m - camera.position_world_m;
-        const Mat3d camera_from_body = camera_from_world * to_matrix(object.pose.world_from_body);
+        const Mat3d world_from_body = to_matrix(object.pose.world_from_body);
+        const Mat3d camera_from_body = camera_from_world * world_from_body;
         const Vec3d origin_camera_m = camera_from_world * offset_m;
         const PotentiallyVisibleSet* const set = object.visible;
         const MeshView drawn = set ? MeshView{set->vertices_m, set->triangles} : object.mesh;
@@ -80,8 +62,9 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
                            vertices,
                            drawn_count_,
                            triangles,
-                           camera_from_body,
-                           origin_camera_m,
+                           world_from_body,
+                           offset_m,
+                           {camera_from_body, origin_camera_m},
                            {},
                            planes_of(camera_from_body, origin_camera_m)});
         vertices += drawn.vertices_m.size();
@@ -91,15 +74,31 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
         const double near_m = std::max(length(offset_m), object.radius_m);
         if (depth_origin_m_ == 0 || near_m < depth_origin_m_) depth_origin_m_ = near_m;
     }
-    for (Placed& object : placed_)
-        object.projection = projection_of(geometry_, object.camera_from_body, object.origin_camera_m,
-                                          object.shown.radius_m, depth_origin_m_);
+    for (Placed& object : placed_) object.projection = projection(object, object.in_camera);
     return true;
 }
 
-// All vertices in runs, whatever object they are of: many small ones take as many threads as a large one.
-void VisibilityBuffer::project() {
-    const auto project_part = [this](std::size_t begin, std::size_t end) {
+ScreenProjection VisibilityBuffer::projection(const Placed& placed, const InCamera& at) const {
+    return screen_projection(geometry_, at, placed.shown.radius_m, depth_origin_m_);
+}
+
+InCamera VisibilityBuffer::in_camera(const Placed& placed, const RowPoses::At& at) {
+    const Mat3d camera_from_world = transposed(at.world_from_camera);
+    return {camera_from_world * placed.world_from_body, camera_from_world * (placed.offset_m - at.moved_m)};
+}
+
+float VisibilityBuffer::roll(const Placed& placed, std::span<const Vec3f> vertices_m,
+                             ScreenVertex* out) const {
+    const InRollingCamera at{in_camera(placed, rows_->first()), placed.in_camera,
+                             in_camera(placed, rows_->last())};
+    return roll_vertices(vertices_m, rolling_projection(geometry_, at, depth_origin_m_), lens_.screen(), out);
+}
+
+// All vertices in runs, whatever object they are of: many small ones take as many threads as a large one. False: what is in the picture
+// moves too fast from row to row.
+bool VisibilityBuffer::project() {
+    std::atomic<bool> slow = true;
+    const auto project_part = [&](std::size_t begin, std::size_t end) {
         auto object =
             std::upper_bound(placed_.begin(), placed_.end(), begin,
                              [](std::size_t at, const Placed& placed) { return at < placed.first_vertex; });
@@ -107,15 +106,19 @@ void VisibilityBuffer::project() {
             const std::span<const Vec3f> all = object->drawn.vertices_m;
             const std::size_t first = object->first_vertex;
             const std::size_t from = std::max(begin, first), to = std::min(end, first + all.size());
-            if (from < to)
-                project_vertices(all.subspan(from - first, to - from), object->projection,
-                                 vertices_.data() + from);
+            if (from >= to) continue;
+            const std::span<const Vec3f> part = all.subspan(from - first, to - from);
+            if (!rolling_)
+                project_vertices(part, object->projection, vertices_.data() + from);
+            else if (roll(*object, part, vertices_.data() + from) > kMaxRowSpeed_px)
+                slow = false;
         }
     };
-    if (placed_.empty()) return;
+    if (placed_.empty()) return true;
     const std::size_t count = placed_.back().first_vertex + placed_.back().drawn.vertices_m.size();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kVertexRun),
                       [&](const auto& part) { project_part(part.begin(), part.end()); });
+    return slow;
 }
 
 // Puts one group of triangles into the tiles that may see them.
@@ -136,7 +139,7 @@ class VisibilityBuffer::Sorter {
                 const std::size_t cluster = first / kRun;
                 next = std::min(to, (cluster + 1) * kRun);
                 const auto boxes_m = object->shown.cluster_bounds_m;
-                if (!object->shown.visible && !boxes_m.empty() && !may_show(*object, boxes_m[cluster]))
+                if (!object->shown.visible && !boxes_m.empty() && !my_.may_show(*object, boxes_m[cluster]))
                     continue;
                 if (!sort_run(*object, first, next - first)) return false;
             }
@@ -152,19 +155,51 @@ class VisibilityBuffer::Sorter {
 
     bool sort_run(const Placed& object, std::size_t first, std::size_t count) {
         const std::span<const TriangleCorners> triangles = object.drawn.triangles.subspan(first, count);
-        const std::size_t found = find_tiles(
-            &my_.vertices_[object.first_vertex], triangles, static_cast<std::uint32_t>(first),
-            my_.geometry_.padded_width(), my_.geometry_.padded_height(), my_.lens_.screen(), ranges_.data());
+        const ScreenVertex* const vertices = &my_.vertices_[object.first_vertex];
+        const auto number = static_cast<std::uint32_t>(first);
+        const int width_px = my_.geometry_.padded_width(), height_px = my_.geometry_.padded_height();
+        const std::size_t found = my_.rolling_
+                                      ? find_rolling_tiles(vertices, triangles, number, width_px, height_px,
+                                                           my_.margin_px_, my_.lens_.screen(), ranges_.data())
+                                      : find_tiles(vertices, triangles, number, width_px, height_px,
+                                                   my_.lens_.screen(), ranges_.data());
         const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
         for (std::size_t i = 0; i < found; ++i) {
             TileRange& range = ranges_[i];
             if (!object.ids.empty() && object.ids[range.triangle] == kNotShown) continue;
             const bool cut = range.x1 < 0;
-            if (cut && !my_.bounds_of_cut(my_.corners_camera_m(object, range.triangle), range)) continue;
-            for (int y = range.y0; y <= range.y1; ++y)
-                for (int x = range.x0; x <= range.x1; ++x)
-                    if (!add(static_cast<std::size_t>(y * my_.tiles_across_ + x), placed, range, cut))
-                        return false;
+            if (!(cut ? add_cut(object, placed, range) : add_all(placed, range, false))) return false;
+        }
+        return true;
+    }
+
+    bool add_all(std::uint32_t placed, const TileRange& range, bool cut) {
+        for (int y = range.y0; y <= range.y1; ++y)
+            for (int x = range.x0; x <= range.x1; ++x)
+                if (!add(static_cast<std::size_t>(y * my_.tiles_across_ + x), placed, range, cut))
+                    return false;
+        return true;
+    }
+
+    // A triangle without an outline on the screen, which each row of tiles looks for at its own instants.
+    bool add_cut(const Placed& object, std::uint32_t placed, TileRange range) {
+        const auto bounds = [&](const InCamera& at, TileRange& out) {
+            return bounds_of_cut(corners_m(object, at, range.triangle), my_.geometry_, my_.lens_, out);
+        };
+        if (!my_.rolling_) return !bounds(object.in_camera, range) || add_all(placed, range, true);
+        for (int row = 0; row < my_.tiles_down_; ++row) {
+            TileRange upper = range, lower = range;
+            const bool in_upper =
+                bounds(in_camera(object, my_.rows_->upper_edge(row * kVisibilityTile_px)), upper);
+            const bool in_lower =
+                bounds(in_camera(object, my_.rows_->lower_edge(row * kVisibilityTile_px)), lower);
+            if (!in_upper && !in_lower) continue;
+            if (!in_upper) upper = lower;
+            if (!in_lower) lower = upper;
+            if (std::min(upper.y0, lower.y0) > row || std::max(upper.y1, lower.y1) < row) continue;
+            range.x0 = std::min(upper.x0, lower.x0), range.x1 = std::max(upper.x1, lower.x1);
+            range.y0 = range.y1 = static_cast<std::int16_t>(row);
+            if (!add_all(placed, range, true)) return false;
         }
         return true;
     }
@@ -189,11 +224,16 @@ class VisibilityBuffer::Sorter {
     }
 };
 
-bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
+bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown, const RowMotion* rows,
+                             int rows_px) {
     std::fill(first_.begin(), first_.end(), kNoBlock);
     used_ = 1;
+    rolling_ = rows != nullptr;
+    HILCAM_CHECK(!rolling_ || rows_);
+    if (rolling_ && !rows_->place(*rows, geometry_, rows_px)) return false;
     if (!take(camera, shown)) return false;
-    project();
+    if (rolling_) margin_px_ = rolling_margin_px(geometry_, lens_.slopes(), *rows_, kMaxRowSpeed_px);
+    if (!project()) return false;
     std::atomic<bool> room = true;
     tbb::parallel_for(std::size_t{0}, kGroups, [&](std::size_t group) {
         const std::size_t begin = drawn_count_ * group / kGroups;
@@ -215,89 +255,29 @@ std::array<VisibilityBuffer::Placed::Plane, 5> VisibilityBuffer::planes_of(const
             plane({0, -1, s.bottom})};
 }
 
-// False: all of the box is beyond one of the planes. Corners on the screen are good to 1e-7 of the way to them.
-bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) {
+// False: all of the box is beyond one of the planes, also while the rows are read. Corners on the screen are good to 1e-7 of the way to
+// them.
+bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const {
     const Vec3d least = to_double(box_m[0]), most = to_double(box_m[1]);
     const Vec3d middle = 0.5 * (least + most), half = 0.5 * (most - least);
-    const double rounding_m = 1e-6 * (length(middle) + length(half) + length(placed.origin_camera_m));
+    const double farthest_m = length(middle) + length(half) + length(placed.in_camera.origin_m);
+    const double rounding_m = 1e-6 * farthest_m,
+                 moves_m = rolling_ ? rows_->half_turn_rad() * farthest_m + rows_->half_way_m() : 0;
     return std::all_of(placed.planes.begin(), placed.planes.end(), [&](const Placed::Plane& plane) {
         const double reach_m = std::abs(plane.along.x) * half.x + std::abs(plane.along.y) * half.y +
                                std::abs(plane.along.z) * half.z;
-        return dot(plane.along, middle) + plane.offset_m + reach_m >= -rounding_m;
+        return dot(plane.along, middle) + plane.offset_m + reach_m >=
+               -(rounding_m + moves_m * length(plane.along));
     });
 }
 
-std::array<Vec3d, 3> VisibilityBuffer::corners_camera_m(const Placed& placed, std::uint32_t triangle) const {
-    std::array<Vec3d, 3> out;
+CornersInCamera VisibilityBuffer::corners_m(const Placed& placed, const InCamera& at,
+                                            std::uint32_t triangle) {
+    CornersInCamera out;
     const TriangleCorners& corners = placed.drawn.triangles[triangle];
     for (std::size_t i = 0; i < 3; ++i)
-        out[i] =
-            placed.camera_from_body * to_double(placed.drawn.vertices_m[corners[i]]) + placed.origin_camera_m;
+        out[i] = at.camera_from_body * to_double(placed.drawn.vertices_m[corners[i]]) + at.origin_m;
     return out;
-}
-
-// The tiles of what of a triangle is before the camera. False: it is behind it, or beside the picture.
-bool VisibilityBuffer::bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const {
-    const LensTiles::Slopes& slopes = lens_.slopes();
-    const auto all = [&](auto&& says) { return std::all_of(corners_m.begin(), corners_m.end(), says); };
-    if (all([](Vec3d p) { return p.z <= 0; }) || all([&](Vec3d p) { return p.x < slopes.left * p.z; }) ||
-        all([&](Vec3d p) { return p.x > slopes.right * p.z; }) ||
-        all([&](Vec3d p) { return p.y < slopes.top * p.z; }) ||
-        all([&](Vec3d p) { return p.y > slopes.bottom * p.z; }))
-        return false;
-    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
-    const Vec2d center{geometry_.center_px().x + geometry_.guard_px,
-                       geometry_.center_px().y + geometry_.guard_px};
-    const auto grow = [&](Vec3d p) {
-        const double x = center.x + p.x / p.z * geometry_.focal_length_px;
-        const double y = center.y + p.y / p.z * geometry_.focal_length_px;
-        x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
-    };
-    double reach = 0;
-    for (const Vec3d& p : corners_m) reach = std::max(reach, length(p));
-    const double near_m = 1e-9 * reach;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d& p = corners_m[i];
-        const Vec3d& q = corners_m[(i + 1) % 3];
-        if (p.z >= near_m) grow(p);
-        if ((p.z < near_m) == (q.z < near_m)) continue;
-        Vec3d at = p + (near_m - p.z) / (q.z - p.z) * (q - p);
-        at.z = near_m;
-        grow(at);
-    }
-    lens_.tiles_of(x0, x1, y0, y1, range);
-    return true;
-}
-
-// Edges are planes through the camera: no corner is ever divided by its depth.
-void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,
-                                  TriangleSetup& setup) const {
-    const std::array<Vec3d, 3> p = corners_camera_m(placed, triangle);
-    const LensTiles::View view = lens_.view(x_px, y_px);
-    const double volume = dot(p[0], cross(p[1], p[2]));
-    setup.count = 1;
-    setup.x0[0] = setup.y0[0] = 0;
-    setup.y1[0] = kVisibilityTile_px - 1;
-    setup.x1[0] = volume == 0 ? -1 : kVisibilityTile_px - 1;
-    setup.min_depth[0] = -1, setup.max_depth[0] = 1e30f;
-    setup.id[0] = static_cast<std::uint32_t>(placed.first_triangle) +
-                  (placed.ids.empty() ? triangle : placed.ids[triangle]);
-    if (volume == 0) return;
-    Vec3d sum;
-    for (std::size_t i = 0; i < 3; ++i) {
-        // Shares of the corners, times a ray's depth.
-        const Vec3d edge = cross(p[(i + 1) % 3], p[(i + 2) % 3]) / volume;
-        sum = sum + edge;
-        const Vec3d plane{dot(edge, view.right), dot(edge, view.down), dot(edge, view.corner)};
-        const double greatest = std::max({std::abs(plane.x), std::abs(plane.y), std::abs(plane.z), 1e-300});
-        setup.a[i][0] = static_cast<float>(plane.x / greatest);
-        setup.b[i][0] = static_cast<float>(plane.y / greatest);
-        setup.c[i][0] = static_cast<float>(plane.z / greatest) + 0.0f;
-        setup.flip[i][0] = 0x80000000u;
-    }
-    setup.depth_x[0] = static_cast<float>(depth_origin_m_ * dot(sum, view.right));
-    setup.depth_y[0] = static_cast<float>(depth_origin_m_ * dot(sum, view.down));
-    setup.depth[0] = static_cast<float>(depth_origin_m_ * dot(sum, view.corner) - 1);
 }
 
 bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
@@ -335,6 +315,29 @@ void VisibilityBuffer::prefetch_shading_points(std::uint32_t block) const {
             __builtin_prefetch(&vertices_[placed.first_vertex + corner]);
 }
 
+// Makes a block's triangles ready for a tile.
+void VisibilityBuffer::set_up(std::uint32_t block, int x_px, int y_px, TriangleSetup& setup) const {
+    const BlockHead& head = heads_[block];
+    const Placed& placed = placed_[head.placed];
+    const auto& triangles = blocks_[block].triangles;
+    const InCamera upper = rolling_ ? in_camera(placed, rows_->upper_edge(y_px)) : placed.in_camera,
+                   lower = rolling_ ? in_camera(placed, rows_->lower_edge(y_px)) : placed.in_camera;
+    const auto first = static_cast<std::uint32_t>(placed.first_triangle);
+    if (head.cut) {
+        const std::uint32_t number = triangles[0];
+        return set_up_cut({corners_m(placed, upper, number), corners_m(placed, lower, number),
+                           first + (placed.ids.empty() ? number : placed.ids[number]), depth_origin_m_},
+                          lens_.view(x_px, y_px), setup);
+    }
+    const ScreenMesh mesh{&vertices_[placed.first_vertex], placed.drawn.triangles.data(), first,
+                          placed.ids.empty() ? nullptr : placed.ids.data()};
+    const TileLens* const lens = lens_.forward(x_px, y_px);
+    if (!rolling_) return set_up_triangles(mesh, triangles, head.count, x_px, y_px, lens, setup);
+    set_up_rolling_triangles(
+        {mesh, placed.drawn.vertices_m.data(), projection(placed, upper), projection(placed, lower)},
+        triangles, head.count, x_px, y_px, lens, setup);
+}
+
 // Fills blocks from near to far, so that what is hidden is found to be so before it is looked at.
 void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px,
                                    VisibilityTile& tile) const {
@@ -359,15 +362,7 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
         const BlockHead& head = heads_[block];
         if (nearest <= *std::min_element(tile.farthest.begin(), tile.farthest.end())) break;
         ask_for_corners(i + kCornersAhead), ask_for_vertices(i + kVerticesAhead);
-        const Placed& placed = placed_[head.placed];
-        if (head.cut)
-            set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);
-        else
-            set_up_triangles({&vertices_[placed.first_vertex], placed.drawn.triangles.data(),
-                              static_cast<std::uint32_t>(placed.first_triangle),
-                              placed.ids.empty() ? nullptr : placed.ids.data()},
-                             blocks_[block].triangles, head.count, x_px, y_px, lens_.forward(x_px, y_px),
-                             setup);
+        set_up(block, x_px, y_px, setup);
         fill_tile(setup, tile);
         filled += head.count;
         if (filled < kTriangles) continue;
@@ -379,8 +374,9 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
 Vec3d VisibilityBuffer::direction(int x_px, int y_px, Vec2f within_px) const {
     const int left = x_px / kVisibilityTile_px * kVisibilityTile_px,
               top = y_px / kVisibilityTile_px * kVisibilityTile_px;
-    return world_from_camera_ * lens_.view(left, top).at(x_px - left + static_cast<double>(within_px.x),
-                                                         y_px - top + static_cast<double>(within_px.y));
+    const Mat3d& world_from_camera = rolling_ ? rows_->of_row(y_px).world_from_camera : world_from_camera_;
+    return world_from_camera * lens_.view(left, top).at(x_px - left + static_cast<double>(within_px.x),
+                                                        y_px - top + static_cast<double>(within_px.y));
 }
 
 VisibilityBuffer::Seen VisibilityBuffer::seen(std::uint32_t id) const {

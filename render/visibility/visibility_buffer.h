@@ -4,8 +4,10 @@
 // in each tile (lens_tiles.h). Triangles are projected and sorted into tiles of the screen once a frame;
 // tiles are filled one by one, when they are shaded.
 //
-// Not modelled: rows of different instants, fisheyes, lenses that bend much within a tile (takes()). Such
-// frames are for rays, and so is a frame that shows more triangles than there is memory for: place() says no.
+// The rows of a rolling shutter each see the world from the camera's pose at their own instant (row_poses.h, rolling_raster.h).
+//
+// Not modelled: line scanners, fisheyes, lenses that bend much within a tile (takes()). Such frames are for rays, and so is a frame
+// that shows more triangles than there is memory for, or whose rows see what moves fast: place() says no.
 //
 // Precision: places on the screen are good to a thousandth of a pixel, also of objects that are far against
 // their size; depth to a few 1e-7 of the distance, or of the object where that is smaller. A triangle through
@@ -15,11 +17,15 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "render/scene/embree_scene.h"
+#include "render/visibility/cut_triangles.h"
 #include "render/visibility/lens_tiles.h"
+#include "render/visibility/row_poses.h"
+#include "render/visibility/screen_projections.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/visibility/visibility_tile.h"
 #include "render/vocabulary/image_geometry.h"
@@ -35,7 +41,11 @@ class VisibilityBuffer {
     // The most that a frame may show.
     struct Capacity {
         std::size_t objects = 0, vertices = 0, triangles = 0;
+        bool rows = false;  // its rows may be of several instants
     };
+    // A frame whose rows are of several instants shows nothing that moves by more from one row to the next: what it sees at the upper and
+    // lower border of a row of pixels is off by half of that [px].
+    static constexpr float kMaxRowSpeed_px = 0.25f;
     static bool takes(const ImageGeometry& geometry) { return LensTiles::takes(geometry); }
     // Owner thread. The geometry is one that it takes.
     VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity);
@@ -60,8 +70,10 @@ class VisibilityBuffer {
         // All that may be seen of it (potentially_visible_sets.h), likewise: the rest is not looked at. Null: all of it may be.
         const PotentiallyVisibleSet* visible = nullptr;
     };
-    // Sorts the triangles of a frame. False: there is no room for them. Loop.
-    bool place(const Pose& camera, std::span<const Shown> shown);
+    // Sorts the triangles of a frame. rows: how the camera moves between rows, each of which is rows_px of the buffer's; null: all
+    // are one instant. False: there is no room for the triangles, or they move too fast. Loop.
+    bool place(const Pose& camera, std::span<const Shown> shown, const RowMotion* rows = nullptr,
+               int rows_px = 1);
 
     // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. False:
     // nothing. Loop, any thread.
@@ -76,6 +88,8 @@ class VisibilityBuffer {
 
     // Returns the direction through a place in a pixel, as its tile has it; world axes, of any length.
     Vec3d direction(int x_px, int y_px, Vec2f within_px) const;
+    // Returns the way of the camera, from its place at the frame's time to where it is when a row is read.
+    Vec3d moved_m(int y_px) const { return rolling_ ? rows_->of_row(y_px).moved_m : Vec3d{}; }
 
     // The triangle for which an id of a tile stands.
     struct Seen {
@@ -111,8 +125,9 @@ class VisibilityBuffer {
         std::span<const std::uint32_t> ids;
         std::size_t first_vertex, first_drawn;
         std::size_t first_triangle;  // id of the whole mesh' first
-        Mat3d camera_from_body;
-        Vec3d origin_camera_m;
+        Mat3d world_from_body;
+        Vec3d offset_m;      // from the camera, world axes
+        InCamera in_camera;  // at the frame's time
         ScreenProjection projection;
         // The picture's edges and the camera's plane, body axes: a place is within where along * place + offset_m is not below zero.
         struct Plane {
@@ -136,15 +151,19 @@ class VisibilityBuffer {
     std::vector<Block> blocks_;
     std::vector<BlockHead> heads_;
     std::atomic<std::uint32_t> used_{1};
+    bool rolling_ = false;          // rows are of several instants
+    std::optional<RowPoses> rows_;  // those instants
+    float margin_px_ = 0;           // vertices may be beside their places then
 
     bool take(const Pose& camera, std::span<const Shown> shown);
-    void project();
+    bool project();
+    ScreenProjection projection(const Placed& placed, const InCamera& at) const;
+    static InCamera in_camera(const Placed& placed, const RowPoses::At& at);
+    float roll(const Placed& placed, std::span<const Vec3f> vertices_m, ScreenVertex* out) const;
     std::array<Placed::Plane, 5> planes_of(const Mat3d& camera_from_body, Vec3d origin_camera_m) const;
-    static bool may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m);
-    std::array<Vec3d, 3> corners_camera_m(const Placed& placed, std::uint32_t triangle) const;
-    bool bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const;
-    void set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,
-                    TriangleSetup& setup) const;
+    bool may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const;
+    static CornersInCamera corners_m(const Placed& placed, const InCamera& at, std::uint32_t triangle);
+    void set_up(std::uint32_t block, int x_px, int y_px, TriangleSetup& setup) const;
     // They ask for memory that a block of triangles needs soon: first where its corners are, then those.
     void prefetch_corners(std::uint32_t block) const;
     void prefetch_shading_points(std::uint32_t block) const;

@@ -26,9 +26,9 @@ struct ScreenProjection {
 };
 
 // A vertex on the screen [padded px]. x is NaN where a vertex is not before the camera, or far beside the
-// picture.
+// picture. speed: how far it moves from one row to the next, where rows are of several instants [px]; else 0.
 struct alignas(16) ScreenVertex {
-    float x, y, depth, unused;
+    float x, y, depth, speed;
 };
 void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
                       ScreenVertex* out);

@@ -54,7 +54,7 @@ ONLY_IN = {
     "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp", "render/shading/cluster_packet.cpp",
             "render/lod/coverage_map_sums.cpp", "render/ground_shading/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
             "render/visibility/lane_vectors-inl.h", "render/visibility/sixteen_lanes-inl.h",
-            "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp",
+            "render/visibility/rolling_raster.cpp", "render/visibility/triangle_lanes-inl.h", "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp",
             "sensor/convolution/moment_rows.cpp", "sensor/convolution/point_tables.cpp"},
     "gdal": GDAL_FILES,
     "ogr_": GDAL_FILES,
