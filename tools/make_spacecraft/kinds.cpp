@@ -11,8 +11,6 @@
 namespace spacecraft {
 namespace {
 
-constexpr double kPi = hilcam::kPi;
-
 Vec3d around(double angle_rad, double radius_m, double z_m) {
     return {radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), z_m};
 }
@@ -26,8 +24,8 @@ std::vector<Patch> telescope(std::uint32_t seed) {
     add_dish(p, {"mirror", "osr", "cfrp", Placement({0, 0, -0.5}), 1.1, 3.5, 2});
     add_cylinder(p, "secondary", "black_anodised", Placement({0, 0, 3.2}), 0.18, 0.3, 0.2);
     for (int i = 0; i < 4; ++i)
-        p.push_back(tube("secondary", "black_anodised", around(i * kPi / 2, 0.15, 3.35),
-                         around(i * kPi / 2, 1.17, 3.35), 0.02, 0.05));
+        p.push_back(tube("secondary", "black_anodised", around(i * hilcam::kPi / 2, 0.15, 3.35),
+                         around(i * hilcam::kPi / 2, 1.17, 3.35), 0.02, 0.05));
     add_cylinder(p, "equipment", "mli_silvered", Placement({0, 0, -2.6}), 1.55, 1.7, 2);
     const Placement door({0, -1.25, 4.55}, {1, 0, 0}, {0, -0.34, 0.94});
     add_box(p, "door", "aluminium_bare", {door({0, 1.25, 0}), door.x, door.y}, {2.3, 2.4, 0.04}, 0.05);
@@ -101,10 +99,11 @@ std::vector<Patch> station(std::uint32_t seed) {
                 sheet("radiators", "white_paint", {x * 1.2, y * 8 - 1.5, -1.2}, {0, 3, 0}, {0, 0, 5}, 0.1));
         }
     for (int i = 0; i < 6; ++i) {
-        const double a = i * kPi / 3;
+        const double a = i * hilcam::kPi / 3;
         p.push_back(tube("handrails", "anodised_clear", around(a, 2.2, -6), around(a, 2.2, 0), 0.04, 0.1));
-        p.push_back(blanket("shields", "mli_kapton", around(a, 2.16, -6.5), around(a + kPi / 2, 1.2, 0),
-                            {0, 0, 2.5}, 0.3, seed + static_cast<std::uint32_t>(3 * i)));
+        p.push_back(blanket("shields", "mli_kapton", around(a, 2.16, -6.5),
+                            around(a + hilcam::kPi / 2, 1.2, 0), {0, 0, 2.5}, 0.3,
+                            seed + static_cast<std::uint32_t>(3 * i)));
     }
     add_dish(
         p, {"antenna", "white_paint", "white_paint", {{0, 2.6, 5.5}, {1, 0, 0}, {0, 0, -1}}, 0.9, 0.7, 0.6});
@@ -116,7 +115,7 @@ std::vector<Patch> lander(std::uint32_t seed) {
     add_foil_box(p, "body", "mli_kapton", {0, 0, 0.4}, {2.2, 2.2, 0.9}, 1.6, seed);
     add_box(p, "deck", "aluminium_bare", Placement({0, 0, 0.93}), {2.0, 2.0, 0.08}, 0.3);
     for (int i = 0; i < 4; ++i) {
-        const double a = kPi / 4 + i * kPi / 2;
+        const double a = hilcam::kPi / 4 + i * hilcam::kPi / 2;
         const Vec3d foot = around(a, 2.6, -1.5);
         p.push_back(tube("legs", "aluminium_bare", around(a, 1.45, 0.6), foot, 0.06, 0.3));
         for (const double side : {-0.35, 0.35})
@@ -127,7 +126,7 @@ std::vector<Patch> lander(std::uint32_t seed) {
         p.push_back(revolution(
             "tanks", i % 2 == 0 ? "aluminium_bare" : "mli_silvered", tank,
             [](double t) -> std::array<double, 2> {
-                return {0.34 * std::sin(kPi * t), -0.34 * std::cos(kPi * t)};
+                return {0.34 * std::sin(hilcam::kPi * t), -0.34 * std::cos(hilcam::kPi * t)};
             },
             24, 12, 1));
     }
@@ -193,7 +192,7 @@ std::vector<Patch> dish(std::uint32_t seed) {
     std::vector<Patch> p;
     add_dish(p, {"reflector", "gold", "mli_silvered", Placement({0, 0, 0}), 3, 2.4, 8});
     for (int i = 0; i < 3; ++i) {
-        const double a = i * 2 * kPi / 3;
+        const double a = i * 2 * hilcam::kPi / 3;
         p.push_back(tube("tripod", "cfrp", around(a, 2.95, 0.9), around(a, 0.2, 2.3), 0.04, 0.2));
     }
     add_shell(p, {"feed",
@@ -207,7 +206,7 @@ std::vector<Patch> dish(std::uint32_t seed) {
                   1});
     add_cylinder(p, "feed", "mli_kapton", Placement({0, 0, 2.7}), 0.3, 0.4, 0.5);
     for (int i = 0; i < 8; ++i) {
-        const double a = i * kPi / 4;
+        const double a = i * hilcam::kPi / 4;
         p.push_back(tube("ribs", "aluminium_bare", around(a, 0.4, -0.12), around(a, 2.9, 0.75), 0.05, 0.2));
     }
     add_foil_box(p, "body", "mli_kapton", {0, 0, -1.1}, {1.4, 1.4, 1.6}, 1.5, seed);
