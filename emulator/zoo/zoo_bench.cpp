@@ -136,6 +136,7 @@ class MemberBench {
           panned_(panned(scenario_, pan_px_of(best_))),
           shots_(zoo_shots(scenario_, camera_.camera(), options.all_views)) {
         member_.name = entry.name;
+        member_.scenario = entry.source.file.string(), member_.overrides = entry.source.overrides;
         member_.width_px = scenario_.camera.width_px, member_.height_px = scenario_.camera.height_px;
     }
 
@@ -162,6 +163,7 @@ class MemberBench {
         out.centroid_px = errors.centroid_px, out.photometric_fraction = errors.photometric_fraction;
         out.core_ms = pictures.core_ms;
         out.name = shot.name;
+        out.overrides = overrides_of_shot(scenario_, shot);
         out.reference_frames = reference.frames, out.reference_seconds = reference.seconds;
         add(out, member_.all);
         return out;

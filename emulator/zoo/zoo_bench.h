@@ -49,12 +49,15 @@ struct ZooFigures {
 
 struct ZooViewFigures : ZooFigures {
     std::string name;
+    std::vector<std::string> overrides;  // KEY=VALUE with which `hilcam render` shows it
     int reference_frames = 0;
     double reference_seconds = 0;
 };
 
 struct ZooMember {
     std::string name;
+    std::string scenario;                // its file
+    std::vector<std::string> overrides;  // KEY=VALUE that the zoo has in place of the file's
     std::int64_t width_px = 0, height_px = 0;
     std::vector<ZooViewFigures> views;
     ZooFigures all;

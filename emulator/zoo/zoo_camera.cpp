@@ -5,6 +5,7 @@
 #include "emulator/bench/pilot.h"
 #include "emulator/run/truth_source.h"
 #include "emulator/zoo/surface_blocks.h"
+#include "render/vocabulary/units.h"
 #include "sensor/published_frame.h"
 
 namespace hilcam {
@@ -79,6 +80,28 @@ ScenarioConfig scenario_of_shot(const ScenarioConfig& scenario, const ZooShot& s
     PoseConfig& target = out.objects.front().pose;
     target = pose_of(target, target.position_m, shot.stand->world_from_target);
     out.objects.front().has_pose = true;
+    return out;
+}
+
+std::vector<std::string> overrides_of_shot(const ScenarioConfig& scenario, const ZooShot& shot) {
+    const auto pose_text = [](Vec3d p, Quat q) {
+        return fmt::format("position_m: [{}, {}, {}], attitude_wxyz: [{}, {}, {}, {}]", p.x, p.y, p.z, q.w,
+                           q.x, q.y, q.z);
+    };
+    std::vector<std::string> out;
+    if (shot.exposure_factor != 1)
+        out.push_back(
+            fmt::format("camera.exposure_ms={}", 1e3 * scenario.camera.exposure_s * shot.exposure_factor));
+    const std::optional<Pose> camera = shot.stand ? std::optional(shot.stand->camera) : shot.camera_body;
+    if (camera)
+        out.push_back(
+            fmt::format("camera_pose={{{}}}", pose_text(camera->position_world_m, camera->world_from_body)));
+    if (!shot.stand) return out;
+    const PoseConfig& own = scenario.objects.front().pose;
+    const Vec3d rate_deg_s = own.rate_body_rad_s / kDegree_rad;
+    out.push_back(fmt::format("objects.0.pose={{{}, rate_deg_s: [{}, {}, {}]}}",
+                              pose_text(own.position_m, shot.stand->world_from_target), rate_deg_s.x,
+                              rate_deg_s.y, rate_deg_s.z));
     return out;
 }
 

@@ -39,6 +39,8 @@ class ZooCamera {
 };
 // Returns the scenario as a shot has it.
 ScenarioConfig scenario_of_shot(const ScenarioConfig& scenario, const ZooShot& shot);
+// Returns what --set must replace for `hilcam render` to show the shot: KEY=VALUE.
+std::vector<std::string> overrides_of_shot(const ScenarioConfig& scenario, const ZooShot& shot);
 
 // The surface that a camera sees, its places on the read-out array; none where frames have other pixels than that: binning.
 // camera: as it stands.

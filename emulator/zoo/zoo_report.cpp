@@ -75,10 +75,13 @@ json member_json(const ZooMember& member) {
     for (const ZooViewFigures& view : member.views) {
         json one = figures_json(view);
         one["view"] = view.name;
+        one["set"] = view.overrides;
         one["reference"] = {{"frames", view.reference_frames}, {"seconds", view.reference_seconds}};
         views.push_back(std::move(one));
     }
     return {{"name", member.name},
+            {"scenario", member.scenario},
+            {"set", member.overrides},
             {"width", member.width_px},
             {"height", member.height_px},
             {"views", std::move(views)},

@@ -35,6 +35,26 @@ TEST(ZooShots, ATargetThatStandsStillIsTurnedAndTheLightHasItsPhase) {
     EXPECT_GT(scenario_of_shot(scenario, shots[1]).camera.exposure_s, 5 * scenario.camera.exposure_s);
 }
 
+TEST(ZooShots, WhatToSetShowsTheSameView) {
+    const ScenarioConfig scenario = small_scene();
+    ZooCamera camera(scenario);
+    const ZooShot shot = zoo_shots(scenario, camera.camera(), false)[1];
+    camera.take(shot);
+    const ScenarioConfig set = small_scene(overrides_of_shot(scenario, shot));
+    EXPECT_NEAR(set.camera.exposure_s, camera.shown().camera.exposure_s, 1e-15);
+    const StillCamera again(set);
+    const WorldSnapshot &a = again.world(), &b = camera.camera().world();
+    EXPECT_NEAR(length(a.camera.position_world_m - b.camera.position_world_m), 0, 1e-9);
+    for (const Vec3d axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}) {
+        EXPECT_NEAR(
+            length(to_matrix(a.camera.world_from_body) * axis - to_matrix(b.camera.world_from_body) * axis),
+            0, 1e-9);
+        EXPECT_NEAR(length(to_matrix(a.objects[0].world_from_body) * axis -
+                           to_matrix(b.objects[0].world_from_body) * axis),
+                    0, 1e-9);
+    }
+}
+
 TEST(ZooShots, WhatHasLampsKeepsItsPosesAndIsFlownAround) {
     const ScenarioConfig scenario =
         small_scene({"lamps=[{name: flood, position_m: [0.1, 0, 0], intensity_w_sr: 100}]"});
