@@ -114,7 +114,8 @@ bool read_reference(CacheReader& in, const std::string& key, std::optional<ZooRe
 }  // namespace
 
 std::vector<std::string> zoo_reference_overrides() {
-    return {"quality.oversampling=4", "quality.samples_per_axis=1"};
+    return {"quality.visibility=rays", "quality.oversampling=4", "quality.samples_per_axis=1",
+            "quality.guard_px=28"};
 }
 
 double pan_px_of(const ScenarioConfig& reference) {

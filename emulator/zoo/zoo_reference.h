@@ -29,7 +29,8 @@ struct ZooReference {
     double seconds = 0;  // that it took
 };
 
-// KEY=VALUE beside reference_overrides(): one ray a radiance pixel, of which a pixel has 4 x 4.
+// KEY=VALUE beside reference_overrides(): one ray a radiance pixel, of which a pixel has 4 x 4, and the guard band of the shipped
+// qualities: what shines just beside the picture, the Sun above all, must shine into both or into none.
 std::vector<std::string> zoo_reference_overrides();
 // The pan of a reference at these settings [px]; 0 where its radiance image is as coarse as the picture.
 double pan_px_of(const ScenarioConfig& reference);
