@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/median.h"
 #include "sensor/convolution/convolve.h"
 #include "sensor/convolution/fourier.h"
 
@@ -13,6 +14,8 @@ namespace hilcam {
 namespace {
 
 constexpr int kLongest_px = kGridPeriods_px.back();
+// A reference has few pixels that are off by far more than the others; they would have all the energy.
+constexpr double kMostOfMedian = 4;
 
 // Returns the side of a square that holds the picture, a multiple of the longest period so that each has a
 // frequency of its own.
@@ -26,21 +29,23 @@ int side_for(int width, int height) {
 std::vector<std::complex<float>> steps_of(const MaskedValues& error, bool along_x, std::size_t side) {
     std::vector<std::complex<float>> steps(side * side);
     std::vector<std::size_t> places;
-    double sum = 0;
+    std::vector<double> sizes;
     const auto width = static_cast<std::size_t>(error.width), height = static_cast<std::size_t>(error.height);
     const std::size_t next = along_x ? 1 : width;
     for (std::size_t y = 0; y + (along_x ? 0 : 1) < height; ++y)
         for (std::size_t x = 0; x + (along_x ? 1 : 0) < width; ++x) {
             const std::size_t i = y * width + x;
             if (error.counts[i] == 0 || error.counts[i + next] == 0) continue;
-            const float step = std::abs(error.values[i + next] - error.values[i]);
-            steps[y * side + x] = step;
-            sum += static_cast<double>(step);
+            sizes.push_back(
+                std::abs(static_cast<double>(error.values[i + next]) - static_cast<double>(error.values[i])));
             places.push_back(y * side + x);
         }
     if (places.empty()) return steps;
-    const auto mean = static_cast<float>(sum / static_cast<double>(places.size()));
-    for (const std::size_t place : places) steps[place] -= mean;
+    const double most = kMostOfMedian * median(sizes);
+    double sum = 0;
+    for (double& step : sizes) step = std::min(step, most), sum += step;
+    const double mean = sum / static_cast<double>(places.size());
+    for (std::size_t k = 0; k < places.size(); ++k) steps[places[k]] = static_cast<float>(sizes[k] - mean);
     return steps;
 }
 

@@ -69,6 +69,13 @@ TEST(GridEnergy, BarsAlongRowsAreSeenWhereverTheyBegin) {
     EXPECT_GT(energy_of(columns).ratio(0), 30);
 }
 
+// One pixel of two hundred is off by a hundred times the rest, as fireflies of a reference are.
+TEST(GridEnergy, FewPixelsThatAreFarOffDoNotDrownThePattern) {
+    const GridEnergy energy = energy_of(
+        [](int x, int y) { return any(1, x, y) + any(2, x / 8, y / 8) + (any(3, x, y) > 0.495 ? 100 : 0); });
+    EXPECT_GT(energy.ratio(0), 30);
+}
+
 TEST(GridEnergy, AChessboardIsSeen) {
     const GridEnergy energy =
         energy_of([](int x, int y) { return any(1, x, y) + ((x / 8 + y / 8) % 2 == 0 ? 0.2 : -0.2); });
