@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kSide = 320;
+constexpr int kGridSide = 320;
 
 // Numbers without any order, between -1/2 and 1/2, by a place and a draw.
 double any(std::uint64_t draw, int x, int y) {
@@ -28,12 +28,12 @@ GridEnergy energy_of(
     const std::function<bool(int x, int y)>& counts = [](int, int) { return true; }) {
     std::vector<float> values;
     std::vector<std::uint8_t> mask;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kGridSide; ++y)
+        for (int x = 0; x < kGridSide; ++x) {
             values.push_back(static_cast<float>(value(x, y)));
             mask.push_back(counts(x, y) ? 1 : 0);
         }
-    return grid_energy({kSide, kSide, values, mask});
+    return grid_energy({kGridSide, kGridSide, values, mask});
 }
 
 // A power of a white picture is distributed as an exponential one. The ratio's numerator has six of them, its

@@ -9,10 +9,10 @@
 namespace hilcam {
 namespace {
 
-constexpr int kSide = 32;
+constexpr int kPlateSide = 32;
 
-ElectronImage even(double charge_e) {
-    ElectronImage image(kSide, kSide);
+ElectronImage even_plate(double charge_e) {
+    ElectronImage image(kPlateSide, kPlateSide);
     for (float& e : image.all()) e = static_cast<float>(charge_e);
     return image;
 }
@@ -20,8 +20,9 @@ ElectronImage even(double charge_e) {
 // A camera right above a plate of 1 mm pixels, 1 m away, that fills columns and rows from `first` to `last`.
 TruthLayers plate(int first, int last) {
     TruthLayers layers;
-    layers.object = IdImage(kSide, kSide), layers.part = IdImage(kSide, kSide);
-    layers.normal = DirectionImage(kSide, kSide, 3), layers.position_m = LengthImage(kSide, kSide, 3);
+    layers.object = IdImage(kPlateSide, kPlateSide), layers.part = IdImage(kPlateSide, kPlateSide);
+    layers.normal = DirectionImage(kPlateSide, kPlateSide, 3),
+    layers.position_m = LengthImage(kPlateSide, kPlateSide, 3);
     for (int y = first; y <= last; ++y)
         for (int x = first; x <= last; ++x) {
             const auto i = static_cast<std::size_t>(x);
@@ -83,11 +84,13 @@ class Blocks : public testing::Test {
     Blocks() {
         camera_.read_noise_e = 10, camera_.gain_dn_e = 1;
         camera_.has_gain_dn_e = true;
-        surface_.width = surface_.height = kSide;
-        surface_.smooth.assign(kSide * kSide, 1), surface_.near_object.assign(kSide * kSide, 1);
+        surface_.width = surface_.height = kPlateSide;
+        surface_.smooth.assign(kPlateSide * kPlateSide, 1),
+            surface_.near_object.assign(kPlateSide * kPlateSide, 1);
     }
     BlockCounts counts(const ElectronImage& picture, const ElectronImage& reference, double error_e) const {
-        return block_counts(picture, {reference, even(20), even(error_e)}, surface_, SensorNoise(camera_, 0));
+        return block_counts(picture, {reference, even_plate(20), even_plate(error_e)}, surface_,
+                            SensorNoise(camera_, 0));
     }
     CameraModel camera_;
     SurfacePixels surface_;
@@ -95,10 +98,10 @@ class Blocks : public testing::Test {
 
 // 64 blocks, the k-th of them off by k per cent: 54 by more than ten and a half per cent, 39 by more than 25.
 TEST_F(Blocks, AreCountedByHowFarTheirLightIsOff) {
-    const ElectronImage reference = even(1020);
-    ElectronImage picture = even(1020);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
+    const ElectronImage reference = even_plate(1020);
+    ElectronImage picture = even_plate(1020);
+    for (int y = 0; y < kPlateSide; ++y)
+        for (int x = 0; x < kPlateSide; ++x) {
             const int k = y / 4 * 8 + x / 4;
             // Within a block half the pixels are off by more than its mean, half by less.
             const double off_e = 10 * (k + 0.5) + (x % 2 == 0 ? 200 : -200);
@@ -113,8 +116,8 @@ TEST_F(Blocks, AreCountedByHowFarTheirLightIsOff) {
 
 // The error of a block's sum is 4 times a pixel's: a fortieth of 16 x 1000 e- is 100 e- a pixel.
 TEST_F(Blocks, WhatTheReferenceDoesNotKnowIsNotJudged) {
-    EXPECT_EQ(counts(even(1200), even(1020), 99).judged, 64u);
-    const BlockCounts unknown = counts(even(1200), even(1020), 101);
+    EXPECT_EQ(counts(even_plate(1200), even_plate(1020), 99).judged, 64u);
+    const BlockCounts unknown = counts(even_plate(1200), even_plate(1020), 101);
     EXPECT_EQ(unknown.judged, 0u);
     EXPECT_EQ(unknown.unknown, 64u);
     EXPECT_EQ(unknown.over_10, 0u);
@@ -122,10 +125,10 @@ TEST_F(Blocks, WhatTheReferenceDoesNotKnowIsNotJudged) {
 
 TEST_F(Blocks, OnlyLitSmoothSurfaceCounts) {
     // Five times the noise in the dark, sqrt(20 + 100 + 1/12) = 10.96 e-, is 54.8 e- of light.
-    EXPECT_EQ(counts(even(200), even(20 + 54), 0).judged, 0u);
-    EXPECT_EQ(counts(even(200), even(20 + 56), 0).judged, 64u);
-    surface_.smooth[5 * kSide + 9] = 0;
-    EXPECT_EQ(counts(even(200), even(1020), 0).judged, 63u);
+    EXPECT_EQ(counts(even_plate(200), even_plate(20 + 54), 0).judged, 0u);
+    EXPECT_EQ(counts(even_plate(200), even_plate(20 + 56), 0).judged, 64u);
+    surface_.smooth[5 * kPlateSide + 9] = 0;
+    EXPECT_EQ(counts(even_plate(200), even_plate(1020), 0).judged, 63u);
 }
 
 }  // namespace

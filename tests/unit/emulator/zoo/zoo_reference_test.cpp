@@ -10,13 +10,13 @@
 namespace hilcam {
 namespace {
 
-const std::string kKey = "a key\n";
+const std::string kZooKey = "a key\n";
 
 class ZooReferenceCache : public FilesTest {
   protected:
     Cache cache() const { return Cache(folder_); }
-    std::filesystem::path file() const { return folder_ / zoo_reference_name(kKey); }
-    bool is_kept() const { return kept_zoo_reference(cache(), kKey).has_value(); }
+    std::filesystem::path file() const { return folder_ / zoo_reference_name(kZooKey); }
+    bool is_kept() const { return kept_zoo_reference(cache(), kZooKey).has_value(); }
 
     static ZooReference reference() {
         ZooReference r;
@@ -34,8 +34,8 @@ class ZooReferenceCache : public FilesTest {
 TEST_F(ZooReferenceCache, ComesBackBitByBit) {
     EXPECT_FALSE(is_kept());
     const ZooReference given = reference();
-    keep_zoo_reference(cache(), kKey, given);
-    const auto kept = kept_zoo_reference(cache(), kKey);
+    keep_zoo_reference(cache(), kZooKey, given);
+    const auto kept = kept_zoo_reference(cache(), kZooKey);
     ASSERT_TRUE(kept);
     const auto same = [](const ElectronImage& a, const ElectronImage& b) {
         return a.width() == b.width() && a.height() == b.height() &&
@@ -51,10 +51,10 @@ TEST_F(ZooReferenceCache, ComesBackBitByBit) {
 }
 
 TEST_F(ZooReferenceCache, NothingDamagedOrForeignIsTaken) {
-    keep_zoo_reference(cache(), kKey, reference());
+    keep_zoo_reference(cache(), kZooKey, reference());
     const auto whole = static_cast<std::streamoff>(std::filesystem::file_size(file()));
     for (std::streamoff at = 0; at < whole; at += 5) {
-        keep_zoo_reference(cache(), kKey, reference());
+        keep_zoo_reference(cache(), kZooKey, reference());
         std::fstream bytes(file(), std::ios::in | std::ios::out | std::ios::binary);
         char byte = 0;
         bytes.seekg(at).get(byte);
@@ -62,10 +62,10 @@ TEST_F(ZooReferenceCache, NothingDamagedOrForeignIsTaken) {
         bytes.close();
         EXPECT_FALSE(is_kept()) << at;
     }
-    keep_zoo_reference(cache(), kKey, reference());
+    keep_zoo_reference(cache(), kZooKey, reference());
     std::filesystem::resize_file(file(), static_cast<std::uintmax_t>(whole - 4));
     EXPECT_FALSE(is_kept());
-    keep_zoo_reference(cache(), kKey, reference());
+    keep_zoo_reference(cache(), kZooKey, reference());
     EXPECT_TRUE(is_kept());
     std::filesystem::rename(file(), folder_ / zoo_reference_name("another key\n"));
     EXPECT_FALSE(kept_zoo_reference(cache(), "another key\n"));
