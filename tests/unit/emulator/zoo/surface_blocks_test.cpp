@@ -18,7 +18,7 @@ ElectronImage even_plate(double charge_e) {
 }
 
 // A camera right above a plate of 1 mm pixels, 1 m away, that fills columns and rows from `first` to `last`.
-TruthLayers plate(int first, int last) {
+TruthLayers flat_plate(int first, int last) {
     TruthLayers layers;
     layers.object = IdImage(kPlateSide, kPlateSide), layers.part = IdImage(kPlateSide, kPlateSide);
     layers.normal = DirectionImage(kPlateSide, kPlateSide, 3),
@@ -42,17 +42,17 @@ std::size_t smooth_px(const SurfacePixels& surface) {
 }
 
 TEST(SurfacePixels, APlateIsSmoothInsideItsRim) {
-    const SurfacePixels surface = surface_pixels(plate(4, 27));
+    const SurfacePixels surface = surface_pixels(flat_plate(4, 27));
     EXPECT_EQ(smooth_px(surface), 22u * 22u);
     EXPECT_TRUE(surface.is_smooth(5, 5));
     EXPECT_FALSE(surface.is_smooth(4, 10));
     EXPECT_TRUE(surface.is_near(0, 10));  // four columns beside it
-    EXPECT_FALSE(surface_pixels(plate(16, 20)).is_near(7, 16));
+    EXPECT_FALSE(surface_pixels(flat_plate(16, 20)).is_near(7, 16));
 }
 
 TEST(SurfacePixels, FoldsStepsAndOtherPartsAreNotSmooth) {
     // Each of these spoils columns 15 and 16 of the 22.
-    TruthLayers folded = plate(4, 27), stepped = plate(4, 27), other = plate(4, 27);
+    TruthLayers folded = flat_plate(4, 27), stepped = flat_plate(4, 27), other = flat_plate(4, 27);
     const auto tilt = static_cast<float>(std::sin(0.3));  // 17 degrees
     for (int y = 4; y <= 27; ++y)
         for (std::size_t x = 16; x <= 27; ++x) {
@@ -65,7 +65,7 @@ TEST(SurfacePixels, FoldsStepsAndOtherPartsAreNotSmooth) {
 }
 
 TEST(SurfacePixels, ACylinderOfManyPixelsIsSmooth) {
-    TruthLayers layers = plate(4, 27);
+    TruthLayers layers = flat_plate(4, 27);
     for (int y = 4; y <= 27; ++y)
         for (int x = 4; x <= 27; ++x) {
             // Normals turn by 3 degrees a pixel.

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-ZooMember member(const std::string& name, double rms, double lights) {
+ZooMember made_member(const std::string& name, double rms, double lights) {
     ZooMember out;
     out.name = name;
     out.all.error = {2 * rms, rms, 1, 100};
@@ -22,14 +22,14 @@ ZooMember member(const std::string& name, double rms, double lights) {
     return out;
 }
 
-ZooBench zoo() {
+ZooBench made_zoo() {
     ZooBench out;
-    out.members = {member("bus", 1, 4), member("a_long_name", 3, 0), member("dish", 2, 8)};
+    out.members = {made_member("bus", 1, 4), made_member("a_long_name", 3, 0), made_member("dish", 2, 8)};
     return out;
 }
 
 TEST(ZooReport, HasALineForEachAndTheWorstAndTheMedian) {
-    std::istringstream lines(zoo_bench_text(zoo()));
+    std::istringstream lines(zoo_bench_text(made_zoo()));
     std::vector<std::vector<std::string>> rows;
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
@@ -53,7 +53,7 @@ TEST(ZooReport, HasALineForEachAndTheWorstAndTheMedian) {
 }
 
 TEST(ZooReport, JsonHasTheSameAndTheViews) {
-    const nlohmann::json told = zoo_bench_json(zoo());
+    const nlohmann::json told = zoo_bench_json(made_zoo());
     ASSERT_EQ(told["members"].size(), 3u);
     const nlohmann::json& bus = told["members"][0];
     EXPECT_EQ(bus["name"], "bus");
