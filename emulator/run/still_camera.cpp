@@ -1,10 +1,13 @@
 #include "emulator/run/still_camera.h"
 
+#include <algorithm>
+
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
 #include "emulator/world/clock.h"
+#include "render/vocabulary/check.h"
 
 namespace hilcam {
 namespace {
@@ -94,6 +97,24 @@ const RadianceImage& StillCamera::render(RandomKey key, FrameTruth* truth) {
 
 const ElectronImage& StillCamera::expose() {
     chain().expose(radiance_, points_, exposure_, electrons_, beside_);
+    return electrons_;
+}
+
+const ElectronImage& StillCamera::expose_moved(int columns) {
+    HILCAM_CHECK(columns >= 0 && columns < radiance_.width() &&
+                 (!radiance_.moments() || !radiance_.moments()->used()));
+    if (moved_.pixels() == 0) moved_ = exposures_->make_image();
+    const auto shift = static_cast<std::ptrdiff_t>(columns);
+    for (int plane = 0; plane < radiance_.planes(); ++plane)
+        for (int y = 0; y < radiance_.height(); ++y) {
+            const std::span<const float> from = radiance_.row(y, plane);
+            const std::span<float> to = moved_.row(y, plane);
+            std::fill(to.begin(), to.begin() + shift, from.front());
+            std::copy(from.begin(), from.end() - shift, to.begin() + shift);
+        }
+    moved_points_ = points_;
+    for (PointSource& point : moved_points_) point.position_px.x += static_cast<float>(columns);
+    chain().expose(moved_, moved_points_, exposure_, electrons_, beside_);
     return electrons_;
 }
 

@@ -40,6 +40,10 @@ class StillCamera {
     // chooses the light paths, and the noise.
     const RadianceImage& render(RandomKey key, FrameTruth* truth = nullptr);
     const ElectronImage& expose();
+    // The same of the picture that was rendered, moved to the right by whole columns of the radiance image: what a lens
+    // that is shifted by so much would show, but for the columns that come in from the guard band's edge. Light from beside
+    // the picture stays. Not for pictures with differences within their pixels (RadianceImage::moments).
+    const ElectronImage& expose_moved(int columns);
     const DnImage& digitise(RandomKey key);
     // Returns the part that no light makes: dark current [e-].
     ElectronImage dark();
@@ -71,8 +75,8 @@ class StillCamera {
     WorldSnapshot snapshot_;
     std::optional<WorldState> world_;
     std::optional<ExposureRenderer> exposures_;
-    RadianceImage radiance_;
-    std::vector<PointSource> points_;
+    RadianceImage radiance_, moved_;
+    std::vector<PointSource> points_, moved_points_;
     std::vector<SideLight> beside_;
     Exposure exposure_;
     std::optional<SensorChain> chain_;

@@ -13,6 +13,7 @@
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
 #include "emulator/tradeoff/error_bench.h"
+#include "emulator/zoo/zoo_bench.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -26,6 +27,8 @@ struct BenchArguments {
     SoakOptions soak;
     std::filesystem::path out;  // folder of the soak
     ErrorBenchOptions errors;
+    ZooOptions zoo;
+    int reference_frames = 0;  // 0: as each kind of measurement has it
 };
 
 void print_lines(const std::string& text, const nlohmann::json& report, bool as_json) {
@@ -43,12 +46,27 @@ int soak_and_write(const BenchArguments& o, const ScenarioConfig& scenario) {
     return 0;
 }
 
+int measure_zoo(const BenchArguments& o) {
+    ZooOptions zoo = o.zoo;
+    zoo.entries.overrides = o.config.overrides;
+    zoo.reference_set = o.errors.reference_set;
+    if (o.reference_frames > 0) zoo.reference.max_frames = o.reference_frames;
+    const ZooBench result = zoo_bench(zoo, user_cache(), log_info);
+    print_lines(zoo_bench_text(result), zoo_bench_json(result), o.json);
+    return 0;
+}
+
 int carry_out(const BenchArguments& o) {
+    if (!o.zoo.folder.empty()) return measure_zoo(o);
+    if (o.config.file.empty())
+        throw InputError("config is required: a scenario, or --zoo with a folder of them");
     const ScenarioConfig scenario = load_and_warn(o.config);
     const auto threads = limit_threads(scenario);
     if (o.error) {
+        ErrorBenchOptions errors = o.errors;
+        if (o.reference_frames > 0) errors.reference.max_frames = o.reference_frames;
         const ErrorBench result =
-            error_bench({o.config.file, o.config.overrides}, o.errors, user_cache(), log_info);
+            error_bench({o.config.file, o.config.overrides}, errors, user_cache(), log_info);
         print_lines(error_bench_text(result), error_bench_json(result), o.json);
     } else if (o.soak.seconds > 0) {
         return soak_and_write(o, scenario);
@@ -97,7 +115,30 @@ CLI::Option* add_soak_options(CLI::App* bench, BenchArguments& o) {
     return soak;
 }
 
-void add_error_options(CLI::App* bench, BenchArguments& o, CLI::Option* soak) {
+void add_zoo_options(CLI::App* bench, BenchArguments& o, CLI::Option* errors, CLI::Option* views) {
+    CLI::Option* config = bench->get_option("config")->required(false);
+    CLI::Option* zoo =
+        bench
+            ->add_option(
+                "--zoo", o.zoo.folder,
+                "with --error: measure every scenario (*.yaml) and mesh of this folder, from several "
+                "sides and distances and by several lights")
+            ->needs(errors)
+            ->excludes(config, views);
+    bench->add_option("--zoo-px", o.zoo.entries.picture_px, "with --zoo: longer side of the pictures")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str()
+        ->needs(zoo);
+    bench
+        ->add_option_function<std::string>(
+            "--zoo-views", [&o](const std::string& which) { o.zoo.all_views = which == "all"; },
+            "with --zoo: few (6 views of a member that can be turned) or all (72)")
+        ->check(CLI::IsMember({"few", "all"}))
+        ->default_str("few")
+        ->needs(zoo);
+}
+
+CLI::Option* add_error_options(CLI::App* bench, BenchArguments& o, CLI::Option* soak, CLI::Option*& views) {
     CLI::Option* errors =
         bench
             ->add_flag("--error", o.error,
@@ -105,23 +146,23 @@ void add_error_options(CLI::App* bench, BenchArguments& o, CLI::Option* soak) {
                        "which are kept in the cache folder")
             ->excludes(soak)
             ->excludes("--sensor", "--path-models", "--frames", "--runs");
-    bench->add_option("--views", o.errors.views, "with --error: number of views, evenly around")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str()
-        ->needs(errors);
+    views = bench->add_option("--views", o.errors.views, "with --error: number of views, evenly around")
+                ->check(CLI::Range(1, 1000))
+                ->capture_default_str()
+                ->needs(errors);
     bench
-        ->add_option(
-            "--reference-frames", o.errors.reference.max_frames,
-            "with --error: most frames for each view's reference; fewer are taken where its standard "
-            "error is small before")
+        ->add_option("--reference-frames", o.reference_frames,
+                     "with --error: most frames for each view's reference (default: 4, of a zoo 64 with a "
+                     "quarter of the rays); fewer "
+                     "are taken where its standard error is small before")
         ->check(power_of_two_from_4())
-        ->capture_default_str()
         ->needs(errors);
     bench
         ->add_option("--reference-set", o.errors.reference_set,
                      "with --error: KEY=VALUE replaces a value of the references; may be repeated")
         ->allow_extra_args(false)
         ->needs(errors);
+    return errors;
 }
 
 }  // namespace
@@ -140,9 +181,12 @@ void add_bench_command(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 1000000));
     bench->add_option("--runs", o->speed.runs, "number of runs, of which the median is taken")
         ->check(CLI::Range(1, 1000));
-    add_error_options(bench, *o, add_soak_options(bench, *o));
-    set_examples(bench, {"hilcam bench small", "hilcam bench geo_inspection --soak 3600 --out soak",
-                         "hilcam bench geo_inspection --error --views 4"});
+    CLI::Option* views = nullptr;
+    CLI::Option* errors = add_error_options(bench, *o, add_soak_options(bench, *o), views);
+    add_zoo_options(bench, *o, errors, views);
+    set_examples(bench,
+                 {"hilcam bench small", "hilcam bench geo_inspection --soak 3600 --out soak",
+                  "hilcam bench geo_inspection --error --views 4", "hilcam bench --error --zoo meshes"});
     when_named(bench, action, o, carry_out);
 }
 

@@ -19,14 +19,29 @@ struct Look {
 };
 // Plausible colours for viewers; a hilcam scenario replaces them by materials with reflectance curves.
 constexpr Look kLooks[] = {
-    {"mli_gold", {0.83, 0.55, 0.20}, 1, 0.35},      {"mli_silver", {0.85, 0.85, 0.85}, 1, 0.35},
-    {"mli_black", {0.03, 0.03, 0.03}, 0, 0.5},      {"tape", {0.75, 0.5, 0.2}, 1, 0.45},
-    {"white_paint", {0.8, 0.8, 0.78}, 0, 0.9},      {"osr", {0.9, 0.9, 0.92}, 1, 0.06},
-    {"aluminium", {0.78, 0.78, 0.8}, 1, 0.4},       {"nozzle", {0.12, 0.11, 0.1}, 1, 0.5},
-    {"dish_white", {0.75, 0.75, 0.73}, 0, 0.7},     {"panel_back", {0.04, 0.04, 0.04}, 0, 0.4},
-    {"cfrp", {0.05, 0.05, 0.05}, 0, 0.35},          {"solar_cell", {0.02, 0.03, 0.09}, 0, 0.12},
-    {"cell_substrate", {0.35, 0.22, 0.08}, 0, 0.6}, {"busbar", {0.8, 0.8, 0.8}, 1, 0.3},
+    {"mli_gold", {0.83, 0.55, 0.20}, 1, 0.35},
+    {"mli_silver", {0.85, 0.85, 0.85}, 1, 0.35},
+    {"mli_black", {0.03, 0.03, 0.03}, 0, 0.5},
+    {"tape", {0.75, 0.5, 0.2}, 1, 0.45},
+    {"white_paint", {0.8, 0.8, 0.78}, 0, 0.9},
+    {"osr", {0.9, 0.9, 0.92}, 1, 0.06},
+    {"aluminium", {0.78, 0.78, 0.8}, 1, 0.4},
+    {"nozzle", {0.12, 0.11, 0.1}, 1, 0.5},
+    {"dish_white", {0.75, 0.75, 0.73}, 0, 0.7},
+    {"panel_back", {0.04, 0.04, 0.04}, 0, 0.4},
+    {"cfrp", {0.05, 0.05, 0.05}, 0, 0.35},
+    {"solar_cell", {0.02, 0.03, 0.09}, 0, 0.12},
+    {"cell_substrate", {0.35, 0.22, 0.08}, 0, 0.6},
+    {"busbar", {0.8, 0.8, 0.8}, 1, 0.3},
     {"baffle_black", {0.02, 0.02, 0.02}, 0, 0.8},
+    // Those of other kinds, by the shipped materials' names.
+    {"aluminium_bare", {0.9, 0.91, 0.92}, 1, 0.45},
+    {"anodised_clear", {0.73, 0.73, 0.74}, 1, 0.55},
+    {"black_anodised", {0.04, 0.04, 0.04}, 0, 0.8},
+    {"black_paint", {0.03, 0.03, 0.03}, 0, 0.75},
+    {"gold", {0.97, 0.78, 0.41}, 1, 0.15},
+    {"mli_kapton", {0.76, 0.62, 0.1}, 1, 0.42},
+    {"mli_silvered", {0.96, 0.97, 0.96}, 1, 0.3},
 };
 
 json material_of(const std::string& name) {
