@@ -6,17 +6,28 @@
 
 namespace hilcam {
 
-// Rays that a part has room for, by its samples: smooth surfaces have one a pixel, wrinkled ones four.
+namespace {
+
+// Rays that a part has room for, by its samples: as many as any pixel has of its own.
 constexpr std::size_t kRaysPerSample = 4;
+
+template <class T>
+std::size_t room_of(std::size_t count) {
+    return (count * sizeof(T) + 63) / 64 * 64;
+}
+
+}  // namespace
 
 GlossyBuffer::GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t samples)
     : width_(width_px),
       height_(height_px),
       parts_(parts),
-      points_(std::make_unique_for_overwrite<GlossyPoint[]>(parts * samples)),
-      rays_(std::make_unique_for_overwrite<GlossyRay[]>(parts * samples * kRaysPerSample)),
+      points_(static_cast<GlossyPoint*>(std::aligned_alloc(64, room_of<GlossyPoint>(parts * samples)))),
+      rays_(static_cast<GlossyRay*>(
+          std::aligned_alloc(64, room_of<GlossyRay>(parts * samples * kRaysPerSample)))),
       first_of_pixel_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), kNone) {
-    HILCAM_CHECK(parts * samples * kRaysPerSample < kNone);
+    HILCAM_CHECK(parts * samples * kRaysPerSample < kNone && parts * samples < 1u << 31);
+    if (!points_ || !rays_) throw std::bad_alloc();
     for (std::size_t i = 0; i < parts; ++i) {
         Part& part = parts_[i];
         part.first_point_ = static_cast<std::uint32_t>(i * samples);
@@ -28,11 +39,9 @@ GlossyBuffer::GlossyBuffer(int width_px, int height_px, std::size_t parts, std::
 
 GlossyRay* GlossyBuffer::Part::add_ray(const GlossyPoint& of) {
     if (ray_count_ == rays_.size()) return nullptr;
-    GlossyRay& ray = rays_[ray_count_++];
-    ray.light = {}, ray.towards = {};
-    ray.point = first_point_ + static_cast<std::uint32_t>(&of - points_.data());
-    ray.free = true;
-    return &ray;
+    GlossyRay* const ray = new (&rays_[ray_count_++]) GlossyRay;
+    ray->point = (first_point_ + static_cast<std::uint32_t>(&of - points_.data())) & 0x7FFFFFFFu;
+    return ray;
 }
 
 void GlossyBuffer::clear_pixels(const PixelBox& box) {
@@ -59,7 +68,8 @@ void GlossyBuffer::link(Part& part) {
     for (std::size_t i = 0; i < part.ray_count_; ++i) {
         GlossyRay& ray = part.rays_[i];
         const auto pixel = static_cast<int>(points_[ray.point].pixel);
-        std::uint32_t& first = first_of_pixel_[index(part.box_.x0 + pixel % width, part.box_.y0 + pixel / width)];
+        std::uint32_t& first =
+            first_of_pixel_[index(part.box_.x0 + pixel % width, part.box_.y0 + pixel / width)];
         ray.next = first, first = part.first_ray_ + static_cast<std::uint32_t>(i);
     }
     part.linked_ = true;

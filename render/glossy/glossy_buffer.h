@@ -3,12 +3,15 @@
 //
 // A lobe has a ray or a few of its own, along directions that follow its visible normals. What they meet serves the lobes of the
 // pixels about it, too (glossy_reuse.h), so the rays stay here until all tiles have been traced. Each part of the frame has room
-// for as many lobes as it has samples, whatever others have: a frame does not depend on the order of its parts.
+// for as many lobes as it has samples, whatever others have: a frame does not depend on the order of its parts. A lobe and its rays
+// take 480 bytes.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -26,19 +29,20 @@ struct GlossyPoint {
     float alpha;                      // of GGX
     std::uint32_t object;
     std::uint16_t surface;
-    bool back;              // which side of the surface's triangles
-    std::uint32_t pixel;    // in the part
-    std::uint32_t triangle; // in the object's level of detail
-    float footprint_m;      // width of a pixel there
+    bool back;               // which side of the surface's triangles
+    std::uint32_t pixel;     // in the part
+    std::uint32_t triangle;  // in the object's level of detail
+    float footprint_m;       // width of a pixel there
     SubpixelMoments moments;
     // Light: what the pixel has of it, times the samples that see the point.
     Spectrum weight;  // of radiance that comes from everywhere alike
     Spectrum cached;  // that the cache's directions bring from other surfaces
     std::array<Spectrum, Planetshine::kMaxBodies> bodies;  // of bodies, if nothing is in the way
-    std::array<float, Planetshine::kMaxBodies> free;       // share of each that the cache's directions find free
-    float directions;  // that bring `cached`
-    float share;       // 0 to 1: of what rays find, against what the cache has
-    int reach_px;      // the rays of pixels nearer than this serve it, too (glossy_reach_px())
+    std::array<float, Planetshine::kMaxBodies> free{};  // share of each that the cache's directions find free
+    float directions;                                 // that bring `cached`
+    float per_light = 1;  // radiance of what a ray of it has met, over the light that it has
+    float share;          // 0 to 1: of what rays find, against what the cache has
+    int reach_px;         // the rays of pixels nearer than this serve it, too (glossy_reach_px())
 
     bool same_surface(const GlossyPoint& other) const {
         return object == other.object && surface == other.surface && back == other.back;
@@ -47,17 +51,18 @@ struct GlossyPoint {
 
 // A ray along a lobe.
 struct GlossyRay {
-    Spectrum light;            // of what it has met, times `scale`
-    Vec3f met_m;               // where that is, ray space; its direction, where it has met nothing
-    float per_density_sr;      // one over the density of its direction
-    std::uint32_t point = 0;   // whose it is, in the frame
-    std::uint32_t next = 0;    // the next ray of the same pixel, in the frame
-    float per_scale = 1;
-    std::array<float, Planetshine::kMaxBodies> towards{};  // radiance of each body along it, be it hidden or not
-    bool free = true;                                      // it has met nothing
+    Spectrum light;        // of what it has met, over its point's per_light
+    Vec3f met_m;           // where that is, ray space; its direction, where it has met nothing
+    float per_density_sr;  // one over the density of its direction
+    std::array<float, Planetshine::kMaxBodies>
+        towards{};                 // radiance of each body along it, be it hidden or not
+    std::uint32_t next = 0;        // the next ray of the same pixel, in the frame
+    std::uint32_t point : 31 = 0;  // whose it is, in the frame
+    std::uint32_t free : 1 = 1;    // it has met nothing
 
-    void set_met(Vec3f place_m) { met_m = place_m, free = false; }
+    void set_met(Vec3f place_m) { met_m = place_m, free = 0; }
 };
+static_assert(sizeof(GlossyRay) == 64);
 
 class GlossyBuffer {
   public:
@@ -68,7 +73,7 @@ class GlossyBuffer {
       public:
         // Null: there is no room.
         GlossyPoint* add_point() {
-            return point_count_ < points_.size() ? &points_[point_count_++] : nullptr;
+            return point_count_ < points_.size() ? new (&points_[point_count_++]) GlossyPoint : nullptr;
         }
         // A ray of the point that was added last.
         GlossyRay* add_ray(const GlossyPoint& of);
@@ -115,9 +120,12 @@ class GlossyBuffer {
   private:
     int width_ = 0, height_ = 0;
     std::vector<Part> parts_;
-    // Not touched before they are needed, so that a frame has the memory of the lobes it has had.
-    std::unique_ptr<GlossyPoint[]> points_;
-    std::unique_ptr<GlossyRay[]> rays_;
+    // Room for objects that are made when they are added: memory that no lobe has used is not touched.
+    struct Free {
+        void operator()(void* room) const { std::free(room); }
+    };
+    std::unique_ptr<GlossyPoint[], Free> points_;
+    std::unique_ptr<GlossyRay[], Free> rays_;
     std::vector<std::uint32_t> first_of_pixel_;
 
     std::size_t index(int x, int y) const {

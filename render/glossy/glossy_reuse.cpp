@@ -11,8 +11,10 @@
 namespace hilcam {
 namespace {
 
-constexpr float kLeastPixel = 0.08f;   // weight of pixels that are left out: a third of them, with 5 % of the weight
-constexpr std::size_t kMaxTaken = 2048;  // rays that one lobe takes: of all pixels in reach, some with two surfaces
+constexpr float kLeastPixel =
+    0.08f;  // weight of pixels that are left out: a third of them, with 5 % of the weight
+constexpr std::size_t kMaxTaken =
+    2048;  // rays that one lobe takes: of all pixels in reach, some with two surfaces
 // A neighbour's direction that its own lobe hardly draws would count for many rays; its own, for no more than one.
 constexpr float kMaxWeight = 4;
 constexpr float kFacing = 0.5f;  // cosine of normals that are one surface's
@@ -21,17 +23,19 @@ constexpr float kFacing = 0.5f;  // cosine of normals that are one surface's
 struct Taken {
     using Column = std::array<float, kMaxTaken>;
     std::size_t count = 0;
-    alignas(64) Column x, y, z;      // place that is met, from the lobe's point, or direction; then its direction
-    alignas(64) Column weight;       // of the pixel, times per_density_sr; then of the lobe
-    alignas(64) Column pixel;        // weight of the pixel
-    alignas(64) Column way_m;        // from the lobe's point to where the ray began
-    alignas(64) Column per_distance; // 1 where something is met, else 0; then over its distance
+    alignas(64) Column x, y, z;  // place that is met, from the lobe's point, or direction; then its direction
+    alignas(64) Column weight;   // of the pixel, times per_density_sr; then of the lobe
+    alignas(64) Column pixel;    // weight of the pixel
+    alignas(64) Column way_m;    // from the lobe's point to where the ray began
+    alignas(64) Column per_light;     // of the ray's point
+    alignas(64) Column per_distance;  // 1 where something is met, else 0; then over its distance
     std::array<const GlossyRay*, kMaxTaken> ray;
 
-    void add(const GlossyRay& of, Vec3f to, float way, float pixel_weight) {
+    void add(const GlossyRay& of, const GlossyPoint& from, Vec3f to, float way, float pixel_weight) {
         const std::size_t i = count++;
         x[i] = to.x, y[i] = to.y, z[i] = to.z;
         weight[i] = pixel_weight * of.per_density_sr, pixel[i] = pixel_weight;
+        per_light[i] = from.per_light;
         way_m[i] = way, per_distance[i] = of.free ? 0.0f : 1.0f;
         ray[i] = &of;
     }
@@ -48,7 +52,8 @@ void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, Taken
     const auto tent = [&](int off) { return 1 - per_px * static_cast<float>(std::abs(off)); };
     const int reach = at.reach_px - 1;
     for (int row = std::max(0, y - reach); row <= std::min(buffer.height() - 1, y + reach); ++row)
-        for (int column = std::max(0, x - reach); column <= std::min(buffer.width() - 1, x + reach); ++column) {
+        for (int column = std::max(0, x - reach); column <= std::min(buffer.width() - 1, x + reach);
+             ++column) {
             const float pixel = tent(row - y) * tent(column - x);
             if (pixel < kLeastPixel) continue;
             buffer.for_each_ray(column, row, [&](const GlossyRay& ray, const GlossyPoint& of) {
@@ -57,7 +62,8 @@ void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, Taken
                 if (taken.count == kMaxTaken || !of.same_surface(at) || squared_m2 > 2 * apart_m * apart_m ||
                     dot(of.normal, at.normal) < kFacing)
                     return;
-                taken.add(ray, ray.free ? ray.met_m : ray.met_m - at.point_m, std::sqrt(squared_m2), pixel);
+                taken.add(ray, of, ray.free ? ray.met_m : ray.met_m - at.point_m, std::sqrt(squared_m2),
+                          pixel);
             });
         }
 }
@@ -88,21 +94,23 @@ void leave_out_far(Taken& taken) {
         all += taken.weight[i], per_distance += taken.weight[i] * taken.per_distance[i];
     if (!(all > 0)) return;
     const float per_m = kOfDistance * per_distance / all;
-    for (std::size_t i = 0; i < taken.count; ++i) taken.weight[i] *= std::max(0.0f, 1 - per_m * taken.way_m[i]);
+    for (std::size_t i = 0; i < taken.count; ++i)
+        taken.weight[i] *= std::max(0.0f, 1 - per_m * taken.way_m[i]);
 }
 
 // The sums over what a lobe takes.
 struct Sums {
     float all = 0, squares = 0;  // weights
     Spectrum light;
-    std::array<float, Planetshine::kMaxBodies> towards{}, free{};  // by body: its radiance along rays, and where they meet nothing
+    std::array<float, Planetshine::kMaxBodies> towards{},
+        free{};  // by body: its radiance along rays, and where they meet nothing
 
     explicit Sums(const Taken& taken) {
         for (std::size_t i = 0; i < taken.count; ++i) {
             const GlossyRay& ray = *taken.ray[i];
             const float weight = taken.weight[i];
             all += weight, squares += weight * weight;
-            if (!ray.free) light += (weight * ray.per_scale) * ray.light;
+            if (!ray.free) light += (weight * taken.per_light[i]) * ray.light;
             for (std::size_t b = 0; b < towards.size(); ++b)
                 towards[b] += weight * ray.towards[b], free[b] += ray.free ? weight * ray.towards[b] : 0.0f;
         }
@@ -133,7 +141,8 @@ GlossyLight reused_light(const GlossyBuffer& buffer, const GlossyPoint& at, int 
     // The cache's directions count for what few rays leave open: each as the square root of two rays, as rays that are few are
     // seldom all of a lobe.
     constexpr float kPerDirection = 2;
-    const float trust = rays > 0 ? at.share * rays * rays / (rays * rays + kPerDirection * at.directions) : 0.0f;
+    const float trust =
+        rays > 0 ? at.share * rays * rays / (rays * rays + kPerDirection * at.directions) : 0.0f;
     GlossyLight out;
     if (sums.all > 0) out.surfaces = (trust / sums.all) * (at.weight * sums.light);
     out.surfaces += (1 - trust) * at.cached;

@@ -59,16 +59,17 @@ void add_in_narrow_lobe(const Tile& tile, const ShadingPoint& at, Vec3f mirror, 
 // time.
 int lobe_rays(const ShadingPoint& at) {
     constexpr int kSmooth = 2, kAlone = 4;
-    constexpr float kFewSamples = 4;  // of sixteen a pixel
+    constexpr float kFewSamples = 4;  // out of sixteen
     if (at.weight_samples < kFewSamples) return 1;
     return at.clusters || at.surface.alpha < kMinCachedAlpha ? kAlone : kSmooth;
 }
 
-// What a ray meets stands for all that its cone meets there. A facet that turns by half of the cone's half angle mirrors its rim, so
-// lobes there are at least so wide (path space regularization: Kaplanyan & Dachsbacher, CGF 32(2), 2013): a highlight that one ray
-// of a lobe's tail finds does not count for all of the tail. per_density_sr: of the ray.
+// Returns how wide facet lobes are at least where a ray of this density ends. The ray stands for a cone of directions; a facet that turns
+// by half of the cone's half angle mirrors its rim (path space regularization: Kaplanyan & Dachsbacher, CGF 32(2), 2013). So a highlight
+// that one ray of a lobe's tail finds does not count for all of the tail.
 float cone_alpha(float per_density_sr) {
-    constexpr float kShared = 32;  // rays that share a lobe; from 16 to 64 errors of the zoo differ by less than 5 %
+    constexpr float kShared =
+        32;  // rays that share a lobe; from 16 to 64 errors of the zoo differ by less than 5 %
     constexpr float kWidest = 0.5f;
     return std::min(0.5f * std::sqrt(per_density_sr / (kPiF * kShared)), kWidest);
 }
@@ -76,7 +77,8 @@ float cone_alpha(float per_density_sr) {
 // Adds rays along a lobe, drawn as it sends.
 void add_along_lobe(Tile& tile, const ShadingPoint& at, GlossyPoint& lobe, NextRays& rays) {
     const int width = tile.box.x1 - tile.box.x0;
-    const int x = tile.box.x0 + static_cast<int>(at.pixel) % width, y = tile.box.y0 + static_cast<int>(at.pixel) / width;
+    const int x = tile.box.x0 + static_cast<int>(at.pixel) % width,
+              y = tile.box.y0 + static_cast<int>(at.pixel) / width;
     const int count = lobe_rays(at);
     lobe.reach_px = glossy_reach_px(count);
     const Frame local(at.normal);
@@ -84,19 +86,22 @@ void add_along_lobe(Tile& tile, const ShadingPoint& at, GlossyPoint& lobe, NextR
     // What the ray finds is held against thresholds as the lobe's share.
     const float scale = max_component(lobe.weight) / static_cast<float>(count);
     if (!(scale > 0)) return;
+    lobe.per_light = 1 / scale;
     for (int i = 0; i < count && !rays.full(); ++i) {
         const GlossyPlace place = glossy_place(x, y, i);
-        const Vec3f facet =
-            local.to_world(sample_visible_normal(lobe.alpha, local.to_local(at.view_dir), place.u1, place.u2));
+        const Vec3f facet = local.to_world(
+            sample_visible_normal(lobe.alpha, local.to_local(at.view_dir), place.u1, place.u2));
         const Vec3f dir = normalized(reflect(at.view_dir, facet));
         if (!(dot(at.geometric_normal, dir) > 0 && dot(at.normal, dir) > 0)) continue;
         GlossyRay* const own = tile.glossy->add_ray(lobe);
         if (!own) return;
-        own->met_m = dir, own->per_scale = 1 / scale;
+        own->met_m = dir;
         const Planetshine& planetshine = tile.frame.indirect->planetshine();
-        for (std::size_t b = 0; b < planetshine.bodies().size(); ++b) own->towards[b] = planetshine.brightness(b, dir);
+        for (std::size_t b = 0; b < planetshine.bodies().size(); ++b)
+            own->towards[b] = planetshine.brightness(b, dir);
         own->per_density_sr = 1 / ggx_density(lobe.alpha, no, std::min(dot(at.normal, facet), 1.0f));
-        NextRay ray{&at, at.start(), dir, 0, std::hypot(lobe.alpha, cone_alpha(own->per_density_sr)), false, {}};
+        NextRay ray{&at,   at.start(), dir, 0, std::hypot(lobe.alpha, cone_alpha(own->per_density_sr)),
+                    false, {}};
         ray.throughput.bin.fill(scale);
         ray.sees_bodies = false, ray.part = LightPart::kGlossyRays, ray.glossy = own;
         rays.add(ray);

@@ -80,7 +80,7 @@ class Planetshine {
     static constexpr std::size_t kPatches = 256;
     static constexpr std::array<std::size_t, 3> kParts = {16, 64, kPatches};
     static constexpr std::size_t kLooks = kPatches;
-    static constexpr std::size_t kEven = 1;  // of kParts: that for surfaces without lobes
+    static constexpr std::size_t kEven = 1;  // index of the one for surfaces without lobes
     struct Look {
         Vec3f dir;
         Spectrum irradiance;  // on a surface across the way

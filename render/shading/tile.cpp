@@ -33,8 +33,7 @@ void Tile::note(const ShadingPoint& at, LightPart of_source, const Spectrum& lig
     // How much of it each pixel gets is known when all rays have come back.
     const GlossyPoint& of = glossy->point_of(*at.glossy_ray);
     if (!parts->is_recorded(of.pixel)) return;
-    PixelRecord::Entry entry =
-        entry_of(*this, at, part, (parts->share * at.glossy_ray->per_scale) * (of.weight * light));
+    PixelRecord::Entry entry = entry_of(*this, at, part, (parts->share * of.per_light) * (of.weight * light));
     entry.is_shared = true;
     parts->record->add(entry);
 }

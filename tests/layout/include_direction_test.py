@@ -24,7 +24,7 @@ ROOMS = (
     "io/spice", "io/maps", "io/meshes", "io/files", "io/cache", "io/images", "io/config", "io/contract", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
     "render/frame", "render/paths", "render/indirect", "render/sunlight", "render/ground_shading", "render/primary", "render/shading",
-    "render/radiosity", "render/visibility", "render/planetshine", "render/probes", "render/background", "render/ground", "render/scene", "render/earth", "render/sky",
+    "render/glossy", "render/radiosity", "render/visibility", "render/planetshine", "render/probes", "render/background", "render/ground", "render/scene", "render/earth", "render/sky",
     "render/lod", "render/brdf", "render/vocabulary",
 )
 GDAL_FILES = {"io/maps/gdal_file.cpp", "io/maps/gdal_file.h", "io/maps/gdal_placement.cpp", "io/maps/gdal_placement.h",

@@ -20,7 +20,7 @@ Spectrum even(float value) {
 // A plane of metal that faces the camera, 32 x 32 px of a millimetre each, with one ray a pixel.
 struct Plane {
     static constexpr int kSize = 32;
-    GlossyBuffer buffer{kSize, kSize, 1, kSize * kSize};
+    GlossyBuffer buffer{kSize, kSize, 1, kSize* kSize};
     GlossyBuffer::Part& part = buffer.begin(0, {0, 0, kSize, kSize}, 1);
 
     // met: what a ray from a point meets in a direction.
@@ -56,7 +56,8 @@ struct Plane {
         if (dir.z <= 0) return;
         GlossyRay& ray = *part.add_ray(point);
         const Met met = scene(point.point_m, dir);
-        ray.met_m = met.free ? dir : met.place_m, ray.free = met.free, ray.light = even(met.light), ray.per_scale = 1;
+        ray.met_m = dir, ray.light = even(met.light);
+        if (!met.free) ray.set_met(met.place_m);
         ray.per_density_sr = 1 / ggx_density(alpha, dot(point.normal, point.view_dir), facet.z);
         ray.towards[0] = met.towards;
     }
@@ -153,7 +154,8 @@ TEST(GlossyPlace, EachWindowHasAllOfThePattern) {
         std::array<int, 64> squares{}, strips{};
         for (int i = 0; i < 64; ++i) {
             const GlossyPlace place = glossy_place(corner + i % 8, 2 * corner + i / 8, 0);
-            ++squares[static_cast<std::size_t>(static_cast<int>(8 * place.u1) + 8 * static_cast<int>(8 * place.u2))];
+            ++squares[static_cast<std::size_t>(static_cast<int>(8 * place.u1) +
+                                               8 * static_cast<int>(8 * place.u2))];
             ++strips[static_cast<std::size_t>(64 * place.u1)];
         }
         for (const int count : squares) EXPECT_EQ(count, 1);
