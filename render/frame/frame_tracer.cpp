@@ -98,6 +98,17 @@ void add(const Tile& tile, float share, SubpixelLight& moments) {
             }
 }
 
+// As much of the shading point as adding its light asks for.
+ShadingPoint shading_point_of(const GlossyPoint& point) {
+    ShadingPoint at{};
+    at.point_m = point.point_m, at.geometric_normal = at.normal = point.normal;
+    at.object = point.object, at.triangle = point.triangle;
+    at.surface_number = point.surface, at.back = point.back, at.surface.alpha = point.alpha;
+    at.depth = 1, at.weight_samples = point.weight_samples;
+    at.pixel = point.pixel, at.samples = point.samples, at.moments = point.moments;
+    return at;
+}
+
 std::size_t pool_slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
 
 // A pixel whose light is no number is dark, and so are all of its parts.
@@ -202,7 +213,8 @@ TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
 void FrameTracer::add_glossy(const FrameContext& frame, RadianceImage& radiance) {
     for_each_tile([&](int index, const PixelBox&, std::size_t slot) {
         const GlossyBuffer::Part& part = glossy_.part(static_cast<std::size_t>(index));
-        if (!part.points().empty()) add_glossy_of(frame, part, slot, tile_stats_[static_cast<std::size_t>(index)], radiance);
+        if (!part.points().empty())
+            add_glossy_of(frame, part, slot, tile_stats_[static_cast<std::size_t>(index)], radiance);
     });
 }
 
@@ -241,9 +253,10 @@ void FrameTracer::trace_tile(const FrameSetup& setup, int index, std::size_t slo
     }
     const int edge = tile_edge_px(seen ? 1 : n);
     // What is traced in several parts, as many rays see it, has room for none of them.
-    GlossyBuffer::Part* const glossy = glossy_.parts() > 0 && edge >= box.x1 - box.x0 && edge >= box.y1 - box.y0
-                                           ? &glossy_.begin(static_cast<std::size_t>(index), box, 1 / static_cast<float>(n * n))
-                                           : nullptr;
+    GlossyBuffer::Part* const glossy =
+        glossy_.parts() > 0 && edge >= box.x1 - box.x0 && edge >= box.y1 - box.y0
+            ? &glossy_.begin(static_cast<std::size_t>(index), box, 1 / static_cast<float>(n * n))
+            : nullptr;
     for (int y = box.y0; y < box.y1; y += edge)
         for (int x = box.x0; x < box.x1; x += edge) {
             const PixelBox part{x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)};
@@ -352,10 +365,12 @@ void FrameTracer::add_glossy_of(const FrameContext& frame, const GlossyBuffer::P
         tile.parts = &parts;
     }
     for (const GlossyPoint& point : part.points()) {
-        const int x = box.x0 + static_cast<int>(point.pixel) % width, y = box.y0 + static_cast<int>(point.pixel) / width;
+        const int x = box.x0 + static_cast<int>(point.pixel) % width,
+                  y = box.y0 + static_cast<int>(point.pixel) / width;
         const GlossyLight light = reused_light(glossy_, point, x, y);
-        tile.add(point.pixel, LightPart::kGlossyRays, point.moments, light.surfaces);
-        tile.add(point.pixel, LightPart::kPlanetshine, point.moments, light.bodies);
+        const ShadingPoint at = shading_point_of(point);
+        tile.add(at, LightPart::kGlossyRays, light.surfaces);
+        tile.add(at, LightPart::kPlanetshine, light.bodies);
     }
     if (parts_) leave_out_not_finite(pixels, parts);
     stats.not_finite += leave_out_not_finite(pixels);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "render/planetshine/planetshine.h"
+#include "render/visibility/pixel_samples.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/spectrum.h"
 #include "render/vocabulary/subpixel_light.h"
@@ -26,7 +27,7 @@ namespace hilcam {
 // A shading point that the camera sees, with a facet lobe that rays follow.
 struct GlossyPoint {
     Vec3f point_m, normal, view_dir;  // ray space, world axes
-    float alpha;                      // of GGX
+    float alpha;                      // the width of GGX
     std::uint32_t object;
     std::uint16_t surface;
     bool back;               // which side of the surface's triangles
@@ -34,12 +35,14 @@ struct GlossyPoint {
     std::uint32_t triangle;  // in the object's level of detail
     float footprint_m;       // width of a pixel there
     SubpixelMoments moments;
+    float weight_samples;  // samples of sixteen a pixel that see it
+    SampleMask samples;    // samples of the visibility buffer; 0: a ray sees it
     // Light: what the pixel has of it, times the samples that see the point.
-    Spectrum weight;  // of radiance that comes from everywhere alike
+    Spectrum weight;  // the factor on radiance that comes from everywhere alike
     Spectrum cached;  // that the cache's directions bring from other surfaces
-    std::array<Spectrum, Planetshine::kMaxBodies> bodies;  // of bodies, if nothing is in the way
+    std::array<Spectrum, Planetshine::kMaxBodies> bodies;  // light of bodies, if nothing is in the way
     std::array<float, Planetshine::kMaxBodies> free{};  // share of each that the cache's directions find free
-    float directions;                                 // that bring `cached`
+    float directions;                                   // that bring `cached`
     float per_light = 1;  // radiance of what a ray of it has met, over the light that it has
     float share;          // 0 to 1: of what rays find, against what the cache has
     int reach_px;         // the rays of pixels nearer than this serve it, too (glossy_reach_px())
@@ -51,13 +54,13 @@ struct GlossyPoint {
 
 // A ray along a lobe.
 struct GlossyRay {
-    Spectrum light;        // of what it has met, over its point's per_light
+    Spectrum light;        // radiance of what it has met, over the per_light of its point
     Vec3f met_m;           // where that is, ray space; its direction, where it has met nothing
     float per_density_sr;  // one over the density of its direction
     std::array<float, Planetshine::kMaxBodies>
         towards{};                 // radiance of each body along it, be it hidden or not
     std::uint32_t next = 0;        // the next ray of the same pixel, in the frame
-    std::uint32_t point : 31 = 0;  // whose it is, in the frame
+    std::uint32_t point : 31 = 0;  // the number of its point in the frame
     std::uint32_t free : 1 = 1;    // it has met nothing
 
     void set_met(Vec3f place_m) { met_m = place_m, free = 0; }

@@ -24,10 +24,10 @@ struct Taken {
     using Column = std::array<float, kMaxTaken>;
     std::size_t count = 0;
     alignas(64) Column x, y, z;  // place that is met, from the lobe's point, or direction; then its direction
-    alignas(64) Column weight;   // of the pixel, times per_density_sr; then of the lobe
+    alignas(64) Column weight;   // the weight of the pixel, times per_density_sr; then that of the lobe
     alignas(64) Column pixel;    // weight of the pixel
     alignas(64) Column way_m;    // from the lobe's point to where the ray began
-    alignas(64) Column per_light;     // of the ray's point
+    alignas(64) Column per_light;     // the ray's point has it
     alignas(64) Column per_distance;  // 1 where something is met, else 0; then over its distance
     std::array<const GlossyRay*, kMaxTaken> ray;
 
@@ -85,8 +85,9 @@ void weigh(const GgxLobe& lobe, Vec3f normal, Vec3f view, Taken& taken) {
     }
 }
 
-// What stands near is in the way of one pixel and not of the next: rays that begin half as far away as it stands, in the mean, tell
-// nothing. Without this, light leaks past edges: Kepler's p99 is 21 in place of 16 sensor noises.
+// Leaves out rays that begin too far away: a thing that stands near hides other places from one pixel than from the next. Rays that begin
+// half as far away as things stand, in the mean, tell nothing. Without this, light leaks past edges: Kepler's p99 is 21 in place of 16
+// sensor noises.
 void leave_out_far(Taken& taken) {
     constexpr float kOfDistance = 2;
     float all = 0, per_distance = 0;

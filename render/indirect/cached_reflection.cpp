@@ -88,8 +88,7 @@ void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> poin
         for (Place& place : places)
             if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
         for (Place& place : places) reflect_clusters(tile.frame, place);
-        for (const Use& use : std::span(block.uses.data(), block.use_count))
-            add_use(tile, use, requests);
+        for (const Use& use : std::span(block.uses.data(), block.use_count)) add_use(tile, use, requests);
     }
 }
 
@@ -153,14 +152,16 @@ void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest>
 float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, const Place& place,
                                    const Spectrum& met) const {
     constexpr float kOfThreshold = 0.5f, kOfFree = 4;
-    if (!tile.glossy || at.depth != 1 || tile.frame.max_depth < 2 || at.surface.alpha < kNarrowestLobe) return 0;
+    if (!tile.glossy || at.depth != 1 || tile.frame.max_depth < 2 || at.surface.alpha < kNarrowestLobe)
+        return 0;
     if (at.surface.alpha < kMinCachedAlpha) {
         const Spectrum weight = at.throughput * lobe_albedo(at);
         return place.mirrors_near && at.importance(weight) >= tile.frame.contribution_threshold ? 1.0f : 0.0f;
     }
     float light = max_component(met);
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
-        light += std::min(1.0f, kOfFree * (1 - place.free[b])) * max_component(colored(at.surface, place.unhidden[b]));
+        light += std::min(1.0f, kOfFree * (1 - place.free[b])) *
+                 max_component(colored(at.surface, place.unhidden[b]));
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
     const float white = max_component(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
     const float least = kOfThreshold * samples * tile.frame.contribution_threshold * white;
@@ -177,10 +178,12 @@ GlossyPoint* IndirectCache::leave_to_rays(Tile& tile, const ShadingPoint& at, co
     point->alpha = at.surface.alpha, point->footprint_m = at.footprint_m;
     point->object = at.object, point->surface = at.surface_number, point->back = at.back;
     point->pixel = at.pixel, point->triangle = at.triangle, point->moments = at.moments;
+    point->weight_samples = at.weight_samples, point->samples = at.samples;
     point->weight = at.throughput * lobe_albedo(at);
     point->cached = at.throughput * met;
     for (std::size_t b = 0; b < point->bodies.size(); ++b)
-        point->bodies[b] = at.throughput * colored(at.surface, place.unhidden[b]), point->free[b] = place.free[b];
+        point->bodies[b] = at.throughput * colored(at.surface, place.unhidden[b]),
+        point->free[b] = place.free[b];
     point->directions = place.directions, point->share = share;
     return point;
 }
@@ -269,7 +272,8 @@ void IndirectCache::reflect_lobe(const FrameContext& frame, Place& place) const 
     place.met = met.radiance, place.directions = met.directions;
     place.unhidden = sent_of_bodies(at), place.free = met.free;
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
-        place.bodies[b] = {(share * met.free[b]) * place.unhidden[b].radiance, place.unhidden[b].facet_cosine};
+        place.bodies[b] = {(share * met.free[b]) * place.unhidden[b].radiance,
+                           place.unhidden[b].facet_cosine};
 }
 
 // A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
