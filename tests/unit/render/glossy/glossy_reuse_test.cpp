@@ -77,7 +77,8 @@ TEST(GlossyReuse, LightFromEverywhereIsTheLobesAlbedo) {
 }
 
 // Half of what a lobe sees is lit, at a distance: the share is that of a sum over 200 x 200 of its directions, and it changes little
-// from pixel to pixel, wherever these are in the pattern.
+// from pixel to pixel, wherever these are in the pattern. Of N stratified places an edge is off by N^-0.75, 4 % of 64 (Mitchell, SIGGRAPH
+// 96), and twice that is rare; places at random would be off by 11 %.
 TEST(GlossyReuse, AnEdgeIsSmoothAndInPlace) {
     constexpr float kWidth = 0.2f;
     const auto is_lit = [](Vec3f dir) { return dir.x < -0.3f; };
@@ -101,9 +102,9 @@ TEST(GlossyReuse, AnEdgeIsSmoothAndInPlace) {
             const float light = plane.light(x, y).surfaces[0];
             least = std::min(least, light), most = std::max(most, light);
         }
-    EXPECT_NEAR(least, expected, 0.05 * expected);
-    EXPECT_NEAR(most, expected, 0.05 * expected);
-    EXPECT_LT(most - least, 0.02f * most);
+    EXPECT_NEAR(least, expected, 0.08 * expected);
+    EXPECT_NEAR(most, expected, 0.08 * expected);
+    EXPECT_LT(most - least, 0.04f * most);
 }
 
 TEST(GlossyReuse, OtherSurfacesAreNotAsked) {
