@@ -122,12 +122,18 @@ struct Sums {
 
 }  // namespace
 
-GlossyPlace glossy_place(int x, int y, int ray) {
+GlossyPlace glossy_place(int x, int y, int ray, int rays) {
     constexpr int kSize = kGlossyPattern_px;
     constexpr std::array<int, kSize> kReversed = {0, 4, 2, 6, 1, 5, 3, 7};  // bits, from the last
-    const auto a = static_cast<float>(kReversed[static_cast<std::size_t>(x % kSize)]),
-               b = static_cast<float>(kReversed[static_cast<std::size_t>(y % kSize)]);
-    const auto n = static_cast<float>(ray);
+    // Squares that the rays of one pixel have beside each other.
+    const int size = glossy_reach_px(rays), beside = kSize / size;
+    const auto square = [&](int pixel, int of_pixel) {
+        return static_cast<float>(kReversed[static_cast<std::size_t>(pixel % size * beside)] * beside +
+                                  of_pixel);
+    };
+    const float a = square(x, ray % beside), b = square(y, ray / beside % beside);
+    // Further rays.
+    const auto n = static_cast<float>(ray / (beside * beside));
     return {std::fmod((a + (b + 0.5f) / kSize) / kSize + kPlasticAlong * n, 1.0f),
             std::fmod((b + (a + 0.5f) / kSize) / kSize + kPlasticAbout * n, 1.0f)};
 }

@@ -16,15 +16,16 @@ namespace hilcam {
 
 inline constexpr int kGlossyPattern_px = 8;
 
-// The numbers in [0, 1) that choose the directions of a pixel's rays: of any 8 x 8 pixels each lies in another of 8 x 8 squares, and
-// each coordinate in another of 64 strips (correlated multi-jittered: Kensler, Pixar Technical Memo 13-01, 2013). ray: its number.
-struct GlossyPlace {
-    float u1, u2;
-};
-GlossyPlace glossy_place(int x, int y, int ray);
 // Returns how far off pixels are whose rays serve a lobe with so many of its own: about a hundred rays are enough, and those of pixels
 // further off tell less.
 inline int glossy_reach_px(int rays) { return rays < 4 ? kGlossyPattern_px : kGlossyPattern_px / 2; }
+// The numbers in [0, 1) that choose the direction of a pixel's ray, by its number among `rays`. The rays of any 8 x 8 pixels that have
+// one each, or of any 4 x 4 that have four, lie in 64 different squares, and each coordinate in 64 different strips (correlated
+// multi-jittered: Kensler, Pixar Technical Memo 13-01, 2013).
+struct GlossyPlace {
+    float u1, u2;
+};
+GlossyPlace glossy_place(int x, int y, int ray, int rays);
 
 // Light that a lobe sends to its pixel: radiance, times its samples.
 struct GlossyLight {

@@ -155,8 +155,9 @@ float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, con
     if (!tile.glossy || at.depth != 1 || tile.frame.max_depth < 2 || at.surface.alpha < kNarrowestLobe)
         return 0;
     if (at.surface.alpha < kMinCachedAlpha) {
-        const Spectrum weight = at.throughput * lobe_albedo(at);
-        return place.mirrors_near && at.importance(weight) >= tile.frame.contribution_threshold ? 1.0f : 0.0f;
+        const float importance = at.importance(at.throughput * lobe_albedo(at));
+        const bool looks = place.mirrors_near || importance >= kBrightMirror;
+        return looks && importance >= tile.frame.contribution_threshold ? 1.0f : 0.0f;
     }
     float light = max_component(met);
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)

@@ -12,8 +12,6 @@ namespace hilcam {
 namespace {
 
 constexpr int kLobeRays = 4;  // rays of a narrow lobe at the first surface, where neighbours share none
-// A mirror of this reflectance is looked into in any case: a glint in it is as bright as paint.
-constexpr float kBright = 0.1f;
 
 void add(const Tile& tile, const NextRay& ray, NextRays& rays) {
     if (!(ray.from->importance(ray.throughput) >= tile.frame.contribution_threshold)) return;
@@ -88,7 +86,7 @@ void add_along_lobe(Tile& tile, const ShadingPoint& at, GlossyPoint& lobe, NextR
     if (!(scale > 0)) return;
     lobe.per_light = 1 / scale;
     for (int i = 0; i < count && !rays.full(); ++i) {
-        const GlossyPlace place = glossy_place(x, y, i);
+        const GlossyPlace place = glossy_place(x, y, i, count);
         const Vec3f facet = local.to_world(
             sample_visible_normal(lobe.alpha, local.to_local(at.view_dir), place.u1, place.u2));
         const Vec3f dir = normalized(reflect(at.view_dir, facet));
@@ -117,7 +115,7 @@ void add_glossy_rays(Tile& tile, const ShadingPoint& at, const GlossyRequest& re
     if (!surface.material->has_facets() || surface.alpha >= kMinCachedAlpha) return;
     const Spectrum weight = at.throughput * tile.frame.indirect->lobe_albedo(at);
     // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
-    const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
+    const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBrightMirror;
     if (request.has_bodies && surface.alpha > 0 && !is_bright) return;
     const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
     if (surface.alpha < kNarrowestLobe) {

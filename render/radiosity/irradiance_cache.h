@@ -31,7 +31,7 @@ class InterObjectLinks;
 // lobe but its tails.
 inline constexpr float kMinCachedAlpha = 0.12f;
 // A lobe narrower than this is followed as a mirror, by one ray; a wider one by four.
-inline constexpr float kNarrowestLobe = 0.03f;
+inline constexpr float kNarrowestLobe = 0.02f;
 // Lists of directions are filled up to a multiple of this.
 inline constexpr std::size_t kDirectionLanes = 16;
 // The share of a narrow lobe that its ray does not stand for: facets turned by more than 11 degrees from the
