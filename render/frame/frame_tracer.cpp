@@ -98,7 +98,7 @@ void add(const Tile& tile, float share, SubpixelLight& moments) {
             }
 }
 
-// As much of the shading point as adding its light asks for.
+// Returns the shading point of a lobe, as far as adding its light asks for it.
 ShadingPoint shading_point_of(const GlossyPoint& point) {
     ShadingPoint at{};
     at.point_m = point.point_m, at.geometric_normal = at.normal = point.normal;
