@@ -96,9 +96,9 @@ class FrameTracer {
     std::optional<GroundUpsampler> places_;   // none before the first frame, and where no level has them
     std::vector<VisibilityTile> seen_;        // likewise
     std::vector<PenumbraSampler> penumbrae_;  // likewise
-    std::vector<TileStats> tile_stats_;                       // by tile
-    GlossyBuffer glossy_;  // no parts where no level caches light
-    std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame
+    std::vector<TileStats> tile_stats_;       // by tile
+    GlossyBuffer glossy_;                     // no parts where no level caches light
+    std::atomic<int> tiles_done_{0}, tiles_all_{0};  // tiles of the present frame
 
     const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
     std::size_t path_set(const Modules& modules, const std::string& name);
@@ -120,7 +120,8 @@ class FrameTracer {
     TileStats trace_places(const FrameContext& frame, const RadianceImage& radiance);
     void trace_places_of(const FrameContext& frame, const PixelBox& box, std::size_t slot, TileStats& stats);
     void trace_part(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
-                    VisibilityTile* seen, GlossyBuffer::Part* glossy, TileStats& stats, RadianceImage& radiance);
+                    VisibilityTile* seen, GlossyBuffer::Part* glossy, TileStats& stats,
+                    RadianceImage& radiance);
     void write_parts(const TileParts& tile, float share) const;
 };
 

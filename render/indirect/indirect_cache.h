@@ -105,11 +105,11 @@ class IndirectCache {
         // texture colours facets, theirs is what white ones would reflect.
         Spectrum diffuse, met;
         SentOfBodies bodies;
-        SentOfBodies unhidden;                               // the latter, if nothing were in the way
+        SentOfBodies unhidden;                            // the latter, if nothing were in the way
         std::array<float, Planetshine::kMaxBodies> free;  // share of each that nothing is in the way of
-        float directions;   // that bring what is met (IrradianceCache::Lobe)
-        bool mirrors_near;  // see GlossyRequest
-        bool has_bodies;    // likewise
+        float directions;                                 // that bring what is met (IrradianceCache::Lobe)
+        bool mirrors_near;                                // see GlossyRequest
+        bool has_bodies;                                  // likewise
     };
     // A shading point, its number, and the place whose light it has.
     struct Use {
@@ -148,8 +148,10 @@ class IndirectCache {
     MetByLobe met_by_lobe(const FrameContext& frame, const Place& place, bool whole) const;
     SentOfBodies sent_of_bodies(const ShadingPoint& at) const;
     void add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests) const;
-    float share_of_rays(const Tile& tile, const ShadingPoint& at, const Place& place, const Spectrum& met) const;
-    GlossyPoint* leave_to_rays(Tile& tile, const ShadingPoint& at, const Place& place, const Spectrum& met) const;
+    float share_of_rays(const Tile& tile, const ShadingPoint& at, const Place& place,
+                        const Spectrum& met) const;
+    GlossyPoint* leave_to_rays(Tile& tile, const ShadingPoint& at, const Place& place,
+                               const Spectrum& met) const;
     Planetshine::Glossy sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
                                      float reflectance) const;
     Planetshine::Glossy sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const;

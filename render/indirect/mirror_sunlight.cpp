@@ -146,7 +146,8 @@ class Asker {
         Vec2f brightest = place;
         // The largest first: most see nothing of it.
         for (auto part = kRectangles.rbegin(); part != kRectangles.rend(); ++part) {
-            const Vec2f size{std::max(2 * part->half * blur.x, coarse.x), std::max(2 * part->half * blur.y, coarse.y)};
+            const Vec2f size{std::max(2 * part->half * blur.x, coarse.x),
+                             std::max(2 * part->half * blur.y, coarse.y)};
             const float filled = part->share * shape_.filled(place, size);
             asked.filled += filled;
             if (asked.filled == 0) return false;

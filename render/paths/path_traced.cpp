@@ -70,8 +70,7 @@ class TracedPaths final : public PathModel {
             frame.radiance->add_light(tile, {current_ + keep, count - keep}, BodySampling::kSampled);
             const bool last = depth == frame.max_depth;
             NextRays rays{next_};
-            for (std::size_t i = 0; i < keep; ++i)
-                add_glossy_rays(tile, current_[i], requests_[i], rays);
+            for (std::size_t i = 0; i < keep; ++i) add_glossy_rays(tile, current_[i], requests_[i], rays);
             choose(tile, {current_ + keep, count - keep}, last, rays);
             count = follow(tile, rays.count, last);
         }
@@ -263,8 +262,7 @@ class TracedPaths final : public PathModel {
                     continue;
                 }
                 if (!meets_object(frame, hits, k, ray.origin_m, ray.dir)) {
-                    if (ray.sees_bodies)
-                        add_background(tile, ray);
+                    if (ray.sees_bodies) add_background(tile, ray);
                     continue;
                 }
                 if (ray.glossy) ray.glossy->set_met(ray.origin_m + hits.distance[k] * ray.dir);

@@ -384,7 +384,8 @@ void Planetshine::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy>
     const Disks& disks = disks_[body];
     const float alpha = lobes.alpha;
     // The fewer parts where facets turn by half of alpha, at most, from one to the next.
-    const std::size_t parts = alpha < disks.of[kEven].min_alpha ? 2 : (alpha < 2 * disks.of.front().min_alpha ? 1 : 0);
+    const std::size_t parts =
+        alpha < disks.of[kEven].min_alpha ? 2 : (alpha < 2 * disks.of.front().min_alpha ? 1 : 0);
     const Disk& disk = disks.of[parts];
     Seen seen;
     look(disks, disk, kParts[parts], bodies_[body].world_dir, lobes, seen);

@@ -52,7 +52,8 @@ struct Tile {
     std::span<const Spectrum> moment_responses{};
     std::span<SubpixelKind> kinds{};  // by pixel; likewise
 
-    GlossyBuffer::Part* glossy = nullptr;  // gets the lobes that rays are to follow; null: the cache alone has their light
+    GlossyBuffer::Part* glossy =
+        nullptr;  // gets the lobes that rays are to follow; null: the cache alone has their light
     const TileParts* parts = nullptr;  // for the parts of the light; null: nobody asks
 
     // Adds light that a shading point sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for
