@@ -54,12 +54,15 @@ bool is_alike(const ShadingPoint& a, const ShadingPoint& b, float near_m) {
 
 }  // namespace
 
-// Something may stand in the mirror's direction.
+// Something may stand in the mirror's direction, as any of the probes about there sees it.
 bool IndirectCache::is_near(const FrameContext& frame, const Place& place) const {
     if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
     const ShadingPoint& at = *place.at;
-    return objects_[at.object].light->is_near(
-        place.nearest, to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal)));
+    const Vec3f dir = to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal));
+    const IrradianceCache& light = *objects_[at.object].light;
+    return std::any_of(place.about.probe.begin(),
+                       place.about.probe.begin() + static_cast<std::ptrdiff_t>(place.about.count),
+                       [&](std::uint32_t probe) { return light.is_near(probe, dir); });
 }
 
 // The place whose light a shading point shares; null: it needs its own. What mirrors show may be seen from anywhere.
@@ -154,11 +157,10 @@ float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, con
     constexpr float kOfThreshold = 0.5f, kOfFree = 4;
     if (!tile.glossy || at.depth != 1 || tile.frame.max_depth < 2 || at.surface.alpha < kNarrowestLobe)
         return 0;
-    if (at.surface.alpha < kMinCachedAlpha) {
-        const float importance = at.importance(at.throughput * lobe_albedo(at));
-        const bool looks = place.mirrors_near || importance >= kBrightMirror;
-        return looks && importance >= tile.frame.contribution_threshold ? 1.0f : 0.0f;
-    }
+    // Directions of a table fall beside a narrow lobe: what may stand in it is looked for.
+    if (at.surface.alpha < kMinCachedAlpha && place.mirrors_near)
+        return at.importance(at.throughput * lobe_albedo(at)) >= tile.frame.contribution_threshold ? 1.0f
+                                                                                                   : 0.0f;
     float light = max_component(met);
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
         light += std::min(1.0f, kOfFree * (1 - place.free[b])) *

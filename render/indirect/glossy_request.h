@@ -5,10 +5,6 @@
 
 namespace hilcam {
 
-// A mirror of this reflectance is looked into in any case: a glint in it is as bright as paint, and the directions of a table pass a
-// mast by.
-inline constexpr float kBrightMirror = 0.1f;
-
 struct GlossyRequest {
     bool mirrors_near = true;      // something may stand in the mirror's direction
     bool has_bodies = false;       // the light of bodies in the lobe has been added
