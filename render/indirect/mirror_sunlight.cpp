@@ -19,13 +19,13 @@ constexpr float kHalfSun_rad = 0.0033f;
 // A mirror throws next to nothing at flatter angles.
 constexpr float kMinCosine = 0.01f;
 // The share of GGX's slopes within r alpha is r^2 / (1 + r^2) (its density, Walter et al., EGSR 2007, eq. 33, integrated). Even
-// spreads over disks of r = 1/2, 1, 2, 4 and 8 with these shares have it there. Squares stand for the disks: of half sides of 0.78 r
-// [alpha] they have the share within a strip, too, to 0.017.
+// spreads over disks of r = 1/2, 1, 2, 4 and 8 with these shares have it there. Squares stand for the disks: of half sides of 0.76 r
+// [alpha] they have the share within a strip, too, to 0.024.
 struct Rectangle {
     float half, share;
 };
 constexpr std::array<Rectangle, 5> kRectangles{
-    {{0.39f, 0.1f}, {0.78f, 0.3f}, {1.56f, 0.353f}, {3.12f, 0.1735f}, {6.24f, 0.0735f}}};
+    {{0.38f, 0.1f}, {0.76f, 0.3f}, {1.52f, 0.353f}, {3.04f, 0.1735f}, {6.08f, 0.0735f}}};
 
 // A shading point on its way to a mirror.
 struct MirrorRay {

@@ -244,37 +244,36 @@ struct MetalShares {
     }
 };
 
-// Of a wide lobe the cache has all, and knows the light by the sixty directions of its nodes.
+// Rays follow the lobe. Where paths end at the first surface, the cache has all of a wide one, and knows the light by the sixty
+// directions of its nodes.
 TEST(LightParts, LightOfOtherSurfacesIsGlossyOnMetal) {
     for (const Way& way : kKeptWays)
-        for (const double roughness : {0.4, 0.6, 0.8}) {
-            Stage s = box_by(way, roughness);
-            const LightParts parts = parts_of(s);
-            const std::string what = way.name() + ' ' + std::to_string(roughness);
-            expect_only(s, parts, {LightPart::kDiffuse, LightPart::kGlossy}, what);
-            const MetalShares shares(roughness);
-            EXPECT_NEAR(mean(parts.of(LightPart::kDiffuse)) / (shares.base * furnace_black()), 1, 1e-3)
-                << what;
-            EXPECT_NEAR(mean(parts.of(LightPart::kGlossy)) / (shares.lobe * furnace_black()), 1, 0.01)
-                << what;
-            EXPECT_NEAR(mean(parts.sum()) / mean(s.radiance), 1, 1e-6) << what;
-        }
+        for (const double roughness : {0.4, 0.6, 0.8})
+            for (const bool rays : {true, false}) {
+                Stage s = box_by(way, roughness);
+                if (!rays) s.quality.max_depth = 1;
+                const LightPart part = rays ? LightPart::kGlossyRays : LightPart::kGlossy;
+                const LightParts parts = parts_of(s);
+                const std::string what = way.name() + ' ' + std::to_string(roughness);
+                expect_only(s, parts, {LightPart::kDiffuse, part}, what);
+                const MetalShares shares(roughness);
+                EXPECT_NEAR(mean(parts.of(LightPart::kDiffuse)) / (shares.base * furnace_black()), 1, 1e-3)
+                    << what;
+                EXPECT_NEAR(mean(parts.of(part)) / (shares.lobe * furnace_black()), 1, 0.01) << what;
+                EXPECT_NEAR(mean(parts.sum()) / mean(s.radiance), 1, 1e-6) << what;
+            }
 }
 
-// Of a narrow one rays have the middle, and the cache has the tails (tail_share()): by such of the sixty directions as lie there, which
-// find a twelfth less.
-TEST(LightParts, ANarrowLobeIsOfRaysButForItsTails) {
+TEST(LightParts, ANarrowLobeIsOfRays) {
     for (const Way& way : kKeptWays)
         for (const double roughness : {0.2, 0.25, 0.3}) {
             Stage s = box_by(way, roughness);
             const LightParts parts = parts_of(s);
             const std::string what = way.name() + ' ' + std::to_string(roughness);
-            expect_only(s, parts, {LightPart::kDiffuse, LightPart::kGlossy, LightPart::kGlossyRays}, what);
+            expect_only(s, parts, {LightPart::kDiffuse, LightPart::kGlossyRays}, what);
             const MetalShares shares(roughness);
-            const double alpha = roughness * roughness, tails = alpha * alpha / (alpha * alpha + 0.0378),
-                         lobe = shares.lobe * furnace_black();
-            EXPECT_NEAR(mean(parts.of(LightPart::kGlossyRays)) / ((1 - tails) * lobe), 1, 1e-5) << what;
-            EXPECT_NEAR(mean(parts.of(LightPart::kGlossy)) / (tails * lobe), 1, 0.1) << what;
+            EXPECT_NEAR(mean(parts.of(LightPart::kGlossyRays)) / (shares.lobe * furnace_black()), 1, 1e-4)
+                << what;
             EXPECT_NEAR(mean(parts.of(LightPart::kDiffuse)) / (shares.base * furnace_black()), 1, 1e-3)
                 << what;
             EXPECT_NEAR(mean(parts.sum()) / mean(s.radiance), 1, 1e-6) << what;
