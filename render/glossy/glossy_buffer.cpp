@@ -1,6 +1,9 @@
 #include "render/glossy/glossy_buffer.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
+#include <new>
 
 #include "render/vocabulary/check.h"
 
@@ -11,23 +14,27 @@ namespace {
 // Rays that a part has room for, by its samples: as many as any pixel has of its own.
 constexpr std::size_t kRaysPerSample = 4;
 
-template <class T>
-std::size_t room_of(std::size_t count) {
-    return (count * sizeof(T) + 63) / 64 * 64;
-}
-
 }  // namespace
+
+void GlossyBuffer::Unmap::operator()(void* room) const { munmap(room, bytes); }
+
+template <class T>
+std::unique_ptr<T[], GlossyBuffer::Unmap> GlossyBuffer::room_for(std::size_t count) {
+    const std::size_t bytes = std::max<std::size_t>(count, 1) * sizeof(T);
+    void* const room =
+        mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) throw std::bad_alloc();
+    return {static_cast<T*>(room), Unmap{bytes}};
+}
 
 GlossyBuffer::GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t samples)
     : width_(width_px),
       height_(height_px),
       parts_(parts),
-      points_(static_cast<GlossyPoint*>(std::aligned_alloc(64, room_of<GlossyPoint>(parts * samples)))),
-      rays_(static_cast<GlossyRay*>(
-          std::aligned_alloc(64, room_of<GlossyRay>(parts * samples * kRaysPerSample)))),
+      points_(room_for<GlossyPoint>(parts * samples)),
+      rays_(room_for<GlossyRay>(parts * samples * kRaysPerSample)),
       first_of_pixel_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), kNone) {
     HILCAM_CHECK(parts * samples * kRaysPerSample < kNone && parts * samples < 1u << 31);
-    if (!points_ || !rays_) throw std::bad_alloc();
     for (std::size_t i = 0; i < parts; ++i) {
         Part& part = parts_[i];
         part.first_point_ = static_cast<std::uint32_t>(i * samples);

@@ -4,12 +4,11 @@
 // A lobe has a ray or a few of its own, along directions that follow its visible normals. What they meet serves the lobes of the
 // pixels about it, too (glossy_reuse.h), so the rays stay here until all tiles have been traced. Each part of the frame has room
 // for as many lobes as it has samples, whatever others have: a frame does not depend on the order of its parts. A lobe and its rays
-// take 480 bytes.
+// take some 500 bytes.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <span>
@@ -123,18 +122,22 @@ class GlossyBuffer {
   private:
     int width_ = 0, height_ = 0;
     std::vector<Part> parts_;
-    // Room for objects that are made when they are added: memory that no lobe has used is not touched.
-    struct Free {
-        void operator()(void* room) const { std::free(room); }
+    // Room for objects that are made when they are added. Memory that no lobe has used is neither touched nor counted by the kernel, unless
+    // all memory is locked.
+    struct Unmap {
+        std::size_t bytes;
+        void operator()(void* room) const;
     };
-    std::unique_ptr<GlossyPoint[], Free> points_;
-    std::unique_ptr<GlossyRay[], Free> rays_;
+    std::unique_ptr<GlossyPoint[], Unmap> points_;
+    std::unique_ptr<GlossyRay[], Unmap> rays_;
     std::vector<std::uint32_t> first_of_pixel_;
 
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
     void clear_pixels(const PixelBox& box);
+    template <class T>
+    static std::unique_ptr<T[], Unmap> room_for(std::size_t count);
 };
 
 }  // namespace hilcam
