@@ -54,12 +54,16 @@ bool is_alike(const ShadingPoint& a, const ShadingPoint& b, float near_m) {
 
 }  // namespace
 
-// Something may stand in the mirror's direction, as any of the probes about there sees it.
+// Something may stand in the mirror's direction.
 bool IndirectCache::is_near(const FrameContext& frame, const Place& place) const {
     if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
     const ShadingPoint& at = *place.at;
     const Vec3f dir = to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal));
     const IrradianceCache& light = *objects_[at.object].light;
+    if (light.is_near(place.nearest, dir)) return true;
+    // A step of brightness shows in a bright lobe where one probe knows and the next does not; asking all takes time.
+    constexpr float kBright = 0.1f;
+    if (at.surface.alpha < kNarrowestLobe || max_component(lobe_albedo(at)) < kBright) return false;
     return std::any_of(place.about.probe.begin(),
                        place.about.probe.begin() + static_cast<std::ptrdiff_t>(place.about.count),
                        [&](std::uint32_t probe) { return light.is_near(probe, dir); });
