@@ -195,7 +195,7 @@ std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
         "quality.max_depth=8",
         fmt::format("quality.samples_per_axis={}", (kRaysPerAxis + oversampling - 1) / oversampling),
         "quality.contribution_threshold=0.0001",
-        // With the Sun's disk rays are scattered: averaged frames then have no grid in common.
+        // This scatters the rays in their pixels, too, so that frames that are averaged do not share a grid.
         "quality.visibility=rays",
         "quality.sun_disk=true",
         "quality.facets_behind_diffuse=0",

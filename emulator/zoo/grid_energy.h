@@ -7,8 +7,8 @@
 // stripes and chessboards are a line at the frequency 1/p in them. The error itself would not do: squares of random
 // heights have a zero of their spectrum there. Steps along the rows are transformed over the whole picture; of the
 // spectrum the frequencies count that are even down the columns, which is where all rows agree. Steps down the columns
-// likewise. A step counts for four times the median of all at most, so that single pixels of a reference that are far off do not
-// drown the rest.
+// likewise. Each step is capped at four times the median step: a reference has single pixels that are far off, and their
+// steps would drown the rest.
 
 #include <array>
 #include <cstdint>

@@ -39,12 +39,12 @@ struct KnownPicture {
         error;  // an estimate of the mean's own error by pixel, of either sign: squares count
 };
 
-// Counts of blocks of 4 x 4 pixels, all of them smooth surface, whose light in the reference is more than five
-// times a pixel's noise in the dark. A block whose light the reference itself does not know to a fortieth is in
-// `unknown` and in no other count.
+// Counts of blocks of 4 x 4 pixels. A block is counted when all of it shows smooth surface and the reference has more light there
+// than five times a pixel's noise in the dark. When the reference's own error exceeds a fortieth of the block's light, the block is
+// counted as `unknown` only.
 struct BlockCounts {
     std::size_t judged = 0, unknown = 0;
-    std::size_t over_10 = 0, over_25 = 0;  // blocks whose light is off by more than so many per cent
+    std::size_t over_10 = 0, over_25 = 0;  // blocks whose light is off by more than 10 and 25 per cent
 
     BlockCounts& operator+=(const BlockCounts& other) {
         judged += other.judged, unknown += other.unknown;

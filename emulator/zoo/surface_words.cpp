@@ -48,7 +48,7 @@ constexpr std::array kSurfaceWords = std::to_array<Word>({
     {"asteroid", "asteroid_s"},
     {"regolith", "lunar_regolith"},
 });
-// glTF 2.0: 0 is a dielectric, 1 a metal; what lies between is a mixture of both.
+// A metallic factor of 0 is a dielectric and of 1 a metal (glTF 2.0, section 3.9.2). From here on a surface is taken for metal.
 constexpr float kMetal = 0.5f;
 
 }  // namespace

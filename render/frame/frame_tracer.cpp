@@ -16,10 +16,14 @@ void fill_zero(RadianceImage& radiance, const PixelBox& box) {
             std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
 }
 
+// Ways to give a value to what is there.
+constexpr auto kSet = [](float& to, float value) { to = value; };
+constexpr auto kAdd = [](float& to, float value) { to += value; };
+
 // share: factor on the pixels' values. value_of: of a pixel, for a plane of the image.
-template <class ValueOf>
-void write_planes(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance,
-                  const ValueOf& value_of) {
+template <class Put, class ValueOf>
+void put_planes(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance,
+                const Put& put, const ValueOf& value_of) {
     // Some pixels at a time: a tile's, plane by plane, would pass through the nearest cache once a plane.
     constexpr int kTogether = 16;
     const int width = box.x1 - box.x0;
@@ -29,33 +33,24 @@ void write_planes(std::span<const Spectrum> pixels, float share, const PixelBox&
             const int count = std::min(kTogether, width - x);
             for (int plane = 0; plane < radiance.planes(); ++plane) {
                 float* out = radiance.row(y, plane).data() + box.x0 + x;
-                for (int i = 0; i < count; ++i) out[i] = share * value_of(in[i], plane);
+                for (int i = 0; i < count; ++i) put(out[i], share * value_of(in[i], plane));
             }
         }
 }
-void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance) {
+template <class Put>
+void put_pixels(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance,
+                const Put& put) {
     const std::span<const Spectrum> responses = radiance.responses();
     if (responses.empty())
-        write_planes(pixels, share, box, radiance, [](const Spectrum& pixel, int bin) { return pixel[bin]; });
+        put_planes(pixels, share, box, radiance, put,
+                   [](const Spectrum& pixel, int bin) { return pixel[bin]; });
     else
-        write_planes(pixels, share, box, radiance, [&](const Spectrum& pixel, int channel) {
+        put_planes(pixels, share, box, radiance, put, [&](const Spectrum& pixel, int channel) {
             return sum_of_products(responses[static_cast<std::size_t>(channel)], pixel);
         });
 }
-
-// Adds to what is there.
-void add(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance) {
-    const std::span<const Spectrum> responses = radiance.responses();
-    const int width = box.x1 - box.x0;
-    for (int plane = 0; plane < radiance.planes(); ++plane)
-        for (int y = box.y0; y < box.y1; ++y) {
-            float* out = radiance.row(y, plane).data() + box.x0;
-            const Spectrum* in = pixels.data() + (y - box.y0) * width;
-            for (int x = 0; x < width; ++x)
-                out[x] += share * (responses.empty()
-                                       ? in[x][plane]
-                                       : sum_of_products(responses[static_cast<std::size_t>(plane)], in[x]));
-        }
+void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance) {
+    put_pixels(pixels, share, box, radiance, kSet);
 }
 
 void copy(const RadianceImage& from, const PixelBox& box, RadianceImage& to) {
@@ -65,37 +60,31 @@ void copy(const RadianceImage& from, const PixelBox& box, RadianceImage& to) {
                       to.row(y, p).begin() + box.x0);
 }
 
+template <class Put>
+void put_differences(const Tile& tile, float share, SubpixelLight& moments, const Put& put) {
+    const PixelBox& box = tile.box;
+    const auto width = static_cast<std::size_t>(box.x1 - box.x0);
+    const float* in = tile.moments.data();
+    for (int channel = 0; channel < static_cast<int>(tile.moment_responses.size()); ++channel)
+        for (int difference = 0; difference < SubpixelLight::kDifferences; ++difference)
+            for (int y = box.y0; y < box.y1; ++y, in += width) {
+                float* out = moments.row(y, difference, channel).data() + box.x0;
+                for (std::size_t x = 0; x < width; ++x) put(out[x], share * in[x]);
+            }
+}
+
 // Writes a part of a block. False: nothing, as no pixel's differences are known, and it may be left.
 bool write(const Tile& tile, float share, bool may_leave, SubpixelLight& moments) {
     if (may_leave && std::all_of(tile.kinds.begin(), tile.kinds.end(),
                                  [](SubpixelKind kind) { return kind == SubpixelKind::kSmooth; }))
         return false;
+    put_differences(tile, share, moments, kSet);
     const PixelBox& box = tile.box;
     const auto width = static_cast<std::size_t>(box.x1 - box.x0);
-    const float* in = tile.moments.data();
-    for (int channel = 0; channel < static_cast<int>(tile.moment_responses.size()); ++channel)
-        for (int difference = 0; difference < SubpixelLight::kDifferences; ++difference)
-            for (int y = box.y0; y < box.y1; ++y, in += width) {
-                float* out = moments.row(y, difference, channel).data() + box.x0;
-                for (std::size_t x = 0; x < width; ++x) out[x] = share * in[x];
-            }
     for (int y = box.y0; y < box.y1; ++y)
         std::copy_n(tile.kinds.begin() + (y - box.y0) * static_cast<std::ptrdiff_t>(width), width,
                     moments.kinds(y).begin() + box.x0);
     return true;
-}
-
-// Adds a tile's differences to what is there.
-void add(const Tile& tile, float share, SubpixelLight& moments) {
-    const PixelBox& box = tile.box;
-    const auto width = static_cast<std::size_t>(box.x1 - box.x0);
-    const float* in = tile.moments.data();
-    for (int channel = 0; channel < static_cast<int>(tile.moment_responses.size()); ++channel)
-        for (int difference = 0; difference < SubpixelLight::kDifferences; ++difference)
-            for (int y = box.y0; y < box.y1; ++y, in += width) {
-                float* out = moments.row(y, difference, channel).data() + box.x0;
-                for (std::size_t x = 0; x < width; ++x) out[x] += share * in[x];
-            }
 }
 
 // Returns the shading point of a lobe, as far as adding its light asks for it.
@@ -110,6 +99,15 @@ ShadingPoint shading_point_of(const GlossyPoint& point) {
 }
 
 std::size_t pool_slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
+
+// Pixels and differences whose light is no number are dark. They are counted.
+void leave_out_not_finite(Tile& tile) {
+    const std::uint64_t left_out = leave_out_not_finite(tile.pixels);
+    if (left_out == 0) return;
+    tile.stats.not_finite += left_out;
+    std::replace_if(
+        tile.moments.begin(), tile.moments.end(), [](float light) { return !std::isfinite(light); }, 0.0f);
+}
 
 // A pixel whose light is no number is dark, and so are all of its parts.
 void leave_out_not_finite(std::span<const Spectrum> pixels, const TileParts& parts) {
@@ -330,12 +328,7 @@ void FrameTracer::trace_part(const FrameContext& frame, const PixelBox& box, int
     if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
     if (glossy) glossy_.link(*glossy);
     if (parts_) leave_out_not_finite(pixels, parts), write_parts(parts, share);
-    if (const std::uint64_t left_out = leave_out_not_finite(pixels); left_out > 0) {
-        stats.not_finite += left_out;
-        std::replace_if(
-            tile.moments.begin(), tile.moments.end(), [](float light) { return !std::isfinite(light); },
-            0.0f);
-    }
+    leave_out_not_finite(tile);
     write(pixels, share, box, radiance);
     // A block of several tiles has one mark.
     const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;
@@ -368,16 +361,22 @@ void FrameTracer::add_glossy_of(const FrameContext& frame, const GlossyBuffer::P
         const int x = box.x0 + static_cast<int>(point.pixel) % width,
                   y = box.y0 + static_cast<int>(point.pixel) / width;
         const GlossyLight light = reused_light(glossy_, point, x, y);
+        // Only who takes pictures apart asks which surface has sent it.
+        if (!parts_) {
+            tile.add(point.pixel, LightPart::kGlossyRays, point.moments, light.surfaces);
+            tile.add(point.pixel, LightPart::kPlanetshine, point.moments, light.bodies);
+            continue;
+        }
         const ShadingPoint at = shading_point_of(point);
         tile.add(at, LightPart::kGlossyRays, light.surfaces);
         tile.add(at, LightPart::kPlanetshine, light.bodies);
     }
     if (parts_) leave_out_not_finite(pixels, parts);
-    stats.not_finite += leave_out_not_finite(pixels);
+    leave_out_not_finite(tile);
     for (const LightPart of : {LightPart::kGlossyRays, LightPart::kPlanetshine})
-        if (parts_ && parts_->parts.has(of)) add(parts.of(of), share, box, parts_->parts.of(of));
-    add(pixels, share, box, radiance);
-    if (moments_) add(tile, share, *moments_);
+        if (parts_ && parts_->parts.has(of)) put_pixels(parts.of(of), share, box, parts_->parts.of(of), kAdd);
+    put_pixels(pixels, share, box, radiance, kAdd);
+    if (moments_) put_differences(tile, share, *moments_, kAdd);
 }
 
 void FrameTracer::write_parts(const TileParts& tile, float share) const {

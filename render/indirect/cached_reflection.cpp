@@ -172,7 +172,7 @@ float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, con
     const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
     const float white = max_component(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
     const float least = kOfThreshold * samples * tile.frame.contribution_threshold * white;
-    return std::clamp(at.weight_samples * light / least - 1, 0.0f, 1.0f);
+    return light > 0 ? std::clamp(at.weight_samples * light / least - 1, 0.0f, 1.0f) : 0.0f;
 }
 
 // Null: the cache has the lobe's light.
