@@ -15,18 +15,18 @@ constexpr float kLeastPixel =
     0.08f;  // weight of pixels that are left out: a third of them, with 5 % of the weight
 constexpr std::size_t kMaxTaken =
     2048;  // rays that one lobe takes: of all pixels in reach, some with two surfaces
-// A neighbour's direction that its own lobe hardly draws would count for many rays; its own, for no more than one.
+// A neighbour's direction that its own lobe hardly draws would count for many rays; none of a lobe's own counts for more than one.
+// Without this limit p99 of Hubble by the Earth's light is 25.5 in place of 24.3 sensor noises.
 constexpr float kMaxWeight = 4;
-constexpr float kFacing = 0.5f;  // cosine of normals that are one surface's
 
 // The rays that a lobe takes, column by column.
 struct Taken {
     using Column = std::array<float, kMaxTaken>;
     std::size_t count = 0;
-    alignas(64) Column x, y, z;  // place that is met, from the lobe's point, or direction; then its direction
-    alignas(64) Column weight;   // the weight of the pixel, times per_density_sr; then that of the lobe
-    alignas(64) Column pixel;    // weight of the pixel
-    alignas(64) Column way_m;    // from the lobe's point to where the ray began
+    alignas(64) Column x, y, z;       // place that is met, from the lobe's point, or direction
+    alignas(64) Column weight;        // the weight of the pixel, times per_density_sr; then that of the lobe
+    alignas(64) Column pixel;         // weight of the pixel
+    alignas(64) Column way_m;         // from the lobe's point to where the ray began
     alignas(64) Column per_light;     // the ray's point has it
     alignas(64) Column per_distance;  // 1 where something is met, else 0; then over its distance
     std::array<const GlossyRay*, kMaxTaken> ray;
@@ -59,8 +59,7 @@ void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, Taken
             buffer.for_each_ray(column, row, [&](const GlossyRay& ray, const GlossyPoint& of) {
                 const Vec3f way = of.point_m - at.point_m;
                 const float squared_m2 = dot(way, way);
-                if (taken.count == kMaxTaken || !of.same_surface(at) || squared_m2 > 2 * apart_m * apart_m ||
-                    dot(of.normal, at.normal) < kFacing)
+                if (taken.count == kMaxTaken || !of.same_surface(at) || squared_m2 > 2 * apart_m * apart_m)
                     return;
                 taken.add(ray, of, ray.free ? ray.met_m : ray.met_m - at.point_m, std::sqrt(squared_m2),
                           pixel);
@@ -78,7 +77,6 @@ void weigh(const GgxLobe& lobe, Vec3f normal, Vec3f view, Taken& taken) {
         const float per_length = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-30f));
         const float ni = (n.x * x + n.y * y + n.z * z) * per_length;
         const float io = (v.x * x + v.y * y + v.z * z) * per_length;
-        taken.x[i] = x * per_length, taken.y[i] = y * per_length, taken.z[i] = z * per_length;
         const float weight = taken.weight[i] * (ni > 0 ? ni : 0.0f) * law.at(std::max(ni, 1e-3f), io);
         taken.weight[i] = std::min(weight, kMaxWeight * taken.pixel[i]);
         taken.per_distance[i] *= per_length;
@@ -145,8 +143,8 @@ GlossyLight reused_light(const GlossyBuffer& buffer, const GlossyPoint& at, int 
     leave_out_far(taken);
     const Sums sums(taken);
     const float rays = sums.rays();
-    // The cache's directions count for what few rays leave open: each as the square root of two rays, as rays that are few are
-    // seldom all of a lobe.
+    // The fewer rays count, the more the cache's directions replace them. With 16 in place of 2, rms of Hubble by the Earth's light is
+    // 10.4 in place of 9.9 sensor noises.
     constexpr float kPerDirection = 2;
     const float trust =
         rays > 0 ? at.share * rays * rays / (rays * rays + kPerDirection * at.directions) : 0.0f;
@@ -154,7 +152,7 @@ GlossyLight reused_light(const GlossyBuffer& buffer, const GlossyPoint& at, int 
     if (sums.all > 0) out.surfaces = (trust / sums.all) * (at.weight * sums.light);
     out.surfaces += (1 - trust) * at.cached;
     for (std::size_t b = 0; b < at.bodies.size(); ++b) {
-        // The cache's word counts for one ray.
+        // What the cache has counts for one ray.
         const float towards = sums.towards[b], one = towards / std::max(rays, 1.0f);
         const float free = towards > 0 ? (sums.free[b] + one * at.free[b]) / (towards + one) : at.free[b];
         out.bodies += (at.share * free + (1 - at.share) * at.free[b]) * at.bodies[b];

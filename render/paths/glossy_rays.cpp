@@ -70,8 +70,7 @@ int lobe_rays(const ShadingPoint& at) {
 float cone_alpha(float per_density_sr) {
     constexpr float kShared =
         32;  // rays that share a lobe; from 16 to 64 errors of the zoo differ by less than 5 %
-    constexpr float kWidest = 0.5f;
-    return std::min(0.5f * std::sqrt(per_density_sr / (kPiF * kShared)), kWidest);
+    return 0.5f * std::sqrt(per_density_sr / (kPiF * kShared));
 }
 
 // Adds rays along a lobe, drawn as it sends.
@@ -100,8 +99,13 @@ void add_along_lobe(Tile& tile, const ShadingPoint& at, GlossyPoint& lobe, NextR
         for (std::size_t b = 0; b < planetshine.bodies().size(); ++b)
             own->towards[b] = planetshine.brightness(b, dir);
         own->per_density_sr = 1 / ggx_density(lobe.alpha, no, std::min(dot(at.normal, facet), 1.0f));
-        NextRay ray{&at,   at.start(), dir, 0, std::hypot(lobe.alpha, cone_alpha(own->per_density_sr)),
-                    false, {}};
+        NextRay ray{&at,
+                    at.start(),
+                    dir,
+                    0,
+                    std::min(std::hypot(lobe.alpha, cone_alpha(own->per_density_sr)), 1.0f),
+                    false,
+                    {}};
         ray.throughput.bin.fill(scale);
         ray.sees_bodies = false, ray.part = LightPart::kGlossyRays, ray.glossy = own;
         rays.add(ray);
