@@ -62,8 +62,7 @@ bool IndirectCache::is_near(const FrameContext& frame, const Place& place) const
     const IrradianceCache& light = *objects_[at.object].light;
     if (light.is_near(place.nearest, dir)) return true;
     // A step of brightness shows in a bright lobe where one probe knows and the next does not; asking all takes time.
-    constexpr float kBright = 0.1f;
-    if (at.surface.alpha < kNarrowestLobe || max_component(lobe_albedo(at)) < kBright) return false;
+    if (at.surface.alpha < kNarrowestLobe || max_component(lobe_albedo(at)) < kBrightLobe) return false;
     return std::any_of(place.about.probe.begin(),
                        place.about.probe.begin() + static_cast<std::ptrdiff_t>(place.about.count),
                        [&](std::uint32_t probe) { return light.is_near(probe, dir); });

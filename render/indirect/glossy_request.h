@@ -5,6 +5,9 @@
 
 namespace hilcam {
 
+// A lobe of this reflectance is looked into in any case: a glint in it is as bright as paint.
+inline constexpr float kBrightLobe = 0.1f;
+
 struct GlossyRequest {
     bool mirrors_near = true;      // something may stand in the mirror's direction
     bool has_bodies = false;       // the light of bodies in the lobe has been added

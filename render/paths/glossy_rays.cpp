@@ -11,8 +11,6 @@
 namespace hilcam {
 namespace {
 
-// A mirror of this reflectance is looked into in any case: a glint in it is as bright as paint.
-constexpr float kBright = 0.1f;
 constexpr int kLobeRays = 4;  // rays of a narrow lobe at the first surface, where neighbours share none
 
 void add(const Tile& tile, const NextRay& ray, NextRays& rays) {
@@ -121,7 +119,7 @@ void add_glossy_rays(Tile& tile, const ShadingPoint& at, const GlossyRequest& re
     if (!surface.material->has_facets() || surface.alpha >= kMinCachedAlpha) return;
     const Spectrum weight = at.throughput * tile.frame.indirect->lobe_albedo(at);
     // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
-    const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBright;
+    const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBrightLobe;
     if (request.has_bodies && surface.alpha > 0 && !is_bright) return;
     const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
     if (surface.alpha < kNarrowestLobe) {
