@@ -38,13 +38,14 @@ bool is_size(const Header& header) {
     return header.width >= 1 && header.height >= 1 && header.width <= kMax_px && header.height <= kMax_px;
 }
 
-bool read_picture(CacheReader& in, const std::string& key, std::optional<ReferencePicture>& picture) {
+bool read_picture(CacheReader& in, const std::string& key, std::span<ElectronImage* const> beside,
+                  std::optional<ReferencePicture>& picture) {
     const Header expected;
     Header header;
     in(header);
     if (!in.good() || header.magic != expected.magic || header.version != expected.version ||
         header.hash != hash_of(key) || !is_size(header) ||
-        in.left() != 2 * sizeof(float) * static_cast<std::uint64_t>(header.width) *
+        in.left() != (2 + beside.size()) * sizeof(float) * static_cast<std::uint64_t>(header.width) *
                          static_cast<std::uint64_t>(header.height))
         return false;
     picture = {ElectronImage(header.width, header.height),
@@ -53,6 +54,10 @@ bool read_picture(CacheReader& in, const std::string& key, std::optional<Referen
                static_cast<int>(header.frames),
                header.seconds};
     for (ElectronImage* image : {&picture->mean, &picture->dark}) in.list(image->data(), image->pixels());
+    for (ElectronImage* image : beside) {
+        *image = ElectronImage(header.width, header.height);
+        in.list(image->data(), image->pixels());
+    }
     return in.good();
 }
 
@@ -78,14 +83,16 @@ std::string reference_name(const std::string& key) {
     return "reference_" + std::to_string(hash_of(key)) + ".bin";
 }
 
-std::optional<ReferencePicture> kept_reference(const Cache& cache, const std::string& key) {
+std::optional<ReferencePicture> kept_reference(const Cache& cache, const std::string& key,
+                                               std::span<ElectronImage* const> beside) {
     std::optional<ReferencePicture> out;
-    if (cache.read(reference_name(key), [&](CacheReader& in) { return read_picture(in, key, out); }))
+    if (cache.read(reference_name(key), [&](CacheReader& in) { return read_picture(in, key, beside, out); }))
         return out;
     return std::nullopt;
 }
 
-void keep_reference(const Cache& cache, const std::string& key, const ReferencePicture& p) {
+void keep_reference(const Cache& cache, const std::string& key, const ReferencePicture& p,
+                    std::span<const ElectronImage* const> beside) {
     Header header;
     header.hash = hash_of(key);
     header.width = p.mean.width(), header.height = p.mean.height();
@@ -96,6 +103,7 @@ void keep_reference(const Cache& cache, const std::string& key, const ReferenceP
     cache.write(reference_name(key), [&](CacheWriter& out) {
         out(header);
         for (const ElectronImage* image : {&p.mean, &p.dark}) out.list(image->data(), image->pixels());
+        for (const ElectronImage* image : beside) out.list(image->data(), image->pixels());
     });
 }
 

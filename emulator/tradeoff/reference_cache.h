@@ -2,6 +2,7 @@
 // Reference pictures kept on disk: one takes minutes.
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "emulator/tradeoff/picture_judge.h"
@@ -23,10 +24,13 @@ inline constexpr std::uint32_t kReferenceVersion = 4;
 
 // The name of that key's file in the cache.
 std::string reference_name(const std::string& key);
-// Returns what is kept there, bit by bit. None when there is no file, or it is damaged, or another key's or
-// version's.
-std::optional<ReferencePicture> kept_reference(const Cache& cache, const std::string& key);
+// Returns the reference that is kept there, bit by bit, and fills the images `beside` it, which have its size. None when
+// there is no file, or it is damaged, has another number of images, or is another key's or version's; `beside` then
+// holds anything.
+std::optional<ReferencePicture> kept_reference(const Cache& cache, const std::string& key,
+                                               std::span<ElectronImage* const> beside = {});
 // A folder that cannot be written is no failure.
-void keep_reference(const Cache& cache, const std::string& key, const ReferencePicture& picture);
+void keep_reference(const Cache& cache, const std::string& key, const ReferencePicture& picture,
+                    std::span<const ElectronImage* const> beside = {});
 
 }  // namespace hilcam

@@ -53,8 +53,7 @@ class ZooReferences {
 
     ZooReference of(const ZooShot& shot, const Pose& camera_world) {
         const ScenarioConfig shown = scenario_of_shot(scenario_, shot);
-        const std::string key =
-            reference_key(shown, shot.camera_body.value_or(camera_world), limits_) + "with its pan\n";
+        const std::string key = reference_key(shown, shot.camera_body.value_or(camera_world), limits_);
         if (std::optional<ZooReference> kept = kept_zoo_reference(cache_, key)) return std::move(*kept);
         if (!camera_) camera_.emplace(scenario_);
         camera_->take(shot);

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "emulator/characterise/characterise_setup.h"
 #include "emulator/progress/progress.h"
 #include "emulator/tradeoff/reference_cache.h"
-#include "render/vocabulary/fnv.h"
 #include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
@@ -68,48 +66,7 @@ int pan_columns(const ScenarioConfig& reference) {
     return std::max<int>(1, static_cast<int>(reference.quality.oversampling) / 4);
 }
 
-// No holes between the members.
-struct ReferenceHeader {
-    std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'Z', 'R'};
-    std::uint32_t version = kZooReferenceVersion, reference_version = kReferenceVersion;
-    std::uint64_t hash = 0;
-    std::int32_t width = 0, height = 0;
-    std::int64_t frames = 0;
-    std::uint64_t lit_px = 0;
-    double p99 = 0, rms = 0, within_half_fraction = 0, seconds = 0;
-};
-static_assert(sizeof(ReferenceHeader) == 80 && std::is_trivially_copyable_v<ReferenceHeader>);
-
-std::uint64_t hash_of_key(const std::string& key) {
-    Fnv1a hash;
-    hash.take_bytes(key);
-    return hash.value();
-}
-
-std::array<ElectronImage*, 5> images_of(ZooReference& r) {
-    return {&r.mean, &r.dark, &r.error, &r.change, &r.change_error};
-}
-
-bool read_reference(CacheReader& in, const std::string& key, std::optional<ZooReference>& out) {
-    constexpr std::int32_t kMax_px = 1 << 14;  // a size that no picture has allocates nothing
-    const ReferenceHeader expected;
-    ReferenceHeader header;
-    in(header);
-    if (!in.good() || header.magic != expected.magic || header.version != expected.version ||
-        header.reference_version != expected.reference_version || header.hash != hash_of_key(key) ||
-        header.width < 1 || header.height < 1 || header.width > kMax_px || header.height > kMax_px)
-        return false;
-    const auto pixels = static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
-    out.emplace();
-    if (in.left() != images_of(*out).size() * sizeof(float) * pixels) return false;
-    out->standard_error = {header.p99, header.rms, header.within_half_fraction, header.lit_px};
-    out->frames = static_cast<int>(header.frames), out->seconds = header.seconds;
-    for (ElectronImage* image : images_of(*out)) {
-        *image = ElectronImage(header.width, header.height);
-        in.list(image->data(), image->pixels());
-    }
-    return in.good();
-}
+std::string key_with_pan(const std::string& key) { return key + "with its pan\n"; }
 
 }  // namespace
 
@@ -155,30 +112,18 @@ ZooReference render_zoo_reference(StillCamera& camera, const ScenarioConfig& s, 
     return out;
 }
 
-std::string zoo_reference_name(const std::string& key) {
-    return fmt::format("reference_zoo_{}.bin", hash_of_key(key));
-}
-
 std::optional<ZooReference> kept_zoo_reference(const Cache& cache, const std::string& key) {
-    std::optional<ZooReference> out;
-    if (cache.read(zoo_reference_name(key), [&](CacheReader& in) { return read_reference(in, key, out); }))
-        return out;
-    return std::nullopt;
+    ZooReference out;
+    const std::array<ElectronImage*, 3> beside = {&out.error, &out.change, &out.change_error};
+    std::optional<ReferencePicture> picture = kept_reference(cache, key_with_pan(key), beside);
+    if (!picture) return std::nullopt;
+    static_cast<ReferencePicture&>(out) = std::move(*picture);
+    return out;
 }
 
 void keep_zoo_reference(const Cache& cache, const std::string& key, const ZooReference& r) {
-    ReferenceHeader header;
-    header.hash = hash_of_key(key);
-    header.width = r.mean.width(), header.height = r.mean.height();
-    header.frames = r.frames, header.seconds = r.seconds;
-    header.p99 = r.standard_error.p99, header.rms = r.standard_error.rms;
-    header.within_half_fraction = r.standard_error.within_half_fraction;
-    header.lit_px = r.standard_error.lit_px;
-    cache.write(zoo_reference_name(key), [&](CacheWriter& out) {
-        out(header);
-        for (const ElectronImage* image : {&r.mean, &r.dark, &r.error, &r.change, &r.change_error})
-            out.list(image->data(), image->pixels());
-    });
+    const std::array<const ElectronImage*, 3> beside = {&r.error, &r.change, &r.change_error};
+    keep_reference(cache, key_with_pan(key), r, beside);
 }
 
 }  // namespace hilcam

@@ -19,14 +19,10 @@
 
 namespace hilcam {
 
-struct ZooReference {
-    ElectronImage mean;                  // [e-], cut off at saturation
-    ElectronImage dark;                  // picture without light
-    ElectronImage error;                 // half the difference of the halves' means, cut off as they are
+// standard_error is |error| / sigma.
+struct ZooReference : ReferencePicture {
+    ElectronImage error;                 // half the difference of the halves' means, cut off as they are [e-]
     ElectronImage change, change_error;  // the same of the difference that the pan makes
-    NoiseError standard_error;           // |error| / sigma over lit pixels
-    int frames = 0;
-    double seconds = 0;  // that it took
 };
 
 // KEY=VALUE beside reference_overrides(): one ray a radiance pixel, of which a pixel has 4 x 4, and the guard band of the shipped
@@ -40,13 +36,9 @@ ZooReference render_zoo_reference(StillCamera& camera, const ScenarioConfig& ref
                                   const ReferenceLimits& limits,
                                   const std::function<void(const std::string&)>& log);
 
-// Raised when the same key (reference_key() of reference_cache.h, which has kReferenceVersion for the renderer) would give another.
-inline constexpr std::uint32_t kZooReferenceVersion = 1;
-// The name of a key's file in the cache.
-std::string zoo_reference_name(const std::string& key);
-// Returns what is kept; none when there is no such file, or it is damaged, or another key's or version's.
+// As kept_reference() and keep_reference() of reference_cache.h, by the key that reference_key() gives. The file of a
+// reference without its pan is another one.
 std::optional<ZooReference> kept_zoo_reference(const Cache& cache, const std::string& key);
-// A folder that cannot be written is no failure.
 void keep_zoo_reference(const Cache& cache, const std::string& key, const ZooReference& reference);
 
 }  // namespace hilcam

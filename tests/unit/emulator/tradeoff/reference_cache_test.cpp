@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <fstream>
 
@@ -96,6 +97,18 @@ TEST_F(ReferenceCache, AnotherVersionsFileIsNotTaken) {
     EXPECT_FALSE(is_kept());
     put(8, static_cast<char>(kReferenceVersion));
     EXPECT_TRUE(is_kept());
+}
+
+TEST_F(ReferenceCache, ImagesBesideItComeBackAndAnotherNumberOfThemIsNotTaken) {
+    const ReferencePicture given = picture();
+    const std::array<const ElectronImage*, 1> beside = {&given.dark};
+    keep_reference(cache(), kKey, given, beside);
+    ElectronImage found, more;
+    const std::array<ElectronImage*, 2> both = {&found, &more};
+    ASSERT_TRUE(kept_reference(cache(), kKey, std::span(both).first(1)));
+    EXPECT_TRUE(same_bits(found, given.dark));
+    EXPECT_FALSE(kept_reference(cache(), kKey, both));
+    EXPECT_FALSE(is_kept());
 }
 
 TEST_F(ReferenceCache, AFolderThatCannotBeIsNoFailure) {
