@@ -16,6 +16,10 @@ void fill_zero(RadianceImage& radiance, const PixelBox& box) {
             std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
 }
 
+// Lobes that a part of the frame has room for, by its samples, of which the visibility buffer has one a pixel: where several surfaces
+// meet in each pixel of a tile there are 1.3 of them. What has no room has four rays of its own.
+constexpr std::size_t kLobesPerSample = 2;
+
 // Ways to give a value to what is there.
 constexpr auto kSet = [](float& to, float value) { to = value; };
 constexpr auto kAdd = [](float& to, float value) { to += value; };
@@ -143,7 +147,8 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     if (ground) ground_seen_.resize(pool_slots());
     if (std::any_of(path_sets_.begin(), path_sets_.end(),
                     [](const PathSet& set) { return set.models.front()->uses_indirect_cache(); }))
-        glossy_ = GlossyBuffer(width_, height_, static_cast<std::size_t>(max_tiles), PathModel::kMaxSamples);
+        glossy_ = GlossyBuffer(width_, height_, static_cast<std::size_t>(max_tiles),
+                               kLobesPerSample * PathModel::kMaxSamples);
     clusters_.resize(pool_slots());
 }
 

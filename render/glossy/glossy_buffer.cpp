@@ -11,8 +11,7 @@ namespace hilcam {
 
 namespace {
 
-// Rays that a part has room for, by its samples: as many as any pixel has of its own.
-constexpr std::size_t kRaysPerSample = 4;
+constexpr std::size_t kRaysPerLobe = 4;  // as many as any lobe has of its own
 
 }  // namespace
 
@@ -27,20 +26,20 @@ std::unique_ptr<T[], GlossyBuffer::Unmap> GlossyBuffer::room_for(std::size_t cou
     return {static_cast<T*>(room), Unmap{bytes}};
 }
 
-GlossyBuffer::GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t samples)
+GlossyBuffer::GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t lobes)
     : width_(width_px),
       height_(height_px),
       parts_(parts),
-      points_(room_for<GlossyPoint>(parts * samples)),
-      rays_(room_for<GlossyRay>(parts * samples * kRaysPerSample)),
+      points_(room_for<GlossyPoint>(parts * lobes)),
+      rays_(room_for<GlossyRay>(parts * lobes * kRaysPerLobe)),
       first_of_pixel_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), kNone) {
-    HILCAM_CHECK(parts * samples * kRaysPerSample < kNone && parts * samples < 1u << 31);
+    HILCAM_CHECK(parts * lobes * kRaysPerLobe < kNone && parts * lobes < 1u << 31);
     for (std::size_t i = 0; i < parts; ++i) {
         Part& part = parts_[i];
-        part.first_point_ = static_cast<std::uint32_t>(i * samples);
-        part.first_ray_ = static_cast<std::uint32_t>(i * samples * kRaysPerSample);
-        part.points_ = {points_.get() + part.first_point_, samples};
-        part.rays_ = {rays_.get() + part.first_ray_, samples * kRaysPerSample};
+        part.first_point_ = static_cast<std::uint32_t>(i * lobes);
+        part.first_ray_ = static_cast<std::uint32_t>(i * lobes * kRaysPerLobe);
+        part.points_ = {points_.get() + part.first_point_, lobes};
+        part.rays_ = {rays_.get() + part.first_ray_, lobes * kRaysPerLobe};
     }
 }
 

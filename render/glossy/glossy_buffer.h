@@ -3,8 +3,7 @@
 //
 // A lobe has a ray or a few of its own, along directions that follow its visible normals. What they meet serves the lobes of the
 // pixels about it, too (glossy_reuse.h), so the rays stay here until all tiles have been traced. Each part of the frame has room
-// for as many lobes as it has samples, whatever others have: a frame does not depend on the order of its parts. A lobe and its rays
-// take some 500 bytes.
+// of its own, whatever others have: a frame does not depend on the order of its parts. A lobe and its rays take some 500 bytes.
 
 #include <array>
 #include <cstddef>
@@ -42,9 +41,10 @@ struct GlossyPoint {
     std::array<Spectrum, Planetshine::kMaxBodies> bodies;  // light of bodies, if nothing is in the way
     std::array<float, Planetshine::kMaxBodies> free{};  // share of each that the cache's directions find free
     float directions;                                   // that bring `cached`
-    float per_light = 1;  // radiance of what a ray of it has met, over the light that it has
-    float share;          // 0 to 1: of what rays find, against what the cache has
-    int reach_px;         // the rays of pixels nearer than this serve it, too (glossy_reach_px())
+    float probes_apart_m;  // distance between the probes that `cached` comes from
+    float per_light = 1;   // radiance of what a ray of it has met, over the light that it has
+    float share;           // 0 to 1: of what rays find, against what the cache has
+    int reach_px;          // the rays of pixels nearer than this serve it, too (glossy_reach_px())
 
     bool same_surface(const GlossyPoint& other) const {
         return object == other.object && surface == other.surface && back == other.back;
@@ -97,8 +97,8 @@ class GlossyBuffer {
     };
 
     GlossyBuffer() = default;
-    // Room for the parts of a frame, each with so many samples at most. Owner thread.
-    GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t samples);
+    // Room for the parts of a frame, each with so many lobes at most, and four rays for each. Owner thread.
+    GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t lobes);
 
     std::size_t parts() const { return parts_.size(); }
     const Part& part(std::size_t number) const { return parts_[number]; }

@@ -191,6 +191,7 @@ GlossyPoint* IndirectCache::leave_to_rays(Tile& tile, const ShadingPoint& at, co
         point->bodies[b] = at.throughput * colored(at.surface, place.unhidden[b]),
         point->free[b] = place.free[b];
     point->directions = place.directions, point->share = share;
+    point->probes_apart_m = objects_[at.object].light->table().probes().cube_m();
     return point;
 }
 
