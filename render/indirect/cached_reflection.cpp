@@ -14,9 +14,9 @@ namespace {
 
 Vec3f to_body(const Mat3f& world_from_body, Vec3f world) { return transposed(world_from_body) * world; }
 
-Spectrum ratio(const Spectrum& here, const Spectrum& own) {
+Spectrum ratio(const Spectrum& here, const Spectrum& own, float where_none = 1) {
     Spectrum out;
-    for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : 1.0f;
+    for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : where_none;
     return out;
 }
 // Returns the ratio of the place's spectrum to the material's own there: of its facets, where they have colours of their
@@ -24,6 +24,10 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own) {
 Spectrum facet_tint(const Bsdf& at) { return ratio(at.highlight, at.material->highlight); }
 bool has_own_colors(const Bsdf& at) { return at.material->varies() && at.material->is_bare(); }
 bool is_tinted(const Bsdf& at) { return at.base.bin != at.material->base.bin; }
+// It scatters by a law of its own, which is neither Lambert's nor the sum of facets and what lies below them.
+bool has_own_law(const Material& of) {
+    return !of.has_facets() && !of.transmits() && of.brdf.index() != kModel<brdf::Lambert>;
+}
 Spectrum base_tint(const Bsdf& at) { return ratio(at.base, at.material->base); }
 
 // Directions that differ by no more are one to a lobe: a degree, of lobes that are seven wide at least.
@@ -243,9 +247,8 @@ Spectrum IndirectCache::reflect_diffuse(const FrameContext& frame, const Place& 
         light.prefetch_along(sunlit ? RadiosityTerms::kSun : IrradianceCache::kNoTerm, place.nearest);
 
     Spectrum all = others(frame, light, about);
-    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) all += direct_irradiance(b, place);
     if (sunlit) all += sun * light.irradiance(RadiosityTerms::kSun, about);
-    return radiance_of(place, all);
+    return radiance_of(place, all) + reflect_bodies(place);
 }
 
 // The light of a body without a way, at a place.
@@ -255,11 +258,31 @@ Spectrum IndirectCache::direct_irradiance(std::size_t body, const Place& place) 
            planetshine_.irradiance(body, place.at->normal);
 }
 
+// Returns the diffuse radiance that a body's light without a way makes. It comes from a part of the sky, which rough surfaces send
+// back more of towards where it came from: their law is summed over the body's parts, and the sum takes the irradiance's scale. By
+// the albedo alone, white paint with the Earth behind the camera is 6 % too dark.
+Spectrum IndirectCache::reflect_body(std::size_t body, const Place& place) const {
+    const ShadingPoint& at = *place.at;
+    const Spectrum irradiance = direct_irradiance(body, place);
+    if (!has_own_law(*at.surface.material)) return radiance_of(place, irradiance);
+    Bsdf plain = at.surface;  // textures' colours come later
+    plain.base = plain.material->base;
+    const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+    Spectrum sent, met;
+    planetshine_.for_each_part(body, [&](Vec3f dir, const Spectrum& facing) {
+        const float ni = dot(at.normal, dir);
+        if (!(ni > 0)) return;
+        met += ni * facing;
+        sent += ni * facing * brdf_value(plain, {no, ni, dot(at.view_dir, dir)});
+    });
+    return max_component(met) > 0 ? ratio(sent, met, 0) * irradiance : radiance_of(place, irradiance);
+}
+
 // The part of reflect_diffuse() that is the bodies' light without a way.
 Spectrum IndirectCache::reflect_bodies(const Place& place) const {
     Spectrum all;
-    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) all += direct_irradiance(b, place);
-    return radiance_of(place, all);
+    for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) all += reflect_body(b, place);
+    return all;
 }
 
 // Returns the radiance that a surface of the material's own colour makes of an irradiance without its facets.

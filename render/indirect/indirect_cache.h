@@ -140,6 +140,7 @@ class IndirectCache {
     Spectrum others(const FrameContext& frame, const IrradianceCache& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameContext& frame, const Place& place) const;
     Spectrum direct_irradiance(std::size_t body, const Place& place) const;
+    Spectrum reflect_body(std::size_t body, const Place& place) const;
     Spectrum reflect_bodies(const Place& place) const;
     Spectrum radiance_of(const Place& place, const Spectrum& irradiance) const;
     void reflect_clusters(const FrameContext& frame, Place& place) const;

@@ -46,6 +46,13 @@ class Planetshine {
     Spectrum irradiance(std::size_t body, Vec3f world_normal) const {
         return irradiance_[body].at(world_normal);
     }
+    // Calls visit(direction, irradiance on a surface that faces it) for each of sixteen parts of a body's disk. Loop, any thread.
+    template <class Visit>
+    void for_each_part(std::size_t body, const Visit& visit) const {
+        const Disk& disk = disks_[body].of.front();
+        for (std::size_t i = 0; i < kParts.front(); ++i)
+            visit(Vec3f{disk.x[i], disk.y[i], disk.z[i]}, disk.irradiance[i]);
+    }
     // The body's light in a facet lobe: facets that lean towards it are met at other angles than the lobe's mean.
     struct Glossy {
         Spectrum radiance;       // that facets which reflect everything would send to the viewer
@@ -116,7 +123,9 @@ class Planetshine {
                      const Lobes& lobes, Seen& seen);
     Glossy narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
-    void place_disks(const Background& background, std::size_t number, Disks& disks) const;
+    static std::array<Look, kLooks> looks_at(const Background& background, std::size_t number);
+    void place_disks(const Background& background, const PlanetshineSource& lamp, std::span<const Look> looks,
+                     Disks& disks) const;
     static void place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine,
                             std::size_t count, Disk& out);
 };
