@@ -32,7 +32,7 @@ struct Case {
 
 struct Group {
     std::string name;    // of the test: letters
-    std::string title;   // in docs/extremes.md
+    std::string title;   // in extremes.csv
     std::string varied;  // with its unit
     std::vector<std::string> quantities;
     std::string truth;  // where it comes from

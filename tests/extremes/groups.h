@@ -48,7 +48,7 @@ Group eclipses();
 Group poles();
 Group planets();
 
-// In the order of docs/extremes.md.
+// In the order of extremes.csv.
 std::vector<Group> all_groups();
 
 }  // namespace hilcam::extremes

@@ -1,12 +1,17 @@
 #include "tests/extremes/table.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <sstream>
 
 namespace hilcam::extremes {
 namespace {
 
-constexpr const char* kHeading = "## ";
+enum Column : std::size_t { kTable, kVaried, kValue, kQuantity, kTruth, kError, kLimit, kColumns };
+constexpr std::array<const char*, kColumns> kNames = {"table", "varied", "value", "quantity",
+                                                      "truth", "error",  "limit"};
+using Line = std::vector<std::string>;
 
 std::string formatted(const char* format, double value) {
     char out[48];
@@ -17,121 +22,107 @@ std::string formatted(const char* format, double value) {
 std::string short_text(double value) { return value == 0 ? "0" : formatted("%.1e", value); }
 std::string truth_text(double value) { return formatted("%.6g", value); }
 
-std::string line_of(const std::vector<std::string>& cells) {
-    std::string line = "|";
-    for (const std::string& cell : cells) line.append(" ").append(cell).append(" |");
+// CSV after RFC 4180: a cell with a comma or a quote is quoted, and its quotes are doubled.
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string out(1, '"');
+    for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+    return out + '"';
+}
+std::string csv_line(const Line& cells) {
+    std::string line;
+    for (const std::string& cell : cells) line.append(line.empty() ? "" : ",").append(csv_cell(cell));
     return line + "\n";
 }
-
-// The value, then truth, error and limit of each quantity.
-std::vector<std::string> head_of(const Group& group) {
-    std::vector<std::string> cells = {group.varied};
-    for (const std::string& quantity : group.quantities) {
-        cells.push_back(quantity);
-        cells.push_back("error");
-        cells.push_back("limit");
+Line cells_in(const std::string& line) {
+    Line cells(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+            cells.back() += line[++i];
+        else if (c == '"')
+            quoted = !quoted;
+        else if (c == ',' && !quoted)
+            cells.emplace_back();
+        else
+            cells.back() += c;
     }
     return cells;
 }
-std::vector<std::string> cells_of(const Case& row, const Measured& measured) {
-    std::vector<std::string> cells = {row.value};
-    for (std::size_t i = 0; i < row.limits.size(); ++i) {
-        const bool known = i < measured.size();
-        cells.push_back(known ? truth_text(measured[i].truth) : "");
-        cells.push_back(known ? short_text(measured[i].error) : "");
-        cells.push_back(short_text(row.limits[i]));
-    }
-    return cells;
-}
-
-std::vector<std::string> cells_in(const std::string& line) {
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    std::string cell;
-    std::getline(in, cell, '|');
-    while (std::getline(in, cell, '|')) {
-        const std::size_t first = cell.find_first_not_of(' '), last = cell.find_last_not_of(' ');
-        cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-    }
-    return cells;
-}
-
-// The rows of a table, without its head.
-std::vector<std::vector<std::string>> rows_in(const std::string& document, const std::string& title) {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream in(document);
+// The lines below the head.
+std::vector<Line> lines_in(const std::string& file) {
+    std::vector<Line> lines;
+    std::istringstream in(file);
     std::string line;
-    while (std::getline(in, line) && line != kHeading + title) {
-    }
-    while (std::getline(in, line) && line.rfind(kHeading, 0) != 0)
-        if (line.rfind("| ", 0) == 0) rows.push_back(cells_in(line));
-    if (!rows.empty()) rows.erase(rows.begin());
-    return rows;
+    std::getline(in, line);
+    while (std::getline(in, line)) lines.push_back(cells_in(line));
+    return lines;
 }
 
-bool same_truth(const std::string& in_document, double truth) {
-    const double said = std::strtod(in_document.c_str(), nullptr);
+Line expected_line(const Group& group, const Case& row, std::size_t quantity, const Measured& measured) {
+    const bool known = quantity < measured.size();
+    return {group.title,
+            group.varied,
+            row.value,
+            group.quantities[quantity],
+            known ? truth_text(measured[quantity].truth) : "",
+            known ? short_text(measured[quantity].error) : "",
+            short_text(row.limits[quantity])};
+}
+
+bool same_truth(const std::string& in_file, double truth) {
+    const double said = std::strtod(in_file.c_str(), nullptr);
     return std::abs(said - truth) <= 0.01 * std::abs(truth) + 1e-300;
 }
 
 }  // namespace
 
-std::string preface() {
-    return R"(# Extremes
+std::string head_line() { return csv_line({kNames.begin(), kNames.end()}); }
 
-How far the program is from the truth where values are very small, very large or nearly meaningless. Each line
-is a test (ctest label `extremes`): what is varied, its value, and for each quantity the truth, the error that was found and the limit
-that the test holds it to. Truths are closed forms in double precision, or published values; limits come from the grain of
-single and double precision, from numbers of samples, or from the accuracy that a source states. An error of 0 is exact.
-
-Written in the source tree by `build/ci/bin/extremes --table > docs/extremes.md`. The tests fail when this page and the suite (`tests/extremes/`)
-disagree about values, truths or limits; errors differ in their last digits from machine to machine.
-
-)";
-}
-
-std::string section(const Group& group, const std::vector<Measured>& measured) {
-    std::string out = std::string(kHeading) + group.title + "\n\nTruth: " + group.truth +
-                      "\n\nLimit: " + group.limit + "\n\n" + line_of(head_of(group)) + "|---";
-    for (std::size_t i = 0; i < 3 * group.quantities.size(); ++i) out += "|---:";
-    out += "|\n";
+std::string lines_of(const Group& group, const std::vector<Measured>& measured) {
+    std::string out;
     for (std::size_t i = 0; i < group.cases.size(); ++i)
-        out += line_of(cells_of(group.cases[i], measured[i]));
+        for (std::size_t q = 0; q < group.quantities.size(); ++q)
+            out += csv_line(expected_line(group, group.cases[i], q, measured[i]));
     return out;
 }
 
-std::vector<std::string> titles_in(const std::string& document) {
+std::vector<std::string> titles_in(const std::string& file) {
     std::vector<std::string> titles;
-    std::istringstream in(document);
-    std::string line;
-    while (std::getline(in, line))
-        if (line.rfind(kHeading, 0) == 0) titles.push_back(line.substr(std::string(kHeading).size()));
+    for (const Line& line : lines_in(file))
+        if (titles.empty() || titles.back() != line[kTable]) titles.push_back(line[kTable]);
     return titles;
 }
 
-std::vector<std::string> differences(const std::string& document, const Group& group,
+std::vector<std::string> differences(const std::string& file, const Group& group,
                                      const std::vector<Measured>& measured) {
-    const std::vector<std::vector<std::string>> rows = rows_in(document, group.title);
+    std::vector<Line> lines = lines_in(file);
+    std::erase_if(lines, [&](const Line& line) { return line[kTable] != group.title; });
     std::vector<std::string> out;
-    if (rows.size() != group.cases.size())
-        out.push_back(std::to_string(rows.size()) + " rows, not " + std::to_string(group.cases.size()));
-    for (std::size_t i = 0; i < std::min(rows.size(), group.cases.size()); ++i) {
-        const Case& row = group.cases[i];
-        const std::vector<std::string> expected = cells_of(row, measured[i]);
-        const auto differs = [&](const std::string& what) { out.push_back(row.value + ": " + what); };
-        if (rows[i].size() != expected.size()) {
-            differs(std::to_string(rows[i].size()) + " cells");
+    const std::size_t quantities = group.quantities.size(), expected = group.cases.size() * quantities;
+    if (lines.size() != expected)
+        out.push_back(std::to_string(lines.size()) + " lines, not " + std::to_string(expected));
+    for (std::size_t i = 0; i < std::min(lines.size(), expected); ++i) {
+        const Case& row = group.cases[i / quantities];
+        const Measured& found = measured[i / quantities];
+        const std::size_t q = i % quantities;
+        const Line right = expected_line(group, row, q, found);
+        const Line& line = lines[i];
+        const auto differs = [&](const std::string& what) {
+            out.push_back(row.value + ", " + group.quantities[q] + ": " + what);
+        };
+        if (line.size() != kColumns) {
+            differs(std::to_string(line.size()) + " cells");
             continue;
         }
-        if (rows[i][0] != expected[0]) differs("the value is " + rows[i][0]);
-        for (std::size_t q = 0; q < row.limits.size(); ++q) {
-            const std::string &truth = rows[i][3 * q + 1], &error = rows[i][3 * q + 2],
-                              &limit = rows[i][3 * q + 3];
-            if (q < measured[i].size() && !same_truth(truth, measured[i][q].truth))
-                differs("the truth is " + truth);
-            if (!(std::strtod(error.c_str(), nullptr) <= row.limits[q])) differs("the error is " + error);
-            if (limit != expected[3 * q + 3]) differs("the limit is " + limit);
-        }
+        for (const Column column : {kVaried, kValue, kQuantity, kLimit})
+            if (line[column] != right[column])
+                differs(std::string("the ") + kNames[column] + " is " + line[column]);
+        if (q < found.size() && !same_truth(line[kTruth], found[q].truth))
+            differs("the truth is " + line[kTruth]);
+        if (!(std::strtod(line[kError].c_str(), nullptr) <= row.limits[q]))
+            differs("the error is " + line[kError]);
     }
     return out;
 }

@@ -1,7 +1,7 @@
 #pragma once
-// docs/extremes.md: written from what was measured, and read back to be compared with the suite.
+// tests/extremes/extremes.csv: written from what was measured, and read back to compare it with the suite. It has a
+// line for each quantity of each case: table, varied, value, quantity, truth, error, limit.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,20 +9,20 @@
 
 namespace hilcam::extremes {
 
-// Of one case; empty: it was not measured.
+// What one case found; empty: it was not measured.
 using Measured = std::vector<Found>;
 
-// What precedes the tables.
-std::string preface();
-// A table with its heading. measured: per case of the group.
-std::string section(const Group& group, const std::vector<Measured>& measured);
+// The line that names the columns.
+std::string head_line();
+// The lines of one table. measured: per case of the group.
+std::string lines_of(const Group& group, const std::vector<Measured>& measured);
 
-// Headings of the document's tables.
-std::vector<std::string> titles_in(const std::string& document);
-// What the document says otherwise than the suite: values and limits must be the same, truths the same to a
-// percent, and the document's errors within their limits. Errors may differ, as their last digits depend on
-// the machine. Empty: nothing.
-std::vector<std::string> differences(const std::string& document, const Group& group,
+// Titles of the file's tables, in its order.
+std::vector<std::string> titles_in(const std::string& file);
+// Where the file differs from the suite: names, values and limits must be the same, truths the same to a percent, and
+// the file's errors within their limits. Errors may differ, as their last digits depend on the machine. Empty when
+// nothing differs.
+std::vector<std::string> differences(const std::string& file, const Group& group,
                                      const std::vector<Measured>& measured);
 
 }  // namespace hilcam::extremes

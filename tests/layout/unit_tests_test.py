@@ -1,13 +1,11 @@
 #!/usr/bin/python3
-"""Tests are found from the unit: tests/units.md has a row for each unit of the program (a header with its source) and names tests of it.
-And each unit test is part of a program.
+"""Each unit of the program is reached by a test, and each unit test is part of a program.
 
-    unit_tests_test.py            is the table whole and right? Prints what is not, and what a new unit's row would be.
-    unit_tests_test.py --write    writes it anew.
+    unit_tests_test.py           prints units that no test reaches, unit tests that no program has, and false lines of unit_tests.txt
+    unit_tests_test.py FILE.md   also writes a table to FILE.md: tests by unit
 
-A unit's tests are the one that bears its name, then those that include its header. Where there is neither, the row names tests that
-reach it through other units: those of its room first, then those whose name begins as its own does, then the nearest. People may choose
-others: --write keeps what stands there, as long as it is true. A test that starts the program may stand for any unit.
+A unit is a header with its source. Its tests are the one of its name, then those that include its header. A unit without either is
+tested through other units: by the tests that unit_tests.txt names for it, then by those whose includes lead to its header.
 """
 import collections
 import pathlib
@@ -15,34 +13,29 @@ import re
 import sys
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-TABLE = TOP / "tests/units.md"
+BY_HAND = TOP / "tests/layout/unit_tests.txt"
 LAYERS = ("emulator", "io", "sensor", "render")
 MOST_NAMED, MOST_REACHED = 5, 3
 IS_TEST = re.compile(r"^TEST(_F|_P)?\(|LLVMFuzzerTestOneInput|extremes\.h", re.MULTILINE)
 HEAD = """# Units and their tests
 
-Each row names tests of a unit, a header with its source: first the test that bears its name, then tests that include it, at most five.
-Where there is neither, the tests reach it through other units and stand in brackets. Names are paths below `tests/`, those without an
-ending below `tests/unit/`. `tests/layout/unit_tests_test.py` holds the table against the includes and writes it anew with `--write`; what
-stands in brackets may be chosen by hand.
+Each row names tests of a unit, which is a header with its source: first the test of its name, then tests that
+include the header, at most five. Tests in brackets reach the unit through other units. Names are paths below
+`tests/`; those without an ending are below `tests/unit/`. `tests/layout/unit_tests_test.py` makes this file.
 """
 
 
 def includes(path):
-    """Those of ours; a name without a folder is that of a neighbour."""
+    """Includes in quotes; a name without a folder is that of a neighbour."""
     beside = path.relative_to(TOP).parent.as_posix()
     return [name if "/" in name else f"{beside}/{name}" for name in re.findall(r'^#include "([^"]+)"', path.read_text(), re.MULTILINE)]
 
 
 def name_of(test):
-    """Of a file below tests/, as the table has it."""
+    """The name that the table has for a test's file."""
     if test.startswith("tests/unit/") and test.endswith(".cpp"):
         return test[len("tests/unit/"):-len(".cpp")]
     return test[len("tests/"):]
-
-
-def path_of(name):
-    return TOP / "tests" / (name if "." in name else f"unit/{name}.cpp")
 
 
 def room_of(file):
@@ -70,13 +63,13 @@ class Tree:
         self.steps = {test: self.steps_from(own) for test, own in self.tests.items()}
 
     def header_of(self, unit):
-        """Its own, or the one of its room that declares what it defines: the first that it includes."""
+        """The unit's own header; without one, the first header of the same room that the source includes."""
         if unit + ".h" in self.includes:
             return unit + ".h"
         return next((h for h in self.includes[unit + ".cpp"] if room_of(h) == room_of(unit)), None)
 
     def steps_from(self, headers):
-        """Headers that are reached, with how many steps it takes: who includes a header uses its sources, and what these include."""
+        """Steps to each header that a test reaches: including a header reaches its source, and what both include is one step further."""
         steps, edge = dict.fromkeys(headers, 1), list(headers)
         while edge:
             after = []
@@ -90,75 +83,71 @@ class Tree:
         return steps
 
     def named(self, unit):
-        """The test of that name, then those that include it; of these, the neighbours first."""
+        """The test of the unit's name, then tests that include its header, those of the same room first."""
         own = [t for t in (f"tests/unit/{unit}_test.cpp",) if t in self.tests]
         far = lambda test: room_of(test) != f"tests/unit/{room_of(unit)}"
         direct = sorted(set(self.direct[self.header[unit]]) - set(own), key=lambda t: (far(t), t))
         return [name_of(t) for t in own + direct][:MOST_NAMED]
 
     def reached(self, unit):
+        """Tests that reach the unit through others: of the same room first, then with the same first word in the name, then the nearest."""
         header, begin = self.header[unit], stem_of(unit).split("_")[0]
         far = lambda test: room_of(test) != f"tests/unit/{room_of(unit)}"
         order = sorted((far(t), begin not in stem_of(t).split("_"), steps[header], t) for t, steps in self.steps.items() if header in steps)
         return [name_of(t) for *_, t in order[:MOST_REACHED]]
 
-    def reaches(self, name, unit):
-        return name.endswith((".py", ".sh")) or self.header[unit] in self.steps.get(path_of(name).relative_to(TOP).as_posix(), {})
-
 
 def forgotten():
-    """Unit tests that are in no program: their folder and name stand in tests/CMakeLists.txt."""
+    """Unit tests that no program of tests/CMakeLists.txt has."""
     listed = (TOP / "tests/CMakeLists.txt").read_text()
     names = [p.relative_to(TOP / "tests/unit").as_posix() for p in sorted((TOP / "tests/unit").rglob("*_test.cpp"))]
     return [name for name in names if not re.search(rf"\s{re.escape(name.split('/', 1)[1])}\b", listed)]
 
 
-def rows_of(text):
-    """What the table says: tests by unit."""
-    rows, room = {}, ""
-    for line in text.splitlines():
-        if line.startswith("## "):
-            room = line[3:]
-        match = re.fullmatch(r"\| `([a-z0-9_]+)` \| \(?(.*?)\)? \|", line)
-        if match:
-            rows[f"{room}/{match[1]}"] = re.findall(r"`([^`]+)`", match[2])
-    return rows
+def by_hand():
+    """What unit_tests.txt says: tests by unit."""
+    tests, test = collections.defaultdict(list), ""
+    for line in BY_HAND.read_text().splitlines():
+        if line.startswith("    "):
+            room, names = line.split(":")
+            for name in names.split():
+                tests[f"{room.strip()}/{name}"].append(test)
+        elif not line.startswith("#"):
+            test = line.strip()
+    return tests
 
 
-def table(tree, old):
+def false_lines(tree, hand):
+    """Units of unit_tests.txt that are gone or need no line, and tests that are gone."""
+    wrong = [f"{unit} is no unit" for unit in hand if unit not in tree.units]
+    wrong += [f"{unit} has tests that include it" for unit in hand if unit in tree.units and tree.named(unit)]
+    return wrong + [f"tests/{test} is not there" for test in sorted({t for tests in hand.values() for t in tests}) if not (TOP / "tests" / test).is_file()]
+
+
+def table(tree, through):
     lines, room = [HEAD], None
     for unit in tree.units:
         if room_of(unit) != room:
             room = room_of(unit)
             lines.append(f"{'' if lines[-1] == HEAD else chr(10)}## {room}\n\n| unit | tests |\n| --- | --- |")
         named = tree.named(unit)
-        kept = [name for name in old.get(unit, []) if path_of(name).is_file() and tree.reaches(name, unit)]
-        tests = ", ".join(f"`{name}`" for name in named or kept or tree.reached(unit))
+        tests = ", ".join(f"`{name}`" for name in named or through[unit])
         lines.append(f"| `{stem_of(unit)}` | {tests if named or not tests else f'({tests})'} |")
     return "\n".join(lines) + "\n"
 
 
 def main():
-    tree = Tree()
-    was = TABLE.read_text() if TABLE.is_file() else ""
-    now = table(tree, rows_of(was))
-    if "--write" in sys.argv[1:]:
-        TABLE.write_text(now)
-        return 0
-    named = sum(bool(tree.named(unit)) for unit in tree.units)
-    untested = [unit for unit, tests in rows_of(now).items() if not tests]
-    print(f"{len(tree.units)} units: {named} with a test of their name or that includes them, {len(untested)} without any test")
-    for line in sorted(set(now.splitlines()) - set(was.splitlines())):
-        print("tests/units.md lacks:", line)
-    for line in sorted(set(was.splitlines()) - set(now.splitlines())):
-        print("tests/units.md has what is not so:", line)
-    for unit in untested:
-        print(f"{unit}: no test reaches it")
-    for name in forgotten():
-        print(f"tests/unit/{name} is not in tests/CMakeLists.txt")
-    if now != was:
-        print("tests/layout/unit_tests_test.py --write writes it anew")
-    return 1 if now != was or untested or forgotten() else 0
+    tree, hand = Tree(), by_hand()
+    through = {unit: list(dict.fromkeys([name_of("tests/" + t) for t in hand.get(unit, [])] + tree.reached(unit)))[:MOST_REACHED] for unit in tree.units}
+    if len(sys.argv) > 1:
+        pathlib.Path(sys.argv[1]).write_text(table(tree, through))
+    named = [unit for unit in tree.units if tree.named(unit)]
+    faults = [f"{unit}: no test reaches it; tests/layout/unit_tests.txt may name one" for unit in tree.units if unit not in named and not through[unit]]
+    faults += [f"tests/layout/unit_tests.txt: {line}" for line in false_lines(tree, hand)]
+    faults += [f"tests/unit/{name} is not in tests/CMakeLists.txt" for name in forgotten()]
+    print(f"{len(tree.units)} units: {len(named)} with a test of their name or that includes them; {len(faults)} faults")
+    print("\n".join(faults))
+    return 1 if faults else 0
 
 
 sys.exit(main())
