@@ -16,7 +16,8 @@ struct MapSize {
 
 // The width of the texels that a look is looked up by, of its own. A texel that is the mean of those below it, linear to its
 // neighbours, has a variance of a quarter of its width's square, and a pixel of a twelfth: three times as much blur. 0.58 has as
-// much as it, but lets through what is finer; 0.7 comes nearest to a pixel's mean (docs/decisions.md).
+// much as it, but lets through what is finer; 0.7 comes nearest to a pixel's mean
+// (docs/decisions.md#the-earth-smooth-light-sharp-maps).
 inline constexpr float kTexelOfLook = 0.7f;
 
 // The ellipse that has a footprint's sides as conjugate half diameters, in texels: what squares sum to along and across the map, and

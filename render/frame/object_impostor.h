@@ -1,7 +1,8 @@
 #pragma once
 // The picture of an object that is small in the frame, by a visibility buffer of its own on all threads: 64 samples in each of up
 // to 128 x 128 pixels, where the frame's own pixels would have a few hundred on all of it. Glints and what mirrors show are much smaller
-// than a pixel there, and few samples meet them by chance or not at all (docs/decisions.md).
+// than a pixel there, and few samples meet them by chance or not at all
+// (docs/decisions.md#small-and-many-objects).
 //
 // Not modelled: what is seen through the object's glass.
 

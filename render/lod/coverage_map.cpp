@@ -7,7 +7,8 @@
 namespace hilcam {
 namespace {
 
-// Texels are no longer than this, where there are such: a choice by its error (docs/decisions.md).
+// Texels are no longer than this, where there are such: a choice by its error
+// (docs/decisions.md#coverage-maps-of-flat-parts).
 constexpr float kSharp_px = 0.35f;
 constexpr auto kEight = static_cast<int>(CoverageTexels::kLanes);
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kSmallMesh = 2000;  // triangles; below, nothing is gained
 // The part of a level's error that its shapes may have is one in so many. By four the light of `geo_inspection` from
-// 50 m is off by 2.3 %, by eight 1.9, by sixteen 1.8 (docs/decisions.md).
+// 50 m is off by 2.3 %, by eight 1.9, by sixteen 1.8
+// (docs/decisions.md#levels-of-detail-keep-borders-and-shapes).
 constexpr double kShapeFiner = 8;
 
 // Each vertex of a surface's triangles once, in order of their first use.

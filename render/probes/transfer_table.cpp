@@ -19,7 +19,7 @@ namespace {
 constexpr float kGoldenRatio = 0.61803399f;
 // From probe to probe, of a whole turn: the root of a half. How many directions of two to nine probes side by side lie in a small
 // disk then scatters by a third of what it does by the golden section, which would turn the spiral, being one by it itself, into
-// its own next directions (docs/decisions.md).
+// its own next directions (docs/decisions.md#cached-light-in-probes).
 constexpr float kTurn = 0.70710678f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 

@@ -156,7 +156,8 @@ std::vector<std::uint8_t> may_be_in_coverage_maps(const Mesh& mesh, const Object
 namespace {
 
 // Texels may be so much coarser than a level's error. Where an object is nearest that is four times lod_error_px at most, at real time
-// six tenths of a pixel: it blurs gaps, but has their light, which samples that are lit from the middles of gaps have not (docs/decisions.md).
+// six tenths of a pixel: it blurs gaps, but has their light, which samples that are lit from the middles of gaps have not
+// (docs/decisions.md#coverage-maps-of-flat-parts).
 constexpr double kTexelOverError = 4;
 
 // Places of a coverage map are found from its ground's triangle, by its edges.

@@ -33,7 +33,7 @@ std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
 }
 
 // Levels of smaller errors, over the object's size, have no coverage maps: texels of small panels would be many. Those of a
-// satellite with wings from 20 to 40 m have more (docs/decisions.md).
+// satellite with wings from 20 to 40 m have more (docs/decisions.md#coverage-maps-of-flat-parts).
 constexpr double kFinestCoverageMap = 1.0 / 65536;
 
 }  // namespace
