@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Each promise of the interfaces has an id of its own and a test that is there.
 
-A promise is a row of a page's table: | ABC-001 | sentence | `file` `Suite.Test` |. The file lies anywhere below tests, and no other
-one has its name. In Python, Suite is the class.
+A promise is a row of a page's table: | ABC-001 | sentence | `file` `Suite.Test` |. The file is below tests; it has as much of
+its path as tells it from others of its name. In Python, Suite is the class.
 """
 import ast
 import pathlib
@@ -12,7 +12,7 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ("docs/protocol.md", "docs/genicam.md")
 ROW = re.compile(r"^\| ([A-Z]+-\d+) \|(.*)$", re.MULTILINE)
-TEST = re.compile(r"^ (\S.*\S) \| `([\w.]+)` `(\w+)\.(\w+)` \|$")
+TEST = re.compile(r"^ (\S.*\S) \| `([\w./]+)` `(\w+)\.(\w+)` \|$")
 
 
 def promises(text):
