@@ -28,7 +28,7 @@ struct LensPolynomial {
     std::span<const double> terms_x() const { return {x.data(), terms_of(order)}; }
     std::span<const double> terms_y() const { return {y.data(), terms_of(order)}; }
 
-    // How far a place moves, and the derivatives of that shift by x and by y.
+    // The shift of a place, and the derivatives of that shift by x and by y.
     struct Shift {
         Vec2d by, along_x, along_y;
     };
