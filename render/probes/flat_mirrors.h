@@ -49,9 +49,9 @@ class FlatMirror {
 
   private:
     static constexpr int kCells = 256;  // along each side
-    // Until sum_up() is called: 1 if the middle of a cell is filled. Afterwards: sums over all cells to the
-    // left and above (summed-area table: Crow, SIGGRAPH 84), which give the mean of any rectangle from four
-    // values.
+    // A 1 marks a cell whose middle is filled, until sum_up() replaces the marks by sums over all cells to
+    // the left and above (summed-area table: Crow, SIGGRAPH 84), which give the mean of any rectangle from
+    // four values.
     std::vector<std::uint32_t> sums_ = std::vector<std::uint32_t>((kCells + 1) * (kCells + 1));
 
     std::vector<std::uint16_t> nearest_;  // by cell: the nearest filled cell
