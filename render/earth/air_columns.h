@@ -41,7 +41,8 @@ class AirColumns {
                                                 Vec3d sun_dir) const;
     // The air if light from below differs by place; otherwise null.
     const AirByPlace* by_place() const { return by_place_; }
-    // The same as AirByPlace::lift_at() and lift(); zero if light from below is the same everywhere. Loop, any thread.
+    // The same as AirByPlace::lift_at() and lift(); zero if light from below is the same everywhere. Loop,
+    // any thread.
     Spectrum lift_at(float u, float v) const { return by_place_ ? by_place_->lift_at(u, v) : Spectrum{}; }
     Spectrum lift(Vec3d point_m) const { return by_place_ ? by_place_->lift(point_m) : Spectrum{}; }
     float top_m() const { return top_m_; }

@@ -16,8 +16,8 @@ struct EarthAspect {
     // The air is known at two heights; in between, what is above a height varies as the air does.
     static constexpr float kHigh_m = 8000;
 
-    // Figures at the ground and at kHigh_m: radiance of the air in front [sr^-1] and its transmittance; irradiance by
-    // the Sun and by the sky.
+    // Figures at the ground and at kHigh_m: radiance of the air in front [sr^-1] and its transmittance;
+    // irradiance by the Sun and by the sky.
     Spectrum air_low, seen_low, sun_low, sky_low;
     Spectrum air_high, seen_high, sun_high, sky_high;
     // Cloud reflection is many + share * once.
