@@ -11,7 +11,7 @@ namespace hilcam {
 
 namespace {
 
-// Rays that a part has room for, by its samples: as many as any pixel has of its own.
+// Rays per sample that a part has room for: as many as any pixel has.
 constexpr std::size_t kRaysPerSample = 4;
 
 }  // namespace
