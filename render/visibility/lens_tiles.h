@@ -7,8 +7,8 @@
 // There are two kinds of places, both in padded px. Ideal: where a pinhole of the same focal length would
 // show a direction. On the screen: where the lens shows it.
 //
-// Not supported (takes()): fisheyes, and lenses whose error is above 0.05 px or which fold over beside the
-// picture. Owner thread; const functions: loop, any thread.
+// Not supported (takes()): fisheyes, polynomial distortion, and lenses whose error is above 0.05 px or which
+// fold over beside the picture. Owner thread; const functions: loop, any thread.
 
 #include <vector>
 
