@@ -89,7 +89,7 @@ struct DetailNeed::Sight {
         // (map_looks.h). Oblique views make footprints long, and so do columns that converge towards a pole.
         const double width_m = static_cast<double>(kTexelOfLook) * pixel_rad * d_m *
                                std::max({1.0, 1 / (8 * mu), 1 / (8 * cap.cosine)});
-        // Distances on the stretched Earth are off by a third of a hundredth.
+        // Distances on the stretched Earth are off by 1/300.
         constexpr double kMargin = 0.02;
         return std::max(0.0, std::log2(width_m / texel_m) - kMargin) + coarser_by;
     }

@@ -41,7 +41,7 @@ class EarthPatch {
                                                        box.y0 + (row + 0.5) * pitch_px_));
     }
     // Adds the radiance [W m^-2 sr^-1 um^-1] at a place in the box, times weight. Returns false if the nodes
-    // around it cannot be used: near the limb, at a pole, or if light bends between them. Loop.
+    // around it cannot be used: near the limb, at a pole, or where light is not linear between them. Loop.
     bool add(float x, float y, const Spectrum& weight, Spectrum& radiance);
 
   private:

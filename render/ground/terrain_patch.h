@@ -7,7 +7,6 @@
 // first, until edges are as narrow as needed or the triangles are used up. The border of a tile beside a
 // coarser one is on that one's edges, and small skirts close gaps from rounding. Normals are those of the
 // heights at the tile's own spacing. Not modelled: overhangs, and anything beyond the map's edge.
-// the heights at the tile's own spacing. Not modelled: overhangs, and what lies beyond the map's edge.
 
 #include <memory>
 #include <optional>

@@ -14,7 +14,6 @@
 //
 // Not included: mirrors that are curved, textured, or on objects without cached light; light by way of two
 // mirrors; and narrow lobes of the lit surface, which rays follow.
-// mirrors have thrown; the lobes of what is lit where they are too narrow to be cached (rays follow these).
 
 #include <cstdint>
 #include <span>

@@ -4,8 +4,7 @@
 // The ground is a flat part of one surface: everything connected by common corners to one of the largest
 // triangles. On top are flat triangles of up to two other surfaces, parallel to it and less than a texel
 // above it. Triangles with a texture, colours, flattened wrinkles, mirrors or transparency are excluded:
-// may_be is 0 for them. of its own, wrinkles that a level has flattened, mirrors, or lets light through is
-// none of these: may_be is 0 for it, by triangle.
+// may_be is 0 for them.
 
 #include <cstdint>
 #include <span>

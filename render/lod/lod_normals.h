@@ -6,9 +6,7 @@
 // Each part of the mesh belongs to the nearest triangle of the same surface that faces the same way. The
 // normals are divided twice at their mean, across the axis along which they vary most (as Wu divides colours,
 // ACM Trans. Graphics 10(4), 1991). That keeps their mean and most of their variance; the rest, within the
-// four groups, is kept as roughness. shading/normal_clusters.h models how the parts shade each other. left
-// over within the four groups is kept as roughness. That parts shade each other is
-// shading/normal_clusters.h's.
+// four groups, is kept as roughness. shading/normal_clusters.h models how the parts shade each other.
 
 #include <array>
 #include <cstdint>

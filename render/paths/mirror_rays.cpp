@@ -79,8 +79,7 @@ void send(Tile& tile, const ShadingPoint& at, SampleMask& left, std::size_t firs
 // thing is not considered.
 bool meet_the_dark(const FrameContext& frame, const MirrorRays::Packet& packet) {
     // Reflectance. An edge that sixteen rays see is off by a thirtieth of a pixel. For a thing that receives
-    // a tenth of the light of white paint and reflects a tenth of it, that is a third of a thousandth of the
-    // paint's light.
+    // a tenth of the light of white paint and reflects a tenth of it, that is 1/3000 of the paint's light.
     constexpr float kDark = 0.1f;
     if (packet.met != 0 && frame.lamps && !frame.lamps->lit().empty()) return false;
     const Vec3f sun = to_float(frame.background->sun_world_dir());

@@ -36,8 +36,8 @@ class EarthLimbs {
     const PlacedBody& earth_;
     bool has_clouds_;
 
-    // A coarse test. The limb differs from a circle by the flattening (a third of a hundredth of the radius)
-    // and by the clouds' level; directions farther from the circle than that cannot be near a limb.
+    // A coarse test. The limb differs from a circle by the flattening (1/300 of the radius) and by the
+    // clouds' level; directions farther from the circle than that cannot be near a limb.
     bool may_be_near(double from_middle_rad, double within_rad) const {
         constexpr double kFlattening = 0.0034;
         const double disk_rad = std::acos(earth_.disk_cosine);

@@ -46,9 +46,8 @@ class PrimaryHits {
     std::array<Vec2f, kPacketSize> places_px_;  // in the fragments' pixels
     std::array<Vec3d, kPacketSize> dirs_;
     std::array<Vec3f, kPacketSize> origins_;
-    // Fragments for which one look is not enough, because their normals turn much or a texture paints them,
-    // are looked at from several of their samples. Fragment k has the looks first_look_[k] to first_look_[k +
-    // 1].
+    // Fragments for which one look is not enough, because their normals vary much or they have a texture, are
+    // looked at from several of their samples. Those of fragment k are first_look_[k] to first_look_[k + 1].
     static constexpr std::size_t kLooks = NormalClusters::kTurns;
     FragmentPacket looked_at_;
     std::array<Vec3f, kPacketSize * kLooks> look_normals_;

@@ -153,7 +153,7 @@ class PrimaryRays {
             const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
             if (from_middle_rad - block_rad >= radius_rad) continue;
             if (out == Block::kDark) out = Block::kEven;
-            // The Earth is flattened by a third of a hundredth, and its air is a hundredth high.
+            // The Earth is flattened by 1/300, and its air is 1/100 of its radius high.
             constexpr double kWithin = 0.97;
             const bool modelled = frame_.background->earth() && body.id == BodyId::kEarth;
             if (modelled && limbs_of(body).near(dir, rim_rad() + block_rad)) out = Block::kRim;

@@ -7,7 +7,6 @@
 // position in the object's axes, rounded to a step, and on the relative poses of near objects, rounded too.
 // So a frame depends only on its commands. The strength of the source (eclipses, the Sun's distance, a lamp's
 // level) is a factor at the pixel.
-// distance, a lamp's level) is a factor at the pixel.
 
 #include <cstdint>
 #include <memory>

@@ -42,7 +42,7 @@ struct alignas(64) HitPacket {
     static constexpr std::uint32_t kMiss = ~std::uint32_t{0};
     std::array<float, kPacketSize> distance;  // in units of the direction's length
     std::array<float, kPacketSize> u, v;      // barycentric: corner 1, corner 2
-    // geometric normal in the object's axes, not unit
+    // Geometric normal in the object's axes, not unit.
     std::array<float, kPacketSize> normal_x, normal_y, normal_z;
     std::array<std::uint32_t, kPacketSize> object;    // index of the instance, or kMiss
     std::array<std::uint32_t, kPacketSize> triangle;  // index in the object's mesh

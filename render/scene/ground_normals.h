@@ -29,7 +29,7 @@ class GroundNormals {
 
     struct Tile {
         std::shared_ptr<const Grid> own, above;  // kSide x kSide, kHalfSide x kHalfSide
-        // at a vertex: weight of `above`, 0 to 255
+        // Weight of `above` at each vertex, 0 to 255.
         std::array<std::uint8_t, (kQuads + 1) * (kQuads + 1)> share;
     };
     std::vector<Tile> tiles;

@@ -51,7 +51,7 @@ inline constexpr std::size_t kMaxLamps = 16;
 // A lamp after loading.
 struct SceneLamp {
     std::string name;
-    // the thing that carries it; 0: the camera's body; 1, 2, ...: objects of the scene
+    // The thing that carries it; 0: the camera's body; 1, 2, ...: objects of the scene.
     std::size_t thing = 0;
     Spectrum intensity_w_sr_um;  // I_0
     LampBeam beam;

@@ -32,7 +32,7 @@ struct SceneObject {
     Mesh mesh;                        // body axes, metres
     std::vector<Material> materials;  // one per surface of the mesh
     std::vector<MeshLevel> levels;    // coarser meshes, from fine to coarse; may be empty
-    // shared with objects of the same mesh; null: no light is cached
+    // Shared with objects of the same mesh; null: no light is cached.
     std::shared_ptr<const TransferTable> transfer{};
     double turn_rate_rad_s = 0;  // known rate at the start
 };

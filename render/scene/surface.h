@@ -54,7 +54,7 @@ struct ObjectSurfaces {
     // For each surface, the slopes that this level of detail has flattened, as a GGX alpha. The materials'
     // alphas already include them. Empty for the full mesh, which flattens nothing.
     std::vector<float> flattened_alpha;
-    // normals of what a level's triangles stand for; empty for the full mesh
+    // Normals that a level's triangles represent; empty for the full mesh.
     std::vector<LodNormals> lod_normals;
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     std::shared_ptr<const GroundNormals> ground_normals;      // null: only the corners' normals

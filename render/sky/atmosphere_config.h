@@ -10,7 +10,7 @@ namespace hilcam {
 
 struct AtmosphereConfig {
     std::string model = "none";
-    // precomputed
+    // Keys of `precomputed`.
     double pressure_pa = 101325;          // at the ground
     double aerosol_optical_depth = 0.10;  // vertical, at 0.55 um
     double angstrom_exponent = 1.3;       // tau ~ wavelength^-exponent
@@ -21,7 +21,7 @@ struct AtmosphereConfig {
     double ground_albedo = 0.25;     // for light reflected between ground and sky, if nothing else gives it
     bool has_ground_albedo = false;  // given: it counts, whatever the Earth looks like
     std::filesystem::path cache;     // folder of the tables; empty: the user's cache folder
-    // table
+    // Keys of `table`.
     std::filesystem::path table;  // CSV or MODTRAN tape7.scn, see docs/atmosphere.md
 };
 Fields fields(AtmosphereConfig& config);

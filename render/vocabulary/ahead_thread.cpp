@@ -24,7 +24,7 @@ void AheadThread::stop() {
 void AheadThread::run(Rank rank) {
     pthread_setname_np(pthread_self(), "ahead");
     // Frames come first; this work may use one core of those that they leave.
-    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
+    constexpr int kNicer = 10;  // added to the program's own niceness
     // On Linux the process id is that of its first thread. The thread that started this one may be nicer
     // (light_maker.h).
     if (rank == Rank::kNice)

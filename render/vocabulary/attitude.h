@@ -33,9 +33,9 @@ inline constexpr std::array<const char*, 12> kEulerSequences = {"121", "123", "1
                                                                 "231", "232", "312", "313", "321", "323"};
 std::array<int, 3> euler_axes(std::size_t index);
 
-// The pointing of a camera with axes x right, y down, z ahead points, in ICRF [rad]: right ascension and
-// declination of the boresight, and roll, the position angle of the image's up direction, from north (ICRF's
-// +z) through east. At roll 0 north is up in the image and east is left.
+// The pointing of a camera with axes x right, y down, z ahead, in ICRF [rad]: right ascension and declination
+// of the boresight, and roll, the position angle of the image's up direction, from north (ICRF's +z) through
+// east. At roll 0 north is up in the image and east is left.
 struct RaDecRoll {
     double right_ascension_rad = 0, declination_rad = 0, roll_rad = 0;
 };

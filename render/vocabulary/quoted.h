@@ -5,7 +5,6 @@
 // A blank replaces each control character (C0, DELETE, C1, so also the start of a terminal's escape
 // sequence), each character that changes the direction of text, and each byte that is not valid UTF-8. Any
 // thread.
-// UTF-8. Any thread.
 
 #include <string>
 #include <string_view>

@@ -13,8 +13,8 @@ namespace hilcam {
 enum class RandomPurpose : std::uint32_t {
     kSensorNoise = 1,  // word 0: shot noise, word 1: read noise
     kPathSample = 2,   // light paths; index: sample and depth
-    // fixed pattern of a pixel; index 0: gain, offset, dark current, kind; 1: excess dark current of a hot
-    // pixel
+    // Fixed pattern of a pixel; index 0: gain, offset, dark current, kind; 1: excess dark current of a hot
+    // pixel.
     kFixedPattern = 3,
     kRowPattern = 4,   // pattern of a row (index 0) or column (index 1)
     kConverter = 5,    // error of a converter's steps
