@@ -40,7 +40,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
 void Background::place_sun(const WorldSnapshot& world, Vec3d objects_world_m) {
     const Vec3d to_sun_m = world.bodies.sun_world_m - objects_world_m;
     const double sun_distance_m = length(to_sun_m);
-    // The objects are taken to fly with the camera.
+    // The objects are assumed to fly with the camera.
     const Vec3d velocity_m_s = world.shifting_velocity_m_s();
     sun_world_dir_ = normalized(seen_in_motion(to_sun_m, kSunRadius_m, velocity_m_s));
     sun_camera_dir_ = normalized(
@@ -51,7 +51,7 @@ void Background::place_sun(const WorldSnapshot& world, Vec3d objects_world_m) {
     sun_irradiance_ = sun_clear_irradiance_ * sun_seen_from(objects_world_m, kNoBody);
 }
 
-// Ways that a frame may take in place of a ray at a time: patches of the Earth, sixteen rays of a plain body.
+// Chooses faster ways than single rays: patches of the Earth, sixteen rays at a time for a plain body.
 void Background::choose_quick_ways() {
     earth_in_patches_ = !disks().empty() && scene_.is_modelled(disks()[0].id) &&
                         !disks()[0].may_be_eclipsed && !camera_in_air();
@@ -97,7 +97,7 @@ bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Sp
     return false;
 }
 
-// The air that a ray crosses before `until`, in lengths of its direction.
+// Adds the air on a ray before `until`, in lengths of its direction.
 void Background::add_air(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,
                          Spectrum& radiance) const {
     const Figure& figure = body.figure;
@@ -138,7 +138,7 @@ void Background::place_earth_patch(const PixelBox& box, Vec3d corner_dir, Vec3d 
     const PlacedBody& earth = disks()[0];
     const Mat3d& fixed = earth.fixed_from_world;
     const Vec3d corner = fixed * corner_dir, right = fixed * right_dir, down = fixed * down_dir;
-    // Small where the whole disk is seen.
+    // The pitch is fine if the whole disk is seen.
     const bool small = earth.distance_m > 3 * kFigures[index_of(earth.id)].equatorial_radius_m;
     patch.place(*scene_.earth, box, small ? EarthPatch::kFinePitch_px : EarthPatch::kWidePitch_px,
                 [&](double x, double y) {

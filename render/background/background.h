@@ -1,7 +1,7 @@
 #pragma once
-// The background, which a ray sees that meets no object: the Moon and the planets with their air, the Sun's
-// disk, or black sky. Stars are point sources, not here. Where the bodies are is in placed_bodies.h, what they send in body_radiance.h,
-// how they stand before the Sun in eclipses.h.
+// The background that a ray sees if it meets no object: the Moon and the planets with their air, the Sun's
+// disk, or black sky. Stars are point sources and not included. placed_bodies.h has the positions of bodies,
+// body_radiance.h their light, eclipses.h how they cover the Sun.
 
 #include <array>
 #include <optional>
@@ -22,18 +22,18 @@ class EarthPatch;
 
 class Background {
   public:
-    // The bodies, the air and the Earth of the scene must outlive this.
+    // Bodies, air and Earth of the scene must outlive this.
     Background(const std::array<SceneBody, kMaxBodies>& bodies, const Atmosphere* air,
                const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
                const SpectralGrid& grid);
 
-    // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_context.h).
-    // pixel_rad: bodies smaller than this are points, not here. Bodies are where a camera in motion sees
-    // them, but for the one whose ground is among the objects, which stays with it.
+    // Called once per frame. objects_world_m: position of the objects, and origin of rays (frame_context.h).
+    // pixel_rad: bodies smaller than this are points and not drawn here. Bodies are where a moving camera
+    // sees them, except the one whose ground is among the objects, which stays with it.
     void place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad,
                std::optional<BodyId> ground = {});
 
-    // The Sun as the objects have it: direction, and irradiance with eclipses and air [W m^-2 um^-1].
+    // The Sun for the objects: direction, and irradiance with eclipses and air [W m^-2 um^-1].
     Vec3d sun_world_dir() const { return sun_world_dir_; }
     const Spectrum& sun_irradiance_w_m2_um() const { return sun_irradiance_; }
     // The same without eclipses and air.
@@ -43,103 +43,109 @@ class Background {
     // Returns the Sun's direction as the camera sees it.
     Vec3d sun_camera_dir() const { return sun_camera_dir_; }
 
-    // Bodies with a disk, nearest first; and those that are points.
+    // Bodies with a disk, nearest first; and bodies that are points.
     std::span<const PlacedBody> disks() const { return placed_.disks(); }
     std::span<const PlacedBody> points() const { return placed_.points(); }
     std::span<const PlanetshineSource> planetshine_sources() const { return placed_.lights(); }
-    // Irradiance of a point body at the camera [W m^-2 um^-1].
+    // Returns the irradiance of a point body at the camera [W m^-2 um^-1].
     Spectrum point_irradiance(const PlacedBody& body) const { return light_.point_irradiance(body); }
-    // Returns the radiance of a body's ground and rings in a direction of any length from the camera, whatever stands before
-    // it; 0 beside it [W m^-2 sr^-1 um^-1]. width_rad: cone of which the rings show the mean; 0: a pixel's. Loop.
+    // Returns the radiance of a body's ground and rings in a direction (any length) from the camera, ignoring
+    // everything in front of it; 0 outside it [W m^-2 sr^-1 um^-1]. width_rad: cone over which rings are
+    // averaged; 0: a pixel's. Loop.
     Spectrum ground_radiance(const PlacedBody& body, Vec3d dir, double width_rad = 0) const;
     const Atmosphere* air() const { return scene_.air; }
     const EarthModel* earth() const { return scene_.earth; }
-    // Returns where this frame lies between the Earth's maps.
+    // Returns this frame's position between the Earth's maps in time.
     MapNumbers map_numbers() const { return earth_moment_.number; }
-    // Has this frame's looks at the Earth see finer levels; they outlive it. Loop, after place().
+    // Lets this frame's rays to the Earth use finer levels, which must outlive it. Loop, after place().
     void show_detail(const DetailTiles& tiles) { earth_moment_.detail = &tiles; }
     bool shows_detail() const { return earth_moment_.detail != nullptr; }
     std::string name_of(BodyId id) const { return scene_.name_of(id); }
-    // Returns how far above its ground a body is to be seen [m].
+    // Returns how high above its ground a body is visible [m].
     double top_m(BodyId id) const { return scene_.top_m(id); }
-    // The camera is in air, so that objects are seen through it.
+    // True when the camera is in air, so that objects are seen through it.
     bool camera_in_air() const { return placed_.camera_in_air(); }
 
     // Adds weight * radiance of the nearest body along a ray (origin relative to the objects, world axes,
-    // direction of any length), air included. Gives whether a body was met; air alone is not, and dims
-    // `weight` for what is behind it. width_rad: of the cone that the ray stands for, of which the Earth's maps show
-    // the mean; 0: a pixel's. Loop, any thread.
+    // direction of any length), with air. Returns true if a body was met; air alone does not count, but dims
+    // `weight` for what is behind it. width_rad: cone of the ray, over which the Earth's maps are averaged;
+    // 0: a pixel's. Loop, any thread.
     bool add_bodies(Vec3f origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
                     double width_rad = 0) const {
         return add_bodies_from(to_double(origin_m) + objects_from_camera_m_, dir, weight, radiance,
                                {width_rad > 0 ? width_rad : pixel_rad_, false});
     }
-    // Cheaply, whether add_bodies() could add anything. dir: unit.
+    // Tests cheaply whether add_bodies() could add anything. dir: unit.
     bool may_meet_body(Vec3f dir) const {
         for (const PlanetshineSource& lamp : planetshine_sources()) {
             const Vec3f axis = to_float(lamp.world_dir);
             const float cosine = dot(axis, dir);
-            // The cone with a margin for single precision and for the objects' own size.
+            // The cone, with a margin for single precision and for the objects' own size.
             if (cosine > 0 && 1 - cosine * cosine <= lamp.cone_sine_squared + 1e-3f) return true;
             if (lamp.cone_sine_squared >= 1) return true;
         }
         return false;
     }
-    // The same from the camera.
+    // The same as add_bodies(), from the camera.
     bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
         return add_bodies_from({}, dir, weight, radiance, {pixel_rad_, true});
     }
-    // Adds the radiance of the Sun's disk as they do: mean radiance E_s / (pi sin^2 rho) inside its angular
-    // radius rho, darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
+    // Adds the radiance of the Sun's disk in the same way: mean radiance E_s / (pi sin^2 rho) inside its
+    // angular radius rho, darker towards the edge. Without eclipses: what covers the Sun blocks the ray
+    // itself.
     void add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
-    // True when a body lies before `distance`, in lengths of the direction. Loop, any thread.
+    // True when a body is nearer than `distance`, in lengths of the direction. Loop, any thread.
     bool hides(Vec3f origin_m, Vec3d dir, double distance) const {
         return hides_from(to_double(origin_m) + objects_from_camera_m_, dir, distance);
     }
     bool hides_seen(Vec3d dir, double distance) const { return hides_from({}, dir, distance); }
-    // The body that add_bodies_seen() finds along a ray of the camera, its air apart. Loop, any thread.
+    // The body that add_bodies_seen() finds along a camera ray, without its air. Loop, any thread.
     struct BodyMet {
         const PlacedBody* body = nullptr;  // null: none
         double distance = 0;               // in lengths of the direction
         Vec3d normal_world_dir;            // normal of its ground, unit
     };
     BodyMet first_body_seen(Vec3d dir) const;
-    // A ray of the camera that meets nothing else meets the Sun's disk.
+    // True when a camera ray that meets nothing else meets the Sun's disk.
     bool meets_sun_disk(Vec3d dir) const {
         const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
         return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
     }
-    // Returns the distance from the camera to the nearest place that any body can have.
+    // Returns the distance from the camera to the nearest place of any body.
     double nearest_m() const { return placed_.nearest_m(); }
-    // Light and transmittance of the air before an object at a distance; only where camera_in_air().
+    // Returns light and transmittance of the air in front of an object at a distance; only if
+    // camera_in_air().
     Atmosphere::Sight air_before(Vec3d dir, double distance_m) const;
 
     const SceneBody& scene_of(const PlacedBody& body) const { return scene_[body.id]; }
-    // A copy, placed as this one, that shows bodies and an Earth of fewer parts (sky_cost.h), which must outlive it. Not for the loop.
+    // Returns a copy with the same positions that shows bodies and an Earth with fewer parts (sky_cost.h);
+    // these must outlive it. Not for the loop.
     Background with(const std::array<SceneBody, kMaxBodies>& bodies, const EarthModel* earth) const;
     const std::array<SceneBody, kMaxBodies>& bodies() const { return *scene_.all; }
 
-    // Says in words what makes a body's look cost more than its law; empty: nothing does. Not for the loop.
+    // Describes what makes a body's look cost more than its reflection law; empty: nothing does. Not for the
+    // loop.
     std::string describe(const PlacedBody& body) const { return light_.describe(body); }
 
-    // Says what the air lacks for a ray of the camera (Atmosphere::missing).
+    // Says what data the air lacks for a camera ray (Atmosphere::missing).
     std::string air_missing(Vec3d dir) const;
 
-    // The one body in view that EarthRays can do sixteen at a time, or null.
+    // The one body in view that EarthRays can compute sixteen rays at a time, or null.
     const PlacedBody* plain_body() const { return plain_; }
     EarthRays plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const;
     void add_plain_at(float sun_cosine, const Spectrum& weight, Spectrum& radiance) const {
         if (sun_cosine > 0) radiance += sun_cosine * (weight * plain_radiance_);
     }
 
-    // The Earth by its model can be seen in patches (earth_patch.h): nothing lies before it, it is not eclipsed, and the
-    // camera is above its air.
+    // True when the Earth's model can be seen in patches (earth_patch.h): nothing is in front of it, it is
+    // not eclipsed, and the camera is above its air.
     bool earth_in_patches() const { return earth_in_patches_; }
-    // Directions of rays are corner + (x - box.x0) right + (y - box.y0) down, of any length, in world axes. Loop, any thread.
+    // Rays have directions corner + (x - box.x0) right + (y - box.y0) down, any length, world axes. Loop, any
+    // thread.
     void place_earth_patch(const PixelBox& box, Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir,
                            EarthPatch& patch) const;
 
-    // The share of the Sun's irradiance that the bodies leave at a place in the world [0..1], per bin.
+    // Returns the share of the Sun's irradiance that bodies leave at a place in the world [0..1], per bin.
     Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const {
         return eclipses_.sun_seen_from(place_world_m, standing_on);
     }
@@ -162,10 +168,10 @@ class Background {
     double pixel_rad_ = 0;
     bool earth_in_patches_ = false;
 
-    // The cone that a ray stands for.
+    // The cone of a ray.
     struct Cone {
         double width_rad;
-        bool of_pixel;  // for one of the camera's
+        bool of_pixel;  // it is a pixel's, from the camera
     };
     void place_sun(const WorldSnapshot& world, Vec3d objects_world_m);
     void choose_quick_ways();

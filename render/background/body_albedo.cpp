@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// 2 int p(g) sin g dg over the phase angle, p: geometric albedo times phase function.
+// Returns 2 int p(g) sin g dg over the phase angle, with p: geometric albedo times phase function.
 Spectrum spherical_albedo(const BodyLook& look) {
     if (look.plain_lambert()) return look.albedo();
     constexpr int kSteps = 180;
@@ -30,7 +30,7 @@ AirGround body_albedo(const SceneBody& body, const SpectralGrid& grid) {
     return ground_by_place([&](float u, float v) {
         constexpr float kCell = 1.0f / AirGround::kWidth;
         Spectrum here = (factor * albedo) * bands.spectrum(body.map.sample(u, v, kCell));
-        // A map may be brighter than its reference; nothing sends up more than it gets.
+        // A map may be brighter than its reference, but nothing reflects more than it receives.
         for (int b = 0; b < grid.size(); ++b) here[b] = std::min(here[b], 1.0f);
         return here;
     });

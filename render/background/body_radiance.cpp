@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// Mean colour of a map over the sphere.
+// Returns the mean colour of a map over the sphere.
 Vec3f mean_texel(const MipTexture& map) {
     return map.mean([](double v) { return std::cos(kPi * (v - 0.5)); });
 }
@@ -35,12 +35,12 @@ BodyRadiance::BodyRadiance(const SceneBodies& scene, const SpectralGrid& grid)
             map_mean_[i] = mean;
             continue;
         }
-        // A look tied to a magnitude keeps its light under a map: the map is relative to its mean.
+        // A look scaled to a magnitude keeps its total light: the map is relative to its mean.
         for (int b = 0; b < bins_; ++b) map_factor_[i][b] = mean[b] > 0 ? 1 / mean[b] : 0.0f;
     }
 }
 
-// Bodies whose magnitude is measured have its light whole; shape and poles make no difference to the others.
+// Bodies with a measured magnitude get its total light; for others shape and poles make no difference.
 void BodyRadiance::set_brightness(PlacedBody& body) const {
     const BodyLook& look = scene_[body.id].look;
     if (!look.is_measured() || !(body.distance_m > 0)) return;
@@ -79,7 +79,7 @@ Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_v
                                   static_cast<float>(dot(body.sun_dir, to_viewer_dir)));
     if (body.globe_factor != 1) light = body.globe_factor * light;
     if (scene_.has_air(body.id)) {
-        // tau_1 dims the Sun; the sky adds its own light on the ground, taken as Lambert.
+        // tau_1 dims the Sun; the sky adds its light on the ground, which is treated as Lambertian.
         const Vec3d p = stretched(figure, point_m), s = normalized(stretched(figure, body.sun_dir));
         light = light * scene_.air->sun_transmittance(p, s);
         light += static_cast<float>(1 / kPi) * (scene.look.albedo() * scene_.air->sky_irradiance(p, s));
@@ -94,14 +94,15 @@ Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_v
     Spectrum texel;
     texel.bin.fill(1);
     if (!scene.map.empty()) {
-        // Longitude runs with u from 180 W. Latitude is the normal's own, or flatter (Snyder, USGS Professional Paper 1395, 1987, eq. 3-28).
+        // Longitude increases with u from 180 W. Latitude is that of the normal, or flatter (Snyder, USGS
+        // Professional Paper 1395, 1987, eq. 3-28).
         const auto u = static_cast<float>(std::atan2(level.y, level.x) / (2 * kPi) + 0.5);
         const double latitude_rad =
             scene.map_latitude_factor == 1
                 ? std::asin(std::clamp(level.z, -1.0, 1.0))
                 : std::atan2(scene.map_latitude_factor * level.z, std::hypot(level.x, level.y));
         const auto v = static_cast<float>(0.5 - latitude_rad / kPi);
-        // Against the equator's length.
+        // Relative to the equator's length.
         const double slant = std::max(0.25, dot(level, to_viewer_dir));
         const double footprint = pixel_rad_ * length(point_m - body.camera_m) /
                                  (std::sqrt(slant) * 2 * kPi * figure.equatorial_radius_m);
@@ -123,7 +124,7 @@ Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_v
     return out;
 }
 
-// Adds the rings that a ray meets before `until`; Saturn's shadow lies on them.
+// Adds the rings on a ray before `until`, with Saturn's shadow on them.
 void BodyRadiance::add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, const RingSight& sight,
                              Spectrum& weight, Spectrum& radiance) const {
     const SaturnRings::Met there = SaturnRings::meet(origin_m, dir);
@@ -162,8 +163,7 @@ Spectrum BodyRadiance::point_irradiance(const PlacedBody& body) const {
                (body.irradiance_w_m2_um * scene_.earth->disk_albedo(to_camera, body.sun_dir, 400));
     const DiskView view{to_camera, body.sun_dir};
     const BodyLook& look = scene_[body.id].look;
-    // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's
-    // latitude.
+    // The semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's latitude.
     const double sine = to_camera.z, distance2 = body.distance_m * body.distance_m;
     const double area_ratio = a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / distance2;
     Spectrum out =
@@ -171,7 +171,7 @@ Spectrum BodyRadiance::point_irradiance(const PlacedBody& body) const {
         (body.irradiance_w_m2_um * look.disk_albedo(view.phase_rad()) * map_mean_[index_of(body.id)]);
     if (!look.is_measured()) return out;
     if (body.id == BodyId::kSaturn && saturn_light_) {
-        // Its rings are in its magnitude, whether they are drawn from near by or not.
+        // The magnitude includes its rings, whether they are drawn or not.
         const SaturnLight::Parts parts = saturn_light_->parts(view);
         return static_cast<float>(parts.globe_share) * out +
                static_cast<float>(parts.rings_m2 / distance2) * (body.irradiance_w_m2_um * rings_.color());

@@ -28,9 +28,9 @@ Spectrum Eclipses::sun_seen_from(Vec3d place_world_m, BodyId standing_on) const 
     }
     if (count == 0) return whole;
 
-    // The disk in rings of equal area and spokes, weighted by its own radiance. Each ring is turned by the
-    // golden section, so that no limb runs along many of its points: half a per cent of the whole, rms, 1.4 %
-    // at most, for limbs of any radius, place and direction.
+    // Divides the disk into rings of equal area and spokes, weighted by radiance. Each ring is rotated by the
+    // golden section, so that no limb coincides with many points: the error is half a per cent of the whole,
+    // rms, and 1.4 % at most, for limbs of any radius, place and direction.
     constexpr int kRings = 12, kSpokes = 24;
     constexpr double kGolden = 0.6180339887498949;
     const double sine = std::sqrt(std::max(0.0, 1 - disk_cosine * disk_cosine));

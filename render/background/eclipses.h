@@ -1,5 +1,6 @@
 #pragma once
-// Eclipses: the share of the Sun that bodies leave at a place, by discs that have limbs, and by the Earth's air.
+// Eclipses: the share of the Sun that bodies leave visible at a place, with the Sun's limb darkening and the
+// Earth's air.
 
 #include "render/background/scene_bodies.h"
 #include "render/sky/bodies.h"
@@ -12,14 +13,14 @@ class Eclipses {
     Eclipses(const SceneBodies& scene, const SunDisk& disk, int bins)
         : scene_(scene), disk_(disk), bins_(bins) {}
 
-    // Once per frame.
+    // Called once per frame.
     void place(const Bodies& bodies) { bodies_ = bodies; }
     void show(const SceneBodies& scene) { scene_ = scene; }
 
-    // The share of the Sun's irradiance that the bodies leave at a place in the world [0..1], per bin. standing_on: hides nothing. Loop,
-    // any thread.
+    // Returns the share of the Sun's irradiance that bodies leave at a place in the world [0..1], per bin.
+    // standing_on: a body that is ignored. Loop, any thread.
     Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
-    // The same at a place of a body that is placed, in its axes from its centre.
+    // The same at a place on a body, in world axes from its centre.
     Spectrum sun_seen_from(BodyId body, Vec3d from_centre_world_m) const {
         return sun_seen_from(bodies_[body].world_m + from_centre_world_m, body);
     }

@@ -10,8 +10,8 @@
 namespace hilcam {
 namespace {
 
-// The body's middle from the camera as one in motion sees it: its limb exactly. The ground below the camera
-// is nearer than the limb and seen later by less, which turning the body makes up for.
+// Returns the body's middle as a moving camera sees it: exact for its limb. The ground below the camera is
+// nearer than the limb and its light arrives earlier; the body's rotation is corrected for that.
 Vec3d place_seen(BodyId id, const WorldSnapshot& world, Mat3d& fixed_from_world) {
     const BodyState& state = world.bodies[id];
     const double radius_m = world.bodies.figure(id).equatorial_radius_m;
@@ -124,7 +124,7 @@ double PlacedBodies::outer_radius_m(BodyId id, const Figure& figure) const {
 
 bool PlacedBodies::is_seen_in_points(const PlacedBody& body, double pixel_rad) const {
     constexpr double kFar = 8;  // in radii: nearer, a few pixels are a large part of the sky
-    // Of a ringed body the globe counts: a grid of rays would meet its rings by chance.
+    // For a ringed body the globe counts: a grid of rays would meet its rings by chance.
     const double radius_m =
         scene_.has_rings(body.id) ? body.figure.equatorial_radius_m : outer_radius_m(body.id, body.figure);
     return !scene_.is_modelled(body.id) && !scene_.has_air(body.id) &&
@@ -132,7 +132,7 @@ bool PlacedBodies::is_seen_in_points(const PlacedBody& body, double pixel_rad) c
            2 * radius_m < kBodyPoints_px * pixel_rad * body.distance_m;
 }
 
-// Each of the others as a disk of the phase at which this body sees it, its air apart.
+// Adds each of the others as a disk at its phase seen from this body, without its air.
 void PlacedBodies::add_planetshine(const WorldSnapshot& world, const BodyRadiance& light,
                                    PlacedBody& out) const {
     const Vec3d here_m = world.bodies[out.id].world_m;
@@ -145,7 +145,7 @@ void PlacedBodies::add_planetshine(const WorldSnapshot& world, const BodyRadianc
         if (other_m <= radius_m) continue;
         const double phase = std::acos(std::clamp(dot(to_other_m, to_sun_m) / (-other_m * sun_m), -1.0, 1.0));
         const double au = kAstronomicalUnit_m / sun_m, part = au * radius_m / other_m;
-        // A magnitude is that of the outline from the equator.
+        // A magnitude belongs to the outline seen from the equator.
         const double outline = (*scene_.all)[i].look.is_measured()
                                    ? world.bodies.figure(static_cast<BodyId>(i)).polar_radius_m /
                                          world.bodies.figure(static_cast<BodyId>(i)).equatorial_radius_m
@@ -154,7 +154,7 @@ void PlacedBodies::add_planetshine(const WorldSnapshot& world, const BodyRadianc
             out.fixed_from_world * (to_other_m / other_m),
             static_cast<float>(part * part * outline) *
                 (sun_irradiance_1au_ * (*scene_.all)[i].look.disk_albedo(phase) * light.map_mean(i))};
-        // The strongest two.
+        // Keeps the strongest two.
         std::size_t at = out.shine_count;
         while (at > 0 &&
                max_component(out.shine[at - 1].irradiance_w_m2_um) < max_component(shine.irradiance_w_m2_um))
@@ -164,7 +164,7 @@ void PlacedBodies::add_planetshine(const WorldSnapshot& world, const BodyRadianc
         for (std::size_t k = out.shine_count - 1; k > at; --k) out.shine[k] = out.shine[k - 1];
         out.shine[at] = shine;
     }
-    // What nobody sees beside the first is not worth a ray's time.
+    // A second one that is invisible beside the first is not worth a ray.
     constexpr float kSeen = 1e-3f;
     if (out.shine_count == 2 && max_component(out.shine[1].irradiance_w_m2_um) <
                                     kSeen * max_component(out.shine[0].irradiance_w_m2_um))

@@ -1,5 +1,5 @@
 #pragma once
-// Where the bodies of the scene are in a frame: which are disks, which are points, and which shine on the objects.
+// Places the bodies of the scene in a frame: which are disks, which are points, and which light the objects.
 
 #include <array>
 #include <optional>
@@ -16,18 +16,18 @@ class PlacedBodies {
     PlacedBodies(const SceneBodies& scene, const Spectrum& sun_irradiance_1au_w_m2_um)
         : scene_(scene), sun_irradiance_1au_(sun_irradiance_1au_w_m2_um) {}
 
-    // Once per frame; arguments as those of Background::place().
+    // Called once per frame; arguments as for Background::place().
     void place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad,
                std::optional<BodyId> ground, const BodyRadiance& light);
-    // Shows others, placed as these, without the light of bodies on those that have none of it.
+    // Shows other bodies in the same positions; those without planetshine get none.
     void show(const SceneBodies& scene);
 
-    // Bodies with a disk, nearest first; and those that are points.
+    // Bodies with a disk, nearest first; and bodies that are points.
     std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
     std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
-    // Those with a disk as lamps, in the same order.
+    // Bodies with a disk as lights, in the same order.
     std::span<const PlanetshineSource> lights() const { return {lights_.data(), disk_count_}; }
-    // Returns the distance from the camera to the nearest place that any body can have.
+    // Returns the distance from the camera to the nearest place of any body.
     double nearest_m() const { return nearest_m_; }
     bool camera_in_air() const { return camera_in_air_; }
 
@@ -43,7 +43,7 @@ class PlacedBodies {
     PlacedBody placed(BodyId id, const WorldSnapshot& world, const BodyRadiance& light, bool stays) const;
     void add_planetshine(const WorldSnapshot& world, const BodyRadiance& light, PlacedBody& body) const;
     PlanetshineSource light_of(const PlacedBody& body, Vec3d to_body_m) const;
-    // Radius with air or mountains.
+    // Returns the radius including air or mountains.
     double outer_radius_m(BodyId id, const Figure& figure) const;
     bool is_seen_in_points(const PlacedBody& body, double pixel_rad) const;
 };

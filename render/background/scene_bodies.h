@@ -1,5 +1,5 @@
 #pragma once
-// The bodies of a scene, and which of them has what.
+// The bodies of a scene, and the features of each.
 
 #include <array>
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace hilcam {
 
-// All that it points to outlives it.
+// Everything that it points to must outlive it.
 struct SceneBodies {
     const std::array<SceneBody, kMaxBodies>* all;
     const Atmosphere* air;    // the Earth's; null: none
-    const EarthModel* earth;  // the Earth's look by its model (render/earth); null: by its law as a body
+    const EarthModel* earth;  // the Earth's model (render/earth); null: drawn like other bodies
 
     const SceneBody& operator[](BodyId id) const { return (*all)[index_of(id)]; }
     bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*this)[id].rings; }
     bool has_air(BodyId id) const { return air && id == BodyId::kEarth; }
     bool is_modelled(BodyId id) const { return earth && id == BodyId::kEarth; }
-    // Returns how far above its ground a body is to be seen [m].
+    // Returns how high above its ground a body is visible [m].
     double top_m(BodyId id) const;
     std::string name_of(BodyId id) const;
 };

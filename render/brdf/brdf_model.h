@@ -1,12 +1,12 @@
 #pragma once
-// The form of a reflection model: a small struct in a file of its own, named as scenarios name it.
+// The form of a reflection model: a small struct in a file of its own, with the name that scenarios use.
 //
-// Directions are given by three cosines: of the viewer and the light to the shading normal, and of the two to
-// each other. Values are f [sr^-1], without the cosine; densities are per solid angle of the light's
-// direction. All functions of a model but its constructor: loop, any thread.
+// Directions are given by three cosines: those of viewer and light to the shading normal, and the one between
+// viewer and light. Values are f [sr^-1], without the cosine; densities are per solid angle of the light's
+// direction. All functions of a model except its constructor: loop, any thread.
 //
-// A model has a name (kName), value(), and what of the following it does not leave as it is in BrdfModel. It
-// is made by Model(const Keys&, BrdfMaking&); brdf_models.h lists it. docs/extending.md adds one.
+// A model has a name (kName), value(), and overrides for whatever differs from BrdfModel. Its constructor is
+// Model(const Keys&, BrdfMaking&), and brdf_models.h lists it. docs/extending.md adds one as an example.
 
 #include <algorithm>
 #include <array>
@@ -40,26 +40,26 @@ inline HalfVector half_vector(Cosines c) {
             0.5f * std::sqrt(length_squared)};
 }
 
-// The mean over the bins of the grid.
+// Returns the mean over the bins of the grid.
 inline float mean(const Spectrum& s, int bins) {
     float sum = 0;
     for (int b = 0; b < kMaxBins; ++b) sum += s[b];
     return sum / static_cast<float>(bins);
 }
 
-// The look of a surface: all that its textures and its level of detail change of a model at a point.
+// The inputs of a model at one point: everything that textures and levels of detail change.
 struct BsdfInputs {
-    float alpha = 0;     // alpha of the facet lobe; 0: an exact mirror on top
+    float alpha = 0;     // GGX alpha of the facet lobe; 0: an exact mirror
     Spectrum base;       // the model's `reflectance`, unless it says otherwise
-    Spectrum highlight;  // zero, unless the model says otherwise; what facets reflect at normal incidence
-    std::optional<HapkeParameters> hapke{};  // the place's own, where maps of the ground have them
+    Spectrum highlight;  // reflectance of facets at normal incidence; zero, unless the model sets it
+    std::optional<HapkeParameters> hapke{};  // this place's own, if maps of the ground have them
 };
 
-// Keys of a material that several models share, or that are no model's.
+// Keys of a material that several models share, or that belong to no model.
 struct MaterialKeys {
-    std::string source;                        // where the figures come from
-    std::size_t model = 0;                     // place in Brdf (brdf_models.h)
-    Curve reflectance = Curve::constant(0.5);  // each model says of what
+    std::string source;                        // origin of the figures
+    std::size_t model = 0;                     // index in Brdf (brdf_models.h)
+    Curve reflectance = Curve::constant(0.5);  // each model says what it means
     double roughness = 0.3;                    // metal, dielectric: GGX alpha is its square; oren_nayar: r
     double refractive_index = 1.5;             // dielectric, glass
     double temperature_k = 0;                  // 0: no emission
@@ -70,48 +70,50 @@ inline double largest_value(const Curve& curve) {
     return *std::max_element(curve.value.begin(), curve.value.end());
 }
 
-// The parts that a model is made from; it may change the look.
+// The ingredients of a model; the model may change `look`.
 struct BrdfMaking {
     const MaterialKeys& keys;
     const SpectralGrid& grid;
-    std::shared_ptr<const BrdfTable> table;  // the table of keys.table; null where that is empty
-    BsdfInputs look;                         // base: the averages of keys.reflectance
+    std::shared_ptr<const BrdfTable> table;  // read from keys.table; null if that is empty
+    BsdfInputs look;                         // base: averages of keys.reflectance
 
-    // Throws InputError where the curve does not cover the grid.
+    // Throws InputError if the curve does not cover the grid.
     Spectrum average(const Curve& curve, const std::string& key) const {
         require_cover(curve, grid, key);
         return grid.average(curve);
     }
 };
 
-// The traits of a model that says nothing else: it is diffuse, without keys of its own.
+// The defaults of a model: diffuse, without keys of its own.
 template <class Model>
 struct BrdfModel {
-    static constexpr bool kHasFacets = false;      // FacetModel has them
-    static constexpr bool kHasBody = true;         // light goes in all directions even where alpha is 0
-    static constexpr bool kTransmits = false;      // a sheet: mirrored() and passed(), and of a body value()
-    static constexpr bool kTakesTable = false;     // key `table` goes with it
-    static constexpr bool kAlbedoIsBound = false;  // albedo() is far above what it reflects
+    static constexpr bool kHasFacets = false;  // set by FacetModel
+    static constexpr bool kHasBody = true;     // light goes in all directions, even if alpha is 0
+    static constexpr bool kTransmits = false;  // a sheet: has mirrored() and passed(), and value() for a body
+    static constexpr bool kTakesTable = false;     // uses the key `table`
+    static constexpr bool kAlbedoIsBound = false;  // albedo() is far above the real value
 
-    // The keys that it takes of those that models share.
+    // The shared keys that it uses.
     static constexpr std::array<std::string_view, 1> kSharedKeys{"reflectance"};
-    // Keys of its own; check() throws InputError for what would create light.
+    // Keys of its own. check() throws InputError for values that would create light.
     struct Keys {};
     static Fields fields(Keys&) { return {}; }
     static void check(const MaterialKeys&, const auto&) {}
 
-    // The chance that a sample is of the highlight; the others go by the cosine.
+    // Returns the probability that a sample is drawn from the highlight; others follow the cosine.
     float highlight_chance(const BsdfInputs&, float) const { return 0; }
-    // The highlight's own density, and a direction towards the light by it, world. local: about the normal.
+    // The highlight's density, and a direction towards the light drawn from it (world). local: frame about
+    // the normal.
     float highlight_density(const BsdfInputs&, Cosines) const { return 0; }
     Vec3f sample_highlight(const BsdfInputs&, const Frame& local, Vec3f, float, float) const {
         return local.n;
     }
-    // Returns what is reflected in the mirror's direction, by a facet or a sheet that is met at this cosine.
+    // Returns the reflectance of a facet or sheet at this cosine.
     Spectrum mirrored(const BsdfInputs&, float) const { return {}; }
-    // Returns what goes through a sheet.
+    // Returns the transmittance of a sheet.
     Spectrum passed(const BsdfInputs&, float) const { return {}; }
-    // The share of light that comes back in all directions, about: chooses a sample's part, ends paths.
+    // Returns roughly the share of light that is reflected in all directions. It is used to choose between
+    // parts of a sample and to end paths.
     float albedo(const BsdfInputs& at, float, int bins) const { return mean(at.base, bins); }
 };
 

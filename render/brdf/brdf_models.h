@@ -1,5 +1,5 @@
 #pragma once
-// The reflection models: a new one is its header here and its name at the end of the list.
+// The list of reflection models. A new model is a header in this folder and its name at the end of the list.
 
 #include <array>
 #include <string>
@@ -25,13 +25,13 @@ using Brdf =
     std::variant<brdf::Lambert, brdf::Metal, brdf::Dielectric, brdf::Mirror, brdf::Glass, brdf::OrenNayar,
                  brdf::Phong, brdf::LommelSeeliger, brdf::Hapke, brdf::Measured, brdf::Veil>;
 
-// --- what follows from the list
+// --- derived from the list
 
 template <class List>
 struct ModelList;
 template <class... Models>
 struct ModelList<std::variant<Models...>> {
-    // The keys of a material: what several models share, and each model's own.
+    // The keys of a material: those that models share, and each model's own.
     struct Keys : MaterialKeys, Models::Keys... {};
 
     static constexpr std::size_t kCount = sizeof...(Models);
@@ -45,7 +45,7 @@ struct ModelList<std::variant<Models...>> {
 };
 using BrdfModels = ModelList<Brdf>;
 
-// The place of a model in the list: MaterialKeys::model, Brdf::index().
+// The index of a model in the list: MaterialKeys::model, Brdf::index().
 template <class Model>
 inline constexpr std::size_t kModel = [] {
     std::size_t place = 0;
@@ -57,7 +57,7 @@ inline constexpr std::size_t kModel = [] {
     return place;
 }();
 
-// The traits that others ask of a model's kind, by its place.
+// The properties of a model that other code asks for, by its index.
 struct BrdfTraits {
     bool has_facets, has_body, transmits, takes_table, albedo_is_bound;
 };

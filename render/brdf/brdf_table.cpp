@@ -51,22 +51,23 @@ Spectrum BrdfTable::value(float no, float ni, float io) const {
     const float half_length = std::sqrt(std::max(2 + 2 * io, 1e-8f));
     const float nh = std::clamp((no + ni) / half_length, 0.0f, 1.0f), ih = std::min(0.5f * half_length, 1.0f);
     const float sines = std::sqrt(std::max(0.0f, 1 - nh * nh)) * std::sqrt(std::max(0.0f, 1 - ih * ih));
-    // n = (cos-part along h) + tangential part; the light's azimuth about h is measured from away from n.
+    // n is a part along h plus a tangential part; the light's azimuth around h is measured from the direction
+    // away from n.
     const float cos_phi = sines > 1e-6f ? (nh * ih - ni) / sines : 0.0f;
     return interpolate({std::sqrt(angle(nh)), angle(ih), angle(cos_phi)});
 }
 
-// A GGX lobe about the mirror direction as wide as the table's own highlight at 30 degrees, and as large a
-// share of the samples as the highlight has of the light there.
+// Fits a GGX lobe around the mirror direction: as wide as the table's highlight at 30 degrees, with the
+// highlight's share of the light as its share of the samples.
 void BrdfTable::fit_lobe() {
     constexpr float kCosine = 0.8660254f, kSine = 0.5f;
     const auto at =
-        [&](float theta_o) {  // in the plane of incidence, behind the mirror direction when positive
+        [&](float theta_o) {  // in the plane of incidence, beyond the mirror direction if positive
             const float c = std::cos(theta_o), io = kCosine * c - kSine * std::sin(theta_o);
             return c > 0 ? max_component(value(c, kCosine, io)) : 0.0f;
         };
     const float peak = at(0.5235988f);
-    const float floor = at(-1.0f);  // well away from it, on the light's side
+    const float floor = at(-1.0f);  // far from the highlight, on the light's side
     if (!(peak > 1.5f * floor)) {
         lobe_share_ = 0.2f, lobe_alpha_ = 0.7f;
         return;

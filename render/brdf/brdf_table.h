@@ -1,11 +1,11 @@
 #pragma once
-// A measured, isotropic BRDF on a grid, on the run's spectral bins.
+// A measured, isotropic BRDF on a grid, converted to the run's spectral bins.
 //
-// Two ways to lay out the grid: by angles (theta_i, phi, theta_o; phi the azimuth between light and viewer, 0
-// where they are on the same side), linear between grid points; or MERL's half-vector angles (theta_h,
-// theta_d, phi_d; Matusik et al., SIGGRAPH 2003), with theta_h's axis as its square root. Values are as
-// measured: reciprocity and energy are the data's business. Nothing is extrapolated: readers refuse a grid
-// that does not reach 90 degrees unless the file says `hold` (io/files/brdf_file.h).
+// There are two layouts of the grid: by angles (theta_i, phi, theta_o; phi is the azimuth between light and
+// viewer, 0 on the same side), linear between grid points; or by MERL's half-vector angles (theta_h, theta_d,
+// phi_d; Matusik et al., SIGGRAPH 2003), with the square root of theta_h on its axis. Values are as measured:
+// reciprocity and energy conservation depend on the data. Nothing is extrapolated: readers reject a grid that
+// does not reach 90 degrees unless the file says `hold` (io/files/brdf_file.h).
 
 #include <array>
 #include <vector>
@@ -22,7 +22,7 @@ class BrdfTable {
     BrdfTable(Layout layout, std::array<std::vector<float>, 3> axes_rad, std::vector<Spectrum> values);
 
     Spectrum value(float no, float ni, float io) const;
-    // Returns the share of samples that are drawn from a GGX lobe of lobe_alpha(); the rest are drawn by the
+    // Returns the share of samples that are drawn from a GGX lobe of lobe_alpha(); the others follow the
     // cosine.
     float lobe_share() const { return lobe_share_; }
     float lobe_alpha() const { return lobe_alpha_; }

@@ -1,7 +1,7 @@
 #pragma once
-// model: dielectric. A diffuse body under a clear layer of GGX facets with the exact Fresnel term; what
-// enters the body comes out again by its albedo (facet_lobe.h). `reflectance` is the body's albedo,
-// `roughness` the root of GGX's alpha, `refractive_index` the layer's.
+// model: dielectric. A diffuse body under a clear layer of GGX facets with the exact Fresnel term; light that
+// enters the body leaves it again by its albedo (facet_lobe.h). `reflectance` is the body's albedo,
+// `roughness` the square root of the GGX alpha, `refractive_index` that of the layer.
 
 #include "render/brdf/facet_lobe.h"
 
@@ -22,7 +22,7 @@ struct Dielectric : FacetModel<Dielectric> {
         m.look.highlight = normal_incidence();
     }
 
-    // Returns what the layer reflects of light that falls straight on it.
+    // Returns the layer's reflectance at normal incidence.
     Spectrum normal_incidence() const {
         const float r = (refractive_index - 1) / (refractive_index + 1);
         Spectrum out;

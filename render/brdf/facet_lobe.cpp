@@ -3,7 +3,7 @@
 namespace hilcam {
 namespace {
 
-// Mean albedo of one reflection at a facet lobe; the facet's Fresnel term or 1.
+// Returns the mean albedo of a single reflection by a facet lobe, with the facet's Fresnel term or 1.
 float lobe_albedo(float alpha, float refractive_index, float cosine) {
     const auto fresnel = [&](float c) {
         return refractive_index > 0 ? fresnel_dielectric(refractive_index, c) : 1.0f;
@@ -14,7 +14,7 @@ float lobe_albedo(float alpha, float refractive_index, float cosine) {
     constexpr int kGrid = 48;
     double sum = 0;
     for (int i = 0; i < kGrid; ++i) {
-        // Crowded where facets are steep (u near 1): few, but what they lose is all that is lost.
+        // Denser where facets are steep (u near 1): they are few, but all of the loss is there.
         const float left = 1 - (static_cast<float>(i) + 0.5f) / kGrid;
         const float u1 = 1 - left * left * left;
         double ring = 0;
@@ -38,7 +38,7 @@ LobeAlbedo ggx_albedo(float alpha, float refractive_index) {
     for (int i = 0; i <= n; ++i)
         out.at_cosine[static_cast<std::size_t>(i)] =
             lobe_albedo(alpha, refractive_index, static_cast<float>(i) / static_cast<float>(n));
-    // 2 int E mu dmu, exact for the straight pieces that operator() uses.
+    // 2 int E mu dmu, exact for the linear pieces that operator() uses.
     double sum = 0;
     for (int i = 0; i < n; ++i) {
         const double a = static_cast<double>(i) / n, b = static_cast<double>(i + 1) / n;

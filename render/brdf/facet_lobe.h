@@ -1,10 +1,10 @@
 #pragma once
-// The light that a lobe of GGX facets reflects in all, and what models with such a lobe have in common.
+// The total light that a lobe of GGX facets reflects, and the common base of models with such a lobe.
 //
-// metal and dielectric keep all energy: what leaves the facets after several reflections (metal: Kulla &
-// Conty, SIGGRAPH 2017 course) or enters the body (dielectric: Kelemen & Szirmay-Kalos, Eurographics 2001
-// short papers) is the base lobe (1-E(no))(1-E(ni)) / (pi (1-E_avg)), E the directional albedo of the facets'
-// single reflection.
+// metal and dielectric conserve energy. Light that leaves the facets after several reflections (metal: Kulla
+// & Conty, SIGGRAPH 2017 course) or enters the body (dielectric: Kelemen & Szirmay-Kalos, Eurographics 2001
+// short papers) forms the base lobe (1-E(no))(1-E(ni)) / (pi (1-E_avg)), where E is the directional albedo of
+// single reflection by facets.
 
 #include <algorithm>
 #include <array>
@@ -27,16 +27,16 @@ struct LobeAlbedo {
         return left + (x - static_cast<float>(i)) * (at_cosine[static_cast<std::size_t>(i) + 1] - left);
     }
 };
-// Returns the albedo of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint sums over visible
-// normals: good to 1e-3.
+// Returns the albedo of GGX facets that reflect everything (refractive_index 0) or like a dielectric.
+// Midpoint sums over visible normals, good to 1e-3.
 LobeAlbedo ggx_albedo(float alpha, float refractive_index);
 
-// (1-E(no))(1-E(ni)) / (pi (1-E_avg)): light that entered below the facets' single reflection.
+// (1-E(no))(1-E(ni)) / (pi (1-E_avg)): the base lobe of light that a single reflection by facets leaves.
 inline float below_facets(const LobeAlbedo& e, float no, float ni) {
     return e.average < 0.9999f ? (1 - e(no)) * (1 - e(ni)) / (kPiF * (1 - e.average)) : 0.0f;
 }
 
-// Schlick's Fresnel term per bin, of a facet met at this cosine.
+// Returns Schlick's Fresnel term per bin for a facet at this cosine.
 inline Spectrum schlick(const Spectrum& normal_reflectance, float cosine) {
     const float weight = schlick_weight(cosine);
     Spectrum out;
@@ -44,8 +44,8 @@ inline Spectrum schlick(const Spectrum& normal_reflectance, float cosine) {
     return out;
 }
 
-// A model whose highlight is a lobe of GGX facets as wide as the surface's alpha, a mirror where that is 0.
-// It says by mirrored() what a facet reflects.
+// A model with a highlight from GGX facets of the surface's alpha; a mirror if that is 0. Its mirrored()
+// gives the reflectance of a facet.
 template <class Model>
 struct FacetModel : BrdfModel<Model> {
     static constexpr bool kHasFacets = true;

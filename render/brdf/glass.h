@@ -1,7 +1,8 @@
 #pragma once
-// model: glass. A thin clear sheet: exact reflection and straight transmission, light that bounces inside it
-// included (the geometric series of a plate's bounces, Born & Wolf, Principles of Optics, chapter 7.6, with intensities added). `refractive_index` is the
-// sheet's, `transmittance` that inside it at normal incidence; `reflectance` is not used.
+// model: glass. A thin clear sheet: exact reflection and straight transmission, including light that bounces
+// inside it (the geometric series of a plate's bounces, Born & Wolf, Principles of Optics, chapter 7.6, with
+// intensities added). `refractive_index` is that of the sheet, `transmittance` the one inside it at normal
+// incidence; `reflectance` is not used.
 
 #include "render/brdf/brdf_model.h"
 
@@ -49,7 +50,7 @@ struct Glass : BrdfModel<Glass> {
     float albedo(const BsdfInputs&, float, int) const { return 1; }
 
   private:
-    // The transmittance of one passage: the path inside is longer by the refracted angle (Snell).
+    // Returns the transmittance of one passage: the path inside is longer by the refracted angle (Snell).
     float inside(const BsdfInputs& at, int bin, float cosine) const {
         const float n = refractive_index;
         const float slant = std::sqrt(std::max(1e-6f, 1 - (1 - cosine * cosine) / (n * n)));

@@ -1,11 +1,11 @@
 #pragma once
 // model: hapke. Regolith, f = I / (E cos i) [sr^-1]: B. Hapke, Theory of Reflectance and Emittance
 // Spectroscopy, 2nd ed., Cambridge 2012:
-//   f = w/4pi 1/(mu_0e + mu_e) { [1 + B(g)] p(g) + H(mu_0e) H(mu_e) - 1 } S(i, e, psi) mu_0e / mu_0
-//   H by Hapke 2002 (Icarus 157, 523, eq. 13), p a double Henyey-Greenstein function, B the shadow-hiding
-//   surge of 1986, S and the effective cosines the macroscopic roughness of 1984 (Icarus 59, 41).
-// `reflectance` is the single-scattering albedo w. Maps of the ground give the other parameters by place. Not modelled: porosity, coherent backscatter,
-// polarisation.
+//     f = w/4pi 1/(mu_0e + mu_e) { [1 + B(g)] p(g) + H(mu_0e) H(mu_e) - 1 } S(i, e, psi) mu_0e / mu_0
+// H is from Hapke 2002 (Icarus 157, 523, eq. 13), p is a double Henyey-Greenstein function, B the
+// shadow-hiding surge of 1986, S and the effective cosines the macroscopic roughness of 1984 (Icarus 59, 41).
+// `reflectance` is the single-scattering albedo w. Maps of the ground can give the other parameters by place.
+// Not modelled: porosity, coherent backscatter, polarisation.
 
 #include "render/brdf/brdf_model.h"
 #include "render/vocabulary/hapke_parameters.h"
@@ -13,20 +13,20 @@
 
 namespace hilcam {
 
-// --- The law, for whoever reflects by it
+// --- the law by itself
 
-// The part of the model that does not depend on the wavelength.
+// The part of the law that does not depend on wavelength.
 struct HapkeGeometry {
     float mu0 = 0, mu = 0;  // effective cosines
     float phase = 0;        // (1 + B) p
     float factor = 0;       // 1/4pi 1/(mu0 + mu) S mu0e / cos i
 };
 
-// io: cosine between the directions to light and viewer, which is the cosine of the phase angle g.
+// io: cosine between the directions to light and viewer, that is, of the phase angle g.
 inline HapkeGeometry hapke_geometry(const HapkeParameters& p, float no, float ni, float io) {
     HapkeGeometry out;
     const float cos_g = std::clamp(io, -1.0f, 1.0f);
-    // Backward lobe peaks at g = 0, where the scattering angle is pi.
+    // The backward lobe peaks at g = 0, where the scattering angle is pi.
     const float b2 = p.b * p.b;
     const auto lobe = [&](float sign) {
         const float x = 1 + sign * 2 * p.b * cos_g + b2;
@@ -39,7 +39,7 @@ inline HapkeGeometry hapke_geometry(const HapkeParameters& p, float no, float ni
     out.mu0 = ni, out.mu = no;
     float shadowing = 1;
     if (p.roughness_tangent > 0) {
-        // Hapke 1984, eqs. 45-60. x, e: angles of light and viewer; psi: azimuth between them.
+        // Hapke 1984, eqs. 45-60. i, e: angles of light and viewer; psi: azimuth between them.
         const float t = p.roughness_tangent;
         const float chi = 1 / std::sqrt(1 + kPiF * t * t);
         const float sin_i = std::sqrt(std::max(0.0f, 1 - ni * ni)),
@@ -56,7 +56,7 @@ inline HapkeGeometry hapke_geometry(const HapkeParameters& p, float no, float ni
             return sine > 0 ? std::exp(-1 / kPiF * (cosine / sine) * (cosine / sine) / (t * t)) : 0.0f;
         };
         const float e1i = e1(sin_i, ni), e2i = e2(sin_i, ni), e1e = e1(sin_e, no), e2e = e2(sin_e, no);
-        // Effective cosines where light and viewer are in one plane.
+        // Effective cosines with light and viewer in one plane.
         const float eta_i = chi * (ni + sin_i * t * e2i / (2 - e1i));
         const float eta_e = chi * (no + sin_e * t * e2e / (2 - e1e));
         if (ni >= no) {  // i <= e
@@ -77,7 +77,7 @@ inline HapkeGeometry hapke_geometry(const HapkeParameters& p, float no, float ni
     return out;
 }
 
-// Chandrasekhar's H function, approximated to 1 % (Hapke 2002, eq. 13). albedo: of single scattering, 0..1.
+// Chandrasekhar's H function, approximated to 1 % (Hapke 2002, eq. 13). albedo: single scattering, 0..1.
 inline float hapke_h(float albedo, float x) {
     const float gamma = std::sqrt(std::max(0.0f, 1 - albedo));
     const float r0 = (1 - gamma) / (1 + gamma);

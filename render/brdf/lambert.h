@@ -1,6 +1,6 @@
 #pragma once
-// model: lambert. An ideal diffuse surface, as bright from everywhere (Lambert, Photometria, 1760): f = rho /
-// pi with the albedo rho, `reflectance`.
+// model: lambert. An ideal diffuse surface, equally bright from all sides (Lambert, Photometria, 1760): f =
+// rho / pi with the albedo rho, `reflectance`.
 
 #include "render/brdf/brdf_model.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// model: lommel_seeliger. Single scattering in dark powder: f = w/4pi / (mu_0 + mu) times a phase function of
+// model: lommel_seeliger. Single scattering in dark powder: f = w/4pi / (mu_0 + mu), with a phase function of
 // 1 (von Seeliger 1887; B. Hapke, Theory of Reflectance and Emittance Spectroscopy, 2nd ed., Cambridge 2012,
 // 8.5). `reflectance` is I/F at normal incidence and zero phase, which is w/8.
 

@@ -1,5 +1,6 @@
 #pragma once
-// model: table. A measured, isotropic BRDF (brdf_table.h); `reflectance` is a factor on it, `table` the file.
+// model: table. A measured, isotropic BRDF (brdf_table.h); `reflectance` is a factor on it, `table` is the
+// file.
 
 #include "render/brdf/brdf_model.h"
 #include "render/brdf/brdf_table.h"
@@ -12,7 +13,7 @@ struct Measured : BrdfModel<Measured> {
     static constexpr bool kTakesTable = true;
     static constexpr bool kAlbedoIsBound = true;
 
-    std::shared_ptr<const BrdfTable> table;  // shared: several surfaces may be of one measured material
+    std::shared_ptr<const BrdfTable> table;  // shared by surfaces of one measured material
 
     Measured(const Keys&, BrdfMaking& m) : table(m.table) { HILCAM_CHECK(table != nullptr); }
 

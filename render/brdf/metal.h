@@ -1,6 +1,6 @@
 #pragma once
-// model: metal. GGX facets with Schlick's Fresnel term (microfacet.h), and the light that met several of them
-// (facet_lobe.h). `reflectance` is that at normal incidence, `roughness` the root of GGX's alpha.
+// model: metal. GGX facets with Schlick's Fresnel term (microfacet.h), plus light that met several facets
+// (facet_lobe.h). `reflectance` is that at normal incidence, `roughness` the square root of the GGX alpha.
 
 #include "render/brdf/facet_lobe.h"
 
@@ -17,8 +17,8 @@ struct Metal : FacetModel<Metal> {
                   multiple_facets(m.look.base, m.grid.size()), m.look.base};
     }
 
-    // Colour of the light that met several facets: F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) with F_avg = (20
-    // F0 + 1) / 21 of Schlick's term (Kulla & Conty 2017).
+    // Returns the colour of light that met several facets: F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) with F_avg
+    // = (20 F0 + 1) / 21 for Schlick's term (Kulla & Conty 2017).
     Spectrum multiple_facets(const Spectrum& normal_reflectance, int bins) const {
         Spectrum out;
         for (int b = 0; b < bins; ++b) {

@@ -1,7 +1,7 @@
 #pragma once
-// Parts of microfacet reflection: GGX normals, Smith shadowing, Fresnel. Unit vectors; `no`, `ni`, `nh` are
-// the cosines between the shading normal and the viewer, the light and their half vector. Inline: called per
-// ray.
+// The parts of microfacet reflection: GGX normals, Smith shadowing, Fresnel. Unit vectors; `no`, `ni`, `nh`
+// are the cosines between the shading normal and the viewer, the light, and their half vector. Inline,
+// because it is called per ray.
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ inline float schlick_weight(float cosine) {
     return x * x * x * x * x;
 }
 
-// Unpolarised Fresnel reflectance of a smooth dielectric met from vacuum: Born & Wolf, Principles of Optics,
-// chapter 1.5. refractive_index >= 1.
+// Returns the unpolarised Fresnel reflectance of a smooth dielectric for light from vacuum: Born & Wolf,
+// Principles of Optics, chapter 1.5. refractive_index >= 1.
 inline float fresnel_dielectric(float refractive_index, float cosine) {
     const float c = std::clamp(cosine, 0.0f, 1.0f);
     const float n2 = refractive_index * refractive_index;
@@ -41,8 +41,8 @@ inline float ggx_visibility(float alpha, float no, float ni) {
     return 0.5f / (ni * std::sqrt(no * no * (1 - a2) + a2) + no * std::sqrt(ni * ni * (1 - a2) + a2));
 }
 
-// A facet lobe seen from one side and asked for many directions: ggx_distribution() times ggx_visibility()
-// with one division and without branches, for loops that are vectors.
+// A facet lobe for one viewer and many light directions: ggx_distribution() times ggx_visibility() with one
+// division and no branches, for vectorised loops.
 struct GgxLobe {
     float alpha_squared, no, masked_o;
 
@@ -50,9 +50,10 @@ struct GgxLobe {
         : alpha_squared(alpha * alpha),
           no(cosine),
           masked_o(std::sqrt(cosine * cosine * (1 - alpha_squared) + alpha_squared)) {}
-    // ni: cosine of the direction, above zero; io: of the angle between it and the viewer's.
+    // ni: cosine of the light's direction, above zero; io: cosine between light and viewer.
     float at(float ni, float io) const {
-        const float half = std::max(2 + 2 * io, 1e-6f);  // squared length of the sum of both
+        // Squared length of the half vector before normalisation.
+        const float half = std::max(2 + 2 * io, 1e-6f);
         const float nh = std::min((no + ni) * (no + ni), half);
         const float t = nh * (alpha_squared - 1) + half;
         const float masked_i = std::sqrt(ni * ni * (1 - alpha_squared) + alpha_squared);
@@ -60,8 +61,8 @@ struct GgxLobe {
     }
 };
 
-// G2 / G1 of a facet seen from the viewer: the weight of a sample of visible normals (Heitz, JCGT 7(4), 2018,
-// eq. 19).
+// G2 / G1 of a facet that the viewer sees: the weight of a sample from visible normals (Heitz, JCGT 7(4),
+// 2018, eq. 19).
 inline float ggx_sample_weight(float alpha, float no, float ni) {
     const float a2 = alpha * alpha;
     const float lambda_o = std::sqrt(no * no * (1 - a2) + a2);
@@ -69,14 +70,14 @@ inline float ggx_sample_weight(float alpha, float no, float ni) {
     return ni * (no + lambda_o) / (ni * lambda_o + no * lambda_i);
 }
 
-// Density of directions that sample_visible_normal() and a reflection give [sr^-1]: G1 D / (4 no) (Heitz
-// 2018, eq. 17).
+// Density of directions from sample_visible_normal() and a reflection [sr^-1]: G1 D / (4 no) (Heitz 2018, eq.
+// 17).
 inline float ggx_density(float alpha, float no, float nh) {
     const float a2 = alpha * alpha;
     return ggx_distribution(alpha, nh) / (2 * (no + std::sqrt(no * no * (1 - a2) + a2)));
 }
 
-// Two unit vectors that make a right-handed frame with the unit vector n: Duff et al., JCGT 6(1), 2017.
+// A right-handed frame of the unit vector n and two others: Duff et al., JCGT 6(1), 2017.
 struct Frame {
     Vec3f t, b, n;
     explicit Frame(Vec3f normal) : n(normal) {
@@ -90,7 +91,7 @@ struct Frame {
     Vec3f to_local(Vec3f v) const { return {dot(v, t), dot(v, b), dot(v, n)}; }
 };
 
-// A place in the unit disk that two numbers in [0, 1) choose, equal areas equally.
+// A place in the unit disk, chosen uniformly by two numbers in [0, 1).
 struct DiskPlace {
     float radius, cosine, sine;
 
@@ -100,7 +101,7 @@ struct DiskPlace {
     }
 };
 
-// A facet normal seen from `view` (local frame, z = normal), distributed as the visible GGX normals: Heitz
+// Draws a facet normal from the GGX normals that are visible from `view` (local frame, z = normal): Heitz
 // 2018.
 inline Vec3f sample_visible_normal(float alpha, Vec3f view, DiskPlace at) {
     const Vec3f v = normalized(Vec3f{alpha * view.x, alpha * view.y, view.z});
@@ -117,7 +118,7 @@ inline Vec3f sample_visible_normal(float alpha, Vec3f view, float u1, float u2) 
     return sample_visible_normal(alpha, view, DiskPlace::of(u1, u2));
 }
 
-// A direction above the local plane with density cos/pi (Malley's method, pbrt 3rd ed., 13.6.3).
+// Draws a direction above the local plane with density cos/pi (Malley's method, pbrt 3rd ed., 13.6.3).
 inline Vec3f sample_cosine(float u1, float u2) {
     const float r = std::sqrt(u1);
     const float phi = 2 * kPiF * u2;
@@ -126,8 +127,8 @@ inline Vec3f sample_cosine(float u1, float u2) {
 
 inline Vec3f reflect(Vec3f view, Vec3f normal) { return 2 * dot(view, normal) * normal - view; }
 
-// A direction towards the light by a facet of the lobe, world; its density is ggx_density(). local: about the
-// normal.
+// Draws a direction towards the light (world) by reflection at a facet of the lobe, with density
+// ggx_density(). local: frame about the normal.
 inline Vec3f sample_facets(float alpha, const Frame& local, Vec3f view_dir, DiskPlace at) {
     const Vec3f facet = local.to_world(sample_visible_normal(alpha, local.to_local(view_dir), at));
     return normalized(reflect(view_dir, facet));

@@ -1,6 +1,7 @@
 #pragma once
 // model: mirror. Exact reflection; `reflectance` is that at normal incidence, with Schlick's term towards
-// grazing incidence (microfacet.h). Where a path asks for wider lobes it is a lobe of facets without shadows.
+// grazing incidence (microfacet.h). If a path asks for a minimum lobe width, it is a facet lobe without
+// shadowing losses.
 
 #include "render/brdf/facet_lobe.h"
 

@@ -1,8 +1,8 @@
 #pragma once
-// model: oren_nayar. A rough diffuse surface: Oren and Nayar's in the form that conserves energy, Fujii's
-// angular part with the light that scatters between facets given back (Portsmouth, Kutz & Hill, "EON: a
+// model: oren_nayar. A rough diffuse surface: the energy-conserving form of Oren and Nayar's model, with
+// Fujii's angular part and the light that is scattered between facets (Portsmouth, Kutz & Hill, "EON: a
 // practical energy-preserving rough diffuse BRDF", JCGT 14(1), 2025). `reflectance` is the facets' albedo,
-// `roughness` r 0..1; Oren-Nayar's slope deviation sigma [rad] gives about r = sigma / (pi/2).
+// `roughness` r is 0..1; Oren-Nayar's slope deviation sigma [rad] corresponds to about r = sigma / (pi/2).
 
 #include "render/brdf/brdf_model.h"
 
@@ -14,7 +14,7 @@ struct OrenNayar : BrdfModel<OrenNayar> {
 
     float roughness;
     float a;        // factor of Fujii's model: 1 / (1 + (1/2 - 2/3pi) r)
-    float average;  // mean albedo of the single scattering for a white surface
+    float average;  // mean albedo of single scattering for a white surface
 
     OrenNayar(const Keys&, BrdfMaking& m)
         : roughness(static_cast<float>(m.keys.roughness)),
@@ -29,19 +29,19 @@ struct OrenNayar : BrdfModel<OrenNayar> {
     }
 
   private:
-    // Directional albedo of the single scattering for a white surface.
+    // Returns the directional albedo of single scattering for a white surface.
     float single_albedo(float cosine) const {
         const float c = std::clamp(cosine, 1e-4f, 1.0f);
         const float s = std::sqrt(std::max(0.0f, 1 - c * c));
         const float g = s * (std::acos(c) - s * c) + 2.0f / 3 * (s / c * (1 - s * s * s) - s);
         return a * (1 + roughness / kPiF * g);
     }
-    // Single scattering for a white surface.
+    // Returns the single scattering of a white surface.
     float single(float no, float ni, float io) const {
         const float s = io - no * ni;
         return a / kPiF * (1 + roughness * (s > 0 ? s / std::max({no, ni, 1e-6f}) : s));
     }
-    // Light that met several facets, for a white surface; times multiple_color().
+    // Returns the light that met several facets, for a white surface; to be multiplied by multiple_color().
     float multiple(float no, float ni) const {
         return average < 1 ? (1 - single_albedo(no)) * (1 - single_albedo(ni)) / (kPiF * (1 - average))
                            : 0.0f;

@@ -1,7 +1,7 @@
 #pragma once
-// model: phong. Legacy data: Lafortune & Willems, "Using the modified Phong reflectance model for physically
-// based rendering", 1994: f = k_d / pi + k_s (n+2)/2pi cos^n of the angle to the mirror direction.
-// Reciprocal; conserves energy when k_d, `reflectance`, and k_s, `specular`, sum to at most 1.
+// model: phong. For legacy data: Lafortune & Willems, "Using the modified Phong reflectance model for
+// physically based rendering", 1994: f = k_d / pi + k_s (n+2)/2pi cos^n of the angle to the mirror direction.
+// Reciprocal; conserves energy if k_d (`reflectance`) and k_s (`specular`) sum to at most 1.
 
 #include "render/brdf/brdf_model.h"
 #include "render/vocabulary/check.h"
@@ -40,7 +40,7 @@ struct Phong : BrdfModel<Phong> {
         return top + below > 0 ? top / (top + below) : 0.0f;
     }
     float highlight_density(const BsdfInputs&, Cosines c) const { return lobe(exponent + 1, c); }
-    // About the mirror direction: cos^n (Lafortune & Willems 1994, eq. 10).
+    // Draws around the mirror direction: cos^n (Lafortune & Willems 1994, eq. 10).
     Vec3f sample_highlight(const BsdfInputs&, const Frame& local, Vec3f view_dir, float u1, float u2) const {
         const float z = std::pow(u1, 1 / (exponent + 1));
         const float r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPiF * u2;

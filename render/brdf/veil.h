@@ -1,7 +1,7 @@
 #pragma once
-// model: veil. A thin layer with holes that nobody sees one by one, as nets and gauze are: a share of it, `cover`, is an ideal diffuse
-// surface of albedo `reflectance`, and through the rest light goes straight on. Files of meshes mean it by alpha as coverage (Porter & Duff,
-// "Compositing digital images", SIGGRAPH 84).
+// model: veil. A thin layer with holes too small to be seen one by one, such as a net or gauze. The share
+// `cover` is an ideal diffuse surface of albedo `reflectance`; through the rest light passes straight on.
+// Mesh files mean this by alpha as coverage (Porter & Duff, "Compositing digital images", SIGGRAPH 84).
 
 #include "render/brdf/brdf_model.h"
 

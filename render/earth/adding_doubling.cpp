@@ -13,16 +13,16 @@ namespace {
 
 using Index = std::size_t;
 
-// Square, row by row. A product of two sums over the quadrature: sum_k a_ik 2 mu_k w_k b_kj.
+// A square matrix, row by row. A product of two is a sum over the quadrature: sum_k a_ik 2 mu_k w_k b_kj.
 using Matrix = std::vector<double>;
 
 struct Quadrature {
-    std::vector<double> mu, weight;  // weight: 2 mu w; zero at the asked cosines, which come last
+    std::vector<double> mu, weight;  // weight: 2 mu w; zero at the given cosines, which come last
     Index gauss = 0;
     Index size() const { return mu.size(); }
 };
 
-// Gauss and Legendre on (0, 1), by Newton's iteration.
+// Gauss-Legendre points on (0, 1), by Newton's iteration.
 Quadrature quadrature_of(int streams, std::span<const double> cosines) {
     Quadrature q;
     q.gauss = static_cast<Index>(streams);
@@ -57,7 +57,8 @@ Matrix product(const Matrix& a, const Matrix& b, const Quadrature& q) {
     return out;
 }
 
-// S = Q + Q S (the sum of all powers of Q): rows of the quadrature by elimination, then the others by one product.
+// Solves S = Q + Q S (the sum of all powers of Q): rows of the quadrature by elimination, then the others by
+// one product.
 Matrix all_powers(const Matrix& q_matrix, const Quadrature& q) {
     const Index n = q.size(), g = q.gauss;
     Matrix left(g * g), s(n * n);
@@ -66,7 +67,7 @@ Matrix all_powers(const Matrix& q_matrix, const Quadrature& q) {
         std::copy_n(q_matrix.begin() + static_cast<std::ptrdiff_t>(i * n), n,
                     s.begin() + static_cast<std::ptrdiff_t>(i * n));
     }
-    // 1 - Q of a layer is dominated by its diagonal: no pivots are needed.
+    // 1 - Q of a layer is diagonally dominant, so no pivoting is needed.
     for (Index k = 0; k < g; ++k)
         for (Index i = 0; i < g; ++i) {
             if (i == k) continue;
@@ -90,7 +91,7 @@ struct Layer {
     Matrix r, t;
 };
 
-// Layer a above layer b, both of the same kind (Hansen & Travis 1974, eqs. 3.1-3.6).
+// Combines layer a above layer b, both of the same kind (Hansen & Travis 1974, eqs. 3.1-3.6).
 Layer together(const Layer& a, const Layer& b, const Quadrature& q) {
     const Index n = q.size();
     std::vector<double> ea(n), eb(n);
@@ -112,7 +113,7 @@ Layer together(const Layer& a, const Layer& b, const Quadrature& q) {
     return out;
 }
 
-// Legendre functions sqrt((l - m)! / (l + m)!) P_l^m(mu), l = m ... count - 1.
+// Returns the Legendre functions sqrt((l - m)! / (l + m)!) P_l^m(mu), l = m ... count - 1.
 std::vector<double> legendre(int m, int count, double mu) {
     std::vector<double> out(static_cast<Index>(count));
     double first = 1;
@@ -127,7 +128,7 @@ std::vector<double> legendre(int m, int count, double mu) {
     return out;
 }
 
-// One scattering alone, in a layer that is thin.
+// Returns a thin layer with single scattering only.
 Layer thin_layer(int mode, double thickness, const std::vector<double>& moments, double albedo,
                  const Quadrature& q) {
     const Index n = q.size();
@@ -147,7 +148,7 @@ Layer thin_layer(int mode, double thickness, const std::vector<double>& moments,
             const double mi = q.mu[i], mj = q.mu[j];
             const double si = thickness / mi, sj = thickness / mj;
             out.r[i * n + j] = 0.25 * albedo * backward / (mi + mj) * -std::expm1(-(si + sj));
-            // (e^-si - e^-sj) / (mi - mj), which has a limit where the two meet.
+            // (e^-si - e^-sj) / (mi - mj), with its limit where the two coincide.
             const double apart = sj - si;
             const double ratio = std::abs(apart) > 1e-9 ? -std::expm1(-apart) / apart : 1 - 0.5 * apart;
             out.t[i * n + j] = 0.25 * albedo * forward * thickness / (mi * mj) * std::exp(-si) * ratio;
@@ -178,7 +179,7 @@ ScatteringLayers scattering_layers(std::span<const double> moments, int streams,
     const double f = out.forward_share = moments[count];
     for (Index l = 0; l < count; ++l) out.scaled_moments.push_back((moments[l] - f) / (1 - f));
     out.cosines.assign(cosines.begin(), cosines.end());
-    // Similarity: what is scattered straight on is not scattered (Wiscombe 1977, eq. 12).
+    // Similarity: forward-scattered light counts as not scattered (Wiscombe 1977, eq. 12).
     const double left = (1 - f) * albedo / (1 - f * albedo);
     const Quadrature q = quadrature_of(streams, cosines);
     const Index n = q.size(), g = q.gauss, asked = cosines.size();
@@ -188,7 +189,8 @@ ScatteringLayers scattering_layers(std::span<const double> moments, int streams,
         layer.reflection.resize(count), layer.transmission.resize(count);
 
     tbb::parallel_for(0, static_cast<int>(count), [&](int mode) {
-        // One scattering alone errs by the thickness over the least cosine: this thin, a thick layer loses 1e-4.
+        // Single scattering is wrong by the thickness over the smallest cosine: with this start a thick layer
+        // loses 1e-4.
         constexpr int kThinnest = -24;
         Layer layer = thin_layer(mode, std::exp2(kThinnest), out.scaled_moments, left, q);
         Layer half = layer;
@@ -224,7 +226,7 @@ ScatteringLayers scattering_layers(std::span<const double> moments, int streams,
             layer = together(layer, layer, q);
         }
     });
-    // 1.5 2^k, made of 2^(k-1) and 2^k, was kept before 2^k, which is thinner.
+    // 1.5 2^k, combined from 2^(k-1) and 2^k, was stored before 2^k, which is thinner.
     std::sort(out.layers.begin(), out.layers.end(),
               [](const ScatteringLayer& a, const ScatteringLayer& b) { return a.thickness < b.thickness; });
     return out;

@@ -13,8 +13,8 @@ namespace hilcam {
 namespace {
 
 constexpr float kHalfTurn = static_cast<float>(kPi);
-// Heights above the horizon by the root of their share of 90 degrees, which crowds the horizon; the Sun's down to 20
-// degrees below it.
+// Heights above the horizon are gridded by the root of their share of 90 degrees, which makes the grid denser
+// at the horizon; the Sun's go down to 20 degrees below it.
 constexpr float kLowestRoot = -0.4714045f;  // -sqrt(20 / 90)
 
 double cosine_of_root(double root) { return std::sin(0.5 * kPi * std::copysign(root * root, root)); }
@@ -23,10 +23,10 @@ float root_of_cosine(float mu) {
     return std::copysign(std::sqrt(std::abs(share)), share);
 }
 
-// Out of the air even along the horizon.
+// Outside the air, even along the horizon.
 constexpr double kFarAway_m = 4e6;
 
-// Null where light from below is the same everywhere.
+// Null if light from below is the same everywhere.
 const AirByPlace* lit_by_place(const Atmosphere& air) {
     const auto* found = dynamic_cast<const AirByPlace*>(&air);
     return found && found->lifts_by_place() ? found : nullptr;
@@ -37,7 +37,7 @@ AirByPlace::Parts look_in_parts(const Atmosphere& air, const AirByPlace* by_plac
                     : AirByPlace::Parts{air.look(origin_m, dir, distance_m, sun_dir), {}};
 }
 
-// Returns the Sun's direction of a row of so many, towards an azimuth.
+// Returns the Sun's direction for one of several rows, towards an azimuth.
 Vec3d sun_dir_at(int row, int rows, double azimuth) {
     const double mu0 = cosine_of_root(static_cast<double>(kLowestRoot) +
                                       row * (1 - static_cast<double>(kLowestRoot)) / (rows - 1));
@@ -59,7 +59,7 @@ AirColumns::AirColumns(const Atmosphere& air, std::optional<double> high_m)
             return look_in_parts(air, by_place_, point + kFarAway_m * to_viewer, -to_viewer, kFarAway_m,
                                  sun_dir);
         };
-        // What is lifted is taken as it is seen across the Sun's direction.
+        // Light from below is tabulated for a view across the Sun's direction.
         constexpr int kAcross = (kAzimuths - 1) / 2;
         for (int i = 0; i < kViews; ++i) {
             const double mu = cosine_of_root(static_cast<double>(i) / (kViews - 1));
@@ -145,7 +145,7 @@ Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_d
 
 std::optional<Atmosphere::Sight> AirColumns::from_space(Vec3d origin_m, Vec3d dir, double distance_m,
                                                         Vec3d sun_dir) const {
-    constexpr double kOnGround_m = 10;  // the figure's and the ray's rounding
+    constexpr double kOnGround_m = 10;  // rounding of the figure and the ray
     const double top_m = kEarthEquatorialRadius_m + static_cast<double>(top_m_);
     if (dot(origin_m, origin_m) < top_m * top_m) return {};
     const double to_lowest_m = -dot(origin_m, dir);

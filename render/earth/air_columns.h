@@ -1,13 +1,14 @@
 #pragma once
-// The air between a point near the ground and space, as a table made from any Atmosphere: for a viewer above the air it
-// depends on the point's height and three angles alone, so that a look costs some tens of nanoseconds instead of
-// microseconds.
+// The air between a point near the ground and space, tabulated from any Atmosphere. For a viewer above the
+// air it depends only on the point's height and three angles, so a lookup takes tens of nanoseconds instead
+// of microseconds.
 //
-// Grids: 41 zenith angles of the viewer, crowded at the horizon, 64 of the Sun to 20 degrees below it, 13 azimuths, two
-// heights. Linear between; against Atmosphere::look(): tests/unit/render/earth/air_columns_test.cpp.
+// Grids: 41 zenith angles of the viewer, denser at the horizon; 64 of the Sun, down to 20 degrees below the
+// horizon; 13 azimuths; two heights. Linear in between. Compared with Atmosphere::look() in
+// tests/unit/render/earth/air_columns_test.cpp.
 //
-// Where the air has other ground below it from place to place, what that adds (AirByPlace::Parts) is in tables of its own,
-// which have no azimuths: such light comes from all around.
+// If the ground below the air differs from place to place, its contribution (AirByPlace::Parts) is in
+// separate tables without azimuths, because that light comes from all around.
 
 #include <optional>
 #include <vector>
@@ -18,27 +19,30 @@ namespace hilcam {
 
 class AirColumns {
   public:
-    // high_m: the upper of the two heights; nothing: it is not asked for, and looks have the lower in its place. Works the
-    // table out on all threads. air: must outlive this.
+    // high_m: the upper of the two heights; nothing: it is not needed, and lookups return the lower one in
+    // its place. Computes the table on all threads. air: must outlive this.
     AirColumns(const Atmosphere& air, std::optional<double> high_m);
 
     struct Looks {
         Atmosphere::Sight low, high;  // to a point on the ground, and to one at high_m
     };
-    // Returns what Atmosphere::look() says of rays from space. mu, mu0: cosines of the zenith angles of viewer and Sun at the
-    // point; cos_phase: of the angle between the directions to both; lift: as lift() has it there. Loop, any thread.
+    // Returns what Atmosphere::look() returns for rays from space. mu, mu0: cosines of the zenith angles of
+    // viewer and Sun at the point; cos_phase: of the angle between the directions to both; lift: from lift()
+    // at the point. Loop, any thread.
     Looks look(float mu, float mu0, float cos_phase, const Spectrum& lift) const;
 
-    // The same of a ray from space that misses the ground and has its lowest point ahead: that point's height, 0 to the
-    // air's top; mu0, lift: there; ahead_dot_sun: cosine of the angle between the ray's way and the Sun.
+    // The same for a ray from space that misses the ground and has its lowest point ahead. height_m: of that
+    // point, 0 to the air's top; mu0, lift: at that point; ahead_dot_sun: cosine between the ray's direction
+    // and the Sun.
     Atmosphere::Sight look_past(float height_m, float mu0, float ahead_dot_sun, const Spectrum& lift) const;
-    // Returns what Atmosphere::look() says of a ray; nothing for one that begins within the air or ends within it above the
-    // ground. Loop, any thread.
+    // Returns what Atmosphere::look() returns for a ray; nothing for a ray that starts inside the air or ends
+    // inside it above the ground. Loop, any thread.
     std::optional<Atmosphere::Sight> from_space(Vec3d origin_m, Vec3d dir, double distance_m,
                                                 Vec3d sun_dir) const;
-    // The air where light from below differs by place; else null.
+    // The air if light from below differs by place; otherwise null.
     const AirByPlace* by_place() const { return by_place_; }
-    // AirByPlace::lift_at(), lift(); zero where light from below does not differ by place. Loop, any thread.
+    // The same as AirByPlace::lift_at() and lift(); zero if light from below is the same everywhere. Loop,
+    // any thread.
     Spectrum lift_at(float u, float v) const { return by_place_ ? by_place_->lift_at(u, v) : Spectrum{}; }
     Spectrum lift(Vec3d point_m) const { return by_place_ ? by_place_->lift(point_m) : Spectrum{}; }
     float top_m() const { return top_m_; }
@@ -48,9 +52,10 @@ class AirColumns {
     }
 
   private:
-    // Past the ground: heights by their root, azimuths from the Sun's by theirs.
+    // Rays past the ground: grids are uniform in the square root of the height, and in that of the azimuth
+    // from the Sun's.
     static constexpr int kPassHeights = 80, kPassSuns = 64, kPassAzimuths = 20;
-    const AirByPlace* by_place_;  // null: the same light from below everywhere
+    const AirByPlace* by_place_;  // null: light from below is the same everywhere
     float top_m_;
     std::vector<Spectrum> passed_;          // [height]
     std::vector<Spectrum> passing_;         // [azimuth][sun][height]

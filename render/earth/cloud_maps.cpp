@@ -41,7 +41,7 @@ EarthSample CloudMaps::mix(double number, float u, float v, const Footprint& foo
     const float then = (1 - share) * before.cloud(), now = share * after.cloud();
     EarthSample out;
     out.value[EarthSample::kCloud] = then + now;
-    // The top is that of what cloud there is.
+    // The top belongs to the cloud that there is.
     if (then + now > 0)
         out.value[EarthSample::kCloudTop] =
             (then * before.value[EarthSample::kCloudTop] + now * after.value[EarthSample::kCloudTop]) /

@@ -1,6 +1,7 @@
 #pragma once
-// The clouds of one map, or of several instants: between two of them each place has their mean by time, so that clouds
-// grow and dissolve where they are and do not move. Before the first instant and after the last its map stays.
+// The clouds of one map, or of maps at several instants. Between two instants each place has their mean,
+// weighted by time: clouds grow and dissolve in place and do not move. Before the first instant and after the
+// last its map stays.
 
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace hilcam {
 
-// Returns c = b tau / (1 + b tau) of a cloud that is `factor` times as thick.
+// Returns c = b tau / (1 + b tau) for a cloud with `factor` times the thickness.
 inline float thickened_cloud(float c, float factor) {
     if (factor == 1) return c;
     return factor * c / (1 - c + factor * c + 1e-6f);
@@ -21,10 +22,10 @@ class CloudMaps {
         TimeTai at;
         EarthMap map;
     };
-    // None, or one at all times; an empty one is none.
+    // No map, or one for all times; an empty one counts as none.
     CloudMaps() = default;
     CloudMaps(EarthMap one);
-    // HILCAM_CHECK: none is empty, and each is later than the one before.
+    // HILCAM_CHECK: no map is empty, and each is later than the one before.
     explicit CloudMaps(std::vector<Timed> maps);
 
     bool empty() const { return maps_.empty(); }
@@ -33,8 +34,8 @@ class CloudMaps {
     std::size_t bytes() const;
 
     const MapTimes& times() const { return times_; }
-    // Cloud and cloud top over a footprint, as EarthMap has them; nothing else. number: from 0 to count() - 1. Loop, any
-    // thread.
+    // Returns the means of cloud and cloud top over a footprint, as EarthMap does, and nothing else. number:
+    // from 0 to count() - 1. Loop, any thread.
     EarthSample sample(double number, float u, float v, const MapFootprint& footprint) const;
     EarthSample sample(double number, float u, float v, float width) const;
 

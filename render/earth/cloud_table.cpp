@@ -13,13 +13,13 @@ namespace hilcam {
 namespace {
 
 constexpr float kPiOfClouds = static_cast<float>(kPi);
-// Droplets as ISCCP has them (Rossow & Schiffer, Bull. Am. Meteorol. Soc. 80, 2261, 1999; cited from memory). A variance of 0.1
-// changes the light at 8 degrees of phase by 1 to 2 % (docs/earth.md).
+// Droplets as in ISCCP (Rossow & Schiffer, Bull. Am. Meteorol. Soc. 80, 2261, 1999; cited from memory). A
+// variance of 0.1 changes the light at 8 degrees of phase by 1 to 2 % (docs/earth.md).
 constexpr double kRadius_um = 10, kVariance = 0.15;
 constexpr int kStreams = 16;
 constexpr int kThinnestCloud = -7, kThickest = 9;  // powers of two of the scaled thickness
 
-// Where a value lies among `count` even steps of [0, 1].
+// The position of a value among `count` equal steps of [0, 1].
 struct GridPlace {
     int low;
     float share;
@@ -32,13 +32,13 @@ struct GridPlace {
 
 float phase_cosine_azimuth(float mu0, float mu, float cos_phase) {
     const float sines = std::sqrt(std::max(1e-12f, (1 - mu0 * mu0) * (1 - mu * mu)));
-    // Between the ways of the light: 0 where it goes on.
+    // Azimuth between the directions of the light: 0 means forward.
     return std::clamp((mu0 * mu - cos_phase) / sines, -1.0f, 1.0f);
 }
 
 }  // namespace
 
-// Squares crowd the grazing ones.
+// Squares make the grid denser at grazing angles.
 float CloudTable::cosine_at(int i) {
     const float x = static_cast<float>(i) / (kCosines - 1);
     return std::max(0.002f, x * x);
@@ -66,7 +66,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
     const ScatteringLayers made = scattering_layers(moments, kStreams, cosines, kThinnestCloud, kThickest);
     left_ = static_cast<float>(1 - made.forward_share);
 
-    // From the layers' thicknesses to even steps of c.
+    // From the layers' thicknesses to equal steps of c.
     const auto c_of = [&](double scaled) {
         const double tau = scaled / (1 - made.forward_share);
         return static_cast<double>(kB) * tau / (1 + static_cast<double>(kB) * tau);
@@ -82,7 +82,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
         const double high = beyond ? 1 : c_of(made.layers[above].thickness);
         const double low = above == 0 ? 0 : c_of(made.layers[above - 1].thickness);
         const double share = high > low ? (c - low) / (high - low) : 0;
-        // Nothing before the thinnest; the thickest's beyond it.
+        // Zero before the thinnest layer; constant beyond the thickest.
         const auto mixed = [&](const auto& value, double nothing) {
             const double a = above == 0 ? nothing : value(made.layers[above - 1]);
             const double b = beyond ? value(made.layers.back()) : value(made.layers[above]);
@@ -134,7 +134,7 @@ void CloudTable::place(float mu0, float mu, float cos_phase, EarthAspect& out) c
             multiple_.data() + (((a.low + da) * kCosines + x.low + dx) * kCosines + y.low + dy) * kThick;
         for (std::size_t k = 0; k < kThick; ++k) many[k] += weight * row[k];
     }
-    // Once: the exact phase function, in what is left of the layer.
+    // Single scattering: the exact phase function, for the rest of the layer.
     const float place = PhaseFunction::place(std::acos(std::clamp(-cos_phase, -1.0f, 1.0f)));
     const auto low = static_cast<std::size_t>(std::min(static_cast<int>(place), PhaseFunction::kAngles - 2));
     const float share = place - static_cast<float>(low), scale = 1 / (4 * (s + v) * left_);

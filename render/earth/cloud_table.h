@@ -1,14 +1,15 @@
 #pragma once
-// The light that a plane layer of cloud reflects and lets through, from tables made at start-up.
+// The light that a plane layer of cloud reflects and transmits, from tables made at start-up.
 //
-// Particles are water droplets of 10 um effective radius and variance 0.15 (phase_function.h). Light scattered more than once is
-// the same in all bins, by doubling (adding_doubling.h); once scattered light has each bin's own phase function, exactly
-// (Nakajima & Tanaka, J. Quant. Spectrosc. Radiat. Transfer 40, 51, 1988), so that the bow, the glory and the bright edges towards the
-// Sun are there. Thickness is told by c = b tau / (1 + b tau) with b = (1 - 0.85) / 2, which is about a thick
-// cloud's albedo (Bohren, Am. J. Phys. 55, 524, 1987) and so may be averaged.
+// Particles are water droplets with an effective radius of 10 um and a variance of 0.15 (phase_function.h).
+// Multiply scattered light is the same in all bins, by doubling (adding_doubling.h). Singly scattered light
+// uses each bin's exact phase function (Nakajima & Tanaka, J. Quant. Spectrosc. Radiat. Transfer 40, 51,
+// 1988), so there are the bow, the glory and bright edges towards the Sun. Thickness is given by c = b tau /
+// (1 + b tau) with b = (1 - 0.85) / 2, which is roughly the albedo of a thick cloud (Bohren, Am. J. Phys. 55,
+// 524, 1987) and can therefore be averaged.
 //
-// What it does not model: absorption (none below 1 um), ice crystals, sides of clouds, light that leaves at another
-// place than where it came in.
+// Not modelled: absorption (none below 1 um), ice crystals, sides of clouds, light that leaves at another
+// place than where it entered.
 
 #include <vector>
 
@@ -21,17 +22,18 @@ class CloudTable {
     explicit CloudTable(const SpectralGrid& grid);
 
     static constexpr float kB = 0.075f;
-    // Optical thickness of what is not scattered straight on.
+    // Returns the optical thickness of everything but forward scattering.
     float scaled_thickness(float c) const { return left_ * c / (kB * std::max(1e-3f, 1 - c)); }
 
-    // Sets the tables of an aspect: mu0, mu: cosines of the zenith angles of Sun and viewer; cos_phase: of the angle
-    // between the directions to both. Loop, any thread.
+    // Fills an aspect's tables. mu0, mu: cosines of the zenith angles of Sun and viewer; cos_phase: of the
+    // angle between the directions to both. Loop, any thread.
     void place(float mu0, float mu, float cos_phase, EarthAspect& aspect) const;
-    // Radiance times pi over the beam's irradiance on the layer, per bin, in that aspect.
+    // Returns the radiance times pi over the beam's irradiance on the layer, per bin, for that aspect.
     static Spectrum reflected(const EarthAspect& aspect, float c);
-    // The share of light from one direction that comes through, the beam itself included; what does not is reflected.
+    // Returns the share of light from one direction that comes through, including the beam; the rest is
+    // reflected.
     float transmitted(float c, float mu) const;
-    // The share of an even sky's light that is reflected.
+    // Returns the share of a uniform sky's light that is reflected.
     float spherical_albedo(float c) const;
     std::size_t bytes() const {
         return sizeof(float) * (multiple_.size() + transmitted_.size() + spherical_.size()) +
@@ -44,7 +46,7 @@ class CloudTable {
     std::vector<float> multiple_;     // [azimuth][sun][view][thickness]
     std::vector<float> transmitted_;  // [cosine][thickness]
     std::vector<float> spherical_;    // [thickness]
-    std::vector<Spectrum> phase_;     // by PhaseFunction::place
+    std::vector<Spectrum> phase_;     // indexed by PhaseFunction::place
 
     static float cosine_at(int i);
     static float thickness_of(float c) { return c * (kThick - 1); }

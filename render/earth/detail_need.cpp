@@ -12,11 +12,11 @@ namespace hilcam {
 namespace {
 
 constexpr double kEquatorialRadius_m = kEarthFigure.equatorial_radius_m;
-constexpr double kCloudLevel_m = 4000;  // that of EarthModel
+constexpr double kCloudLevel_m = 4000;  // the same as EarthModel's
 
 double angle_rad(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
 
-// A tile as a cap on that sphere.
+// A tile as a cap on the stretched sphere.
 struct Cap {
     Vec3d middle;  // unit
     double radius_rad;
@@ -30,11 +30,11 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     // Texels between two tiles belong to both.
     const double across = (kTile + 1) * per_column, down = (kTile + 1) * per_row;
     const double latitude = north - down / 2, longitude = west + across / 2;
-    // Geodetic latitudes onto the sphere.
+    // Projects geodetic latitudes to the sphere.
     const double reduced = std::atan2(kEarthFigure.polar_radius_m * std::sin(latitude),
                                       kEarthFigure.equatorial_radius_m * std::cos(latitude));
-    // Looks of a long footprint lie up to four of their widths beside the place that it is of, and a level is looked at by those
-    // that are looked up in up to two of its texels.
+    // A long footprint's lookups are up to four of their widths beside its place, and a level serves lookups
+    // for up to two of its texels.
     constexpr double kBeside = 4 * 2 / static_cast<double>(kTexelOfLook);
     const double nearest_to_equator = std::abs(latitude) - down / 2 - kBeside * per_row;
     const double cosine = std::max(1e-6, std::cos(std::max(0.0, nearest_to_equator)));
@@ -47,7 +47,7 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
 
 }  // namespace
 
-// The view, stretched.
+// The stretched view.
 struct DetailNeed::Sight {
     Vec3d camera_m, up, boresight, sun_dir;
     double distance_m, half_field_rad, pixel_rad, horizon_rad, coarser_by;
@@ -58,15 +58,15 @@ struct DetailNeed::Sight {
           boresight(normalized(stretched(kEarthFigure, view.boresight))),
           sun_dir(normalized(stretched(kEarthFigure, view.sun_dir))),
           distance_m(std::max(length(camera_m), 1.0001 * kEquatorialRadius_m)),
-          // Stretching turns directions by a sixth of a degree at most; a pixel more on each side.
+          // Stretching turns directions by at most a sixth of a degree; one more pixel on each side.
           half_field_rad(view.half_field_rad + 0.003 + view.pixel_rad),
           pixel_rad(view.pixel_rad),
-          // Clouds stand out beyond the ground's horizon.
+          // Clouds extend beyond the ground's horizon.
           horizon_rad(angle_rad(kEquatorialRadius_m / distance_m) +
                       angle_rad(kEquatorialRadius_m / (kEquatorialRadius_m + kCloudLevel_m))),
           coarser_by(0) {}
 
-    // The ground, or a cloud whose shadow falls on it, may be in the field.
+    // True when the ground, or a cloud that casts a shadow on it, may be in the field.
     bool may_see(const Cap& cap) const {
         const double mu0 = dot(cap.middle, sun_dir) + cap.radius_rad;
         const double shadow_m = mu0 > 0 ? kCloudLevel_m / std::max(0.05, mu0) : kCloudLevel_m;
@@ -78,17 +78,18 @@ struct DetailNeed::Sight {
         return angle_rad(dot(to_middle, boresight) / far_m) <= half_field_rad + std::asin(reach_m / far_m);
     }
 
-    // The finest level, as EarthMap counts it, of a look at any place of the cap; the level of texel_m is 0.
+    // Returns the finest level of a lookup anywhere on the cap, in EarthMap's counting; the level of texel_m
+    // is 0.
     double finest_level(const Cap& cap, double from_below_rad, double texel_m) const {
         const double nearest_rad = std::max(0.0, from_below_rad - cap.radius_rad);
         const double d_m = std::sqrt(distance_m * distance_m + kEquatorialRadius_m * kEquatorialRadius_m -
                                      2 * distance_m * kEquatorialRadius_m * std::cos(nearest_rad));
         const double mu = std::max(0.02, (distance_m * std::cos(nearest_rad) - kEquatorialRadius_m) / d_m);
-        // A look is as wide as the shorter side of a footprint, and an eighth of the longer (map_looks.h): the ray's slant makes it
-        // long, and so do columns that run together towards a pole.
+        // A lookup is as wide as the shorter side of a footprint, and at least an eighth of the longer
+        // (map_looks.h). Oblique views make footprints long, and so do columns that converge towards a pole.
         const double width_m = static_cast<double>(kTexelOfLook) * pixel_rad * d_m *
                                std::max({1.0, 1 / (8 * mu), 1 / (8 * cap.cosine)});
-        // Distances are those of the stretched Earth, which are off by a third of a hundredth.
+        // Distances on the stretched Earth are off by 1/300.
         constexpr double kMargin = 0.02;
         return std::max(0.0, std::log2(width_m / texel_m) - kMargin) + coarser_by;
     }
@@ -106,7 +107,8 @@ void DetailNeed::find(const DetailView& view) {
     coarser_by_ = sight.coarser_by;
 }
 
-// Level by level; children of what was found. False: there are too many.
+// Collects level by level, from the children of the tiles that were found. Returns false if there are too
+// many.
 bool DetailNeed::collect(const Sight& sight) {
     tiles_.clear();
     const int top = shape_.levels - 1;
@@ -117,7 +119,7 @@ bool DetailNeed::collect(const Sight& sight) {
         const DetailKey parent = tiles_[i];
         if (parent.level == 0) break;
         const int level = parent.level - 1;
-        // Where halves were rounded down the last tile has one more child.
+        // If halving rounded down, the last tile has one more child.
         const auto end = [](int at, int parents, int children) {
             return at + 1 == parents ? children : 2 * (at + 1);
         };
@@ -135,7 +137,7 @@ bool DetailNeed::add_if_needed(const Sight& sight, const DetailKey& key) {
     const double from_below_rad = angle_rad(dot(cap.middle, sight.up));
     if (from_below_rad > sight.horizon_rad + cap.radius_rad || !sight.may_see(cap)) return true;
     const double texel_m = kPi * kEquatorialRadius_m / shape_.rows;
-    // A level counts for looks up to a level finer or coarser.
+    // A level is used by lookups up to one level finer or coarser.
     if (sight.finest_level(cap, from_below_rad, texel_m) >= key.level + 1) return true;
     if (tiles_.size() == most_) return false;
     tiles_.push_back(key);

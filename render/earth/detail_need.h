@@ -1,8 +1,9 @@
 #pragma once
-// Which tiles of the Earth's finer levels a frame needs: those that may be in its field, at the levels that its pixels ask for. It is a
-// function of the camera's place, attitude and field alone, so a frame is the same whatever was seen before.
+// Finds the tiles of the Earth's finer levels that a frame needs: those that may be in its field, at the
+// levels that its pixels ask for. The result depends only on the camera's position, attitude and field, so a
+// frame is the same whatever was shown before.
 //
-// What rays see beside the field (by mirrors, as light on objects) is left to the levels that memory holds.
+// Rays outside the field (by mirrors, or for light on objects) use the levels in memory.
 
 #include <vector>
 
@@ -11,23 +12,23 @@
 
 namespace hilcam {
 
-// A view is what a camera sees of the Earth, in the Earth's axes; directions are unit.
+// A camera's view of the Earth, in the Earth's axes; directions are unit vectors.
 struct DetailView {
     Vec3d camera_m, boresight, sun_dir;
-    double half_field_rad = 0;  // about the boresight; beyond it the camera sees nothing
+    double half_field_rad = 0;  // around the boresight; the camera sees nothing beyond
     double pixel_rad = 0;
 };
 
 class DetailNeed {
   public:
-    // most: tiles that there is room for.
+    // most: the number of tiles that fit into memory.
     DetailNeed(const EarthDetail::Shape& shape, std::size_t most);
 
-    // Finds the tiles, coarse ones first. Where there are more than `most`, all levels are taken coarser by halves of a level until
-    // they fit. Loop; allocates nothing.
+    // Finds the tiles, coarse ones first. If there are more than `most`, all levels are made coarser in steps
+    // of half a level until they fit. Loop; no allocation.
     void find(const DetailView& view);
     const std::vector<DetailKey>& tiles() const { return tiles_; }
-    // Levels by which the last find() is coarser than pixels ask for; 0: by none.
+    // Returns how many levels coarser than the pixels ask for the last find() is.
     double coarser_by() const { return coarser_by_; }
 
   private:

@@ -21,7 +21,7 @@ DetailStream::DetailStream(std::shared_ptr<EarthDetail> detail, const EarthMap& 
       need_(detail_->shape(), tiles_in(bytes)),
       next_(detail_->shape(), tiles_in(bytes)) {
     loads_.reserve(tiles_.most());
-    // Reading a tile is little work, which one thread at a time can do, and not the loop's, as it allocates.
+    // Reading a tile is little work, but not for the loop, because it allocates. One thread does it.
     thread_.start([this] { load(); }, AheadThread::Rank::kEqual);
 }
 
@@ -44,7 +44,7 @@ bool DetailStream::choose_all() {
     return all;
 }
 
-// Takes places for what is not there, as long as there are some that this frame does not need.
+// Assigns places to missing tiles, as long as there are places that this frame does not need.
 void DetailStream::want(const DetailNeed& need) {
     for (const DetailKey& key : need.tiles()) {
         if (tiles_.has(key)) continue;
@@ -61,7 +61,7 @@ const DetailTiles& DetailStream::place(const DetailView& view) {
         ++waits_;
         thread_.wait();
         settle();
-        // Those that are there keep their places.
+        // Tiles in memory keep their places.
         choose_all();
         want(need_);
         if (is_stopped()) {
@@ -73,7 +73,7 @@ const DetailTiles& DetailStream::place(const DetailView& view) {
         settle();
         choose_all();
     }
-    // What the thread has ended with meanwhile is the next frame's to settle.
+    // The next frame settles what the thread has finished in the meantime.
     if (!thread_.is_busy() && loads_.empty()) look_ahead(view);
     before_ = view, ++frames_;
     return tiles_;
@@ -95,11 +95,11 @@ std::string DetailStream::explain() const {
     return out;
 }
 
-// Has one of the next frames' tiles read, in turns a near one and a far one.
+// Requests a tile of a future frame, alternating between near and far ones.
 void DetailStream::look_ahead(const DetailView& now) {
     if (frames_ == 0) return;
     constexpr double kAhead[] = {4, 16, 64, 256};  // frames
-    // A camera that jumps goes nowhere that is known.
+    // The path of a camera that jumps is not predictable.
     constexpr double kFarthest_m = 3e6;
     const double ahead = kAhead[frames_ % std::size(kAhead)];
     DetailView next = now;

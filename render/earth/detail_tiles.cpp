@@ -46,7 +46,7 @@ std::size_t DetailTiles::take_place() {
     const bool was_there = slots_[oldest].word != 0;
     slots_[oldest].word = 0, slots_[oldest].is_taken = true;
     if (!was_there) return oldest;
-    // A table of open addresses is made anew where something leaves it.
+    // A hash table with open addressing has to be rebuilt when an entry is removed.
     std::fill(table_.begin(), table_.end(), kFree);
     for (std::size_t i = 0; i < slots_.size(); ++i)
         if (slots_[i].word != 0) insert(i);
@@ -68,7 +68,7 @@ void DetailTiles::add_at(const EarthMap& below, float u, float v, int level, flo
                          EarthSample& sum) const {
     for (; level < shape_.levels; ++level) {
         const int columns = shape_.columns_at(level), rows = shape_.rows_at(level);
-        // A map's size may be no multiple of the level's: what is left over belongs to the last column.
+        // A map's size may not be a multiple of the level's; the remainder belongs to the last column.
         const float width = std::ldexp(static_cast<float>(shape_.columns), -level),
                     height = std::ldexp(static_cast<float>(shape_.rows), -level);
         float x = (u - std::floor(u)) * width - 0.5f;

@@ -1,7 +1,7 @@
 #pragma once
-// Tiles of the Earth's finer levels in memory of a fixed size, and looks at them. A frame sees those alone that were chosen for it
-// (choose()), whatever else is still there from frames before; a look that would need another takes the next coarser level, in the
-// end the map below.
+// Tiles of the Earth's finer levels in memory of fixed size, and lookups in them. A frame sees only tiles
+// that were chosen for it (choose()), whatever else is left from earlier frames. A lookup that needs another
+// tile uses the next coarser level, and finally the map below.
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +12,7 @@ namespace hilcam {
 
 class DetailTiles {
   public:
-    // Room for `most` tiles, one at least.
+    // most: number of tiles in memory, at least one.
     DetailTiles(const EarthDetail::Shape& shape, std::size_t most);
 
     const EarthDetail::Shape& shape() const { return shape_; }
@@ -22,37 +22,37 @@ class DetailTiles {
     // --- between frames. One thread.
 
     bool has(const DetailKey& key) const { return find(word_of(key)) != kNone; }
-    // Begins a frame without tiles.
+    // Starts a frame without tiles.
     void begin_frame() { ++frame_; }
-    // Has the frame see a tile, if it is there; false: it is not.
+    // Makes a tile visible to the frame; returns false if it is not in memory.
     bool choose(const DetailKey& key);
-    // Takes the place of a tile that no frame has seen for longest, and not this one; it is there for nobody until put() has it. Returns kNone
-    // where all are seen.
+    // Frees the place of the tile that has not been visible for longest, but not one of this frame, and
+    // returns the place. It belongs to no tile until put(). Returns kNone if all are visible.
     static constexpr std::size_t kNone = ~std::size_t{0};
     std::size_t take_place();
     std::span<EarthMap::Texel> texels_of(std::size_t place) {
         return {texels_.data() + place * EarthDetail::kTexels, EarthDetail::kTexels};
     }
-    // The place holds this tile now. is_whole: false where it could not be read: looks take a coarser level.
+    // Assigns a tile to a place. is_whole: false if it could not be read; lookups then use a coarser level.
     void put(std::size_t place, const DetailKey& key, bool is_whole);
 
     // --- in a frame. Loop, any thread.
 
-    // The look that EarthMap::sample() is, with the map that goes on below.
+    // Looks up as EarthMap::sample() does; `below` is the map that continues where these levels end.
     EarthSample sample(const EarthMap& below, float u, float v, const MapFootprint& footprint) const;
     EarthSample sample(const EarthMap& below, float u, float v, float width) const;
 
   private:
     struct Slot {
         std::uint64_t word = 0;  // 0: empty
-        std::uint64_t seen = 0;  // number of the last frame that saw it
+        std::uint64_t seen = 0;  // number of the last frame that used it
         bool is_taken = false;   // between take_place() and put()
         bool is_whole = false;
     };
     EarthDetail::Shape shape_;
     std::vector<Slot> slots_;
     std::vector<EarthMap::Texel> texels_;
-    // Places by word, open addressing; kFree: none.
+    // Places by word, with open addressing; kFree: none.
     static constexpr std::uint32_t kFree = ~std::uint32_t{0};
     std::vector<std::uint32_t> table_;
     std::uint64_t frame_ = 1;

@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-// Means over a cell by all maps of a list, each counting alike.
+// Returns the mean over a cell, with equal weights for all maps of a list.
 template <class Maps>
 EarthSample mean_sample(const Maps& maps, float u, float v, float width) {
     EarthSample sum;

@@ -1,11 +1,12 @@
 #pragma once
-// The Earth's maps as the air above them has them: land, sea and clouds as one diffuse albedo by place, for the light that goes
-// between ground and sky.
+// The Earth's maps for the air above them: land, sea and clouds as one diffuse albedo by place, for light
+// that is reflected between ground and sky.
 //
-//   ground   the map's land, and the sea by its albedo
-//   cloud    reflects c = b tau / (1 + b tau) of diffuse light, which is a two-stream layer's albedo (Bohren, Am. J. Phys. 55,
-//            524, 1987), whatever its height, and lets the rest through; between the two light goes up and down
-// Of maps by time the mean counts.
+//     ground   the map's land, and the sea by its albedo
+//     cloud    reflects c = b tau / (1 + b tau) of diffuse light, the albedo of a two-stream layer (Bohren,
+//              Am. J. Phys. 55, 524, 1987), at any height, and transmits the rest; light is reflected back
+//              and forth between the two
+// Maps by time are averaged.
 
 #include "render/earth/cloud_maps.h"
 #include "render/earth/earth_config.h"
@@ -14,7 +15,7 @@
 
 namespace hilcam {
 
-// clouds: empty where they are the ground's.
+// clouds: empty if the ground's maps contain them.
 AirGround earth_albedo(const EarthConfig& config, const GroundMaps& ground, const CloudMaps& clouds,
                        const SpectralGrid& grid);
 

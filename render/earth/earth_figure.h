@@ -1,5 +1,5 @@
 #pragma once
-// The figure of the Earth's models: bodies.h has it for all bodies.
+// The figure that the Earth's models use; bodies.h has those of all bodies.
 
 #include "render/sky/bodies.h"
 

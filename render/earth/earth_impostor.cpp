@@ -16,17 +16,19 @@ namespace hilcam {
 namespace {
 
 constexpr double kEarthRadius_m = kEarthFigure.equatorial_radius_m;
-// From ring to ring and from column to column, the width for which a ray of them stands: with what is linear between them these
-// come near to a pixel's mean (ShippedEarth.IsKeptAsAPictureThatIsBetterThanARayAPixel).
+// Spacing of rings and columns, and the width of a ray. With linear interpolation these are close to a
+// pixel's mean (ShippedEarth.IsKeptAsAPictureThatIsBetterThanARayAPixel).
 constexpr double kSpacing_px = 0.6, kWidth_px = 0.75;
-// A step of the Sun takes 27 s. The angles at which the ground is seen change as much with a step of the camera's distance.
+// A step of the Sun lasts 27 s. A step of the camera's distance changes the angles at which the ground is
+// seen by as much.
 constexpr double kPictureSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e-3;
-constexpr double kMapStep = 1.0 / 256;  // share of the way from one map to the next
+constexpr double kMapStep = 1.0 / 256;  // fraction of the time from one map to the next
 // The disk's radius in pixels, and the camera's distance from the middle in radii.
 constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
-constexpr int kPictureRings = 16;  // rings of a band, without the one that the next band shares
+constexpr int kPictureRings = 16;  // rings of a band, not counting the one shared with the next band
 constexpr int kRunColumns = 64;    // columns of a piece
-// The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width.
+// The limb's rings begin this far inside [px]; number of its rings per other ring; rays for each across its
+// width.
 constexpr double kLimb_px = 1.5;
 constexpr int kFinerSteps = 3, kLimbLooks = 4;
 
@@ -36,8 +38,9 @@ Vec3d from_steps(double longitude_rad, double latitude_rad) {
 }
 std::int32_t steps(double value, double step) { return static_cast<std::int32_t>(std::lround(value / step)); }
 
-// Where 16 places of a tile lie: closest approach over the radius, and turns about the Earth's middle, 0..1. The arc tangent is a
-// polynomial (Abramowitz & Stegun, 4.4.49, to 2e-8), its angle brought below an eighth of a turn first.
+// Finds 16 places of a tile in the picture: closest approach over the radius, and turns around the Earth's
+// middle, 0..1. The arc tangent is a polynomial (Abramowitz & Stegun, 4.4.49, to 2e-8), after reduction to an
+// eighth of a turn.
 HILCAM_CLONES void place_looks(const EarthImpostor::Tile& tile, const float* x, const float* y,
                                float distance, float* approach, float* turn) {
     const std::array<float, 9>&a = tile.across, &d = tile.down;
@@ -67,8 +70,8 @@ HILCAM_CLONES void place_looks(const EarthImpostor::Tile& tile, const float* x, 
     }
 }
 
-// Radiance and 2^-21 W m^-2 sr^-1 um^-1 in 16 bits: five of the exponent, from there on, and eleven digits, so an error of 1 / 4096 at
-// most. What is brighter than 2^11, brighter than any cloud, counts as that.
+// Stores radiance from 2^-21 W m^-2 sr^-1 um^-1 in 16 bits: five of the exponent and eleven digits, so the
+// error is at most 1 / 4096. Values above 2^11, brighter than any cloud, are clamped.
 constexpr std::uint32_t kDropped = 12, kLowestBits = (127u - 21) << 23;
 constexpr float kDarkestCoded = 0x1p-21f;
 static_assert(std::bit_cast<std::uint32_t>(kDarkestCoded) == kLowestBits);
@@ -78,14 +81,14 @@ std::uint16_t coded(float value) {
     return static_cast<std::uint16_t>(std::min((bits - kLowestBits) >> kDropped, 0xFFFFu));
 }
 
-// Sixteen looks: where they begin in the picture's columns, and their weights.
+// Sixteen lookups: where they start in the picture's columns, and their weights.
 struct Looks {
     static constexpr std::size_t kCount = EarthImpostor::kCount;
-    std::array<const std::uint16_t*, kCount> light;  // place in the row before and the column before
-    std::array<std::size_t, kCount> stride;          // places to the next column; the next row is beside it
+    std::array<const std::uint16_t*, kCount> light;  // place in the previous row and column
+    std::array<std::size_t, kCount> stride;          // to the next column; the next row is adjacent
     EarthImpostor::Floats in_row, in_column;         // from there, 0..1
     std::array<bool, kCount> at_limb;
-    std::array<EarthImpostor::LimbRows, kCount> by_row;  // where it is at the limb, instead of in_row
+    std::array<EarthImpostor::LimbRows, kCount> by_row;  // used at the limb instead of in_row
 };
 
 using Bins = float __attribute__((vector_size(32), may_alias));
@@ -137,19 +140,20 @@ bool EarthImpostor::is_for(Vec3d camera_m, double pixel_rad) {
 
 EarthImpostor::EarthImpostor(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
     bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kPictureRings + 4);
-    // Addresses for the widest disk; its pages are taken by take_memory(). A step of the grid nearer, and half of one.
+    // Reserves addresses for the widest disk; take_memory() uses their pages. One and a half grid steps
+    // nearer.
     distance_m_ =
         (1 - 1.5 * kDistanceStep) * kEarthRadius_m * std::max(kNearest, 1 / (kLargest_px * pixel_rad));
     place_bands();
     light_.reserve(used_);
 }
 
-// Turns a vector into the picture's axes.
+// Rotates a vector to the picture's axes.
 Vec3d EarthImpostor::to_place(Vec3d v) const { return {dot(v, right_), dot(v, down_), dot(v, ahead_)}; }
 
 void EarthImpostor::place_bands() {
     bands_.clear();
-    const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // a pixel's part of the radius
+    const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // a pixel's share of the radius
     const double step = kSpacing_px * pixel, fine = step / kFinerSteps;
     pixel_ = static_cast<float>(pixel);
     inner_per_b_ = static_cast<float>(1 / step);
@@ -165,7 +169,7 @@ void EarthImpostor::place_bands() {
     const int inner = static_cast<int>(std::ceil(limb_from / step)) + 1;
     for (int from = 0; from < inner; from += kPictureRings)
         add(from * step, step, std::min(kPictureRings, inner - from) + 1);
-    // A ring's middle lies half a step off the limb of the ground; dark ones end them.
+    // The middle of a ring is half a step off the limb of the ground; dark rings end them.
     const int below = static_cast<int>(std::ceil(kLimb_px * pixel / fine)) + 3;
     const int above =
         static_cast<int>(std::ceil((top_m_ / kEarthRadius_m + 0.5 * pixel) / fine)) + kLimbRows + 1;
@@ -253,7 +257,8 @@ EarthImpostor::Tile EarthImpostor::tile(Vec3d camera_m,
     const Vec3d from_m = stretched(kEarthFigure, camera_m), kept_m = -distance_m_ * ahead_;
     std::array<double, 9> across{}, down{};
     for (std::size_t i = 0; i < dirs.size(); ++i) {
-        // Where it meets the ground; past it, where it is closest to the middle: both as seen from the kept place.
+        // Where it meets the ground, or its point closest to the middle; both as seen from the picture's
+        // place.
         const Vec3d dir = normalized(stretched(kEarthFigure, dirs[i]));
         const double to_closest = -dot(from_m, dir);
         const Vec3d closest = from_m + to_closest * dir;
@@ -261,7 +266,7 @@ EarthImpostor::Tile EarthImpostor::tile(Vec3d camera_m,
         const Vec3d seen = to_place(from_m - kept_m + (to_closest - std::sqrt(rest)) * dir);
         across[i] = seen.x / seen.z, down[i] = seen.y / seen.z;
     }
-    // Lagrange's parabolas through 0, 1/2, 1 by powers: rows, then columns.
+    // Lagrange parabolas through 0, 1/2, 1, by powers: rows, then columns.
     const auto powers = [](std::array<double, 9>& v) {
         const auto parabola = [](double& p0, double& p1, double& p2) {
             const double c1 = -3 * p0 + 4 * p1 - p2, c2 = 2 * p0 - 4 * p1 + 2 * p2;
@@ -321,7 +326,7 @@ void EarthImpostor::find_squares(const Tile& tile, const Floats& x, const Floats
     }
 }
 
-// Three places to either side: seven columns, of each the two lines of 64 bytes that its places are in.
+// Three places to each side: seven columns, each with the two lines of 64 bytes that hold its places.
 void EarthImpostor::Squares::fetch(std::size_t square) const {
     constexpr std::uintptr_t kReach = 3, kLine_bytes = 64;
     const auto at = reinterpret_cast<std::uintptr_t>(middle[square]);
@@ -333,7 +338,7 @@ void EarthImpostor::Squares::fetch(std::size_t square) const {
     }
 }
 
-// A pixel's mean across the limb: four places have its variance, at any angle. Returns the first of the rows.
+// Averages across the limb: four places have the variance of a pixel, at any angle. Returns the first row.
 std::size_t EarthImpostor::weigh_limb(float b, float share, LimbRows& by_row) const {
     const Band& band = bands_.back();
     const float middle = (b - band.first) * band.per_step, reach = share * pixel_ * band.per_step;

@@ -24,12 +24,12 @@ bool EarthImpostorCache::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers
     std::size_t at = find(key);
     if (is_being_made(at)) {
         make_rest(at);
-        ahead_.wait();  // for the piece that it is at
+        ahead_.wait();  // for the piece in work
     }
     if (at == pictures_.size()) {
         at = room_for(key);
         make_rest(at);
-        // The kernel gives pages at their first use, with which later frames shall not be busy.
+        // The kernel provides pages at first use; later frames should not spend time on that.
         if (frames_ == 0)
             for (const Kept& kept : pictures_) kept.picture->take_memory_as(*pictures_[at].picture);
     }
@@ -45,7 +45,7 @@ std::size_t EarthImpostorCache::find(const EarthImpostor::Key& key) const {
     return static_cast<std::size_t>(found - pictures_.begin());
 }
 
-// Takes the place of the one that was not shown for longest, but not of one that is being made.
+// Returns the picture that was not shown for longest, except one that is being made.
 std::size_t EarthImpostorCache::room_for(const EarthImpostor::Key& key) {
     std::size_t oldest = is_being_made(0) ? 1 : 0;
     for (std::size_t i = oldest + 1; i < pictures_.size(); ++i)
@@ -60,7 +60,7 @@ void EarthImpostorCache::make_rest(std::size_t at) {
     pictures_[at].picture->make_rest(earth_, sun_irradiance_1au_);
 }
 
-// Has the first picture made that the next frames will ask for, if everything moves on as it did.
+// Requests the first picture that the next frames will need if everything continues its motion.
 void EarthImpostorCache::look_ahead(const Place& now) {
     if (frames_ % kStride == 1) long_before_ = before_, before_ = now;
     if (frames_ <= 2 * kStride || ahead_.is_busy()) return;

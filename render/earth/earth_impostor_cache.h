@@ -1,6 +1,6 @@
 #pragma once
-// Has the impostor of the Earth (earth_impostor.h) that frames ask for: at once where one needs it, and ahead of time, on a
-// thread of its own, where the camera and the Sun move on as they did. What a picture shows is the same either way.
+// Provides the Earth's impostor (earth_impostor.h) for a frame: made at once if needed, or ahead of time on a
+// thread of its own if camera and Sun continue their motion. The picture is the same either way.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace hilcam {
 
 class EarthImpostorCache {
   public:
-    // The Earth outlives this. Owner thread.
+    // The Earth must outlive this. Owner thread.
     EarthImpostorCache(const EarthModel& earth, const Spectrum& sun_irradiance_1au_w_m2_um, double pixel_rad,
                        double top_m);
     EarthImpostorCache(const EarthImpostorCache&) = delete;
@@ -22,13 +22,13 @@ class EarthImpostorCache {
     // Ends the thread (AheadThread). Owner thread.
     void stop_looking_ahead() { ahead_.stop(); }
 
-    // Has the picture of a frame, the camera and the Sun in the Earth's axes, at this place between the maps
-    // (EarthModel::numbers_at); false: for such a camera none is kept. Loop; makes it, or what the thread has left of it, where it
-    // is not there yet.
+    // Provides the picture for a frame, with camera and Sun in the Earth's axes and this position between the
+    // maps (EarthModel::numbers_at). Makes what the thread has not finished. Returns false if no picture is
+    // kept for such a camera. Loop.
     bool place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers = {});
-    // The one that was placed last. Any thread.
+    // Returns the picture that was placed last. Any thread.
     const EarthImpostor& picture() const { return *pictures_[shown_].picture; }
-    // Returns the memory of all pictures. The first that is made has all of them take as much.
+    // Returns the memory of all pictures. The first picture determines the memory of the others.
     std::size_t bytes() const;
 
   private:
@@ -46,13 +46,13 @@ class EarthImpostorCache {
     const EarthModel& earth_;
     Spectrum sun_irradiance_1au_;
     double pixel_rad_;
-    // Two for a camera that sways over a step, and one ahead.
+    // Two for a camera that moves back and forth across a step, and one ahead.
     std::array<Kept, 3> pictures_;
     std::size_t shown_ = 0, asked_ = 0;
     std::uint64_t frames_ = 0;
     static constexpr std::uint64_t kStride = 16;  // frames
     Place before_, long_before_;
-    AheadThread ahead_;  // the last: it ends first
+    AheadThread ahead_;  // last member, so that it ends first
 
     bool is_being_made(std::size_t at) const { return at == asked_ && ahead_.is_at_work(); }
     void make_rest(std::size_t at);

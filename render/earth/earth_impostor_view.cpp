@@ -25,9 +25,10 @@ EarthImpostorView::Seen EarthImpostorView::place(const EarthImpostor& picture, c
         reach_rad = std::max(reach_rad, angle_rad(middle, normalized(dirs[i])));
         fixed_dirs[i] = earth.fixed_from_world * dirs[i];
     }
-    // The box of a body beside the field may be all of the picture: a tile that the Earth is not in has nothing of it.
+    // The box of a body beside the field may be the whole picture, but a tile without the Earth has nothing
+    // of it.
     if (angle_rad(middle, earth.world_dir) > std::acos(earth.cone_cosine) + reach_rad) return Seen::kNothing;
-    // One that is wide against the sky is no parabola (EarthImpostor::Tile).
+    // A tile over a large angle is not biquadratic (EarthImpostor::Tile).
     constexpr double kWidest_rad = 0.2;
     if (reach_rad > kWidest_rad) return Seen::kRays;
     tile_ = picture_->tile(earth.camera_m, fixed_dirs);

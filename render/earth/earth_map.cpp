@@ -14,7 +14,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kChannels = EarthSample::kChannels;
-// A code x = c / 255 stands for x (square x + plain).
+// The code x = c / 255 means the value x (square x + plain).
 struct Coding {
     alignas(32) std::array<float, kChannels> square{1, 1, 1, 1, 0, 0, 0, 1}, plain{0, 0, 0, 0, 1, 1, 1, 0};
 };
@@ -27,7 +27,8 @@ void add_texel(const EarthMap::Texel& texel, float weight, EarthSample& sum) {
     }
 }
 
-// Vectors are written out, as GCC 12 takes a plain loop over the channels two by two, and bytes that become 32 bits at once one by one.
+// Vectors are written out because GCC 12 processes a plain loop over the channels in pairs, and converts
+// bytes to 32 bits one by one.
 HILCAM_CLONES void mix_four(const EarthMap::Texel& a, const EarthMap::Texel& b, const EarthMap::Texel& c,
                             const EarthMap::Texel& d, const std::array<float, 4>& weight, EarthSample& sum) {
     using Codes [[gnu::vector_size(kChannels)]] = std::uint8_t;
@@ -148,7 +149,7 @@ EarthSample EarthMap::sample(float u, float v, float width) const {
 }
 
 EarthSample EarthMap::mean() const {
-    // The level of a degree or so is enough, weighted by the areas of its rows.
+    // A level of about a degree suffices, weighted by the areas of its rows.
     const auto fine =
         std::find_if(levels_.begin(), levels_.end(), [](const Level& l) { return l.height <= 256; });
     EarthSample sum;

@@ -14,9 +14,9 @@
 namespace hilcam {
 namespace {
 
-constexpr double kMeanRadius_m = 6371008.8;  // mean (Moritz, J. Geodesy 74, 128, 2000)
+constexpr double kMeanRadius_m = 6371008.8;  // (Moritz, J. Geodesy 74, 128, 2000)
 constexpr float kPerPi = static_cast<float>(1 / kPi);
-// A ray looks for clouds here first, then at their own height.
+// A ray looks for clouds at this height first, then at their own.
 constexpr auto kUsualTop_m = static_cast<float>(EarthModel::kCloudLevel_m);
 constexpr float kMinCloud = 2e-3f;
 
@@ -35,23 +35,25 @@ float by_steps(const EarthAspect::Steps& steps, float c) {
     return steps[i] + (at - static_cast<float>(low)) * (steps[i + 1] - steps[i]);
 }
 
-// The mix that the maps have at one look.
+// The mix of surfaces and clouds at one lookup.
 struct Mix {
     float water, mirrored, glint_sr;
     float direct, diffuse,
-        back;  // shares of sunlight on the ground: in the beam, spread by clouds; of light that goes up: sent back
+        // Shares of sunlight on the ground (direct beam, scattered by clouds), and of upward light that
+        // clouds send back.
+        back;
     bool clouded;
-    float share, passed;         // light that comes down, and up, through the cloud
+    float share, passed;         // light that passes the cloud downwards and upwards
     float high;                  // 0: its top is on the ground; 1: at kHigh_m
-    float many, once, from_sky;  // the cloud's reflection
+    float many, once, from_sky;  // reflection by the cloud
 };
 
-// Ground, air below the cloud, cloud, air above it; per bin.
+// Combines ground, air below the cloud, cloud, and air above it; per bin.
 HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum& land,
                              const Spectrum& sea_diffuse, const Spectrum& sea_albedo, Spectrum& out) {
     for (int b = 0; b < kMaxBins; ++b) {
         const float sky = a.sky_low[b] * (1 - m.back) + a.sun_low[b] * m.diffuse;
-        // Between ground and cloud it goes up and down.
+        // Light is reflected back and forth between ground and cloud.
         const float light =
             (a.sun_low[b] * m.direct + sky) / (1 - (land[b] + m.water * sea_albedo[b]) * m.back);
         const float ground_sr =
@@ -76,7 +78,7 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
     }
 }
 
-// The ellipsoid at a height.
+// Returns the ellipsoid at a height.
 Figure raised(double height_m) {
     return {kEarthFigure.equatorial_radius_m + height_m, kEarthFigure.polar_radius_m + height_m};
 }
@@ -111,9 +113,10 @@ EarthModel::EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps c
     HILCAM_CHECK(ground_maps_->count() == 1 || (!cloud_maps_->empty() && !detail_));
     if (air) columns_ = std::make_shared<const AirColumns>(*air, static_cast<double>(EarthAspect::kHigh_m));
     if (cloud_factor_ > 0) table_ = std::make_shared<const CloudTable>(grid);
-    // The brightest places of the map: 100 nW cm^-2 sr^-1 from 0.5 to 0.9 um, what the day/night band of VIIRS sees over the
-    // centres of great cities, to a factor of two (Elvidge et al., Int. J. Remote Sens. 38, 5860, 2017, about its maps'
-    // values). Their spectrum is assumed: mostly high-pressure sodium, some white light-emitting diodes.
+    // The brightest places of the map: 100 nW cm^-2 sr^-1 from 0.5 to 0.9 um, which VIIRS' day/night band
+    // sees over the centres of large cities, to a factor of two (Elvidge et al., Int. J. Remote Sens. 38,
+    // 5860, 2017, on the values of its maps). Their spectrum is assumed: mostly high-pressure sodium, some
+    // white light-emitting diodes.
     constexpr double kBrightest_w_m2_sr = 100e-9 * 1e4;
     const Curve lamps{{0.40, 0.44, 0.46, 0.49, 0.54, 0.57, 0.59, 0.61, 0.64, 0.70, 0.80, 0.82, 0.84, 0.95},
                       {0.05, 0.15, 0.40, 0.20, 0.45, 0.90, 1.00, 0.85, 0.45, 0.15, 0.15, 0.50, 0.10, 0.05},
@@ -128,7 +131,7 @@ float EarthModel::cloud_of(const EarthSample& sample) const {
 
 void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const {
     const float mu0 = std::max(0.0f, place.mu0);
-    // From a height the Sun is seen when it is below the level: such light grazes.
+    // From a height the Sun is visible when it is below the level; such light is grazing.
     const float high_mu0 = std::max(0.01f, place.mu0);
     if (!air_) {
         const float lit = place.mu0 > 0 ? 1.0f : 0.0f;
@@ -162,7 +165,7 @@ void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place
             return air_->look(origin, dir / per_length, to_m * per_length, sun);
         };
         looks.low = look(distance_m);
-        // Clouds above a viewer among them are not before the ground.
+        // Clouds above a viewer who is among them are not in front of the ground.
         const double to_high_m =
             intersect_ellipsoid(raised(static_cast<double>(EarthAspect::kHigh_m)), ray.origin_m, ray.dir);
         looks.high = look(std::clamp(to_high_m, 0.0, distance_m));
@@ -194,8 +197,8 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
         u = static_cast<float>(dot(level_m, east) * per_u),
         v = static_cast<float>(dot(level_m, north) * per_v);
     };
-    // The ray's cone is as wide as it is across, and longer by 1 / mu along. By east and north, as sides along and across turn
-    // about where it is looked straight down.
+    // The ray's cone has its own width across, and is longer by 1 / mu along. Sides are given by east and
+    // north, because along and across are undefined for a vertical view.
     const Vec3d along = ray.dir - dot(ray.dir, n) * n;
     const double level = length(along);
     const Vec3d away = level > 1e-9 ? along / level : east;
@@ -204,7 +207,7 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     const auto on_level = [&](Vec3d side) { return width_m * (side + (longer * dot(away, side)) * away); };
     step(on_level(east), out.footprint.u1, out.footprint.v1);
     step(on_level(north), out.footprint.u2, out.footprint.v2);
-    // The ray passes the usual height of clouds so much before its end; on a sphere, per metre of height.
+    // How far before its end the ray passes the usual height of clouds, per metre of height, on a sphere.
     constexpr double kTop_m = static_cast<double>(kUsualTop_m);
     const double rmu = kMeanRadius_m * static_cast<double>(place.mu);
     const double back_m = std::sqrt(rmu * rmu + 2 * kMeanRadius_m * kTop_m) - rmu;
@@ -217,7 +220,7 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
 bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
     const double distance_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
-    // Sine of 4.6 degrees: down to there pixels that share an aspect differ by 0.31 % of the mean
+    // Sine of 4.6 degrees: above that, pixels that share an aspect differ by 0.31 % of the mean
     // (ShippedEarth.PixelsThatShareAnAspectLookLikeThoseOfTheirOwn).
     constexpr double kGrazing = 0.08;
     if (-dot(earth_normal(ray.origin_m + distance_m * ray.dir), ray.dir) < kGrazing) return false;
@@ -246,7 +249,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
     const float water = ground.water();
     float direct = 1, diffuse = 0, back = 0, cloud = 0, share = 1, passed = 1, high = 0;
     if (table_) {
-        // What is nearer than a good part of the footprint is seen by the same look.
+        // Offsets smaller than a good part of the footprint share its lookup.
         const MapFootprint& f = a.footprint;
         const float seen_as_one = 0.12f * (f.u1 * f.u1 + f.u2 * f.u2 + 0.25f * (f.v1 * f.v1 + f.v2 * f.v2)) /
                                   (kUsualTop_m * kUsualTop_m);
@@ -258,8 +261,8 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
                                a.footprint);
         cloud = cloud_of(over);
         if (!(cloud > kMinCloud)) cloud = 0;
-        // Where the Sun's ray comes through the clouds; and what they spread, which comes from a place as wide as they are
-        // high, both ways.
+        // Looks up where the Sun's ray passes the clouds. Light that clouds scatter comes from an area as
+        // wide as their height, in both directions.
         const float towards_sun =
             together && a.shade_u * a.shade_u + 0.25f * a.shade_v * a.shade_v < seen_as_one
                 ? cloud_of(ground)
@@ -277,7 +280,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
         back = table_->spherical_albedo(mean);
         if (cloud > 0) {
             passed = by_steps(a.seen, cloud);
-            // Air thins out by e in this height; 1 - 1/e at kHigh_m.
+            // Air becomes thinner by e over this height; 1 - 1/e at kHigh_m.
             high = (1 - std::exp(-over.cloud_top_m() / EarthAspect::kHigh_m)) * 1.5819767f;
         }
     }
@@ -300,7 +303,8 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
 EarthModel::Shade EarthModel::shade_by_parts(const EarthAspect& aspect, const EarthMoment& moment,
                                              int across) const {
     const MapFootprint& f = aspect.footprint;
-    // Finer levels would have to be four times as many. Where texels are wider than the footprint they do not tell its parts apart.
+    // Finer levels would need four times as many tiles. Texels wider than the footprint cannot distinguish
+    // its parts.
     if (moment.detail) across = 1;
     if (across > 1) across = std::min(across, static_cast<int>(std::ceil(texels_across(f, moment).shorter)));
     if (across <= 1) return shade(aspect, moment);
@@ -320,7 +324,7 @@ EarthModel::Shade EarthModel::shade_by_parts(const EarthAspect& aspect, const Ea
     return sum;
 }
 
-// Along a ray that misses the ground.
+// Returns the air along a ray that misses the ground.
 Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
     const Vec3d origin = stretched(kEarthFigure, ray.origin_m),
                 dir = normalized(stretched(kEarthFigure, ray.dir)),
@@ -337,14 +341,14 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
         radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
         return true;
     }
-    // Beyond the limb: a cloud that stands out, else air alone.
+    // Beyond the limb there is a cloud above the horizon, or only air.
     const double to_level_m =
         table_ ? intersect_ellipsoid(raised(static_cast<double>(kUsualTop_m)), ray.origin_m, ray.dir) : -1;
     if (to_level_m > 0) {
         EarthAspect aspect = aspect_at(ray, to_level_m, static_cast<double>(kUsualTop_m));
         const float cloud = cloud_of(cloud_sample(ray.moment, aspect.u, aspect.v, aspect.footprint));
         if (cloud > kMinCloud) {
-            // No ground is below it: nothing comes up through it.
+            // There is no ground below it, so no light comes from below.
             aspect.seen.fill(0);
             radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.moment).over_sun_sr;
             weight = table_->transmitted(cloud, 0) * (weight * aspect.seen_high);
@@ -360,7 +364,8 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
 }
 
 Spectrum EarthModel::disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) const {
-    // Parallel rays over the disk of the Earth and its air, on a spiral of equal areas (Vogel, Math. Biosci. 44, 179, 1979).
+    // Parallel rays over the disk of the Earth and its air, on a spiral of equal areas (Vogel, Math. Biosci.
+    // 44, 179, 1979).
     const Vec3d side = normalized(std::abs(camera_dir.z) < 0.9 ? cross(camera_dir, Vec3d{0, 0, 1})
                                                                : cross(camera_dir, Vec3d{1, 0, 0}));
     const Vec3d up = cross(side, camera_dir);

@@ -1,11 +1,12 @@
 #pragma once
-// A moment is what of the Earth's maps the looks of one frame are at.
+// The state of the Earth's maps for one frame.
 
 namespace hilcam {
 
 class DetailTiles;
 
-// Where an instant lies between maps: the number of the one before it, with the share of the one after it behind the point.
+// An instant's position between maps: the integer part is the number of the earlier map, the fraction the
+// weight of the next one.
 struct MapNumbers {
     double clouds = 0;  // CloudMaps
     double ground = 0;  // GroundMaps

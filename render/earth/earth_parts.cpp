@@ -1,4 +1,4 @@
-// Tells the parts that the Earth's model has (earth_model.h), and leaves one out.
+// Lists the parts of the Earth's model (earth_model.h), and makes a copy without one.
 
 #include <string>
 #include <vector>

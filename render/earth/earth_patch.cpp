@@ -18,7 +18,8 @@ HILCAM_CLONES void mix_nodes(const Floats& a, const Floats& b, const Floats& c, 
         sum[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + w[3] * d[k];
 }
 
-// The light of an aspect, over that of white paint in the Sun: the air before it and what falls on it, low and high.
+// The light of an aspect relative to white paint in the Sun: the air in front and the illumination, low and
+// high.
 using Light = std::array<Spectrum, 4>;
 Light light_of(const EarthAspect& a) {
     constexpr auto kPerPaint = static_cast<float>(kPi);
@@ -30,7 +31,7 @@ Light light_of(const EarthAspect& a) {
 void EarthPatch::place_node(int at, const EarthModel::Ray& ray) {
     const auto i = static_cast<std::size_t>(at);
     EarthAspect aspect;
-    // Near the poles longitude turns too fast.
+    // Near the poles longitude changes too fast.
     constexpr float kPole = 0.03f;
     carries_[i] = earth_->aspect_of(ray, aspect) && aspect.v > kPole && aspect.v < 1 - kPole;
     nodes_[i] = std::bit_cast<Node>(aspect);
@@ -40,7 +41,7 @@ void EarthPatch::place_node(int at, const EarthModel::Ray& ray) {
 
 void EarthPatch::place_half(int row, int column, const EarthModel::Ray& ray) {
     MapPlace& at = halves_[static_cast<std::size_t>(row * kHalves + column)];
-    if (!EarthModel::map_place(ray, at.u, at.v)) at = {};  // no node about it carries
+    if (!EarthModel::map_place(ray, at.u, at.v)) at = {};  // no node around it can be used
 }
 
 void EarthPatch::choose_steps() {
@@ -58,7 +59,7 @@ void EarthPatch::choose_steps() {
                         earth_->texels_across(std::bit_cast<EarthAspect>(nodes_[at]).footprint, moment_)
                             .longer);
             }
-            // Half a texel from look to look: what bends between texels is seen.
+            // Half a texel from lookup to lookup resolves the bends between texels.
             step_px_[static_cast<std::size_t>(j * kMaxNodes + i)] =
                 !carries ? 0 : (texels < 0.125f ? 4 : (texels < 0.25f ? 2 : 1));
         }
@@ -72,11 +73,11 @@ EarthPatch::Node EarthPatch::between_nodes(Cell cell, float s, float t) const {
     return sum;
 }
 
-// At the terminator light falls by powers of ten in a few degrees, and near the limb the air grows fast: a cell does not carry
-// where what is linear between its nodes is not what its middle has. ray: the middle's.
+// At the terminator light falls by powers of ten in a few degrees, and near the limb the air increases fast.
+// A cell cannot be used if interpolation between its nodes differs from its middle. ray: through the middle.
 void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
-    // The middle may be off by so much of its light, or of what white paint in the Sun has: a millionth of the latter is below the
-    // noise of cameras that see cities.
+    // The tolerance in the middle: a share of its light, or of that of white paint in the Sun. A millionth of
+    // the latter is below the noise of cameras that see cities.
     constexpr float kShare = 0.01f, kMin = 1e-6f;
     EarthAspect there;
     const bool met = earth_->aspect_of(ray, there);
@@ -89,9 +90,10 @@ void EarthPatch::check_middle(Cell cell, const EarthModel::Ray& ray) {
     if (!carries) step_px_[cell.index()] = 0;
 }
 
-// True where light between its nodes may not be linear. Of light that falls as an exponential the mean of two ends is cosh(d / 2) of
-// what is half-way, d being the logarithm of their ratio: 0.2 % too much where one is 1.15 of the other.
-// The limb of the standard atmosphere falls faster: with 1.3 pixels there were 8 % too bright, which the middle does not show.
+// True if light between the cell's nodes may not be linear. For exponentially falling light the mean of two
+// ends is cosh(d / 2) times the value half-way, where d is the logarithm of their ratio: 0.2 % too much at a
+// ratio of 1.15. The limb of the standard atmosphere falls faster: with a ratio of 1.3, pixels were 8 % too
+// bright there, which the middle does not show.
 bool EarthPatch::may_bend(Cell cell) const {
     constexpr float kMax = 1.15f;
     if (step_px_[cell.index()] == 0) return false;
@@ -108,7 +110,7 @@ bool EarthPatch::may_bend(Cell cell) const {
 
 Spectrum EarthPatch::look(Cell cell, float s, float t) const {
     EarthAspect aspect = std::bit_cast<EarthAspect>(between_nodes(cell, s, t));
-    // Lagrange's parabolas, both ways; longitudes as turns from the first.
+    // Lagrange parabolas in both directions; longitudes as turns from the first.
     const std::array<float, 3> across{(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)},
         along{(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
     const MapPlace* const first = halves_.data() + 2 * cell.row * kHalves + 2 * cell.column;
@@ -124,7 +126,7 @@ Spectrum EarthPatch::look(Cell cell, float s, float t) const {
     return irradiance_ * seen.over_sun_sr + seen.lights_w_m2_sr_um;
 }
 
-// By the cell that asks: on an edge that cells share, either gives the same but for rounding.
+// Computed by the cell that asks first: on a shared edge either cell gives the same, up to rounding.
 const Spectrum& EarthPatch::look_at_corner(Cell cell, int column, int row) {
     const auto at = static_cast<std::size_t>(row * kLooks + column);
     if (!looked_[at]) {

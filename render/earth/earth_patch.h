@@ -1,9 +1,10 @@
 #pragma once
-// A part of a picture in which neighbouring pixels share what changes slowly: aspects at its nodes, 8 or 16 pixels apart, linear
-// between; places on the map by parabolas through twice as many. Only the maps are looked at for each pixel; where
-// their texels are large, for each second or fourth, linear between.
+// A part of a picture in which neighbouring pixels share what varies slowly: aspects at nodes 8 or 16 pixels
+// apart, linear in between, and places on the map by parabolas through twice as many nodes. Each pixel looks
+// only at the maps; if their texels are large, every second or fourth pixel does, linear in between.
 //
-// How far it is from EarthModel::add(), which works out every pixel: tests/unit/io/files/shipped_earth_test.cpp, and docs/earth.md in units of sensor noise.
+// For its difference from EarthModel::add(), which computes every pixel, see
+// tests/unit/io/files/shipped_earth_test.cpp, and docs/earth.md in units of sensor noise.
 
 #include "render/earth/earth_model.h"
 #include "render/vocabulary/pixel_box.h"
@@ -15,8 +16,9 @@ class EarthPatch {
     static constexpr int kMaxPixels = 64, kFinePitch_px = 8, kWidePitch_px = 16;
     static constexpr int kMaxNodes = kMaxPixels / kFinePitch_px + 1;
 
-    // pitch_px: one of the two; fine where the Earth is small, so that fewer pixels are left out at its limb.
-    // ray_at(x, y): the ray of a place in the picture [px], whole or half. At most kMaxPixels each way. Loop.
+    // pitch_px: one of the two; the fine one for a small Earth, so that fewer pixels are left out at its
+    // limb. ray_at(x, y): the ray of a place in the picture [px], whole or half. At most kMaxPixels in each
+    // direction. Loop.
     template <class RayAt>
     void place(const EarthModel& earth, const PixelBox& box, int pitch_px, const RayAt& ray_at) {
         earth_ = &earth, box_ = box, pitch_px_ = pitch_px;
@@ -38,8 +40,8 @@ class EarthPatch {
                     check_middle({column, row}, ray_at(box.x0 + (column + 0.5) * pitch_px_,
                                                        box.y0 + (row + 0.5) * pitch_px_));
     }
-    // Radiance [W m^-2 sr^-1 um^-1] at a place within the box, times weight; false where the nodes about it do not carry: near
-    // the limb, at a pole, where light bends between them. Loop.
+    // Adds the radiance [W m^-2 sr^-1 um^-1] at a place in the box, times weight. Returns false if the nodes
+    // around it cannot be used: near the limb, at a pole, or where light is not linear between them. Loop.
     bool add(float x, float y, const Spectrum& weight, Spectrum& radiance);
 
   private:
@@ -51,16 +53,16 @@ class EarthPatch {
     EarthMoment moment_;
     std::array<Node, kMaxNodes * kMaxNodes> nodes_;
     std::array<bool, kMaxNodes * kMaxNodes> carries_;
-    // Places on the map at every half of the pitch.
+    // Places on the map at every half pitch.
     static constexpr int kHalves = 2 * kMaxNodes - 1;
     struct MapPlace {
         float u, v;
     };
     std::array<MapPlace, kHalves * kHalves> halves_;
 
-    // Pixels from one look at the maps to the next, per cell between nodes; 0: it does not carry.
+    // Pixels between lookups in the maps, per cell between nodes; 0: the cell cannot be used.
     std::array<int, kMaxNodes * kMaxNodes> step_px_;
-    // Looks at every second pixel's corner, worked out when they are asked for.
+    // Lookups at every second pixel's corner, made when they are needed.
     static constexpr int kLooks = kMaxPixels / 2 + 1;
     std::array<Spectrum, kLooks * kLooks> looks_;
     std::array<bool, kLooks * kLooks> looked_;
@@ -73,7 +75,7 @@ class EarthPatch {
     bool may_bend(Cell cell) const;
     void check_middle(Cell cell, const EarthModel::Ray& ray);
     Node between_nodes(Cell cell, float s, float t) const;
-    Spectrum look(Cell cell, float s, float t) const;  // s, t: within the cell, 0..1
+    Spectrum look(Cell cell, float s, float t) const;  // s, t: position in the cell, 0..1
     const Spectrum& look_at_corner(Cell cell, int column, int row);
     void place_node(int at, const EarthModel::Ray& ray);
     void place_half(int row, int column, const EarthModel::Ray& ray);

@@ -1,6 +1,7 @@
 #pragma once
-// The Earth's surface by one map, or by several of instants or of months: between two of them each place has their mean by time. Maps of
-// months come again each year, a month's in its middle; before the first instant and after the last its map stays.
+// The Earth's surface from one map, or from maps at several instants or of several months. Between two of
+// them each place has their mean, weighted by time. A month's map holds in the middle of that month, every
+// year. Before the first instant and after the last its map stays.
 
 #include <vector>
 
@@ -19,7 +20,7 @@ class GroundMaps {
         int month;  // 1: January
         EarthMap map;
     };
-    // One at all times. HILCAM_CHECK: no map is empty, times grow from one to the next.
+    // One map for all times. HILCAM_CHECK: no map is empty, and times increase.
     GroundMaps(EarthMap one);
     explicit GroundMaps(std::vector<Timed> maps);
     explicit GroundMaps(std::vector<Monthly> maps);
@@ -30,7 +31,7 @@ class GroundMaps {
     std::size_t bytes() const;
 
     const MapTimes& times() const { return times_; }
-    // Means over a footprint. Loop, any thread.
+    // Return the means over a footprint. Loop, any thread.
     EarthSample sample(double number, float u, float v, const MapFootprint& footprint) const;
     EarthSample sample(double number, float u, float v, float width) const;
 

@@ -6,8 +6,8 @@
 namespace hilcam {
 namespace {
 
-// Linear colours of the picture, and reflectances in red, green and blue, over the Amazon and the Congo (PROSAIL's canopy), the site
-// Libya-4, Dome C and Greenland (Grenfell, Warren & Mullen 1994).
+// Linear colours of the picture, and reflectances in red, green and blue, over the Amazon and the Congo
+// (PROSAIL's canopy), the site Libya-4, Dome C and Greenland (Grenfell, Warren & Mullen 1994).
 constexpr std::array<float, 3> kForestPicture{0.0096f, 0.0207f, 0.0032f}, kForest{0.029f, 0.045f, 0.020f};
 constexpr std::array<float, 3> kSandPicture{0.616f, 0.449f, 0.248f}, kSand{0.46f, 0.35f, 0.25f};
 constexpr std::array<float, 3> kSnowPicture{0.89f, 0.92f, 0.93f}, kSnow{0.975f, 0.98f, 0.975f};
@@ -17,7 +17,7 @@ float between(float x, float x0, float x1, float y0, float y1) {
     return y0 + (x - x0) / (x1 - x0) * (y1 - y0);
 }
 
-// Straight between five points in logarithms, held beyond the outer ones.
+// Linear between five points in logarithms, constant beyond the outer ones.
 float power_law(float value, std::size_t c) {
     const std::array<float, 5> x{kForestPicture[c] / 8, kForestPicture[c], kSandPicture[c], kSnowPicture[c],
                                  1};

@@ -1,6 +1,6 @@
 #pragma once
-// Looks that a footprint on the ground takes at a map with its halves: several along its longer axis, each as wide as the shorter
-// (McCormack et al., SIGGRAPH 99).
+// The lookups that a footprint on the ground makes in a map with mip levels: several along its longer axis,
+// each as wide as the shorter (McCormack et al., SIGGRAPH 99).
 
 #include <algorithm>
 #include <cmath>
@@ -9,19 +9,19 @@
 
 namespace hilcam {
 
-// Texels of the finest map.
+// The size in texels of the finest map.
 struct MapSize {
     float width, height;
 };
 
-// The width of the texels that a look is looked up by, of its own. A texel that is the mean of those below it, linear to its
-// neighbours, has a variance of a quarter of its width's square, and a pixel of a twelfth: three times as much blur. 0.58 has as
-// much as it, but lets through what is finer; 0.7 comes nearest to a pixel's mean
-// (docs/decisions.md#the-earth-smooth-light-sharp-maps).
+// The texel width of the level that a lookup uses, relative to its own width. A texel that is a mean,
+// interpolated linearly to its neighbours, has a variance of a quarter of its squared width; a pixel has a
+// twelfth, a third of the blur. 0.58 would give equal blur but lets finer structure through; 0.7 is nearest
+// to a pixel's mean (docs/decisions.md).
 inline constexpr float kTexelOfLook = 0.7f;
 
-// The ellipse that has a footprint's sides as conjugate half diameters, in texels: what squares sum to along and across the map, and
-// its axes.
+// The ellipse with a footprint's sides as conjugate half diameters, in texels: sums of squares along and
+// across the map, and its axes.
 struct FootprintEllipse {
     float xx, xy, yy, longer, shorter;
 };
@@ -33,8 +33,8 @@ inline FootprintEllipse ellipse_of(const MapFootprint& f, MapSize size) {
     return {xx, xy, yy, std::sqrt(middle + off), std::sqrt(std::max(0.0f, middle - off))};
 }
 
-// Calls add(u, v, level, weight) for each look; weights sum to 1. level: logarithm to base 2 of the width in texels of what it is
-// looked up by, 0 at least. Loop, any thread.
+// Calls add(u, v, level, weight) for each lookup; weights sum to 1. level: base-2 logarithm of the texel
+// width to use, at least 0. Loop, any thread.
 template <class Add>
 void each_look(float u, float v, const MapFootprint& f, MapSize size, const Add& add) {
     constexpr int kMaxLooks = 8;
@@ -43,7 +43,7 @@ void each_look(float u, float v, const MapFootprint& f, MapSize size, const Add&
     const float level = std::max(0.0f, std::log2(kTexelOfLook * width));
     const int looks = std::clamp(static_cast<int>(std::ceil(longer / width - 0.25f)), 1, kMaxLooks);
     if (looks == 1) return add(u, v, level, 1.0f);
-    // The direction of the longer axis: the eigenvector of the greater eigenvalue, its square.
+    // The direction of the longer axis: the eigenvector of the larger eigenvalue, which is its square.
     float dx = xx > yy ? longer * longer - yy : xy, dy = xx > yy ? xy : longer * longer - xx;
     const float norm = std::sqrt(dx * dx + dy * dy);
     const float per_norm = norm > 0 ? longer / norm : 0;

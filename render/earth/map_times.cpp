@@ -8,8 +8,8 @@
 namespace hilcam {
 namespace {
 
-// The share of the year that is over, months as twelfths: the calendar's mean year, from 1 January 2000 on, which is within two days of each
-// year's own.
+// Returns the elapsed fraction of the year, with months as twelfths, in the calendar's mean year from 1
+// January 2000 on. That is within two days of each actual year.
 double share_of_year(TimeTai time) {
     constexpr double kYear_days = 365.2425, kStart_days = 2451544.5;  // Julian date of 2000-01-01T00:00
     const JulianDate now = julian_tt(time);
@@ -51,7 +51,7 @@ double MapTimes::number_at(TimeTai time) const {
     if (after > 0 && after <= last)
         return static_cast<double>(after - 1) + (now - at(after - 1)) / (at(after) - at(after - 1));
     if (!is_yearly_) return after == 0 ? 0 : static_cast<double>(last);
-    // Around the turn of the year.
+    // Across the turn of the year.
     const double since_last = now - at(last) + (after == 0 ? 1 : 0), between = at(0) + 1 - at(last);
     return static_cast<double>(last) + since_last / between;
 }

@@ -10,8 +10,8 @@
 namespace hilcam {
 namespace {
 
-// S1 and S2 of a sphere of size parameter x, added as |S1|^2 + |S2|^2 to each angle (Bohren & Huffman 1983, eqs.
-// 4.74, 4.88 and appendix A); the index is real.
+// Adds |S1|^2 + |S2|^2 of a sphere of size parameter x to each angle (Bohren & Huffman 1983, eqs. 4.74, 4.88
+// and appendix A); the refractive index is real.
 void add_sphere(double x, double n, double weight, const std::vector<double>& cosines,
                 std::vector<double>& sums) {
     const auto terms = static_cast<std::size_t>(x + 4 * std::cbrt(x) + 2);
@@ -60,7 +60,7 @@ double water_index(double wavelength_um) {
     return curve.at(wavelength_um);
 }
 
-// Steps of a tenth of a degree within 5 degrees of both ends, of 170 / 260 between.
+// Steps of a tenth of a degree within 5 degrees of both ends, of 170 / 260 degrees in between.
 double PhaseFunction::angle_rad(int i) {
     const double degrees =
         i <= 50 ? 0.1 * i : (i >= 310 ? 180 - 0.1 * (360 - i) : 5 + (i - 50) * 170.0 / 260);
@@ -89,14 +89,16 @@ PhaseFunction PhaseFunction::droplets(double wavelength_um, double width_um, dou
                                       double effective_radius_um, double effective_variance) {
     std::vector<double> cosines(kAngles), sums(kAngles);
     for (int i = 0; i < kAngles; ++i) cosines[static_cast<std::size_t>(i)] = std::cos(angle_rad(i));
-    // r^((1 - 3b) / b) e^(-r / ab); the ripples of single spheres wash out over this many; straight back 90 left 4 to 16 %.
+    // r^((1 - 3b) / b) e^(-r / ab). With this many sizes the ripples of single spheres average out; with 90,
+    // 4 to 16 % remained in the backward direction.
     constexpr int kSizes = 150;
     const double a = effective_radius_um, b = effective_variance, most = a * (1 + 5 * std::sqrt(b)),
                  least = 0.12 * a;
     for (int i = 0; i < kSizes; ++i) {
         const double r = least + (i + 0.5) * (most - least) / kSizes;
         const double count = std::exp((1 - 3 * b) / b * std::log(r / a) - (r - a) / (a * b));
-        // Wavelengths by the golden section, which fills the bin evenly and meets neighbouring sizes far apart.
+        // Wavelengths by the golden section, which fills the bin evenly and gives neighbouring sizes very
+        // different ones.
         constexpr double kGolden = 0.6180339887498949;
         const double um = wavelength_um + width_um * (std::fmod(i * kGolden, 1.0) - 0.5);
         add_sphere(2 * kPi * r / um, n, count * um * um, cosines, sums);
@@ -113,7 +115,7 @@ float PhaseFunction::at(float theta_rad) const {
 
 std::vector<double> PhaseFunction::moments(std::size_t count) const {
     std::vector<double> sums(count);
-    // Gauss-Legendre of two points in each step, over the angle.
+    // Two-point Gauss-Legendre over the angle in each step.
     constexpr double kGauss = 0.57735026918962576;
     for (int i = 0; i + 1 < kAngles; ++i)
         for (const double t : {0.5 - 0.5 * kGauss, 0.5 + 0.5 * kGauss}) {

@@ -28,7 +28,7 @@ Sea::Sea(double wind_m_s, const SpectralGrid& grid)
                                          {0.045, 0.042, 0.035, 0.022, 0.009, 0.003, 0.002, 0.001, 0, 0},
                                          {}});
     constexpr float kFoam = 0.22f;
-    // A flat surface mirrors 0.066 of an even sky (Fresnel's law over all directions, n = 1.34).
+    // A flat surface mirrors 0.066 of a uniform sky (Fresnel's law over all directions, n = 1.34).
     constexpr float kMirrored = 0.066f;
     const auto foam = static_cast<float>(foam_);
     for (int b = 0; b < grid.size(); ++b) {
@@ -49,20 +49,20 @@ float Sea::shadowing(float mu) const {
 
 float Sea::glint_sr(float mu0, float mu, float cos_phase) const {
     if (!(mu0 > 0) || !(mu > 0)) return 0;
-    // The facet that mirrors one into the other: its normal h halves the angle.
+    // The facet that mirrors one direction into the other: its normal h halves the angle.
     const float half = std::sqrt(std::max(1e-6f, 0.5f * (1 + cos_phase)));  // cos of the angle of incidence
     const float nh = std::min(1.0f, (mu0 + mu) / (2 * half));
     const float n2 = nh * nh;
     const auto variance = static_cast<float>(variance_);
     const float slope2 = (1 - n2) / n2;
     const float density = std::exp(-slope2 / variance) / (kPiOfWaves * variance);
-    // Cox & Munk 1954, eq. 9, as radiance: F P / (4 mu cos^4 beta); each facet's own cosine is in P.
+    // Cox & Munk 1954, eq. 9, as radiance: F P / (4 mu cos^4 beta); P includes each facet's own cosine.
     return (1 - static_cast<float>(foam_)) * water_fresnel(half) * density * shadowing(mu0) * shadowing(mu) /
            (4 * std::max(mu, 1e-3f) * n2 * n2);
 }
 
 float Sea::sky_mirrored(float mu) const {
-    // At grazing angles the facets that are seen lean to the viewer by about the slopes' rms.
+    // At grazing angles the visible facets lean towards the viewer by about the rms of the slopes.
     const float seen =
         std::sqrt(std::max(0.0f, mu) * std::max(0.0f, mu) + sigma_ * sigma_) / std::sqrt(1 + sigma_ * sigma_);
     return (1 - static_cast<float>(foam_)) * water_fresnel(seen);

@@ -1,6 +1,6 @@
-// Invented clouds: noise of many sizes, stretched along the parallels and curled by its own large shapes, with as much
-// cover as the mean Earth has at each latitude, about (0.5 in the subtropics, 0.85 over the southern ocean: Stubenrauch et al., Bull.
-// Am. Meteorol. Soc. 94, 1031, 2013, whose mean is 0.68).
+// Invented clouds: noise of many sizes, stretched along the parallels and distorted by its own large shapes.
+// Their cover is roughly that of the mean Earth at each latitude (0.5 in the subtropics, 0.85 over the
+// southern ocean: Stubenrauch et al., Bull. Am. Meteorol. Soc. 94, 1031, 2013, whose mean is 0.68).
 
 #include <tbb/parallel_for.h>
 
@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// A number in [0, 1) for a corner of the lattice (splitmix64: Steele, Lea & Flood, OOPSLA 2014).
+// Returns a number in [0, 1) for a corner of the lattice (splitmix64: Steele, Lea & Flood, OOPSLA 2014).
 double lattice(std::uint64_t seed, int x, int y, int z) {
     std::uint64_t h = seed * 0x9e3779b97f4a7c15u + static_cast<std::uint32_t>(x) * 0x8da6b343u +
                       static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) * 0xd8163841u +

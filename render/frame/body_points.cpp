@@ -7,10 +7,10 @@
 namespace hilcam {
 namespace {
 
-// The plane at distance 1 that a body is seen on, in squares that hold it.
+// The plane at distance 1 on which a body is seen, divided into square cells around it.
 class LittlePicture {
   public:
-    // rays_across: the least number of rays across the cone of that cosine about the body's middle.
+    // rays_across: the least number of rays across the cone with that cosine around the body's middle.
     LittlePicture(const FrameContext& frame, const PlacedBody& body, double cone_cosine, int rays_across)
         : background_(*frame.background),
           body_(body),
@@ -27,7 +27,7 @@ class LittlePicture {
     int cells() const { return cells_; }
 
     struct Cell {
-        Vec3d middle;      // the mean direction of its light, times that light
+        Vec3d middle;      // mean direction of its light, times that light
         double light = 0;  // sum over the bins
         Spectrum irradiance_w_m2_um;
     };
@@ -53,8 +53,8 @@ class LittlePicture {
     static constexpr int kMaxCells = 16, kMaxRingedCells = 37;
     static_assert(kMaxCells * kMaxCells == kMaxBodyPoints);
     static_assert(kMaxRingedCells * kMaxRingedCells == kMaxRingedPoints);
-    // The rays' places in their squares: a grid that lay evenly about the disk's middle would have each error at its rim
-    // four or eight times.
+    // The rays' places in their cells. In a grid symmetric about the disk's middle, each error at the rim
+    // would occur four or eight times.
     static constexpr double kAsideX = 0.29, kAsideY = 0.11;
 
     const Background& background_;
@@ -65,14 +65,14 @@ class LittlePicture {
     double step_;
 };
 
-// Across the body: the light of a Lambertian sphere at half phase is right to 0.2 %.
+// Across the body: gives the light of a Lambertian sphere at half phase to 0.2 %.
 constexpr int kRaysAcross = 64;
 
 void add_cells(const FrameContext& frame, const PlacedBody& body, const PointField& field,
                std::vector<PointSource>& points) {
     const LittlePicture picture(frame, body, body.cone_cosine, kRaysAcross);
     const std::uint32_t thing = PointSource::kFirstBody + static_cast<std::uint32_t>(index_of(body.id));
-    // It does not hide itself.
+    // The body does not hide itself.
     const double before_m = body.distance_m * (1 - 1.01 * std::sqrt(1 - body.cone_cosine * body.cone_cosine));
     for (int j = 0; j < picture.cells(); ++j)
         for (int i = 0; i < picture.cells(); ++i) {
@@ -82,12 +82,12 @@ void add_cells(const FrameContext& frame, const PlacedBody& body, const PointFie
         }
 }
 
-// Returns the direction from which the light of a body below a pixel comes: of a crescent not that of the body's middle. Rays
-// lie as close as in a body of a pixel.
+// Returns the direction from which the light of a body smaller than a pixel comes: for a crescent it differs
+// from the body's middle. The density of rays is that for a body of one pixel.
 Vec3d light_dir(const FrameContext& frame, const PlacedBody& body, const PointField& field) {
     const double sine = std::sqrt(1 - body.disk_cosine * body.disk_cosine);
     const double size_px = 2 * sine / body.disk_cosine * frame.geometry.focal_length_px;
-    // The light of a smaller one is less than a hundredth of a pixel from its middle.
+    // The light of a smaller body is within a hundredth of a pixel of its middle.
     constexpr double kSeen_px = 0.02;
     if (size_px < kSeen_px || !field.sees(body.world_dir, body.distance_m)) return body.world_dir;
     const LittlePicture picture(frame, body, body.disk_cosine,

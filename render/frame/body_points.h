@@ -1,7 +1,8 @@
 #pragma once
-// The light of bodies that are a few pixels wide or less, as points: of a body below a pixel one, of a larger one its own
-// little picture in cells of half a pixel, each a point at the middle of its light. So the light is the body's at its phase,
-// a crescent's lies where the crescent is, and its place does not jump from pixel to pixel.
+// Draws bodies of a few pixels or less as points. A body smaller than a pixel is one point. A larger one gets
+// a small picture of its own with cells of half a pixel, each of which becomes a point at the centroid of its
+// light. So the flux is that of the body at its phase, the light of a crescent is at the crescent, and
+// nothing jumps from pixel to pixel.
 
 #include <vector>
 
@@ -9,10 +10,10 @@
 
 namespace hilcam {
 
-// Greatest number of points of a body, and of Saturn with its rings, which are 2.3 times as wide.
+// The largest number of points for a body, and for Saturn with its rings, which are 2.3 times as wide.
 inline constexpr std::size_t kMaxBodyPoints = 16 * 16, kMaxRingedPoints = 37 * 37;
 
-// Adds the points of the placed frame's bodies. Loop; no allocation while the vector has room.
+// Appends the points of all bodies in the placed frame. Loop; no allocation while the vector has room.
 void add_body_points(const FrameContext& frame, const PointField& field, std::vector<PointSource>& points);
 
 }  // namespace hilcam

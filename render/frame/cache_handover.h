@@ -1,6 +1,6 @@
 #pragma once
-// Hands cached light (indirect_cache.h) that is made beside the frames to the loop that makes them: by one exchange
-// of a pointer, and only once the light that the frames then ask for is solved.
+// Hands an indirect cache (indirect_cache.h) that another thread has built to the loop, by one atomic
+// exchange of a pointer. The loop starts to use it only when the light for the current frames is solved.
 
 #include <atomic>
 #include <memory>
@@ -16,12 +16,12 @@ class CacheHandover {
     CacheHandover(const CacheHandover&) = delete;
     CacheHandover& operator=(const CacheHandover&) = delete;
 
-    // One thread, once.
+    // Called by one thread, once.
     void give(std::unique_ptr<IndirectCache> made) {
         given_.store(made.release(), std::memory_order_release);
     }
-    // Returns the light when it fits the frame that was placed last; null until then. Loop: no lock, nothing
-    // is allocated.
+    // Returns the cache when its light for the frame that was placed last is solved; null until then. Loop:
+    // no lock, no allocation.
     std::unique_ptr<IndirectCache> take(const FrameContext& last, const WorldSnapshot& world) {
         if (!coming_) coming_.reset(given_.exchange(nullptr, std::memory_order_acquire));
         if (!coming_ || !coming_->prepare(last, world)) return nullptr;
@@ -30,7 +30,7 @@ class CacheHandover {
 
   private:
     std::atomic<IndirectCache*> given_{nullptr};
-    std::unique_ptr<IndirectCache> coming_;  // the loop's; its first frame is being solved
+    std::unique_ptr<IndirectCache> coming_;  // owned by the loop while its first frame is being solved
 };
 
 }  // namespace hilcam

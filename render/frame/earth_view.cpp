@@ -39,7 +39,7 @@ void EarthView::place_picture(const Background& background, FrameContext& frame)
     frame.earth_impostor_factor = static_cast<float>(au * au);
 }
 
-// A kept picture is of the map that memory holds, which is finer than its pixels.
+// An impostor uses the map in memory, which is finer than its pixels.
 void EarthView::place_detail(const WorldSnapshot& world, Background& background, const FrameContext& frame) {
     if (!detail_ || frame.earth_impostor) return;
     const auto disks = background.disks();

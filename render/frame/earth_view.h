@@ -1,6 +1,6 @@
 #pragma once
-// The way in which a frame sees the Earth by its model: by a picture of it that is kept from frame to frame, by finer levels of its map that are read as
-// they are needed, or ray by ray.
+// Chooses the way in which a frame draws the Earth's model: from an impostor that is kept between frames,
+// with finer levels of its map that are read on demand, or ray by ray.
 
 #include <memory>
 #include <string>
@@ -14,15 +14,15 @@ namespace hilcam {
 
 class EarthView {
   public:
-    // earth: null: it has no model. keeps_picture: as the quality says. Owner thread.
+    // earth: null if the Earth has no model. keeps_picture: the quality asks for an impostor. Owner thread.
     EarthView(const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um,
               const ImageGeometry& geometry, double top_m, bool keeps_picture);
 
-    // Once per frame, when the background is placed. Loop.
+    // Called once per frame, after the background is placed. Loop.
     void place(const WorldSnapshot& world, Background& background, FrameContext& frame);
     void stop_looking_ahead();
 
-    const DetailStream* detail() const { return detail_.get(); }  // null: the Earth's map is in memory
+    const DetailStream* detail() const { return detail_.get(); }  // null: the whole map is in memory
 
   private:
     std::unique_ptr<EarthImpostorCache> picture_;  // null: none

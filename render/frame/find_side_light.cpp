@@ -26,13 +26,13 @@ Axes axes_about(Vec3d along) {
     return {along, side, cross(along, side)};
 }
 
-// Narrow cones are a spot to any lens; of a wide one the limb may lie just beside the picture.
+// A narrow cone is a spot to any lens; the limb of a wide one may be just outside the picture.
 std::size_t samples_of(double cone_cosine) {
     constexpr double kNarrow = 0.99985, kMiddle = 0.966;  // 1 and 15 degrees
     return cone_cosine > kNarrow ? 24 : cone_cosine > kMiddle ? 96 : 256;
 }
 
-// Dims `light` by what stands between an object-free sky and the camera.
+// Dims `light` by objects between the sky and the camera.
 bool passes_objects(const FrameContext& frame, Vec3d dir, Spectrum& light) {
     if (frame.objects->empty()) return true;
     const Vec3f start = frame.start_of(dir);
@@ -83,7 +83,7 @@ void find_side_light(const FrameContext& frame, const WorldSnapshot& world, std:
         lights.resize(first + count);
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                // Even in the cosine, turned by the golden section: even over the cone.
+                // Uniform in the cosine, turned by the golden section: uniform over the cone.
                 const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
                 const double one_minus = u * (1 - body.cone_cosine);
                 const double s = std::sqrt(one_minus * (2 - one_minus));
@@ -98,7 +98,7 @@ void find_side_light(const FrameContext& frame, const WorldSnapshot& world, std:
                 weight.bin.fill(static_cast<float>(each_sr));
                 Spectrum radiance;
                 sky.add_bodies_seen(dir, weight, radiance);
-                // A body of few pixels is dark to such rays; what they leave is dimmed by the air before it.
+                // A body of few pixels is dark to such rays; the air in front dims the rest.
                 if (body.in_points) radiance += weight * sky.ground_radiance(body, dir);
                 if (!(max_component(radiance) > 0) || !passes_objects(frame, dir, radiance)) continue;
                 light = {to_float(camera_from_world * dir), radiance};

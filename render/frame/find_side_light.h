@@ -1,11 +1,12 @@
 #pragma once
-// Finds the light of the Sun and of bodies that comes from beside the picture: what a lens may scatter into it
-// (sensor/stray/outside_light.h).
+// Finds the light of the Sun and of bodies that reaches the lens from outside the picture and may be
+// scattered into it (sensor/stray/outside_light.h).
 //
-// The Sun's disk is taken as rings of points with its limb darkening, a body's cone as directions that are even
-// over its solid angle, each with the radiance that a ray of the camera finds there. Directions that the padded
-// image shows are left out: their light is in the image, and so is its glare. What stands in the way (bodies,
-// their air, objects) is looked for by a ray each. Not found: light of objects, lamps, stars and points.
+// The Sun's disk is sampled by rings of points with its limb darkening. A body's cone is sampled by
+// directions that are uniform over its solid angle, each with the radiance that a camera ray finds there.
+// Directions inside the padded image are skipped, because their light and glare are in the image already. One
+// ray per direction finds occlusion by bodies, their air, and objects. Not included: light of objects, lamps,
+// stars and points.
 
 #include <vector>
 
@@ -15,8 +16,8 @@
 
 namespace hilcam {
 
-// Finds it for the frame that was placed last. lights: cleared first. Loop; nothing is allocated while there is room for
-// kMaxSideLights; runs on oneTBB, and gives the same on any number of threads.
+// Finds the light for the frame that was placed last. lights: cleared first. Loop; no allocation while there
+// is room for kMaxSideLights. Runs on oneTBB; the result does not depend on the number of threads.
 void find_side_light(const FrameContext& frame, const WorldSnapshot& world, std::vector<SideLight>& lights);
 
 }  // namespace hilcam

@@ -1,6 +1,6 @@
 #pragma once
-// Light that is a number. A radiance without one - a division by nothing in a path model, be it a plug-in's - would darken or
-// flood a whole picture once the optics' halo has spread it.
+// Detects light that is not finite. A NaN or infinity, for example from a division by zero in a path model or
+// plug-in, would darken or flood the whole picture once the optics' halo has spread it.
 
 #include <cstdint>
 #include <span>
@@ -10,13 +10,13 @@
 namespace hilcam {
 
 inline bool is_finite(const Spectrum& light) {
-    // Nothing times a number is nothing; times what is none it is not.
+    // 0 times a finite number is 0; 0 times an infinity or NaN is NaN.
     float sum = 0;
     for (int b = 0; b < kMaxBins; ++b) sum += 0 * light[b];
     return sum == 0;
 }
 
-// Makes pixels dark whose light is no number. Returns how many there were. Loop, any thread.
+// Sets pixels whose light is not finite to zero, and returns their number. Loop, any thread.
 inline std::uint64_t leave_out_not_finite(std::span<Spectrum> pixels) {
     Spectrum probe;
     for (const Spectrum& pixel : pixels) probe += 0 * pixel;

@@ -1,16 +1,16 @@
 #pragma once
-// Maps the pixels of a published frame to the radiance image: the frame is the image's window with black
-// columns and rows beside it, binned and perhaps mirrored.
+// Maps pixels of the published frame to the radiance image. The frame is a window of the image with black
+// columns and rows around it, binned and possibly mirrored.
 //
-// Places in both count from the corner: the centre of pixel (0, 0) is at (0.5, 0.5). Those in the image are
-// what ImageGeometry::project_px() gives, without the guard band.
+// Both coordinates count from the corner: the centre of pixel (0, 0) is at (0.5, 0.5). Those in the image are
+// the ones that ImageGeometry::project_px() returns, without the guard band.
 
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
 
 struct RasterAxis {
-    double scale = 1;      // image px per px of the frame; negative when mirrored
+    double scale = 1;      // image px per frame px; negative if mirrored
     double offset_px = 0;  // the frame's corner in the image
 
     double image_px(double frame_px) const { return offset_px + scale * frame_px; }

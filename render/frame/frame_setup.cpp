@@ -67,8 +67,8 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
                           });
     indirect_settings_ = {static_cast<float>(quality.source_step_rad), lamps_.all().size(), emission};
     if (!scene.light_later) indirect_ = make_indirect_cache();
-    // Rows of different instants sweep over more than a field, and draw a star several times that they are
-    // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
+    // Rows of different instants sweep over more than a field, and draw a star several times if they are slow
+    // over it. Twice the field includes the aberration of a moving camera, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
                                    : stars_.size();
     visibility_.make(geometry, levels,
@@ -91,7 +91,8 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
     frame_.has_emission = emission;
 }
 
-// Triangles of terrain that is all there is, and that the buffer of ground can show; 0: there is none.
+// Returns the number of triangles of terrain that is the only thing in the scene and suits the ground buffer;
+// otherwise 0.
 std::size_t FrameSetup::plain_ground_triangles(const ImageGeometry& geometry) const {
     const bool is_all = terrain_ && objects_.size() == 1 && lamps_.all().empty() &&
                         geometry.distortion.none() && rays_->is_still();
@@ -114,10 +115,10 @@ void FrameSetup::set_paths(const PathModel& paths) {
     frame_.paths_sample_lobes = paths.samples_lobes();
     uses_indirect_cache_ = paths.uses_indirect_cache();
     use_indirect_cache();
-    frame_.ground = nullptr;  // whoever tries a path model wants to see it at work
+    frame_.ground = nullptr;  // a path model that is being tried has to be used
 }
 
-// Nothing is touched that the loop reads of the objects meanwhile.
+// Touches nothing that the loop reads of the objects in the meantime.
 void FrameSetup::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
     for (std::size_t i = 0; i < tables.size(); ++i)
         if (tables[i]) objects_[i].transfer = tables[i];
@@ -141,7 +142,7 @@ void FrameSetup::set_quality(const RenderQuality& quality, const PathModel& path
     set_paths(paths);
 }
 
-// The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
+// Chooses the coarsest level with an error below the quality's share of a pixel where the object is nearest.
 void FrameSetup::choose_levels() {
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const ShownObject& object = objects_[i];
@@ -162,7 +163,7 @@ void FrameSetup::choose_levels() {
     }
 }
 
-// The box is that of the sphere that holds the object.
+// The box of the object's bounding sphere.
 PixelBox FrameSetup::box_of(std::size_t i) const {
     const Vec3d to_object_m = world_.objects[i].position_world_m - world_.camera.position_world_m;
     const double sine = std::min(1.0, radii_m_[i] / plans_[i].distance_m);
@@ -204,7 +205,8 @@ void FrameSetup::place_shapes(const WorldSnapshot& world, RandomKey key) {
     any_placed_ = true;
 }
 
-// Where a body may stand before the object, something is seen through it, or it is seen through air, the camera has to find its light.
+// The camera has to find the light of an object itself if a body may be in front of it, if it is seen through
+// air, or if something is seen through it.
 RayDensity FrameSetup::density_for(std::size_t i) const {
     RayDensity out = density_;
     out.pictures_of_points = visibility_.takes_impostor_of(i);
@@ -214,7 +216,7 @@ RayDensity FrameSetup::density_for(std::size_t i) const {
     return out;
 }
 
-// Rows with poses of their own meet objects anywhere: no mask.
+// Rows with their own poses may meet objects anywhere, so there is no mask.
 void FrameSetup::place_objects() {
     const bool still = rays_->is_still();
     object_mask_.clear();
@@ -243,7 +245,7 @@ void FrameSetup::place_objects() {
     frame_.object_mask = still ? &object_mask_ : &full_mask_;
 }
 
-// Rows see directions up to the camera's sweep away.
+// Rows see directions that differ by up to the camera's sweep.
 void FrameSetup::place_background() {
     const PixelBox everything{0, 0, frame_.geometry.padded_width(), frame_.geometry.padded_height()};
     const bool bounded = rays_->is_still() || rays_->row_motion();

@@ -1,9 +1,10 @@
 #pragma once
 // Places everything for one frame and finds what may be seen: objects at their levels of detail, bodies,
-// terrain, the plan, and the bounds on the screen inside which rays have something to meet. What of the world cannot be is in
-// possible_world.h, which visibility buffer a frame uses in visibility_choice.h, how it sees the Earth in earth_view.h.
+// terrain, the plan, and the part of the picture in which rays can meet something. possible_world.h removes
+// what is impossible, visibility_choice.h picks the visibility buffer, and earth_view.h the way to draw the
+// Earth.
 //
-// Owns the scene; what it has placed is a FrameContext, which those who trace only read.
+// It owns the scene. Its result is a FrameContext, which the tracing threads only read.
 
 #include <array>
 #include <memory>
@@ -37,35 +38,34 @@ namespace hilcam {
 
 class FrameSetup {
   public:
-    // Takes the scene over; builds the acceleration structures. levels: qualities that frames may have, the first until
-    // set_quality(). Throws InputError. Owner thread.
+    // Takes ownership of the scene and builds the acceleration structures. levels: the qualities that frames
+    // may have; the first is used until set_quality(). Throws InputError. Owner thread.
     FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                std::span<const RenderQuality> levels, const RenderModels& models, const Modules& modules);
-    FrameSetup(const FrameSetup&) = delete;  // the view points into it
+    FrameSetup(const FrameSetup&) = delete;  // frame_ points into it
     FrameSetup& operator=(const FrameSetup&) = delete;
 
-    // Takes over those values of the quality that may change, and its path model, from the next place() on.
-    // Loop.
+    // Applies the values of the quality that may change, and its path model, from the next place() on. Loop.
     void set_quality(const RenderQuality& quality, const PathModel& paths);
-    // See Renderer.
+    // See the functions of the same names in Renderer.
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
     bool take_light();
     void stop_looking_ahead() {
         if (indirect_) indirect_->stop_looking_ahead();
         earth_view_.stop_looking_ahead();
     }
-    // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
-    // buffer. Loop.
+    // Prepares the placed frame for tracing: sorts its triangles if the quality has a visibility buffer.
+    // Loop.
     void place_visibility();
-    // Is also for a path model that is only tried (render_bench.h).
+    // Sets the path model alone; also used to try one (render_bench.h).
     void set_paths(const PathModel& paths);
-    // Places the world. An object that cannot be (motion_bounds.h) is left out of the frame; a camera and bodies that cannot stay as they
-    // were. Loop; nothing is allocated after the first call.
+    // Places the world. An impossible object (motion_bounds.h) is left out of the frame; an impossible camera
+    // or body keeps its last state. Loop; no allocation after the first call.
     void place(const WorldSnapshot& world, RandomKey key);
-    // Does so without the light that is cached: for what asks where things are, and no more. Loop.
+    // Does the same without cached light, for callers that only need to know where things are. Loop.
     void place_shapes(const WorldSnapshot& world, RandomKey key);
-    // Makes the terrain's first mesh, for which the first frame would wait. Terrain that waits makes each frame's own: nothing.
-    // Owner thread.
+    // Makes the terrain's first mesh, for which the first frame would wait. Does nothing for terrain that
+    // waits, because that makes a mesh for each frame anyway. Owner thread.
     void make_ground_ahead(const WorldSnapshot& world) {
         if (terrain_ && !terrain_->waits()) place_shapes(world, {});
     }
@@ -77,31 +77,31 @@ class FrameSetup {
     MovingFrame moving() const;
     const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
     bool is_point(std::size_t object) const { return frame_.is_point[object] != 0; }
-    // Returns how much of the world could not be.
+    // Returns how many things have been left out as impossible so far.
     std::uint64_t left_out() const { return possible_.left_out(); }
     // Returns the object as the placed frame shows it.
     VisibilityBuffer::Shown shown(std::size_t object) const;
-    // Returns what pictures of single objects need (object_impostor.h); empty: there are none.
+    // Returns the buffer size for pictures of single objects (object_impostor.h); empty if there are none.
     const std::optional<VisibilityBuffer::Capacity>& impostor_capacity() const {
         return visibility_.impostor_capacity();
     }
     double radius_m(std::size_t object) const { return radii_m_[object]; }
     const ShownObject& object(std::size_t object) const { return objects_[object]; }
-    // The last of the objects is the ground.
+    // True when the last object is the ground.
     bool has_terrain() const { return terrain_ != nullptr; }
-    // Returns the camera's height over the terrain; none without terrain, and beside its map.
+    // Returns the camera's height over the terrain; nothing without terrain and beside its map.
     std::optional<double> height_above_ground_m() const {
         return terrain_ ? terrain_->height_above_ground_m() : std::nullopt;
     }
-    // Returns the pixels that can meet the sphere that holds an object.
+    // Returns the pixels that may show the sphere around an object.
     PixelBox box_of(std::size_t object) const;
-    // Any ray of the camera through the box can meet something.
+    // True when a camera ray through the box may meet something.
     bool can_see_anything(const PixelBox& box) const {
         return frame_.object_mask->any(box) || frame_.may_see_body(box) || box.overlaps(frame_.sun_box);
     }
-    // A body's disk, or terrain on one.
+    // True when the frame shows a body's disk, or terrain on a body.
     bool shows_body() const;
-    // Rays along a pixel: what the smallest thing in the box asks for.
+    // Returns the rays along one axis of a pixel: as many as the smallest thing in the box needs.
     int samples_in(const PixelBox& box) const;
     std::vector<std::string> explain(const RenderQuality& quality) const;
 
@@ -110,24 +110,24 @@ class FrameSetup {
     std::size_t objects() const { return objects_.size(); }
     std::size_t triangles() const { return triangles_; }
     const StarSky& stars() const { return stars_; }
-    std::size_t max_stars() const { return max_stars_; }  // greatest number of stars that a frame can show
+    std::size_t max_stars() const { return max_stars_; }  // largest number of stars in one frame
     const Background& background() const { return background_; }
     const Lamps& lamps() const { return lamps_; }
     const Atmosphere* air() const { return air_.get(); }                       // may be null
     const DetailStream* earth_detail() const { return earth_view_.detail(); }  // may be null
-    EmbreeScene& embree() { return embree_; }                                  // for measuring
+    EmbreeScene& embree() { return embree_; }                                  // for measurements
 
   private:
     std::size_t triangles_ = 0;
     EmbreeScene embree_;
-    std::vector<ShownObject> objects_;  // the last one is the terrain, if there is any
+    std::vector<ShownObject> objects_;  // the terrain, if any, is the last one
     PossibleWorld possible_;
-    WorldSnapshot& world_;                      // that of possible_
-    std::vector<std::size_t> levels_;           // level of detail at which each object is shown
+    WorldSnapshot& world_;                      // belongs to possible_
+    std::vector<std::size_t> levels_;           // level of detail of each object
     std::vector<const ObjectSurfaces*> shown_;  // at that level
     std::vector<double> radii_m_;
     std::vector<ObjectPlan> plans_;
-    std::vector<PixelBox> object_boxes_;  // pixels that can meet an object
+    std::vector<PixelBox> object_boxes_;  // pixels that may show each object
     Lamps lamps_;
     StarSky stars_;
     std::size_t max_stars_;
@@ -137,7 +137,7 @@ class FrameSetup {
     ColorBands bands_;
     Background background_;
     IndirectCache::Settings indirect_settings_;
-    std::unique_ptr<IndirectCache> indirect_;  // null: its tables have not come
+    std::unique_ptr<IndirectCache> indirect_;  // null until its tables have arrived
     CacheHandover handover_;
     bool uses_indirect_cache_ = false, any_placed_ = false;
     ScreenMask object_mask_, full_mask_;

@@ -16,11 +16,11 @@ void fill_zero(RadianceImage& radiance, const PixelBox& box) {
             std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
 }
 
-// Lobes that a part of the frame has room for, by its samples, of which the visibility buffer has one a pixel: where several surfaces
-// meet in each pixel of a tile there are 1.3 of them. What has no room has four rays of its own.
+// Lobes that a tile has room for, per sample; the visibility buffer counts one sample a pixel. Tiles in which
+// several surfaces meet in each pixel need 1.3. A lobe without room has four rays of its own.
 constexpr std::size_t kLobesPerSample = 2;
 
-// Ways to give a value to what is there.
+// The two ways to store a value: set or add.
 constexpr auto kSet = [](float& to, float value) { to = value; };
 constexpr auto kAdd = [](float& to, float value) { to += value; };
 
@@ -28,7 +28,7 @@ constexpr auto kAdd = [](float& to, float value) { to += value; };
 template <class Put, class ValueOf>
 void put_planes(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance,
                 const Put& put, const ValueOf& value_of) {
-    // Some pixels at a time: a tile's, plane by plane, would pass through the nearest cache once a plane.
+    // In groups of pixels: a whole tile, plane by plane, would pass through the nearest cache once per plane.
     constexpr int kTogether = 16;
     const int width = box.x1 - box.x0;
     for (int y = box.y0; y < box.y1; ++y)
@@ -77,7 +77,8 @@ void put_differences(const Tile& tile, float share, SubpixelLight& moments, cons
             }
 }
 
-// Writes a part of a block. False: nothing, as no pixel's differences are known, and it may be left.
+// Writes a part of a block. Returns false, and writes nothing, if no pixel's differences are known and
+// may_leave is set.
 bool write(const Tile& tile, float share, bool may_leave, SubpixelLight& moments) {
     if (may_leave && std::all_of(tile.kinds.begin(), tile.kinds.end(),
                                  [](SubpixelKind kind) { return kind == SubpixelKind::kSmooth; }))
@@ -91,7 +92,7 @@ bool write(const Tile& tile, float share, bool may_leave, SubpixelLight& moments
     return true;
 }
 
-// Returns the shading point of a lobe, as far as adding its light asks for it.
+// Returns the shading point of a lobe with the members that adding its light needs.
 ShadingPoint shading_point_of(const GlossyPoint& point) {
     ShadingPoint at{};
     at.point_m = point.point_m, at.geometric_normal = at.normal = point.normal;
@@ -104,7 +105,7 @@ ShadingPoint shading_point_of(const GlossyPoint& point) {
 
 std::size_t pool_slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
 
-// Pixels and differences whose light is no number are dark. They are counted.
+// Sets pixels and differences whose light is not finite to zero, and counts them.
 void leave_out_not_finite(Tile& tile) {
     const std::uint64_t left_out = leave_out_not_finite(tile.pixels);
     if (left_out == 0) return;
@@ -113,7 +114,7 @@ void leave_out_not_finite(Tile& tile) {
         tile.moments.begin(), tile.moments.end(), [](float light) { return !std::isfinite(light); }, 0.0f);
 }
 
-// A pixel whose light is no number is dark, and so are all of its parts.
+// A pixel whose light is not finite is dark in all of its parts.
 void leave_out_not_finite(std::span<const Spectrum> pixels, const TileParts& parts) {
     for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
         for (std::size_t i = 0; i < kImageParts && !is_finite(pixels[pixel]); ++i)
@@ -128,7 +129,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     int max_tiles = 0;
     bool buffer = false, ground = false;
     for (const RenderQuality& quality : levels) {
-        // The visibility buffer's samples cost no memory of a path model's.
+        // Samples of the visibility buffer need no memory of a path model.
         const bool rays = !quality.uses_buffer();
         const int edge_px = tile_edge_px(rays ? static_cast<int>(quality.samples_per_axis) : 1);
         const std::size_t set = path_set(modules, quality.path_model);
@@ -158,7 +159,7 @@ FrameTracer::Paths FrameTracer::make_paths(const Modules& modules, const std::st
     return paths;
 }
 
-// Levels that differ in something else share a set.
+// Levels with the same path model share a set.
 std::size_t FrameTracer::path_set(const Modules& modules, const std::string& name) {
     for (std::size_t i = 0; i < path_sets_.size(); ++i)
         if (path_sets_[i].name == name) return i;
@@ -182,7 +183,7 @@ double FrameTracer::share_done() const {
 }
 
 TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
-    // Tiles smaller than the image's blocks share a mark: it stays off.
+    // Tiles smaller than the image's blocks would share a mark, so marks stay off.
     const bool marks = levels_[level_].tiles.edge_px() == RadianceImage::kBlock_px;
     if (!marks) radiance.clear_marks();
     find_moments(setup, marks, radiance);
@@ -212,7 +213,7 @@ TileStats FrameTracer::trace(const FrameSetup& setup, RadianceImage& radiance) {
     return sum;
 }
 
-// Adds what the lobes reflect that rays have followed, once all of these have come back.
+// Adds the light of lobes with rays, once all rays are finished.
 void FrameTracer::add_glossy(const FrameContext& frame, RadianceImage& radiance) {
     for_each_tile([&](int index, const PixelBox&, std::size_t slot) {
         const GlossyBuffer::Part& part = glossy_.part(static_cast<std::size_t>(index));
@@ -227,7 +228,7 @@ TileStats FrameTracer::sum_of_stats(int tiles) const {
     return sum;
 }
 
-// Frames that the visibility buffer makes know where in their pixels light falls.
+// Frames from the visibility buffer know where in their pixels light falls.
 void FrameTracer::find_moments(const FrameSetup& setup, bool marks, RadianceImage& radiance) {
     SubpixelLight* const moments = radiance.moments();
     moments_ = moments && marks && quality().uses_buffer() && setup.frame().visibility ? moments : nullptr;
@@ -255,7 +256,7 @@ void FrameTracer::trace_tile(const FrameSetup& setup, int index, std::size_t slo
         if (setup.frame().visibility) seen = &seen_[slot];
     }
     const int edge = tile_edge_px(seen ? 1 : n);
-    // What is traced in several parts, as many rays see it, has room for none of them.
+    // A tile that is traced in several parts, because it has many rays, cannot store lobes.
     GlossyBuffer::Part* const glossy =
         glossy_.parts() > 0 && edge >= box.x1 - box.x0 && edge >= box.y1 - box.y0
             ? &glossy_.begin(static_cast<std::size_t>(index), box, 1 / static_cast<float>(n * n))
@@ -267,7 +268,7 @@ void FrameTracer::trace_tile(const FrameSetup& setup, int index, std::size_t slo
         }
 }
 
-// Null: nothing of the ground is there.
+// Null if none of the ground is there.
 const VisibilityTile* FrameTracer::ground_at(const FrameContext& frame, const PixelBox& box,
                                              std::size_t slot) {
     GroundSeen& seen = ground_seen_[slot];
@@ -277,8 +278,8 @@ const VisibilityTile* FrameTracer::ground_at(const FrameContext& frame, const Pi
     return seen.any ? &seen.tile : nullptr;
 }
 
-// Finds what the frame's buffer of the ground sees, where its places are not the picture's pixels. The first frame makes the room,
-// whatever its level.
+// Traces the frame's ground buffer if its places are not the picture's pixels. The first frame allocates
+// memory, whatever its level.
 TileStats FrameTracer::trace_places(const FrameContext& frame, const RadianceImage& radiance) {
     if (ground_has_steps_ && !(places_ && places_->has_room_for(radiance))) places_.emplace(radiance);
     if (!frame.ground || frame.ground_step_px == 1) return {};
@@ -301,7 +302,7 @@ void FrameTracer::trace_places_of(const FrameContext& frame, const PixelBox& box
     stats.not_finite += leave_out_not_finite(pixels);
     if (known) write(pixels, 1, box, places_->light());
     places_->set_known(box, known);
-    stats.covered_px = 0;  // pixels are counted where they are made of it
+    stats.covered_px = 0;  // pixels are counted when they are interpolated
 }
 
 void FrameTracer::trace_part(const FrameContext& frame, const PixelBox& box, int n, std::size_t slot,
@@ -366,7 +367,7 @@ void FrameTracer::add_glossy_of(const FrameContext& frame, const GlossyBuffer::P
         const int x = box.x0 + static_cast<int>(point.pixel) % width,
                   y = box.y0 + static_cast<int>(point.pixel) / width;
         const GlossyLight light = reused_light(glossy_, point, x, y);
-        // Only who takes pictures apart asks which surface has sent it.
+        // The surface that has sent it matters only if pictures are taken apart.
         if (!parts_) {
             tile.add(point.pixel, LightPart::kGlossyRays, point.moments, light.surfaces);
             tile.add(point.pixel, LightPart::kPlanetshine, point.moments, light.bodies);

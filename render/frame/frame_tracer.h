@@ -1,9 +1,9 @@
 #pragma once
-// Traces a placed frame tile by tile on oneTBB's threads. Every slot of the thread pool has a path model and
-// scratch memory of its own; a tile's result depends neither on the slot nor on the order.
+// Traces a placed frame tile by tile on oneTBB's threads. Each slot of the thread pool has its own path model
+// and scratch memory; a tile's result depends neither on the slot nor on the order of tiles.
 //
-// Has several qualities ready (levels), of which one is in use: path models and memory are made for all of
-// them beforehand.
+// It is ready for several qualities (levels), of which one is in use: path models and memory for all of them
+// are made in advance.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -30,34 +30,33 @@ namespace hilcam {
 
 class FrameTracer {
   public:
-    // One path model for each slot.
+    // One path model for each slot of the thread pool.
     using Paths = std::vector<std::unique_ptr<PathModel>>;
 
-    // levels: at least one; the first is in use. Throws InputError when a path model is not known. Owner
-    // thread.
+    // levels: at least one; the first is in use. Throws InputError if a path model is unknown. Owner thread.
     FrameTracer(const ImageGeometry& geometry, const Modules& modules, std::span<const RenderQuality> levels);
 
-    // Takes effect from the next frame on. Loop.
+    // Takes effect with the next frame. Loop.
     void use_level(std::size_t level);
     const RenderQuality& quality() const { return levels_[level_].quality; }
-    // From the next frame on takes pictures apart, too, and notes what recorded pixels are made of; null: no more.
-    // buffer: has the tracer's slots(). Loop, between two frames: nothing is allocated.
+    // From the next frame on, also stores the parts of the light and the contents of recorded pixels; null
+    // stops that. buffer: must have slots() slots. Loop, between two frames: no allocation.
     void keep_parts(PartsBuffer* buffer, PixelRecord* record);
     // Any thread.
     std::size_t slots() const { return tile_pixels_.size(); }
-    // slot: of the thread pool.
+    // slot: number of the slot in the thread pool.
     PathModel& paths(std::size_t slot) const { return *paths()[slot]; }
     static Paths make_paths(const Modules& modules, const std::string& name);
-    // Replaces the path models of the level in use, for a comparison (render_bench.h).
+    // Swaps the path models of the level in use, for a comparison (render_bench.h).
     void exchange_paths(Paths& paths) { std::swap(path_sets_[levels_[level_].paths].models, paths); }
 
-    // Share of the present frame's tiles that are done. Any thread.
+    // Returns the share of the present frame's tiles that are done. Any thread.
     double share_done() const;
 
-    // Fills the image. Loop.
+    // Renders the frame into the image. Loop.
     TileStats trace(const FrameSetup& setup, RadianceImage& radiance);
 
-    // Runs work(tile index, tile, slot of the thread) over all tiles.
+    // Calls work(tile index, tile, slot of the thread) for all tiles.
     template <class Work>
     void for_each_tile(const Work& work) {
         for_each(levels_[level_].tiles, work);
@@ -66,7 +65,7 @@ class FrameTracer {
   private:
     struct Level {
         RenderQuality quality;
-        std::size_t paths;  // index of its set
+        std::size_t paths;  // index into path_sets_
         TileGrid tiles;
     };
     struct PathSet {
@@ -77,28 +76,28 @@ class FrameTracer {
     std::vector<Level> levels_;
     std::size_t level_ = 0;
     std::vector<PathSet> path_sets_;
-    SubpixelLight* moments_ = nullptr;  // the present frame's; null: it is made without
-    // The pixels of the tile in work, one list per slot.
+    SubpixelLight* moments_ = nullptr;  // the present frame's; null: it has no moments
+    // Pixels of the tile that a slot works on.
     std::vector<std::vector<Spectrum>> tile_pixels_;
-    std::vector<std::vector<SubpixelKind>> tile_kinds_;  // likewise
-    std::vector<std::vector<float>> tile_moments_;       // likewise; none where rays see
-    PartsBuffer* parts_ = nullptr;                       // null: nobody asks for them
-    PixelRecord* record_ = nullptr;                      // likewise
+    std::vector<std::vector<SubpixelKind>> tile_kinds_;  // sub-pixel kinds of the same pixels
+    std::vector<std::vector<float>> tile_moments_;       // sub-pixel moments; empty if rays find visibility
+    PartsBuffer* parts_ = nullptr;                       // null: parts are not stored
+    PixelRecord* record_ = nullptr;                      // null: no pixels are recorded
     std::vector<NormalClusters> clusters_;
-    // A tile of the frame's buffer of the ground, of which several of the picture's are parts.
+    // A tile of the ground's visibility buffer, which covers several tiles of the picture.
     struct GroundSeen {
         VisibilityTile tile;
         int x_px = -1, y_px = -1;
         bool any = false;
     };
-    std::vector<GroundSeen> ground_seen_;     // one per slot; none where rays see
-    bool ground_has_steps_ = false;           // at some level
-    std::optional<GroundUpsampler> places_;   // none before the first frame, and where no level has them
-    std::vector<VisibilityTile> seen_;        // likewise
-    std::vector<PenumbraSampler> penumbrae_;  // likewise
-    std::vector<TileStats> tile_stats_;       // by tile
-    GlossyBuffer glossy_;                     // no parts where no level caches light
-    std::atomic<int> tiles_done_{0}, tiles_all_{0};  // tiles of the present frame
+    std::vector<GroundSeen> ground_seen_;    // one per slot; empty if rays find visibility
+    bool ground_has_steps_ = false;          // true at some level
+    std::optional<GroundUpsampler> places_;  // empty before the first frame, and if no level has ground steps
+    std::vector<VisibilityTile> seen_;       // one per slot
+    std::vector<PenumbraSampler> penumbrae_;         // one per slot
+    std::vector<TileStats> tile_stats_;              // one per tile
+    GlossyBuffer glossy_;                            // no parts if no level caches light
+    std::atomic<int> tiles_done_{0}, tiles_all_{0};  // number of tiles of the present frame
 
     const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
     std::size_t path_set(const Modules& modules, const std::string& name);

@@ -22,7 +22,7 @@ class Follower {
     Follower(const MovingFrame& moving, const Instants& instants)
         : moving_(moving), middle_(instants.middle), before_(instants.before), after_(instants.after) {}
 
-    // False when it cannot be projected at either end.
+    // Returns false if it cannot be projected at one of the ends.
     bool displacement_px(const Seen& seen, Vec2d& out) const {
         Vec2d from, to;
         if (!project(seen, before_, from) || !project(seen, after_, to)) return false;
@@ -98,7 +98,7 @@ class Collection {
     }
     bool nothing() const { return count_ == 0; }
     double largest_px() const { return largest_px_; }
-    // Mean of the thing that has most points.
+    // Returns the mean of the thing with the most points.
     Vec2d of_most() const {
         std::size_t most = 0;
         Vec2d mean{};
@@ -129,7 +129,7 @@ bool in_image(const ImageGeometry& g, Vec2d p) {
            p.y <= g.height_px + g.guard_px;
 }
 
-// The object's middle and four places on its outline.
+// Adds the object's middle and four places on its outline.
 void add_object(const MovingFrame& moving, const WorldSnapshot& world, std::size_t i,
                 const Follower& follower, Collection& all) {
     const Mat3d world_from_camera = to_matrix(world.camera.world_from_body);
@@ -170,7 +170,7 @@ ImageMotion image_motion(const MovingFrame& moving, const Instants& instants) {
             if (seen.thing != Seen::Thing::kSky && follower.displacement_px(seen, displacement_px))
                 all.add(seen, displacement_px);
         }
-    // The largest in view first: it stands for the picture where the grid met nothing.
+    // The largest one in view comes first: it represents the picture if the grid met nothing.
     std::size_t largest = moving.plans.size();
     for (std::size_t i = 0; i < moving.plans.size(); ++i)
         if (largest == moving.plans.size() || moving.plans[i].size_px > moving.plans[largest].size_px)

@@ -1,14 +1,14 @@
 #pragma once
-// Measures how far the picture moves between two instants: points of what the camera sees are carried along
-// by the things they belong to, and projected at both.
+// Measures how far the picture moves between two instants. Points that the camera sees move with the things
+// they belong to, and are projected at both instants.
 //
-// The points: where a grid of 9 x 9 rays through the frame (of a scanning line: 9) meets objects and bodies
-// at the frame's time; the middles and edges of the objects in view, which the grid may miss; and, for the
-// stars, the directions of the frame's middle and corners. Both poses are those of the given worlds, so a
-// turn about the boresight, parallax and things that spin are in it.
+// The points are: the hits of a grid of 9 x 9 rays (9 for a line scanner) on objects and bodies at the
+// frame's time; the middles and edges of objects in view, which the grid may miss; and, for the stars, the
+// directions of the frame's middle and corners. Both poses come from the given worlds, so the motion includes
+// turns about the boresight, parallax and spinning things.
 //
-// A fixed direction d moves in the axes of a camera that turns with omega by d' = -omega x d; on the
-// boresight the picture moves by f (-omega_y, +omega_x) [px/s], right and down.
+// In a camera that turns with omega, a fixed direction d moves by d' = -omega x d; at the boresight the
+// picture moves by f (-omega_y, +omega_x) [px/s], right and down.
 
 #include <optional>
 #include <span>
@@ -21,28 +21,30 @@
 namespace hilcam {
 
 struct ImageMotion {
-    // Displacement of what fills most of the picture, right and down, as a mean over its points [px]; zero
-    // where only sky is seen.
+    // Displacement of what fills most of the picture, right and down: the mean over its points [px]; zero if
+    // only sky is seen.
     Vec2d displacement_px{};
     double largest_px = 0;  // largest displacement of any point; 0: nothing moves
 };
 
-// A frame that is placed, and what has to be known of its things.
+// A placed frame and the data about its things.
 struct MovingFrame {
     const FrameContext& frame;
-    std::span<const ObjectPlan> plans;  // per object, as radii_m
+    std::span<const ObjectPlan> plans;  // per object, like radii_m
     std::span<const double> radii_m;
-    std::optional<BodyId> terrain_body;  // body with which the last object, a terrain, turns
+    std::optional<BodyId> terrain_body;  // body that the terrain, the last object, rotates with
     bool has_terrain = false;
     bool has_stars = false;
 };
-// The world that the frame was placed in, terrain among its objects, and those at the ends; without.
+// The world that the frame was placed in, with terrain among its objects; and the worlds at both ends,
+// without it.
 struct Instants {
     const WorldSnapshot &middle, &before, &after;
 };
 // Loop.
 ImageMotion image_motion(const MovingFrame& moving, const Instants& instants);
-// The drifts of points: how far their objects' middles go against the stars behind them, times per_s. Loop.
+// Sets the drift of each point: how far its object's middle moves against the stars behind it, times per_s.
+// Loop.
 void set_drifts(const MovingFrame& moving, const Instants& instants, double per_s,
                 std::span<PointSource> points);
 

@@ -11,7 +11,7 @@ namespace {
 ImageGeometry picture_of(int picture_px, int sphere_px, double radius_m, double distance_m) {
     ImageGeometry geometry;
     geometry.width_px = geometry.height_px = picture_px;
-    // The sphere's silhouette has the tangent of its half angle as radius; 2 % of margin.
+    // The sphere's silhouette has a radius of the tangent of its half angle; 2 % of margin.
     const double sine = std::min(0.999, radius_m / distance_m);
     geometry.focal_length_px = 0.5 * sphere_px / (1.02 * sine / std::sqrt(1 - sine * sine));
     return geometry;
@@ -40,14 +40,14 @@ void ImpostorCamera::begin(const FrameContext& frame) {
     view_.rays_world_m = frame.rays_world_m;
     view_.camera_m = frame.camera_m;
     std::copy(frame.world_from_body.begin(), frame.world_from_body.end(), view_.world_from_body.begin());
-    // The others are in the way only if they are before it, which the points themselves are asked.
+    // Other objects matter only if they are in front, which is tested for the points themselves.
     std::fill(view_.is_point.begin(), view_.is_point.end(), std::uint8_t{1});
 }
 
 void ImpostorCamera::aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m,
                          int picture_px, int sphere_px) {
     const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-    // Turned against the camera's rows, so that an edge along them does not fall on a row of rays.
+    // Rotated against the camera's rows, so that an edge along them does not coincide with a row of rays.
     const Vec3d up = std::abs(to_object_m.z) < 0.9 * distance_m ? Vec3d{0.31, 0.17, 1} : Vec3d{1, 0.31, 0.17};
     camera_ = world.camera;
     camera_.world_from_body = look_along(to_object_m, up);
@@ -60,7 +60,7 @@ void ImpostorCamera::aim(const WorldSnapshot& world, std::size_t i, double dista
     mark(world.objects[i], (*view_.objects)[i]->cluster_bounds_m);
 }
 
-// Unless there are so many boxes that rays cost less.
+// Does nothing if there are so many boxes that rays cost less.
 void ImpostorCamera::mark(const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m) {
     mask_.place(view_.geometry);
     const auto side = static_cast<std::size_t>(view_.geometry.width_px);

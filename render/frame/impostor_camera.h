@@ -1,7 +1,8 @@
 #pragma once
-// The camera that looks at one object alone, so that the sphere which holds it fills a picture; and the points that such a picture is
-// drawn as: its light is added up in cells of a fraction of a pixel of the frame, each a point at the middle of its light. So the flux
-// is that of the object at its phase and attitude, however small it is, and its centroid does not jump from pixel to pixel.
+// A camera for the picture of one object, which the object's bounding sphere fills, and the points that such
+// a picture becomes. Its light is summed in cells of a fraction of a frame pixel, and each cell is a point at
+// the centroid of its light. So the flux is right for the object's phase and attitude however small it is,
+// and its centroid does not jump from pixel to pixel.
 
 #include <memory>
 #include <span>
@@ -11,21 +12,22 @@
 
 namespace hilcam {
 
-// Light of a cell.
+// The light of a cell.
 struct Glimpse {
-    Vec3d world_dir;              // unit, of its middle
+    Vec3d world_dir;              // unit, to the centroid
     Spectrum irradiance_w_m2_um;  // at the camera, per bin
 };
 
 class ImpostorCamera {
   public:
-    // picture_px: sides of its largest picture. The frame's view must have its pointers and sizes by now. Owner thread.
+    // picture_px: side of the largest picture. The frame context must have its pointers and sizes already.
+    // Owner thread.
     ImpostorCamera(const FrameContext& frame, int picture_px);
 
-    // Takes over what a frame has placed. Loop, as all that follows.
+    // Copies the state of a placed frame. Loop, like all functions below.
     void begin(const FrameContext& frame);
-    // Looks at object `i`, of a sphere of radius_m, in the middle of a picture of picture_px, of which the sphere fills sphere_px. Only
-    // where the boxes of the object's triangles are anything is marked as seen.
+    // Aims at object `i` with a bounding sphere of radius_m, in the middle of a picture of picture_px of
+    // which the sphere fills sphere_px. Marks only the pixels that the boxes of the object's triangles cover.
     void aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m, int picture_px,
              int sphere_px);
     void look_away(std::size_t i) { view_.is_point[i] = 1; }
@@ -34,13 +36,13 @@ class ImpostorCamera {
     const FrameContext& view() const { return view_; }
     const Pose& camera() const { return camera_; }
 
-    // Adds up a picture, row by row, in cells x cells parts of the middle where the sphere is; room for as many glimpses. Returns how many
-    // have any light.
+    // Sums a picture, stored row by row, in cells x cells parts of the middle where the sphere is. `glimpses`
+    // must have room for cells x cells entries. Returns the number of cells that have light.
     std::size_t find_glimpses(std::span<const Spectrum> picture, int sphere_px, int cells,
                               Glimpse* glimpses) const;
-    // Returns the number of cells across an object: half a pixel of the frame each.
+    // Returns the number of cells across an object; each is half a pixel of the frame.
     static int cells_across(const ObjectPlan& plan);
-    // Returns the distance at which what is in its way is before the object [m].
+    // Returns how far in front of the object something has to be to cover it [m].
     static double before_m(const ObjectPlan& plan, double radius_m);
 
   private:

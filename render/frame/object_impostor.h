@@ -1,8 +1,8 @@
 #pragma once
-// The picture of an object that is small in the frame, by a visibility buffer of its own on all threads: 64 samples in each of up
-// to 128 x 128 pixels, where the frame's own pixels would have a few hundred on all of it. Glints and what mirrors show are much smaller
-// than a pixel there, and few samples meet them by chance or not at all
-// (docs/decisions.md#small-and-many-objects).
+// The picture of an object that is small in the frame, by a visibility buffer of its own on all threads: up
+// to 128 x 128 pixels with 64 samples each, where the frame's own pixels would have a few hundred samples on
+// the whole object. Glints and mirrored things are much smaller than a frame pixel, and so few samples meet
+// them only by chance (docs/rendering.md, "Small objects and points").
 //
 // Not modelled: what is seen through the object's glass.
 
@@ -21,18 +21,18 @@ class FrameTracer;
 
 class ObjectImpostor {
   public:
-    // room: for one object. The frame's view must have its pointers and sizes by now. Owner thread.
+    // capacity: for one object. The frame context must have its pointers and sizes already. Owner thread.
     ObjectImpostor(const FrameContext& frame, const VisibilityBuffer::Capacity& capacity);
 
-    // Takes over what a frame has placed. Loop, as all that follows.
+    // Copies the state of a placed frame. Loop, like all functions below.
     void begin(const FrameContext& frame) { camera_.begin(frame); }
-    // Finds the light of object `i` cell by cell. glimpses: room for ImpostorCamera::cells_across()^2. False: the buffer has no
-    // room for it.
+    // Finds the light of object `i`, cell by cell. glimpses: room for ImpostorCamera::cells_across()^2.
+    // Returns false if the buffer has no room for the object.
     bool look(const FrameSetup& setup, std::size_t i, const FrameTracer& tracer, Glimpse* glimpses,
               std::size_t& count, TileStats& stats);
 
   private:
-    // A thread has one.
+    // The memory of one thread.
     struct Slot {
         std::vector<Spectrum> tile = std::vector<Spectrum>(PathModel::kMaxSamples);
         VisibilityTile seen;

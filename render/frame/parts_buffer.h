@@ -1,6 +1,6 @@
 #pragma once
-// The memory into which frames are taken apart: an image of each part of their light (light_part.h), and the sums of the tiles in work.
-// Who asks for parts makes it, so that frames that are taken apart allocate no more than others.
+// Memory for the parts of frames: an image of each part of the light (light_part.h), and sums for the tiles
+// in work. The caller that asks for parts makes it, so taking frames apart allocates nothing.
 
 #include <cstddef>
 #include <optional>
@@ -12,12 +12,13 @@
 namespace hilcam {
 
 struct PartsBuffer {
-    // like: an image like those that frames fill. slots: of the thread pool. only: the one part that is wanted; none: all are.
+    // like: an image like those that frames fill. slots: of the thread pool. only: the one part that is
+    // wanted; none: all.
     PartsBuffer(const RadianceImage& like, std::size_t slots, std::optional<LightPart> only = std::nullopt)
         : parts(like, only), tile_sums(slots, std::vector<Spectrum>(PathModel::kMaxSamples * kImageParts)) {}
 
     LightParts parts;
-    std::vector<std::vector<Spectrum>> tile_sums;  // by part, then by pixel of the tile; a list per slot
+    std::vector<std::vector<Spectrum>> tile_sums;  // by part, then by pixel of the tile; one list per slot
 };
 
 }  // namespace hilcam

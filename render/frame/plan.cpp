@@ -13,7 +13,8 @@
 namespace hilcam {
 
 RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> radius_m, bool rays_still) {
-    // Single precision leaves 6e-8 of the distance; beyond this many radii that begins to be seen in a pixel.
+    // Single precision resolves 6e-8 of the distance; beyond this many radii the error starts to show in a
+    // pixel.
     constexpr double kFar = 20;
     const RaySpace at_camera{world.camera.position_world_m, 0};
     if (radius_m.empty() || !rays_still) return at_camera;
@@ -29,9 +30,8 @@ RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> ra
 
 namespace {
 
-// A grid of n x n places knows the area of what has an outline to about n^-1.5 of it, and the light of an object
-// of s pixels, which goes with s^2, has noise of its own that goes with s: n that goes with s^(2/3) keeps the
-// error's share of that noise.
+// A grid of n x n places gives the area inside an outline to about n^-1.5. The light of an object of s pixels
+// grows with s^2 and its noise with s, so n ~ s^(2/3) keeps the error at a constant share of the noise.
 double share_of_samples(double size_px) {
     return std::cbrt(std::min(1.0, size_px / kPoints_px * (size_px / kPoints_px)));
 }
@@ -39,8 +39,8 @@ int point_samples_of(double size_px, const RayDensity& density) {
     return std::max(density.min_point_samples,
                     static_cast<int>(std::ceil(share_of_samples(size_px) * density.point_samples)));
 }
-// An even number, so that the picture has a middle; no smaller than that of an object of one pixel, which takes little beside its
-// triangles.
+// An even number, so that the picture has a middle. Not smaller than for an object of one pixel, which costs
+// little more than its triangles.
 int picture_px_of(double size_px) {
     constexpr int kMin_px = kPicture_px / 4;
     return std::max(kMin_px, 2 * static_cast<int>(std::ceil(share_of_samples(size_px) * kPicture_px / 2)));

@@ -14,8 +14,9 @@
 namespace hilcam {
 namespace {
 
-// True when the file has all the bytes that its ELF headers tell of. The loader maps them without looking: a file that was
-// cut would end the program with SIGBUS. What is no ELF file of this machine's kind is left to the loader to name.
+// True if the file has all the bytes that its ELF headers list. The loader maps them without checking, and a
+// truncated file would end the program with SIGBUS. The loader itself reports files that are not ELF files
+// for this machine.
 bool is_whole(const std::filesystem::path& file, std::uintmax_t bytes) {
     std::ifstream in(file, std::ios::binary);
     Elf64_Ehdr header{};
@@ -40,12 +41,12 @@ bool is_whole(const std::filesystem::path& file, std::uintmax_t bytes) {
     throw InputError("plug-in " + file.string() + ": " + why);
 }
 
-// Never closed: models made by it may live as long as the program.
+// Never closed: its models may live as long as the program.
 void* open_library(const std::filesystem::path& file) {
     std::error_code error;
     // dlopen() would wait for a pipe.
     if (!std::filesystem::is_regular_file(file, error)) refuse(file, "there is no such file");
-    // Of a bare name dlopen() searches the system's folders, which may hold another file of that name.
+    // For a bare name dlopen() searches the system's folders, which may have another file of that name.
     const std::filesystem::path here = std::filesystem::absolute(file, error);
     const std::uintmax_t bytes = error ? 0 : std::filesystem::file_size(here, error);
     if (error) refuse(file, "cannot be read: " + error.message());
@@ -58,13 +59,14 @@ void* open_library(const std::filesystem::path& file) {
     return library;
 }
 
-// An interface as this program has it.
+// The interface that this program has.
 struct Interface {
     std::string name;
     std::uint32_t version, sizes;
 };
 
-// Refuses what was built for another interface, or otherwise than this program. info: that of either kind of plug-in.
+// Rejects what was built for another interface, or differently from this program. info: of either kind of
+// plug-in.
 template <class Info>
 void require_fit(const std::filesystem::path& file, const Info& info, const Interface& here) {
     if (info.interface_version != here.version)

@@ -5,10 +5,11 @@
 //     static void add(hilcam::Modules& modules) { modules.paths.add("mine", ...); }
 //     HILCAM_PLUGIN(add)
 //
-// A path model needs less of the renderer, and is rebuilt less often: render/paths/path_plugin.h.
+// A path model alone needs less of the renderer and has to be rebuilt less often: render/paths/path_plugin.h.
 //
-// What it passes are C++ objects, so it has to match the program exactly: interface version, compiler and the
-// sizes of what is shared are checked before any of its code runs but the one function that gives them.
+// Plug-ins exchange C++ objects, so they have to match the program exactly. Interface version, compiler, and
+// the sizes of shared types are checked before any code of the plug-in runs, except the one function that
+// returns them.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +24,7 @@ inline constexpr std::uint32_t kPluginInterface = 32;
 
 struct PluginInfo {
     std::uint32_t interface_version;
-    std::uint32_t shared_sizes;  // sizes of the types on which both sides must agree
+    std::uint32_t shared_sizes;  // hash of the sizes of shared types
     const char* compiler;
     void (*add)(Modules& modules);
 };
@@ -31,8 +32,8 @@ inline constexpr std::uint32_t kPluginSizes =
     static_cast<std::uint32_t>(sizeof(ShadingPoint) * 31 + sizeof(FrameContext) * 37 + sizeof(Material) * 41 +
                                sizeof(Tile) * 43 + sizeof(Modules) * 47);
 
-// Loads the libraries and adds their models; they stay loaded. Throws InputError with file and reason when
-// one is missing, no plug-in, or does not fit.
+// Loads the libraries, which stay loaded, and adds their models. Throws InputError with file and reason if
+// one is missing, is not a plug-in, or does not match.
 void load_plugins(std::span<const std::filesystem::path> files, Modules& modules);
 
 }  // namespace hilcam

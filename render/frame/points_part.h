@@ -1,5 +1,6 @@
 #pragma once
-// Points of light as a part of the picture (light_part.h): what pixels would have of them if a lens were sharp.
+// Points of light as a part of the picture (light_part.h): the light that pixels would have with an ideally
+// sharp lens.
 
 #include <span>
 
@@ -10,8 +11,8 @@
 
 namespace hilcam {
 
-// Adds to the part of points, for the pixel in which each lies, the radiance over all of it that brings the point's irradiance; and to a
-// record, where it has the pixel. record: may be null.
+// Adds each point to the part of points: the pixel that holds it gets the radiance that, over its whole area,
+// has the point's irradiance. Also adds it to the record if that has the pixel. record: may be null.
 void add_points_part(const ImageGeometry& geometry, std::span<const PointSource> points, LightParts& parts,
                      PixelRecord* record);
 

@@ -1,6 +1,7 @@
 #pragma once
-// The last guard before the acceleration structure, which ends the program at a place that is no number: what of a world cannot be
-// (motion_bounds.h) is left out of the frame. The emulator lets none through (WorldState); frames are asked for by others, too.
+// The last check before the acceleration structure, which ends the program at a position that is not finite.
+// It leaves impossible things of a world (motion_bounds.h) out of the frame. The emulator's WorldState lets
+// none through, but others may ask for frames, too.
 
 #include <cstdint>
 #include <vector>
@@ -11,19 +12,20 @@ namespace hilcam {
 
 class PossibleWorld {
   public:
-    // objects: most that a world has. Owner thread.
+    // objects: the largest number in a world. Owner thread.
     explicit PossibleWorld(std::size_t objects);
 
-    // Takes a world: an object that cannot be is left out; a camera and bodies that cannot stay as they were. Loop; nothing is allocated
-    // after the first call.
+    // Takes a world. An impossible object is left out; an impossible camera or body keeps its last state.
+    // Loop; no allocation after the first call.
     void take(const WorldSnapshot& world);
 
     const WorldSnapshot& world() const { return world_; }
     WorldSnapshot& world() { return world_; }
     bool is_left_out(std::size_t object) const { return is_left_out_[object] != 0; }
-    // Returns how much of the world could not be.
+    // Returns how many things have been left out as impossible so far.
     std::uint64_t left_out() const { return left_out_; }
-    // Puts what is left out nowhere, where no ray meets it, and back to far behind the camera, for all that reckons with places.
+    // Moves objects that are left out to nowhere, so that no ray meets them; and back to far behind the
+    // camera, for code that computes with positions.
     void hide_from_rays();
     void put_away();
 

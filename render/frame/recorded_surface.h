@@ -1,5 +1,6 @@
 #pragma once
-// The surface that an entry of a pixel's record names (render/shading/pixel_record.h), as the frame that was placed last shows it.
+// Describes the surface of an entry in a pixel's record (render/shading/pixel_record.h), as the last placed
+// frame shows it.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +13,11 @@ namespace hilcam {
 class FrameSetup;
 
 struct RecordedSurface {
-    std::size_t level = 0;      // level of detail, from 0, the mesh itself
-    double level_error_m = 0;   // by which the level may be off
+    std::size_t level = 0;      // level of detail; 0 is the full mesh
+    double level_error_m = 0;   // largest error of the level
     std::size_t triangles = 0;  // number of the level's triangles
-    // The probe whose light is looked up, the nearest of those about the point; none where no light is cached there.
+    // The nearest probe about the point, from which cached light is looked up; none if no light is cached
+    // there.
     std::optional<std::uint32_t> probe;
     double probes_apart_m = 0;
     double distance_m = 0;  // from the camera

@@ -11,7 +11,7 @@ namespace {
 PathModelSpeed speed_of(const std::string& name, FrameSetup& setup, FrameTracer& tracer,
                         RadianceImage& radiance, int runs) {
     std::vector<double> frame_ms;
-    // The first round is for the caches, the last one is recorded.
+    // The first round warms the caches, the last one is recorded.
     for (int run = 0; run < runs + 2; ++run) {
         if (run == runs + 1) setup.embree().start_recording();
         const Stopwatch watch;

@@ -1,6 +1,6 @@
 #pragma once
-// Measurements of the renderer for `hilcam bench`: bare Embree on a frame's own rays, and path models against
-// it. Not for the loop.
+// Measurements for `hilcam bench`: Embree alone on a frame's own rays, and path models compared with it. Not
+// for the loop.
 
 #include <cstdint>
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace hilcam {
 
-// The speed of a path model against Embree alone on the same rays.
+// The speed of a path model, and of Embree alone on the same rays.
 struct PathModelSpeed {
     std::string name;
-    std::uint64_t rays = 0;  // number of rays of all kinds in one frame
+    std::uint64_t rays = 0;  // rays of all kinds in one frame
     double frame_ms = 0;
     double bare_ms = 0;  // Embree alone
 };
 
-// Time that bare Embree needs for the primary and shadow rays that the placed frame traces, the same packets
-// on the same threads with nothing around them [ms]: the floor that no renderer built on it can go below.
+// Returns the time [ms] that Embree alone needs for the primary and shadow rays of the placed frame, by the
+// same packets on the same threads. No renderer built on Embree can be faster.
 double bare_rays_ms(FrameSetup& setup, FrameTracer& tracer);
 
-// The placed frame with every path model of the registry, medians of `runs`.
+// Renders the placed frame with every path model of the registry; times are medians of `runs`.
 std::vector<PathModelSpeed> path_model_speeds(FrameSetup& setup, FrameTracer& tracer, const Modules& modules,
                                               int runs);
 

@@ -34,11 +34,11 @@ std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<co
 struct Renderer::Implementation {
     FrameSetup setup;
     FrameTracer tracer;
-    PartsBuffer* parts = nullptr;              // for the parts of the light; null: nobody asks
-    PixelRecord* record = nullptr;             // likewise
+    PartsBuffer* parts = nullptr;              // for the parts of the light; null: not kept
+    PixelRecord* record = nullptr;             // for recorded pixels; null: none
     UnresolvedObjects unresolved_objects;      // for objects of a few pixels
-    std::atomic<std::uint64_t> not_finite{0};  // pixels and points of all frames whose light was no number
-    std::atomic<std::uint64_t> left_out{0};    // places and attitudes that could not be
+    std::atomic<std::uint64_t> not_finite{0};  // pixels and points of all frames whose light was not finite
+    std::atomic<std::uint64_t> left_out{0};    // impossible positions and attitudes
 
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const std::vector<RenderQuality>& levels, const RenderModels& models,
@@ -54,7 +54,7 @@ struct Renderer::Implementation {
         setup.set_quality(tracer.quality(), tracer.paths(0));
     }
 
-    // Stars, bodies, lamps and objects that are drawn as points. Gives what it took to trace.
+    // Adds stars, bodies, lamps and objects that are drawn as points. Returns the costs of tracing.
     TileStats add_points(std::vector<PointSource>& points) {
         const PointField field(setup.frame(), setup.world());
         field.add_stars(setup.stars(), points);
@@ -66,7 +66,8 @@ struct Renderer::Implementation {
         return stats;
     }
 
-    // Says how many stars the placed frame has and what finding them takes, the shortest of three times; empty without a catalogue.
+    // Says how many stars the placed frame has and how long finding them takes (shortest of three runs);
+    // empty without a catalogue.
     std::string stars_line() const {
         if (setup.stars().empty()) return {};
         std::vector<PointSource> points;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kTile_px = 32, kTimes = 3;
 
-// The tiles of a frame, of which a stride is taken, and what one takes to fill.
+// The tiles of a frame, sampled with a stride, and the time to fill one.
 class TileCost {
   public:
     TileCost(const FrameContext& frame, int max_tiles)
@@ -54,8 +54,8 @@ class TileCost {
 struct Variant {
     std::string text;
     std::size_t bytes;
-    std::unique_ptr<const std::array<SceneBody, kMaxBodies>> bodies;  // null: as they are
-    std::unique_ptr<const EarthModel> earth;                          // null: as it is
+    std::unique_ptr<const std::array<SceneBody, kMaxBodies>> bodies;  // null: unchanged
+    std::unique_ptr<const EarthModel> earth;                          // null: unchanged
 };
 
 std::vector<Variant> variants_of(const Background& background, const PlacedBody& body) {
@@ -104,7 +104,7 @@ std::vector<SkyPart> sky_parts(const FrameContext& frame) {
         const std::vector<Variant> variants = variants_of(*frame.background, body);
         const EarthModel* const earth = body.id == BodyId::kEarth ? frame.background->earth() : nullptr;
         if (variants.empty() && !earth) continue;
-        // A picture that is kept has all parts in it.
+        // An impostor contains all parts.
         const bool told =
             frame.rays->linear() && !frame.body_boxes[i].empty() && !(frame.earth_impostor && i == 0);
         std::vector<double> saved_ms(variants.size());
@@ -134,7 +134,7 @@ std::vector<SkyPart> sky_parts(const FrameContext& frame) {
                     saved_ms[k] += tiles.stride() * (min_ms[0] - min_ms[k + 1]);
             });
         }
-        // Times of tiles scatter by some per cent.
+        // Times of tiles vary by some per cent.
         const double resolved_ms = 0.02 * whole_ms;
         const std::string name = frame.background->name_of(body.id);
         const auto saved = [&](double ms) { return told ? std::optional(ms) : std::nullopt; };

@@ -13,7 +13,8 @@
 namespace hilcam {
 namespace {
 
-// The most rays per thing beside the frame; for a larger thing one ray stands for a square of several pixels.
+// The largest number of rays per thing beside the frame; for a larger thing one ray represents a square of
+// several pixels.
 constexpr double kMaxRaysBeside = 65536;
 // Across the bounds of a small thing.
 constexpr int kFine = 64;
@@ -32,7 +33,7 @@ class Packets {
         frame_px_[count_] = frame_px, area_px_[count_] = area_px;
         if (++count_ == frame_px_.size()) flush();
     }
-    // After the last one.
+    // Call it after the last one.
     void flush() {
         if (count_ > 0)
             trace_(std::span<const Vec2d>(frame_px_.data(), count_),
@@ -67,12 +68,12 @@ void TruthOutlines::Outline::add(const Outline& other) {
     y0 = std::min(y0, other.y0), y1 = std::max(y1, other.y1);
 }
 
-// Bounds the sphere that holds the thing, in px of the frame, up to a frame's size beside it.
+// Returns the bounds of the thing's sphere, in px of the frame, up to a frame's size beside it.
 PixelBox TruthOutlines::canvas_bounds(const SeenThing& thing) const {
     const FrameRaster& raster = truth_.raster;
     const int width = raster.width_px, height = raster.height_px;
     const PixelBox canvas{-width, -height, 2 * width, 2 * height};
-    // Rows of several instants meet it anywhere.
+    // Rows of several instants may meet it anywhere.
     if (!frame_.rays->is_still() || thing.distance_m <= thing.radius_m) return canvas;
     // The picture with a guard band that holds the canvas.
     ImageGeometry wide = frame_.geometry;
@@ -110,8 +111,8 @@ std::uint32_t TruthOutlines::meets_alone(const SeenThing& thing, std::span<const
     return met;
 }
 
-// Sums up what the thing covers of the places that fill(row, packets) gives, over all rows from one to
-// another. marks: a byte for each pixel of the frame, which is set where it is covered.
+// Sums what the thing covers at the places that fill(row, packets) gives, for a range of rows. marks: one
+// byte for each pixel of the frame, set if it is covered.
 template <class Fill>
 TruthOutlines::Outline TruthOutlines::covered(const SeenThing& thing, int first_row, int last_row,
                                               const Fill& fill, std::vector<std::uint8_t>* marks) const {
@@ -140,7 +141,7 @@ TruthOutlines::Outline TruthOutlines::covered(const SeenThing& thing, int first_
                                 });
 }
 
-// Finds the part within the frame that lies behind other things and under black pixels.
+// Returns the part inside the frame that is behind other things or under black pixels.
 TruthOutlines::Outline TruthOutlines::hidden_part(const SeenThing& thing, const PixelBox& bounds,
                                                   std::vector<std::uint8_t>* marks) const {
     const PixelBox box{std::max(bounds.x0, 0), std::max(bounds.y0, 0),
@@ -160,7 +161,7 @@ TruthOutlines::Outline TruthOutlines::hidden_part(const SeenThing& thing, const 
     return covered(thing, box.y0, box.y1, fill, marks);
 }
 
-// Finds the part in a box beside the frame; rays go through the middles of squares of `step` pixels.
+// Returns the part in a box beside the frame; rays go through the middles of squares of `step` pixels.
 TruthOutlines::Outline TruthOutlines::part_beside(const SeenThing& thing, const PixelBox& box,
                                                   int step) const {
     if (box.empty()) return {};
@@ -175,7 +176,7 @@ TruthOutlines::Outline TruthOutlines::part_beside(const SeenThing& thing, const 
     return covered(thing, 0, rows, fill, nullptr);
 }
 
-// Finds the part in all of the bounds beside the frame; step: gets the side of the squares.
+// Returns the part in all bounds beside the frame; step: gets the side of the squares.
 TruthOutlines::Outline TruthOutlines::parts_beside(const SeenThing& thing, const PixelBox& bounds,
                                                    int& step) const {
     const int width = truth_.raster.width_px, height = truth_.raster.height_px;
@@ -192,7 +193,7 @@ TruthOutlines::Outline TruthOutlines::parts_beside(const SeenThing& thing, const
     return all;
 }
 
-// A body that is a point has none, and ground neither: there is as much of it as the camera needs.
+// A body drawn as points has none, and neither has ground, which extends only as far as the camera needs.
 bool TruthOutlines::has_outline(const SeenThing& thing) const {
     const auto disks = frame_.background->disks();
     if (thing.is_body)

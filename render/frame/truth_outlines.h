@@ -1,9 +1,10 @@
 #pragma once
-// The silhouette of a thing: all that it would cover if it were alone, within the frame and up to a frame's size beside it.
+// Finds the silhouette of a thing: what it would cover if it were alone, in the frame and up to a frame's
+// size beside it.
 //
-// In the frame nearly all of it is known from the pixels' own rays: where they see the thing it is there, and
-// where they see the sky it is not, as nothing stands before it. Rays of its own go only where something else
-// is seen, and beside the frame.
+// In the frame the pixels' own rays answer most of it: the silhouette includes pixels that see the thing and
+// excludes those that see the sky, where nothing is in front. Extra rays are needed only for pixels that see
+// something else, and beside the frame.
 
 #include <cstdint>
 #include <span>
@@ -17,18 +18,18 @@ namespace hilcam {
 
 class TruthOutlines {
   public:
-    // truth: whose pixels are traced and counted; all outlives this.
+    // truth: its pixels are traced and counted already. All arguments must outlive this.
     TruthOutlines(const FrameSetup& setup, const TruthRays& rays, FrameTruth& truth)
         : setup_(setup), frame_(setup.frame()), world_(setup.world()), rays_(rays), truth_(truth) {}
 
-    // Fills the silhouettes of the truth. This comes before measure(), which has other boxes of small things than their pixels'. Runs on
-    // oneTBB, as the next.
+    // Fills the silhouettes of the truth. Call it before measure(), which replaces the boxes of small things.
+    // Runs on oneTBB, like measure().
     void find_silhouettes();
-    // Sets what of a thing is visible of all that it covers.
+    // Sets how much of a thing's silhouette is visible.
     void measure(SeenThing& thing) const;
 
   private:
-    // Area and bounds of what a thing alone covers.
+    // Area and bounds of what a thing covers if it is alone.
     struct Outline {
         double area_px = 0;
         int x0 = 1 << 30, y0 = 1 << 30, x1 = -(1 << 30), y1 = -(1 << 30);

@@ -89,7 +89,7 @@ void TruthProbe::report() {
 
 // --- poses and places
 
-// Finds where the picture shows what lies there.
+// Finds where the picture shows a place.
 bool TruthProbe::project(Vec3d from_camera_m, Vec2d& frame_px) const {
     const double distance_m = length(from_camera_m);
     Sighting seen;
@@ -103,7 +103,7 @@ SeenThing TruthProbe::described(std::uint32_t id, const Pose& world) const {
     return described(id, world, world.position_world_m - world_.camera.position_world_m);
 }
 
-// from_camera_m: as it is seen there.
+// from_camera_m: its apparent position.
 SeenThing TruthProbe::described(std::uint32_t id, const Pose& world, Vec3d from_camera_m) const {
     SeenThing thing;
     thing.id = id;
@@ -172,7 +172,7 @@ void TruthProbe::report_stars() {
     truth_.stars_left_out = 0;
     const PointField field(frame_, world_);
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    // In the catalogue's order: where there is no room for all, the fainter ones are left out.
+    // In the catalogue's order; if there is no room for all, the fainter ones are left out.
     truth_.star_field.clear();
     field.each_star(setup_.stars(), [&](const Star& star, Vec3d dir) {
         if (static_cast<double>(star.magnitude_v) <= truth_.request.faintest_magnitude)

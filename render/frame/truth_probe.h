@@ -1,5 +1,5 @@
 #pragma once
-// Tells what the frame that was placed last shows (frame_truth.h).
+// Finds what the last placed frame shows (frame_truth.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -12,16 +12,17 @@
 
 namespace hilcam {
 
-// The greatest number of stars that a frame's truth holds.
+// The largest number of stars in a frame's truth.
 inline constexpr std::size_t kMaxTruthStars = 16384;
 
-// A record with room for all that TruthProbe tells of the set-up's frames, up to a size. Owner thread.
+// Makes a record with room for everything that TruthProbe reports of this set-up's frames, up to a size.
+// Owner thread.
 FrameTruth make_truth(const FrameSetup& setup, const TruthRequest& request, int width_px, int height_px);
 
 class TruthProbe {
   public:
-    // Fills `truth`, which make_truth() made for this set-up; its raster is set. Loop: nothing is allocated.
-    // Runs on oneTBB; the result does not depend on the thread count.
+    // Fills `truth`, which make_truth() made for this set-up; its raster is set. Loop: no allocation. Runs on
+    // oneTBB; the result does not depend on the number of threads.
     TruthProbe(const FrameSetup& setup, FrameTruth& truth);
     void report();
 

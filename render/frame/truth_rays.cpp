@@ -52,7 +52,7 @@ void TruthRays::trace(std::span<const Vec2d> points_px, bool normals, std::span<
             const Vec3d point_m =
                 to_double(starts[k]) + static_cast<double>(hits.distance[k]) * to_double(dirs[k]);
             out.from_camera_m = point_m - frame_.camera_m;
-            // As the picture decides it (primary_rays.cpp).
+            // The picture decides in the same way (primary_rays.cpp).
             if (!frame_.bodies_may_hide || !frame_.background->hides_seen(dir, length(out.from_camera_m))) {
                 out.kind = RayMet::Kind::kObject;
                 out.index = hits.object[k];
@@ -93,7 +93,7 @@ std::uint32_t TruthRays::meets_object(std::span<const Vec2d> points_px, std::siz
     for (std::size_t k = 0; k < count; ++k) {
         const Vec3d dir = object_from_world * rays[k].dir;
         const Vec3d eye_m = camera_m + object_from_world * rays[k].from_camera_m;
-        // From just before it, so that it keeps its digits at any distance.
+        // Starts just in front of the object, so that the result is precise at any distance.
         const double before_m = std::max(0.0, -dot(eye_m, dir) - 1.01 * setup_.radius_m(object));
         packet.set(static_cast<int>(k), to_float(eye_m + before_m * dir), to_float(dir), 0, kNoEnd);
     }

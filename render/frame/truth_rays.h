@@ -1,7 +1,7 @@
 #pragma once
-// Finds what rays of the camera meet first, and whether they would meet a thing if it were alone; up to
-// sixteen at a time, through any places of the radiance image and beside it. The rays are the ray generator's
-// own, as those of the picture. Objects that the picture draws as points are met too.
+// Finds what camera rays meet first, and whether they would meet a thing if it were alone. Up to sixteen rays
+// at a time, through any place in the radiance image or beside it. They come from the picture's own ray
+// generator. They also meet objects that the picture draws as points.
 
 #include <cstdint>
 #include <limits>
@@ -15,24 +15,26 @@ namespace hilcam {
 struct RayMet {
     enum class Kind : std::uint8_t { kSky, kObject, kBody, kSun } kind = Kind::kSky;
     std::uint32_t index = 0;                                   // number of the object, or BodyId
-    double range_m = std::numeric_limits<double>::infinity();  // from where the ray began
-    Vec3d from_camera_m;  // world axes, from the camera's place at the frame's time; not of the sky
-    Vec3d normal_dir;     // world axes, unit, towards the camera; zero where not asked for
+    double range_m = std::numeric_limits<double>::infinity();  // from the ray's origin
+    Vec3d from_camera_m;  // world axes, from the camera's position at the frame's time; not set for sky
+    Vec3d normal_dir;     // world axes, unit, towards the camera; zero if not asked for
 };
 
 class TruthRays {
   public:
-    // Looks through the camera of the frame that was placed last. Loop.
+    // Uses the camera of the last placed frame. Loop.
     explicit TruthRays(const FrameSetup& setup);
 
-    // points_px: of the radiance image without its guard band, kPacketSize at most. Loop, any thread.
+    // points_px: in the radiance image without its guard band, at most kPacketSize. Loop, any thread.
     void trace(std::span<const Vec2d> points_px, bool normals, std::span<RayMet> met) const;
-    // Bit k: ray k meets the object, or the body, whatever stands before it. Loop, any thread.
+    // Returns a word in which bit k is set if ray k meets the object or body, whatever is in front of it.
+    // Loop, any thread.
     std::uint32_t meets_object(std::span<const Vec2d> points_px, std::size_t object) const;
     std::uint32_t meets_body(std::span<const Vec2d> points_px, const PlacedBody& body) const;
-    // The lens has a direction for that place: beside the picture a polynomial of distortion may not.
+    // True when the lens has a direction for that place. Beside the picture a distortion polynomial may have
+    // none.
     bool exists(Vec2d point_px) const;
-    // The radiance image has that place; black columns and rows lie beside it.
+    // True when the place is in the radiance image. Black columns and rows are outside it.
     bool on_image(Vec2d point_px) const;
 
   private:

@@ -1,7 +1,7 @@
 #pragma once
-// The little picture of an object that is a few pixels wide or less, by rays of its own: a grid of them, of which each has the light
-// of what it meets. It serves rays as a visibility, terrain, and scenes of more objects than have pictures (object_impostor.h),
-// which see more of them.
+// The small picture of an object that is a few pixels wide or less, by a grid of rays of its own. It serves
+// ray visibility, terrain, and scenes with more objects than can have an ObjectImpostor (object_impostor.h),
+// which has more samples.
 
 #include <memory>
 #include <vector>
@@ -13,14 +13,15 @@ namespace hilcam {
 
 class UnresolvedObject {
   public:
-    // max_samples: rays along an axis of the largest picture. The frame's view must have its pointers and sizes by
-    // now. Owner thread.
+    // max_samples: rays along one axis of the largest picture. The frame context must have its pointers and
+    // sizes already. Owner thread.
     UnresolvedObject(const FrameContext& frame, int max_samples);
 
-    // Takes over what a frame has placed. Loop, as all that follows.
+    // Copies the state of a placed frame. Loop, like all functions below.
     void begin(const FrameContext& frame) { camera_.begin(frame); }
-    // Finds the light of object `i`, of a sphere of radius_m, cell by cell. glimpses: room for
-    // ImpostorCamera::cells_across()^2. Returns how many have any; adds to stats what it took to trace.
+    // Finds the light of object `i` with a bounding sphere of radius_m, cell by cell. glimpses: room for
+    // ImpostorCamera::cells_across()^2. Returns the number of cells with light; adds the tracing costs to
+    // stats.
     std::size_t look(const WorldSnapshot& world, std::size_t i, const ObjectPlan& plan, double radius_m,
                      PathModel& paths, Glimpse* glimpses, TileStats& stats);
 

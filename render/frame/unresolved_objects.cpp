@@ -24,7 +24,7 @@ std::size_t UnresolvedObjects::max_points(const FrameSetup& setup) {
     return cells * cells;
 }
 
-// Those whose middle is in the padded image, and whatever the camera's own rays may meet.
+// Finds the objects with their middle in the padded image, and all that the camera's own rays may meet.
 void UnresolvedObjects::find_seen(const FrameSetup& setup, const PointField& field) {
     seen_.clear();
     std::size_t room = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The objects that a frame draws as points, or lights so, all of them: each has an ObjectImpostor, or is traced by an
-// UnresolvedObject of the thread that takes it, and its points are added in the objects' order, whatever the number of threads.
+// All objects whose light a frame draws as points. Each has an ObjectImpostor or is traced by its thread's
+// UnresolvedObject. Points are added in the order of the objects, whatever the number of threads.
 
 #include <memory>
 #include <optional>
@@ -18,21 +18,21 @@ class FrameTracer;
 
 class UnresolvedObjects {
   public:
-    // samples: the most rays along an axis of an object's picture. The frame's view must have its pointers and sizes
-    // by now. Owner thread.
+    // samples: the largest number of rays along one axis of an object's picture. The frame context must have
+    // its pointers and sizes already. Owner thread.
     UnresolvedObjects(const FrameSetup& setup, int samples);
-    // Returns the most points that an object gives.
+    // Returns the largest number of points of one object.
     static std::size_t max_points(const FrameSetup& setup);
 
-    // Adds the points of the placed frame's objects. Loop; no allocation while the vector has room. Returns what it
-    // took to trace.
+    // Appends the points of the placed frame's objects, and returns the costs of tracing. Loop; no allocation
+    // while the vector has room.
     TileStats add_points(const FrameSetup& setup, const FrameTracer& tracer, const PointField& field,
                          std::vector<PointSource>& points);
 
   private:
     struct Seen {
         std::size_t object;
-        std::size_t first;  // number of its first glimpse
+        std::size_t first;  // index of its first glimpse
         bool pictured = false;
         std::size_t count = 0;  // number of its glimpses
         TileStats stats;
@@ -43,7 +43,7 @@ class UnresolvedObjects {
     std::vector<std::unique_ptr<UnresolvedObject>> by_rays_;  // by slot of the thread pool
     std::vector<Seen> seen_;
     std::optional<ObjectImpostor> picture_;
-    std::vector<Glimpse> glimpses_;  // glimpses of all objects, with room for the most
+    std::vector<Glimpse> glimpses_;  // those of all objects, with room for the most
 };
 
 }  // namespace hilcam

@@ -8,15 +8,16 @@
 namespace hilcam {
 namespace {
 
-// Frames that show more triangles than this are left to rays, which hardly cost more for more.
+// Frames with more triangles are left to rays, whose cost hardly depends on the number.
 constexpr std::size_t kMaxTriangles = 8'000'000;
 
-// So many objects may have pictures of their own, by levels of so many triangles: one takes 0.15 ms of the processor where twenty
-// are a few pixels wide, and some milliseconds where it is 64.
+// Limits on the number of objects with impostors and on the triangles of their levels. One takes 0.15 ms of
+// processor time when twenty are a few pixels wide, and some milliseconds when it is 64 pixels wide.
 constexpr std::size_t kMaxPictured = 32, kMaxInPicture = 1'000'000;
 
-// Visible sets are made of objects of which there are so many, and of levels of so few triangles: it takes some
-// seconds of the processor at the start for 5000 of them, and a mesh of more is hardly seen so small.
+// Potentially visible sets are made for at least this many equal objects, and for levels of at most this many
+// triangles. It takes some processor seconds at the start for 5000 triangles, and larger meshes are hardly
+// seen so small.
 constexpr std::size_t kManyLike = 16, kMaxInSets = 20'000;
 
 }  // namespace
@@ -70,7 +71,7 @@ void VisibilityChoice::make_potentially_visible_sets() {
     }
 }
 
-// Null: all of an object is looked at.
+// Null: the whole object is drawn.
 const PotentiallyVisibleSet* VisibilityChoice::potentially_visible_set(const FrameContext& frame,
                                                                        std::size_t object) const {
     if (!potentially_visible_sets_[object]) return nullptr;
@@ -121,7 +122,7 @@ VisibilityBuffer::Shown VisibilityChoice::shown(std::size_t i) const {
             objects_.surfaces[i]->coplanar_groups};
 }
 
-// In space, and where its mesh is all there is to see of it.
+// True in space, if the ground's mesh is all that can be seen of it.
 bool VisibilityChoice::ground_is_alone(const FrameContext& frame) const {
     return ground() && sees_ground_ && !frame.background->camera_in_air() && frame.start_before_m <= 0 &&
            objects_.plans.back().use == ObjectUse::kMesh && objects_.plans.back().samples_per_axis == 1 &&
@@ -151,7 +152,7 @@ void VisibilityChoice::place(FrameContext& frame) {
         light_by_rays(frame);
 }
 
-// The camera's rays find the light of all that they meet.
+// Lets the camera's rays find all light.
 void VisibilityChoice::light_by_rays(FrameContext& frame) {
     frame.has_impostors = false;
     for (std::size_t i = 0; i < objects_.all.size(); ++i)

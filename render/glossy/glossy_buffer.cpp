@@ -11,7 +11,7 @@ namespace hilcam {
 
 namespace {
 
-constexpr std::size_t kRaysPerLobe = 4;  // as many as any lobe has of its own
+constexpr std::size_t kRaysPerLobe = 4;  // no lobe has more of its own
 
 }  // namespace
 

@@ -15,23 +15,24 @@ constexpr float kLeastPixel =
     0.08f;  // weight of pixels that are left out: a third of them, with 5 % of the weight
 constexpr std::size_t kMaxTaken =
     2048;  // rays that one lobe takes: of all pixels in reach, some with two surfaces
-// A neighbour's direction that its own lobe hardly draws would count for many rays; none of a lobe's own counts for more than one.
-// Without this limit p99 of Hubble by the Earth's light is 25.5 in place of 24.3 sensor noises.
+// Limits the weight of a neighbour's ray in a direction that the neighbour's lobe hardly draws; a lobe's own
+// rays have a weight of at most one. Without this limit p99 of Hubble by the Earth's light is 25.5 instead of
+// 24.3 sensor noises.
 constexpr float kMaxWeight = 4;
-// Cosine of normals beyond which a surface has turned a corner. Without this limit light between two walls of one surface is 10 % low
-// in place of 4 %.
+// Cosine between normals beyond which a surface has turned a corner. Without this limit light between two
+// walls of one surface is 10 % low instead of 4 %.
 constexpr float kFacing = 0.5f;
 
-// The rays that a lobe takes, column by column.
+// The rays that a lobe uses, by column.
 struct Taken {
     using Column = std::array<float, kMaxTaken>;
     std::size_t count = 0;
-    alignas(64) Column x, y, z;       // place that is met, from the lobe's point, or direction
-    alignas(64) Column weight;        // the weight of the pixel, times per_density_sr; then that of the lobe
+    alignas(64) Column x, y, z;       // from the lobe's point to the place that is met, or direction
+    alignas(64) Column weight;        // weight of the pixel times per_density_sr; later that of the lobe
     alignas(64) Column pixel;         // weight of the pixel
     alignas(64) Column way_m;         // from the lobe's point to where the ray began
     alignas(64) Column per_light;     // the ray's point has it
-    alignas(64) Column per_distance;  // 1 where something is met, else 0; then over its distance
+    alignas(64) Column per_distance;  // 1 if something is met, else 0; later divided by its distance
     std::array<const GlossyRay*, kMaxTaken> ray;
 
     void add(const GlossyRay& of, const GlossyPoint& from, Vec3f to, float way, float pixel_weight) {
@@ -44,13 +45,13 @@ struct Taken {
     }
 };
 
-// The rays of the pixels about a lobe which are of its surface and begin beside it.
+// Collects the rays of pixels around a lobe that belong to its surface and start near it.
 void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, Taken& taken) {
-    // Neighbours stand a pixel's width apart, or further where the surface is seen aslant.
+    // Neighbours are a pixel's width apart, or farther on an oblique surface.
     const float apart_m =
         static_cast<float>(at.reach_px) * at.footprint_m / std::max(dot(at.normal, at.view_dir), 0.1f);
-    // Weights fall to zero where the reach ends (a tent), so that nothing that one ray has met has an edge in the picture, and every
-    // place of the pattern counts alike.
+    // Weights fall to zero at the end of the reach (a tent). So a thing that one ray has met causes no edge
+    // in the picture, and every place of the pattern has the same weight.
     const float per_px = 1 / static_cast<float>(at.reach_px);
     const auto tent = [&](int off) { return 1 - per_px * static_cast<float>(std::abs(off)); };
     const int reach = at.reach_px - 1;
@@ -71,7 +72,7 @@ void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, Taken
         }
 }
 
-// Weighs each ray by what the lobe reflects from there over the density of its direction.
+// Weights each ray by the lobe's reflection from its direction over the density of that direction.
 HILCAM_CLONES
 void weigh(const GgxLobe& lobe, Vec3f normal, Vec3f view, Taken& taken) {
     const GgxLobe law = lobe;
@@ -95,21 +96,22 @@ float mean_per_distance(const Taken& taken) {
     return all > 0 ? per_distance / all : 0.0f;
 }
 
-// Leaves out rays that begin too far away: a thing that stands near hides other places from one pixel than from the next. Rays that begin
-// half as far away as things stand, in the mean, tell nothing. Without this, light leaks past edges: Kepler's p99 is 21 in place of 16
-// sensor noises.
+// Removes rays that start too far away: a near thing hides different places for neighbouring pixels. A ray
+// that starts half as far away as the things that rays meet, on average, has no weight. Without this, light
+// leaks past edges: Kepler's p99 is 21 instead of 16 sensor noises.
 void leave_out_far(float per_distance, Taken& taken) {
     constexpr float kOfDistance = 2;
     for (std::size_t i = 0; i < taken.count; ++i)
         taken.weight[i] *= std::max(0.0f, 1 - kOfDistance * per_distance * taken.way_m[i]);
 }
 
-// Returns the number of rays for which the cache's directions count. They begin at a probe: the nearer things stand beside the probes'
-// distance, the less they tell. Without that, strips between Hubble's tube and ring are half as bright as they are.
+// Returns how many rays the cache's directions are worth. The directions start at a probe, so they say little
+// about things that are nearer than the distance between probes. Without this, narrow strips between Hubble's
+// tube and ring have half their light.
 float rays_of_cache(const GlossyPoint& at, float per_distance) {
-    // With 16 in place of 2, rms of Hubble by the Earth's light is 10.4 in place of 9.9 sensor noises.
+    // With 16 instead of 2, rms of Hubble by the Earth's light is 10.4 instead of 9.9 sensor noises.
     constexpr float kPerDirection = 2;
-    constexpr float kWholeFrom = 2;  // distances between probes
+    constexpr float kWholeFrom = 2;  // full worth from here on [distances between probes]
     const float near = 1 / std::max(kWholeFrom * at.probes_apart_m * per_distance, 1.0f);
     return kPerDirection * near * near * at.directions;
 }
@@ -131,7 +133,7 @@ struct Sums {
                 towards[b] += weight * ray.towards[b], free[b] += ray.free ? weight * ray.towards[b] : 0.0f;
         }
     }
-    // As many rays of equal weight would tell as much (Kish, Survey Sampling, 1965, section 8.2).
+    // The number of rays of equal weight with the same variance (Kish, Survey Sampling, 1965, section 8.2).
     float rays() const { return squares > 0 ? all * all / squares : 0.0f; }
 };
 
@@ -139,8 +141,8 @@ struct Sums {
 
 GlossyPlace glossy_place(int x, int y, int ray, int rays) {
     constexpr int kSize = kGlossyPattern_px;
-    constexpr std::array<int, kSize> kReversed = {0, 4, 2, 6, 1, 5, 3, 7};  // bits, from the last
-    // Squares that the rays of one pixel have beside each other.
+    constexpr std::array<int, kSize> kReversed = {0, 4, 2, 6, 1, 5, 3, 7};  // bit-reversed
+    // The squares side by side that one pixel's rays cover.
     const int size = glossy_reach_px(rays), beside = kSize / size;
     const auto square = [&](int pixel, int of_pixel) {
         return static_cast<float>(kReversed[static_cast<std::size_t>(pixel % size * beside)] * beside +
@@ -168,7 +170,7 @@ GlossyLight reused_light(const GlossyBuffer& buffer, const GlossyPoint& at, int 
     if (sums.all > 0) out.surfaces = (trust / sums.all) * (at.weight * sums.light);
     out.surfaces += (1 - trust) * at.cached;
     for (std::size_t b = 0; b < at.bodies.size(); ++b) {
-        // What the cache has counts for one ray.
+        // The cache's value counts as one ray.
         const float towards = sums.towards[b], one = towards / std::max(rays, 1.0f);
         const float free = towards > 0 ? (sums.free[b] + one * at.free[b]) / (towards + one) : at.free[b];
         out.bodies += (at.share * free + (1 - at.share) * at.free[b]) * at.bodies[b];

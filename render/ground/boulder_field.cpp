@@ -6,13 +6,13 @@
 namespace hilcam {
 namespace {
 
-// Integral of D^(1 - b) from one diameter to another.
+// Returns the integral of D^(1 - b) from one diameter to another.
 double area_integral(double b, double min_m, double max_m) {
     return std::abs(b - 2) < 1e-9 ? std::log(max_m / min_m)
                                   : (std::pow(max_m, 2 - b) - std::pow(min_m, 2 - b)) / (2 - b);
 }
 
-// The mean of the smaller width over the greater, which areas have: uniform from 0.6 to 1.
+// The ratio of the smaller to the larger width is uniform from 0.6 to 1; areas contain its mean.
 constexpr double kSlimFrom = 0.6, kMeanSlim = 0.8;
 
 }  // namespace
@@ -31,7 +31,8 @@ void validate(const BoulderSettings& b) {
     if (!(b.smallest_m < b.largest_m)) throw KeyError("largest_m", "is not above smallest_m");
 }
 
-// abundance = integral of pi/4 D^2 slim dN, dN = K b D^(-b - 1) dD. Cells have about one boulder, none wider than they are.
+// abundance = integral of pi/4 D^2 slim dN, dN = K b D^(-b - 1) dD. Cells hold about one boulder, not wider
+// than the cell.
 BoulderField::BoulderField(double radius_m, const BoulderSettings& s,
                            std::shared_ptr<const SeededFactor> factor)
     : radius_m_(radius_m),
@@ -72,7 +73,7 @@ BoulderField::Shaped BoulderField::shaped(const SeededOctaves::Thing& thing) con
     b.bright = 0.85 + 0.4 * GroundCells::uniform(shape[2]);
     for (std::size_t i = 0; i < kPlanes; ++i) {
         const auto plane = thing.words(static_cast<std::uint32_t>(2 + i));
-        // Planes lean by 10 to 80 deg, each in its sector.
+        // Planes lean by 10 to 80 deg, each in its own sector.
         const double turn = 2 * kPi * (static_cast<double>(i) + GroundCells::uniform(plane[0])) / kPlanes,
                      lean = 0.17 + 1.22 * GroundCells::uniform(plane[1]);
         b.plane[i] = {std::sin(lean) * std::cos(turn), std::sin(lean) * std::sin(turn), std::cos(lean)};
@@ -89,7 +90,7 @@ void BoulderField::find(Vec3d middle, double reach_rad, double smallest_m,
 }
 
 void BoulderField::add(const GroundPatch& patch) const {
-    // A boulder of fewer posts is no boulder.
+    // A boulder smaller than this many posts is left out.
     constexpr double kPosts = 3;
     octaves_.visit_on(patch, kPosts, 1, [&](const SeededOctaves::Thing& thing) {
         const double radius_m = 0.5 * diameter_m(thing);

@@ -78,7 +78,7 @@ void CraterField::find(Vec3d middle, double reach_rad, double smallest_m,
 }
 
 void CraterField::add(const GroundPatch& patch) const {
-    // A crater of fewer posts is no crater.
+    // A crater smaller than this many posts is left out.
     constexpr double kPosts = 2.5;
     octaves_.visit_on(patch, kPosts, 0.5 * CraterShape::kRayReach, [&](const SeededOctaves::Thing& thing) {
         const Crater c = crater_of(thing);

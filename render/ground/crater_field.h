@@ -1,10 +1,11 @@
 #pragma once
-// Seeded craters: numbers by the law (crater_law.h), each with a shape of its wear (crater_profile.h), a rim that is not quite
-// round, and rays of bright ejecta while it is young. Those that a patch's spacing cannot show are left out.
+// Seeded craters. Their number follows the law in crater_law.h. Each has a profile by its wear
+// (crater_profile.h), a rim that is not quite round, and bright rays while it is young. Craters too small for
+// a patch's spacing are left out.
 //
-// Wear: where craters have come and gone to equilibrium their wears are spread evenly up to the one at which they are
-// counted no more (Fassett & Thomson 2014, there); of larger ones, which all are there still, up to what the ground's age
-// has worn them. Craters lie over each other by adding up.
+// Wear: where craters form and disappear in equilibrium, wear is uniformly distributed up to the value at
+// which craters are no longer counted (Fassett & Thomson 2014, see crater_profile.h). Larger craters, which
+// have all survived, have wear up to that of the ground's age. Overlapping craters are added up.
 
 #include <cstdint>
 #include <optional>
@@ -24,7 +25,7 @@ struct CraterSettings {
     double age_ga = 3.5;
     double smallest_m = 0.2, largest_m = 1000;
     double diffusivity_m2_ga = 5500;  // Fassett & Thomson 2014: 5.5 m^2/Ma
-    double rays = 0.5;                // greatest brightening by rays, about
+    double rays = 0.5;                // approximate largest brightening by rays
 };
 Fields fields(CraterSettings& settings);
 void validate(const CraterSettings& settings);
@@ -32,7 +33,7 @@ void validate(const CraterSettings& settings);
 struct Crater {
     Vec3d place;  // unit vector
     double diameter_m = 0;
-    double worn = 0;  // CraterProfile
+    double worn = 0;  // see CraterProfile
 };
 
 class CraterField final : public GroundDetail {
@@ -40,9 +41,9 @@ class CraterField final : public GroundDetail {
     // Octaves are counted from the body's smallest crater.
     CraterField(double radius_m, const CraterSettings& settings);
     void add(const GroundPatch& patch) const override;
-    // Appends the craters above a diameter with their middles within an angle of a direction.
+    // Appends the craters above a diameter whose middles are within an angle of a direction.
     void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Crater>& craters) const;
-    // Number per square metre of diameters above one, which is the same at any place.
+    // Returns the number per square metre above a diameter, which is the same everywhere.
     double per_m2(double diameter_m) const { return law_.per_m2(diameter_m); }
     double per_m2_at(Vec3d, double diameter_m) const { return per_m2(diameter_m); }
 

@@ -44,7 +44,7 @@ CraterLaw::CraterLaw(double age_ga, double smallest_m, double largest_m)
     double most = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= steps; ++i) {
         const double log_d = first + (last - first) * i / steps, d = std::pow(10, log_d);
-        // What is above a diameter is above all smaller ones.
+        // A cumulative number cannot increase with diameter.
         most = std::min(most, std::min(age_factor_ * neukum_per_m2(d), equilibrium_per_m2(d)));
         log_diameter_.push_back(log_d);
         log_number_.push_back(std::log10(most));

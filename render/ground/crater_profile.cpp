@@ -9,14 +9,14 @@ namespace {
 // Rim height over depth under the rim, of all sizes: 0.036 / 0.196.
 constexpr double kRim = 0.036 / 0.196;
 
-// A depth of 1 under the rim.
+// The profile for a depth of 1 below the rim.
 double fresh(double x) {
     if (x < 1) return kRim - 1 + x * x;
     const double end = std::pow(CraterProfile::kReach, -3);
     return x < CraterProfile::kReach ? kRim * (1 / (x * x * x) - end) / (1 - end) : 0;
 }
 
-// Wear goes as the square, so that young craters have states of their own.
+// Wear grows with the square, so that young craters have several states.
 double worn_of(double state, double states) {
     return CraterProfile::kMaxWorn * (state / states) * (state / states);
 }
@@ -28,7 +28,8 @@ double CraterProfile::fresh_depth(double diameter_m) {
     return 0.196 * std::pow(km, 0.010);
 }
 
-// Diffusion about an axis, dh/dt = (1/x) d/dx (x dh/dx), by explicit steps within the limit of stability, out to twice the reach.
+// Diffusion around an axis, dh/dt = (1/x) d/dx (x dh/dx), by explicit steps within the stability limit, out
+// to twice the reach.
 CraterProfile::CraterProfile() {
     constexpr int kFar = 2 * kSteps;
     const double dx = kReach / kSteps, dt = 0.2 * dx * dx;
@@ -50,7 +51,7 @@ CraterProfile::CraterProfile() {
             h.swap(next);
             t += step * dx * dx;
         }
-        // What has flowed beyond the reach is let go of.
+        // What has moved beyond the reach is dropped.
         std::vector<double>& kept = states_.emplace_back(h.begin(), h.begin() + kSteps + 1);
         const double rest = kept.back();
         for (int i = 0; i <= kSteps; ++i) {

@@ -22,14 +22,14 @@ struct Vector {
     }
 };
 
-// Places from a crater's middle: by how many of its radii, and how far its outline is away there.
+// Distances of places from a crater's middle in radii, corrected for its outline there.
 class CraterDistances {
   public:
     explicit CraterDistances(const CraterShape& c) : c_(c) {
         const double most = CraterShape::reach(c.bright) * 1.1 * c.radius_m / c.body_radius_m;
         most2_ = most * most;
     }
-    // False where none of the places is within its reach; distances are then not found.
+    // Returns false, without distances, if none of the places is within its reach.
     HWY_INLINE bool find(const double* places, V& x, V& distances2) const {
         const Doubles d;
         Vector away;
@@ -40,7 +40,7 @@ class CraterDistances {
             hn::Add(hn::Add(hn::Mul(away.x, away.x), hn::Mul(away.y, away.y)), hn::Mul(away.z, away.z));
         if (hn::AllTrue(d, hn::Gt(distances2, number(most2_)))) return false;
         const V distance = hn::Sqrt(distances2);
-        // Cosines and sines of two, three ... times the azimuth, by rotation.
+        // Cosines and sines of multiples of the azimuth, by rotation.
         const V c1 = hn::Div(away.along(c_.axes.east), distance),
                 s1 = hn::Div(away.along(c_.axes.north), distance);
         V ck = c1, sk = s1, outline = number(1);
@@ -78,7 +78,7 @@ HWY_INLINE V height(const CraterProfile::Worn& worn, V distance) {
         inside, hn::Add(fresher, hn::Mul(number(worn.share), hn::Sub(at(worn.older), fresher))));
 }
 
-// Rays at one place, x radii away.
+// Adds the rays at one place, x radii away.
 void brighten(const CraterShape& c, Vec3d place, double x, Vec3f& color) {
     if (!(x < CraterShape::kRayReach)) return;
     const Vec3d away = place - c.place;
@@ -109,7 +109,7 @@ void add(const CraterShape& c, const GroundPatch& patch) {
         for (std::size_t k = 0; k < count; ++k)
             brighten(c, patch.places[first + k], at[k], patch.colors[first + k]);
     };
-    // Whole vectors, which may reach beyond the window: there are no places within the crater's reach.
+    // Whole vectors, which may extend beyond the window; there are no places within the crater's reach there.
     const int wanted =
         (w.x1 - w.x0 + static_cast<int>(lanes) - 1) / static_cast<int>(lanes) * static_cast<int>(lanes);
     const int x0 = std::max(0, std::min(w.x0, patch.side - wanted)), x1 = std::min(patch.side, x0 + wanted);
@@ -119,7 +119,7 @@ void add(const CraterShape& c, const GroundPatch& patch) {
         for (; i + lanes <= end; i += lanes)
             add_some(&patch.places[i].x, patch.heights_m.data() + i, i, lanes);
         if (i >= end) continue;
-        // A narrow patch has less than a vector left.
+        // The rest of a narrow patch is less than a vector.
         Vec3d places[kMaxLanes] = {};
         double heights_m[kMaxLanes] = {};
         std::copy_n(patch.places.begin() + static_cast<std::ptrdiff_t>(i), end - i, places);

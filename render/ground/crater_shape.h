@@ -1,6 +1,6 @@
 #pragma once
-// A seeded crater's heights and rays at the places of a patch, for code that is compiled for several widths of vectors and gives the same
-// bits with each. Any thread.
+// The heights and rays of a seeded crater at the places of a patch, compiled for several vector widths with
+// the same bits. Any thread.
 
 #include <array>
 
@@ -10,12 +10,12 @@
 
 namespace hilcam {
 
-// Waves of the rim's outline have 2 to 5 turns.
+// The rim's outline has waves with 2 to 5 periods around it.
 inline constexpr std::size_t kCraterWaves = 4;
 
 struct CraterShape {
     Vec3d place;       // unit vector
-    AlongGround axes;  // there
+    AlongGround axes;  // at the place
     double radius_m = 1, depth_m = 1;
     double body_radius_m = 1;
     CraterProfile::Worn profile;
@@ -23,12 +23,12 @@ struct CraterShape {
     double bright = 0, ray_phase_rad = 0;
     int ray_count = 7;
 
-    // The rays of the youngest reach farther than their heights [radii].
+    // The rays of the youngest craters extend farther than their heights [radii].
     static constexpr double kRayReach = 6;
     static double reach(double bright) { return bright > 0 ? kRayReach : CraterProfile::kReach; }
 };
 
-// Adds the crater to a patch's heights, and its rays to the colours.
+// Adds the crater to a patch's heights and its rays to the colours.
 void add_crater(const CraterShape& crater, const GroundPatch& patch);
 
 }  // namespace hilcam

@@ -1,9 +1,9 @@
 #pragma once
-// The directions from a body's centre, or the normals of its ellipsoid, on the six faces of a cube: each face a square
-// whose two coordinates are angles from its middle, -1 to 1 for -45 to 45 deg (the equiangular projection; Ronchi, Iacono
-// and Paolucci, J. Comput. Phys. 124, 93, 1996). Its squares differ by less than 1.42 in their edges. Along a common
-// edge two faces have the same coordinate, one of them perhaps from the other end, so that their points there are the
-// same.
+// Maps directions from a body's centre, or normals of its ellipsoid, to the six faces of a cube. Each face is
+// a square with two coordinates, angles from its middle: -1 to 1 for -45 to 45 deg (the equiangular
+// projection; Ronchi, Iacono and Paolucci, J. Comput. Phys. 124, 93, 1996). The edges of its squares differ
+// by a factor below 1.42. Along a common edge two faces have the same coordinate, possibly in the opposite
+// direction, so their points there are identical.
 
 #include <array>
 #include <cmath>
@@ -32,7 +32,8 @@ struct CubePoint {
     Vec2d at;  // right, up; within -1 .. 1
 };
 
-// Two directions along the ground at a place: in right angles to it and to each other; east and north but near the poles.
+// Two directions along the ground at a place, at right angles to it and to each other: east and north, except
+// near poles.
 struct AlongGround {
     Vec3d east, north;
 };
@@ -42,19 +43,19 @@ inline AlongGround axes_along(Vec3d place) {
     return {east, cross(place, east)};
 }
 
-// Returns the tangent of a coordinate's angle; 45 deg is exact, so that faces meet.
+// Returns the tangent of a coordinate's angle; exact at 45 deg, so that faces meet.
 inline double cube_tangent(double at) { return std::abs(at) == 1 ? at : std::tan(0.25 * kPi * at); }
-// Returns the unit vector of a point by the tangents of its two coordinates.
+// Returns the unit vector of a point from the tangents of its two coordinates.
 inline Vec3d cube_direction_of_tangents(int face, Vec2d tangents) {
     const CubeFace& f = kCube[static_cast<std::size_t>(face)];
     return normalized(f.axis + tangents.x * f.right + tangents.y * f.up);
 }
-// Returns the unit vector of a point; coordinates may go beyond the face a little.
+// Returns the unit vector of a point; coordinates may be slightly outside the face.
 inline Vec3d cube_direction(int face, Vec2d at) {
     return cube_direction_of_tangents(face, {cube_tangent(at.x), cube_tangent(at.y)});
 }
 
-// Returns the point of a direction, of any length.
+// Returns the point of a direction, which may have any length.
 inline CubePoint cube_point(Vec3d dir) {
     CubePoint out;
     double most = -1;

@@ -1,4 +1,5 @@
-// Lanes of double precision, for code that is compiled for several widths. Included once for each width, as Highway's own headers are.
+// Lanes of double precision, for code that is compiled for several vector widths. Included once per width,
+// like Highway's own headers.
 
 #if defined(HILCAM_DOUBLE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HILCAM_DOUBLE_LANES_INL_H

@@ -11,14 +11,16 @@
 namespace hilcam {
 namespace {
 
-// Quadrilaterals along the edge of a tile as it lies in a mesh.
+// Quadrilaterals along the edge of a tile in a mesh.
 constexpr std::size_t kSeenQuads = GroundTile::kQuads, kBesideQuads = GroundTile::kSketchQuads;
-// Distances over which a vertex goes to the level above: of those at which tiles of its level are used.
+// The distances over which a vertex moves to the coarser level, relative to those at which tiles of its level
+// are used.
 constexpr double kMorphFrom = 1.5, kMorphTo = 2;
-// A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
+// A tile must be narrower than the distance range before kMorphFrom, so it needs at least this ratio of
+// distance to edge.
 constexpr double kMinEdges = 128;
 constexpr int kFinestLevel = 27;
-// Sketches that keep their texels, of 0.25 MB each, until the mesh is made.
+// Number of sketches that keep their texels, 0.25 MB each, until the mesh is made.
 constexpr std::size_t kMaxTexels = 128;
 
 }  // namespace
@@ -42,7 +44,7 @@ Vec3d GlobeTerrain::up_at(Vec3d p) const {
     return length(p) > 0 ? normalized(Vec3d{p.x, p.y, p.z * ratio * ratio}) : Vec3d{0, 0, 1};
 }
 
-// Those that are not kept, as many as may be made. all: false where that is not all.
+// Returns the missing tiles, up to the number that may be made. all: false if more are missing.
 std::vector<GroundTileKey> GlobeTerrain::to_be_made(std::span<const GroundTileKey> keys, const Tiles& of,
                                                     bool& all) {
     std::vector<GroundTileKey> missing;
@@ -58,7 +60,7 @@ void GlobeTerrain::mark_used(std::span<const GroundTileKey> keys, const Tiles& o
     for (const GroundTileKey& key : keys) of.at(key.word())->used = mesh_number_;
 }
 
-// Makes sketches that are not kept. False: not all of them yet.
+// Makes missing sketches. Returns false if some are still missing.
 bool GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
     bool all;
     const std::vector<GroundTileKey> missing = to_be_made(keys, sketches_, all);
@@ -72,7 +74,7 @@ bool GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
     return all;
 }
 
-// Makes tiles that are not kept, of the sketches that there are. False: not all of them yet.
+// Makes missing tiles from their sketches. Returns false if some are still missing.
 bool GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
     bool all;
     const std::vector<GroundTileKey> missing = to_be_made(keys, tiles_, all);
@@ -85,19 +87,19 @@ bool GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
     return all;
 }
 
-// The last that were sketched keep their texels.
+// Only the latest sketches keep their texels.
 void GlobeTerrain::keep_texels(std::size_t most) {
     for (; with_texels_.size() > most; with_texels_.pop_front()) with_texels_.front()->texels.reset();
 }
 
-// Beside the field, or behind the ground's horizon.
+// True outside the field or behind the ground's horizon.
 bool GlobeTerrain::is_outside(const TerrainView& view, const GroundTile& tile) const {
     const Vec3d to_tile = tile.middle_m - view.camera_m;
     const double distance = length(to_tile);
     if (distance <= tile.radius_m) return false;
     const double off_rad = angle_between_rad(to_tile, view.boresight);
     if (off_rad - std::asin(tile.radius_m / distance) > view.half_field_rad) return true;
-    // Ground below the ellipsoid by more than this hides less than it is taken to.
+    // Ground lower than this share of the ellipsoid hides less than assumed.
     constexpr double kLowest = 0.99;
     const double horizon_m = kLowest * surface_.figure().polar_radius_m;
     const double camera_m = length(view.camera_m), middle_m = length(tile.middle_m);
@@ -114,7 +116,7 @@ std::size_t GlobeTerrain::triangles_of(std::span<const Leaf> leaves) {
     return sum;
 }
 
-// Finds the tiles to be shown. edges: distance over an edge of a triangle there, from which it is fine enough.
+// Selects the tiles to show. edges: the ratio of distance to triangle edge from which a tile is fine enough.
 GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edges, std::size_t max_triangles,
                                             std::vector<Leaf>& leaves) {
     leaves.clear();
@@ -139,7 +141,7 @@ GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edge
         wave = std::move(next);
     }
     if (triangles_of(leaves) > max_triangles) return Selected::kTooManyTriangles;
-    // Those that are seen come first, and have more than their sketches.
+    // Visible tiles come first; they need more than their sketches.
     const auto beside =
         std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
     std::vector<GroundTileKey> seen;
@@ -149,7 +151,7 @@ GlobeTerrain::Selected GlobeTerrain::select(const TerrainView& view, double edge
     return Selected::kAll;
 }
 
-// Tiles that were used since a mesh stay. False: more than the most are left.
+// Drops the least recently used tiles, but none used since a mesh. Returns false if too many remain.
 bool GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t before) {
     if (tiles.size() <= most) return true;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> by_age;
@@ -160,7 +162,8 @@ bool GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most, std::uint64_t b
     return tiles.size() <= most;
 }
 
-// The tiles to be shown, and the edges at which they are not too many. False: not all of them are made yet.
+// Finds the tiles to show, and the ratio at which there are not too many. Returns false if some are not made
+// yet.
 bool GlobeTerrain::find_leaves(const TerrainView& view, double& edges, std::vector<Leaf>& leaves) {
     edges = std::max(kMinEdges, 1 / (view.edge_px * view.pixel_rad));
     Selected selected = select(view, edges, view.max_triangles, leaves);
@@ -245,7 +248,7 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
     return out;
 }
 
-// Finds the vertices' shares of the ground of the level above.
+// Finds, for each vertex, the weight of the coarser level's ground.
 void GlobeTerrain::find_shares(const TerrainView& view, double edges, const Leaf& leaf,
                                Shares& shares) const {
     const GroundTile& tile = *leaf.tile;

@@ -1,11 +1,14 @@
 #pragma once
-// The ground of a whole body, as fine as the camera sees it: tiles of a cube's six faces in quadtrees. A tile is cut into
-// four while its vertices are farther apart than `edge_px` pixels where it is nearest to the camera. With its
-// distance each vertex goes from its own level's ground to that of the level above, which it has reached where the next
-// coarser tile begins: meshes join without gaps, and nothing steps while the camera comes nearer. Beside the field and
-// behind the horizon, where only shadows come from, tiles are kOutside times coarser and have half their vertices each way; skirts hang from the tiles'
-// edges, so that no light comes through where such a tile begins. Where triangles are too many, all are wider, down to a 128th
-// of the distance, from which on they may be more than was asked for: wider ones would not join.
+// The ground of a whole body, as fine as the camera needs it: quadtrees of tiles on a cube's six faces. A
+// tile is divided into four while its vertices are more than `edge_px` pixels apart at its point nearest to
+// the camera. With distance, each vertex moves from its own level's ground to that of the next coarser level,
+// and arrives where the next coarser tile begins. So meshes join without gaps, and nothing jumps as the
+// camera approaches.
+//
+// Outside the field and behind the horizon, where only shadows matter, tiles are kOutside times coarser and
+// have half as many vertices in each direction; skirts on their edges stop light at the transition. If there
+// are too many triangles, all become larger, up to a 128th of the distance. Beyond that meshes would not
+// join, so the number may exceed the limit.
 //
 // Terrain axes are the body's own, from its centre. Not modelled: overhangs.
 
@@ -21,9 +24,9 @@
 namespace hilcam {
 
 struct GlobeSettings {
-    std::size_t max_bytes = std::size_t{512} << 20;  // memory of maps and tiles that are kept
-    double finest_m = 0.01;                          // vertices are not nearer to each other than this, about
-    HapkeParameters hapke{};                         // the material's own, where maps have others by place
+    std::size_t max_bytes = std::size_t{512} << 20;  // memory for maps and tiles
+    double finest_m = 0.01;                          // approximate smallest distance between vertices
+    HapkeParameters hapke{};                         // the material's; maps may replace them by place
 };
 
 class GlobeTerrain final : public Terrain {
@@ -37,7 +40,7 @@ class GlobeTerrain final : public Terrain {
     Vec3d up_at(Vec3d point_m) const override;
     std::optional<double> height_above_ground_m(Vec3d) const override { return {}; }
 
-    // Returns how many bytes maps and tiles hold. The thread of mesh().
+    // Returns the memory of maps and tiles. Same thread as mesh().
     std::size_t kept_bytes() const {
         return surface_.pages().bytes() + tiles_.size() * tile_bytes() + sketches_.size() * sketch_bytes();
     }
@@ -47,7 +50,7 @@ class GlobeTerrain final : public Terrain {
     struct Leaf {
         GroundTileKey key;
         const GroundTile* tile;
-        bool outside;  // beside the field or behind the horizon
+        bool outside;  // outside the field or behind the horizon
     };
     GroundSurface surface_;
     std::vector<std::unique_ptr<const GroundDetail>> details_;
@@ -64,12 +67,12 @@ class GlobeTerrain final : public Terrain {
     std::size_t tile_bytes() const {
         return GroundTile::kBytes + (surface_.has_hapke() ? GroundTile::kHapkeBytes : 0);
     }
-    // Sketches that still have their texels, the first ones longest.
+    // Sketches that still have their texels, oldest first.
     std::deque<GroundTile*> with_texels_;
 
-    // Selections end so.
+    // The outcome of a selection.
     enum class Selected { kAll, kTooManyTriangles, kNotYet };
-    std::size_t may_make_ = kAnyNumber;  // tiles, until the selection stops as kNotYet
+    std::size_t may_make_ = kAnyNumber;  // tiles; at zero a selection stops with kNotYet
     static constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
 
     bool require_sketches(std::span<const GroundTileKey> keys);

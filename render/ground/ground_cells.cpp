@@ -14,8 +14,8 @@ GroundCells::GroundCells(double radius_m, double cell_m, std::uint32_t octave)
 }
 
 void GroundCells::find(Vec3d middle, double reach_rad, std::vector<Cell>& cells) const {
-    // Points on a square net about the middle, half a narrowest cell apart, so that no cell is stepped over. Beyond a
-    // face's edge they are on the next.
+    // Points on a square grid around the middle, half a narrowest cell apart, so that no cell is missed.
+    // Points beyond a face's edge are on the next face.
     const double pitch_rad = 0.25 * kPi / 1.42 / std::ldexp(1.0, bits_);
     const double reach = std::min(reach_rad, 0.45 * kPi) + pitch_rad;
     const int steps = static_cast<int>(std::ceil(reach / pitch_rad));

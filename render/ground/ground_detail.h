@@ -1,5 +1,5 @@
 #pragma once
-// The interface of what is finer than the maps: something that adds to the heights of places.
+// The interface of details finer than the maps: something that adds to the heights of places.
 
 #include <algorithm>
 #include <cmath>
@@ -9,22 +9,22 @@
 
 namespace hilcam {
 
-// Places about a point of the body, a square grid of them as a tile has it, and what is known of them.
+// Places around a point of the body, usually the square grid of a tile, and their data.
 struct GroundPatch {
     int side = 1;                   // places along an edge
-    std::span<const Vec3d> places;  // unit vectors of the ellipsoid's normal, by row
-    std::span<double> heights_m;    // heights of the maps, and of what is added
-    std::span<Vec3f> colors;        // factors on the reflectance; empty where nobody asks for them
-    Vec3d middle;                   // a unit vector amid the places
-    double reach_rad = 0;           // angle from the middle to the farthest of them
-    double texel_m = 1;             // width of a texel; details of fewer than some of these are left out
+    std::span<const Vec3d> places;  // unit normals of the ellipsoid, by row
+    std::span<double> heights_m;    // heights of the maps, plus details added so far
+    std::span<Vec3f> colors;        // factors on the reflectance; empty if not needed
+    Vec3d middle;                   // unit vector amid the places
+    double reach_rad = 0;           // angle from the middle to the farthest place
+    double texel_m = 1;             // width of a texel; details of only a few texels are left out
 
-    // Rows and columns in which places can be that are within an angle of a direction.
+    // The rows and columns that may contain places within an angle of a direction.
     struct Window {
-        int x0, x1, y0, y1;  // the first ones and one beyond the last
+        int x0, x1, y0, y1;  // first, and one beyond the last
     };
     Window window(Vec3d place, double within_rad) const {
-        // A grid that bends, or none, is looked at as a whole.
+        // A strongly curved or missing grid is processed as a whole.
         constexpr double kBent_rad = 0.02;
         if (side < 3 || reach_rad > kBent_rad) return {0, side, 0, side};
         const std::size_t i = places.size() / 2, row = static_cast<std::size_t>(side);
@@ -34,7 +34,7 @@ struct GroundPatch {
         const Vec3d away = place - places[i];
         const double r = dot(away, right), u = dot(away, up);
         const double x = (r * uu - u * ru) / area2 + side / 2, y = (u * rr - r * ru) / area2 + side / 2;
-        // The grid bends by less than that, and a texel.
+        // The curvature of the grid, and one texel.
         const double more = 1 + 1.5 * reach_rad * side;
         const double dx = within_rad * std::sqrt(uu / area2) + more,
                      dy = within_rad * std::sqrt(rr / area2) + more;
@@ -51,11 +51,12 @@ struct GroundPatch {
 
 class GroundDetail {
   public:
-    // Waves of so many texels and more are smooth enough to be taken at each fourth texel, and between them by a curve.
+    // Waves of this many texels or more are smooth enough to be sampled at every fourth texel and
+    // interpolated.
     static constexpr double kWideTexels = 32;
 
     virtual ~GroundDetail() = default;
-    // Adds what is too narrow for add_wide(). Any thread.
+    // Adds the details too narrow for add_wide(). Any thread.
     virtual void add(const GroundPatch& patch) const = 0;
     // Adds smooth waves of kWideTexels and more. Any thread.
     virtual void add_wide(const GroundPatch&) const {}

@@ -20,7 +20,7 @@ double noise(Vec3d place) {
     return value;
 }
 
-// The mean square of differences of the noise over a distance in wavelengths, by its values at fixed places.
+// Returns the mean squared difference of the noise over a distance in wavelengths, measured at fixed places.
 double mean_square_difference(double distance) {
     constexpr int kPlaces = 2048;
     double sum = 0;
@@ -59,7 +59,7 @@ std::optional<ReliefSettings> measured_relief(GroundSurface& surface, double spa
     constexpr std::array<double, 3> kLags = {1, 2, 4};
     std::vector<Vec3d> places;
     for (int i = 0; i < kPlaces; ++i) {
-        // Even over the sphere: a golden-angle spiral.
+        // Uniform over the sphere: a golden-angle spiral.
         const double z = 1 - 2 * (i + 0.5) / kPlaces, r = std::sqrt(1 - z * z), turn = 2.399963229728653 * i;
         const Vec3d at{r * std::cos(turn), r * std::sin(turn), z};
         const auto [east, north] = axes_along(at);
@@ -90,8 +90,8 @@ std::optional<ReliefSettings> measured_relief(GroundSurface& surface, double spa
 
 GroundRelief::GroundRelief(double radius_m, const ReliefSettings& settings)
     : radius_m_(radius_m), settings_(settings) {
-    // Octaves in proportion to wavelength^hurst, together with the deviation asked for. Longer ones, which are the map's, count
-    // in it.
+    // Octaves in proportion to wavelength^hurst, scaled to the wanted deviation. That includes longer
+    // octaves, which are in the map.
     constexpr int kLonger = 12;
     const double probe_m = 0.1 * settings.longest_m;
     double sum = 0;
@@ -109,7 +109,7 @@ GroundRelief::GroundRelief(double radius_m, const ReliefSettings& settings)
 void GroundRelief::add_octaves(const GroundPatch& patch, double min_m, double below_m) const {
     for (std::size_t k = 0; k < wavelength_m_.size(); ++k) {
         if (wavelength_m_[k] < min_m || wavelength_m_[k] >= below_m) continue;
-        // Octaves' lattices are turned against each other by their offsets alone.
+        // The lattices of octaves differ only by their offsets.
         const double shift = 0.37 * static_cast<double>(k);
         add_wave({static_cast<std::uint64_t>(settings_.seed), static_cast<int>(k),
                   radius_m_ / wavelength_m_[k], Vec3d{shift, 0.5 * shift, -shift}, amplitude_m_[k]},
@@ -117,7 +117,7 @@ void GroundRelief::add_octaves(const GroundPatch& patch, double min_m, double be
     }
 }
 
-// A wave of fewer texels is none.
+// A wave of fewer texels is left out.
 void GroundRelief::add(const GroundPatch& patch) const {
     constexpr double kMinTexels = 3;
     add_octaves(patch, kMinTexels * patch.texel_m, kWideTexels * patch.texel_m);

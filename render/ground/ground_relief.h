@@ -1,8 +1,9 @@
 #pragma once
-// Relief between the posts of a map: a fractal surface whose differences over a distance d have the deviation
-// `deviation_m` (d / at_m)^hurst, which is what the map's own heights say at the distances that it has (structure function;
-// Rosenburg et al., J. Geophys. Res. 116, E02001, 2011, for the Moon). Octaves of gradient noise (Perlin, SIGGRAPH 02) in space, from
-// twice the map's spacing down to what is asked for.
+// Relief between the posts of a map: a fractal surface. Height differences over a distance d have the root
+// mean square `deviation_m` (d / at_m)^hurst, as the map's own heights have at larger distances (structure
+// function; Rosenburg et al., J. Geophys. Res. 116, E02001, 2011, for the Moon). It is made of octaves of
+// gradient noise (Perlin, SIGGRAPH 02) in space, from twice the map's spacing down to the finest that is
+// needed.
 
 #include <cstdint>
 #include <optional>
@@ -16,15 +17,16 @@ namespace hilcam {
 
 struct ReliefSettings {
     std::int64_t seed = 1;
-    double longest_m = 0;    // wavelength of the first octave; 0 in a config: measured_relief() knows
-    double deviation_m = 0;  // root mean square of differences of height over at_m; 0 in a config: the same
+    double longest_m = 0;  // wavelength of the first octave; 0 in a configuration: from measured_relief()
+    // Root mean square of height differences over at_m; 0 in a configuration: from measured_relief().
+    double deviation_m = 0;
     double at_m = 100;
     double hurst = 0.9;
 };
 Fields fields(ReliefSettings& settings);
 
-// Measures what a map's heights differ by: fits the power law to root-mean-square differences over 1, 2 and 4 of its spacings, at places all over
-// the body. None where the body has no map of heights, or a flat one.
+// Measures the relief of a map: fits the power law to root-mean-square differences over 1, 2 and 4 spacings
+// at places all over the body. None if the body has no map of heights, or a flat one.
 std::optional<ReliefSettings> measured_relief(GroundSurface& surface, double spacing_m);
 
 class GroundRelief final : public GroundDetail {

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// A map of a whole turn has only levels in which its first and last posts still are neighbours.
+// A map of a whole turn has only levels in which its first and last posts are still neighbours.
 int levels_of(const GroundRaster::Shape& shape) {
     int levels = 1;
     while (std::min(shape.columns >> levels, shape.rows >> levels) >= 4) {
@@ -19,7 +19,7 @@ int levels_of(const GroundRaster::Shape& shape) {
     return levels;
 }
 
-// Shares of four neighbours, the point being `t` beyond the second.
+// Returns the weights of four neighbours for a point `t` beyond the second.
 std::array<double, 4> shares(GroundBetween between, double t) {
     if (between == GroundBetween::kBilinear) return {0, 1 - t, t, 0};
     const double t2 = t * t, t3 = t2 * t;
@@ -50,7 +50,7 @@ Vec3d GroundSurface::point(Vec3d n, double height_m) const {
     return {(a2 * scale + height_m) * n.x, (a2 * scale + height_m) * n.y, (b2 * scale + height_m) * n.z};
 }
 
-// The mean of a row beside a pole, at up to kMax of its posts.
+// Returns the mean of a row beside a pole, over up to kMax of its posts.
 bool GroundSurface::pole_mean(Layer& layer, int level, int row, Vec3d& mean) {
     const auto key = std::pair{level, row};
     if (const auto found = layer.pole_means.find(key); found != layer.pole_means.end()) {
@@ -69,8 +69,8 @@ bool GroundSurface::pole_mean(Layer& layer, int level, int row, Vec3d& mean) {
     return is_finite(mean);
 }
 
-// The value of a post, which may lie beyond the edges by a few: around the body, that of the edge, or behind the pole, where the
-// mean of the row beside it is the pole's, whatever meridian one comes along.
+// Returns the value of a post, which may be a few posts outside: around the body, that of the edge; behind a
+// pole, the mean of the row beside it, so that the pole has one value from all meridians.
 bool GroundSurface::value_at(Layer& layer, int level, int column, int row, Vec3d& value) {
     GroundRaster& raster = *layer.map.raster;
     const GroundRaster::Shape& shape = raster.shape();
@@ -100,7 +100,7 @@ GroundSurface::Sample GroundSurface::sample(Layer& layer, Vec2d post, int level)
     // Beyond the middle of the outermost posts there is only a pole.
     const double left = shape.whole_turn ? -0.5 : 0, top = shape.pole_above_first_row ? -0.5 : 0,
                  bottom = shape.rows - 1 + (shape.pole_below_last_row ? 0.5 : 0);
-    // The negation catches what is no number, too; half a millionth of a post is rounding.
+    // The negation also catches NaN; half a millionth of a post is rounding.
     constexpr double kRounding = 5e-7;
     if (!(post.x >= left - kRounding && post.x <= shape.columns - 1 - left + kRounding &&
           post.y >= top - kRounding && post.y <= bottom + kRounding))
@@ -130,7 +130,7 @@ GroundSurface::Sample GroundSurface::sample(Layer& layer, Vec2d post, int level)
             posts.known[k] = true;
         }
         if (!posts.there[k]) return {};
-        // A map of one channel has the same value in all.
+        // A map of one channel uses the same value for all.
         if (shape.channels == 1)
             out.value.x += share * posts.values[k].x;
         else
@@ -140,7 +140,8 @@ GroundSurface::Sample GroundSurface::sample(Layer& layer, Vec2d post, int level)
     return out;
 }
 
-// Calls add(index, share, value) for each place and each layer of a kind from the finest on; it returns what weight is left.
+// Calls add(index, share, value) for each place and each layer of a kind from the finest on; add returns the
+// remaining weight.
 template <class Add>
 void GroundSurface::visit(GroundKind kind, std::span<const Vec3d> places, double footprint_m,
                           const Add& add) {

@@ -17,14 +17,14 @@ GroundTile::Look between(const GroundTile::Look& a, const GroundTile::Look& b) {
     return {0.5f * (a.point_m + b.point_m), 0.5f * (a.normal + b.normal), 0.5f * (a.color + b.color)};
 }
 
-// Shares of four nodes at a texel between the second and the third (Catmull & Rom, 1974).
+// Returns the weights of four nodes at a texel between the second and the third (Catmull & Rom, 1974).
 std::array<double, 4> node_shares(int texel) {
     const double t = static_cast<double>(texel) / kTexels, t2 = t * t, t3 = t2 * t;
     return {0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t),
             0.5 * (t3 - t2)};
 }
 
-// Adds values at the nodes, smoothly, to those at the texels: rows first, then columns.
+// Adds values at the nodes to those at the texels, with smooth interpolation: rows first, then columns.
 template <class T>
 void add_between(const std::vector<T>& nodes, int node_side, int side, std::vector<T>& texels) {
     std::array<std::array<double, 4>, kTexels> shares;
@@ -39,7 +39,7 @@ void add_between(const std::vector<T>& nodes, int node_side, int side, std::vect
                static_cast<N>(s[3]) * at[3];
     };
     const auto width = static_cast<std::size_t>(side);
-    // The last texel is a node's own: it is looked at from the one before, at the end of whose interval it lies.
+    // The last texel is a node; it is computed at the end of the previous interval.
     const auto interval = [&](int k) { return std::min(k / kTexels, node_side - 4); };
     std::vector<T> rows(static_cast<std::size_t>(node_side) * width);
     for (int y = 0; y < node_side; ++y)
@@ -70,7 +70,7 @@ void add_between(const std::vector<T>& nodes, int node_side, int side, std::vect
     }
 }
 
-// The weights of texels about a vertex: a tent as wide as the quadrilaterals.
+// The weights of texels around a vertex: a tent as wide as the quadrilaterals.
 constexpr std::array<double, 2 * kTexels - 1> kTent = {1, 2, 3, 4, 3, 2, 1};
 static_assert(kTexels == 4);
 
@@ -80,14 +80,14 @@ double GroundTileMaker::spacing_m(int level) const {
     return 0.5 * kPi * surface_.figure().equatorial_radius_m / std::ldexp(GroundTile::kQuads, level);
 }
 
-// Places on a square grid: texels first, first + step, ... of the tile, `side` along an edge.
+// Returns places on a square grid: texels first, first + step, ... of the tile, `side` along an edge.
 std::vector<Vec3d> GroundTileMaker::places_of(const GroundTexels& grid, int step, int first, int side) const {
     const double tiles = std::ldexp(1, grid.key.level);
     const int texels = grid.quads * kTexels;
     const auto tangents_of = [&](std::int32_t tile) {
         std::vector<double> tangents;
         tangents.reserve(static_cast<std::size_t>(side));
-        // A whole number over a power of two: neighbours have the same bits.
+        // A whole number over a power of two, so that neighbours have the same bits.
         for (int k = 0; k < side; ++k)
             tangents.push_back(cube_tangent(
                 -1 + 2 * ((static_cast<double>(tile) * texels + first + step * k) / (tiles * texels))));
@@ -101,7 +101,8 @@ std::vector<Vec3d> GroundTileMaker::places_of(const GroundTexels& grid, int step
     return places;
 }
 
-// Takes what the maps have at the texels, or where they are smooth between these, at the nodes. quads: along the tile's edge.
+// Reads the maps at the texels, or at the nodes if the maps are smooth in between. quads: along the tile's
+// edge.
 std::shared_ptr<GroundTexels> GroundTileMaker::lay(const GroundTileKey& key, int quads) {
     const double texel_m = spacing_m(key.level) * GroundTile::kQuads / quads / kTexels;
     auto out = std::make_shared<GroundTexels>();
@@ -225,10 +226,10 @@ std::unique_ptr<GroundTile> GroundTileMaker::make(Making& making) const {
     return tile;
 }
 
-// lay_one(i): the tile of that number, laid.
+// lay_one(i): returns tile i with its maps read.
 template <class Lay>
 std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make_all(std::size_t count, const Lay& lay_one) {
-    // A wave may be of many tiles, and their texels are large.
+    // A batch may have many tiles, whose texels are large.
     constexpr std::size_t kTogether = 64;
     std::vector<std::unique_ptr<GroundTile>> tiles(count);
     for (std::size_t first = 0; first < count; first += kTogether) {

@@ -1,11 +1,11 @@
 #pragma once
-// A square of a body's ground: 32 x 32 quadrilaterals on a face of the cube (cube_sphere.h), at one of the levels in which
-// the face is cut into 2^level x 2^level of them. Each vertex is kept twice: as the level has it, and where it lies
-// on the ground of the level above, so that a mesh can go from one to the other without a step (continuous levels of
+// A square of a body's ground: 32 x 32 quadrilaterals on a face of the cube (cube_sphere.h), at a level that
+// divides the face into 2^level x 2^level tiles. Each vertex is stored twice, on its own level's ground and
+// on that of the next coarser level, so that a mesh can blend from one to the other (continuous levels of
 // detail; Strugar, J. Graphics, GPU and Game Tools 14(4), 57, 2009).
 //
-// The ground is worked out at texels, four on an edge of a quadrilateral: they have the normals that it is shaded with
-// (ground_normals.h), and a vertex is their weighted mean about it.
+// The ground is computed at texels, four along the edge of a quadrilateral. They hold the normals for shading
+// (ground_normals.h); a vertex is a weighted mean of the texels around it.
 
 #include <cstdint>
 #include <memory>
@@ -30,41 +30,41 @@ struct GroundTileKey {
     }
 };
 
-// Texels with a border about what is used, and each fourth of them with a border of one more: the nodes.
+// The texels of a tile with a border, and the nodes: every fourth texel, with a border of one more.
 struct GroundTexels {
     static constexpr int kBorder = GroundNormals::kTexels;
     GroundTileKey key;
     int quads = 0;
     double texel_m = 1;
-    bool by_nodes = false;  // the maps are smooth between the nodes
+    bool by_nodes = false;  // maps are smooth between the nodes
     std::vector<Vec3d> places, node_places;
     std::vector<double> heights_m, node_heights_m;
     std::vector<Vec3f> colors, node_colors;
-    std::vector<HapkeParameters> hapke;  // at the vertices; empty where no map has them
+    std::vector<HapkeParameters> hapke;  // at the vertices; empty if no map has them
 
     int side() const { return quads * GroundNormals::kTexels + 1 + 2 * kBorder; }
     int nodes() const { return quads + 5; }
 };
 
-// A sketch of a tile has half the vertices each way, and no normals at texels: it says where the tile is, and is enough where the camera
-// does not look.
+// A sketch of a tile has half as many vertices in each direction and no normals at texels. It gives the
+// tile's position, and suffices where the camera does not look.
 struct GroundTile {
     static constexpr int kQuads = GroundNormals::kQuads, kSketchQuads = kQuads / 2;  // along an edge
     static constexpr int kSide = kQuads + 1;
 
     struct Look {
-        Vec3f point_m;  // about the middle, body axes
+        Vec3f point_m;  // relative to the middle, body axes
         Vec3f normal;
         Vec3f color;  // factor on the reflectance
     };
     int quads = kQuads;   // along an edge
     Vec3d middle_m;       // body axes
-    double radius_m = 0;  // radius about the middle that holds all
+    double radius_m = 0;  // sphere about the middle that holds everything
     std::vector<Look> own, above;
-    std::vector<HapkeParameters> own_hapke, above_hapke;  // empty where no map has them
+    std::vector<HapkeParameters> own_hapke, above_hapke;  // empty if no map has them
     std::shared_ptr<const GroundNormals::Grid> own_normals, above_normals;
-    std::uint64_t used = 0;  // number of the mesh that used it last
-    // A sketch is made of these, which are its tile's of the level above; null: they have been let go of.
+    std::uint64_t used = 0;  // number of the last mesh that used it
+    // The texels from which a sketch was made: those of its tile at the next coarser level; null: released.
     std::shared_ptr<const GroundTexels> texels;
 
     static constexpr std::size_t kHapkeBytes = 2 * sizeof(HapkeParameters) * kSide * kSide;
@@ -75,21 +75,21 @@ struct GroundTile {
                                  GroundNormals::kHalfSide * GroundNormals::kHalfSide);
 };
 
-// Makes tiles; the same key always gives the same tile, bit by bit.
+// Makes tiles. The same key always gives the same tile, bit by bit.
 class GroundTileMaker {
   public:
-    // All must outlive this. One thread at a time.
-    // hapke: the material's own parameters, where maps have others by place.
+    // All arguments must outlive this. hapke: the material's parameters; maps may replace them by place. One
+    // thread at a time.
     GroundTileMaker(GroundSurface& surface, std::span<const std::unique_ptr<const GroundDetail>> details,
                     const HapkeParameters& hapke = {})
         : surface_(surface), details_(details), hapke_(hapke) {}
 
-    // Makes sketches of tiles, or tiles that have been sketched, on all of oneTBB's threads. sketches: one for each tile; with texels
-    // they save a fifth of the work.
+    // Make sketches of tiles, or tiles that already have sketches, on all of oneTBB's threads. sketches: one
+    // for each tile; their texels, if kept, save a fifth of the work.
     std::vector<std::unique_ptr<GroundTile>> sketch(std::span<const GroundTileKey> keys);
     std::vector<std::unique_ptr<GroundTile>> make(std::span<const GroundTileKey> keys,
                                                   std::span<const GroundTile* const> sketches);
-    // Returns the distance of neighbouring vertices at a level [m], about.
+    // Returns the approximate distance of neighbouring vertices at a level [m].
     double spacing_m(int level) const;
 
   private:
@@ -105,7 +105,7 @@ class GroundTileMaker {
     struct Making {
         std::shared_ptr<GroundTexels> own;
         std::shared_ptr<const GroundTexels> above;
-        std::shared_ptr<GroundTexels> above_laid;  // where above is still to be made of it
+        std::shared_ptr<GroundTexels> above_laid;  // if `above` still has to be made from it
     };
 
     std::shared_ptr<GroundTexels> lay(const GroundTileKey& key, int quads);

@@ -1,6 +1,6 @@
 #pragma once
-// Heights on a regular grid, however large: asked for point by point, so that only what is looked at need be
-// in memory.
+// Heights on a regular grid of any size, read point by point, so that only what is needed has to be in
+// memory.
 
 namespace hilcam {
 
@@ -10,7 +10,7 @@ class HeightMap {
     virtual int columns() const = 0;  // at least 2
     virtual int rows() const = 0;     // at least 2; row 0 is the northernmost
     virtual double spacing_m() const = 0;
-    // Finite. 0 <= column < columns(), row likewise. Any thread.
+    // Returns a finite value. 0 <= column < columns(), 0 <= row < rows(). Any thread.
     virtual float height_m(int column, int row) const = 0;
 };
 

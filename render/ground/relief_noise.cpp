@@ -26,8 +26,8 @@ HWY_INLINE V fade(V t) {
 // A coordinate between two planes of the lattice.
 struct Along {
     W hash[2];   // the planes' numbers, mixed
-    V from[2];   // the way from each
-    V share[2];  // the share of each
+    V from[2];   // distance from each
+    V share[2];  // weight of each
 };
 HWY_INLINE Along along(V p, std::uint64_t factor) {
     const V floor = hn::Floor(p);
@@ -38,10 +38,10 @@ HWY_INLINE Along along(V p, std::uint64_t factor) {
         {hash, hn::Add(hash, word(factor))}, {t, hn::Sub(t, number(1))}, {hn::Sub(number(1), faded), faded}};
 }
 
-// A gradient of the lattice's corner: towards the middles of a cube's edges, as Perlin has them.
+// The gradient at a corner of the lattice: towards the middles of a cube's edges, as in Perlin's noise.
 HWY_INLINE V gradient(W h, V x, V y, V z) {
-    // A mixer of 64 bits (Stafford's 13th of splitmix64; Steele, Lea and Flood, OOPSLA 14): the lattice has too many corners
-    // for ten rounds of Philox each.
+    // A 64-bit mixer (Stafford's 13th of splitmix64; Steele, Lea and Flood, OOPSLA 14): there are too many
+    // corners for ten rounds of Philox each.
     const Doubles d;
     h = hn::Xor(h, hn::ShiftRight<30>(h)) * word(0xBF58476D1CE4E5B9u);
     h = hn::Xor(h, hn::ShiftRight<27>(h)) * word(0x94D049BB133111EBu);
@@ -89,7 +89,7 @@ void add(const ReliefWave& wave, std::span<const Vec3d> places, std::span<double
         double* const to = heights_m.data() + i;
         hn::StoreU(hn::Add(hn::LoadU(d, to), heights_at(&places[i].x)), d, to);
     }
-    // What is left is less than a vector.
+    // The rest is less than a vector.
     double rest[3 * kMaxLanes] = {}, added[kMaxLanes] = {};
     for (std::size_t k = i; k < places.size(); ++k)
         rest[3 * (k - i)] = places[k].x, rest[3 * (k - i) + 1] = places[k].y,

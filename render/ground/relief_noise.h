@@ -1,6 +1,6 @@
 #pragma once
-// Gradient noise (Perlin, SIGGRAPH 02) of one octave at many places, for code that is compiled for several widths of vectors and
-// gives the same bits with each. Any thread.
+// Gradient noise (Perlin, SIGGRAPH 02) of one octave at many places, compiled for several vector widths with
+// the same bits. Any thread.
 
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@ struct ReliefWave {
     Vec3d shift;
     double amplitude_m = 1;
 };
-// Adds it to the heights of places. |scale * place + shift| is below 2^51.
+// Adds the wave to the heights of places. |scale * place + shift| must be below 2^51.
 void add_wave(const ReliefWave& wave, std::span<const Vec3d> places, std::span<double> heights_m);
 
 }  // namespace hilcam

@@ -5,7 +5,7 @@
 namespace hilcam {
 namespace {
 
-// Such maps have posts of 200 m and more: some pages do.
+// Such maps have posts of 200 m or more, so a few pages suffice.
 constexpr std::size_t kBytes = std::size_t{16} << 20;
 
 }  // namespace

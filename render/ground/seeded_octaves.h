@@ -1,8 +1,9 @@
 #pragma once
-// Things of a body's ground that are seeded by a law of how many there are above a diameter: octaves of diameters, each in cells
-// (ground_cells.h) of its own size. A cell draws how many of its octave are in it, and for each the place and the rank among
-// the octave's diameters; what else a kind of thing has it draws itself. Where a place has more or fewer of them than the law, more
-// or fewer are drawn in its cell; a factor's peaks that are narrower than a cell (a thing's width or more) may be cut.
+// Seeded things on a body's ground, with numbers by a law of the diameter. They are sorted into octaves of
+// diameters, each with its own cells (ground_cells.h). A cell draws the number of its things, and for each
+// the place and the rank among the octave's diameters; each kind of thing draws its other properties itself.
+// A factor by place changes the numbers in each cell; peaks of the factor that are narrower than a cell (at
+// least a thing's width) may be cut off.
 
 #include <cmath>
 #include <cstdint>
@@ -16,11 +17,11 @@
 
 namespace hilcam {
 
-// A factor by place says how many times as many things there are as the law says.
+// A factor by place on the number of things.
 class SeededFactor {
   public:
     virtual ~SeededFactor() = default;
-    // Finds as many factors as there are places. Any thread.
+    // Finds one factor for each place. Any thread.
     virtual void find(std::span<const Vec3d> places, std::span<double> factors) const = 0;
 };
 
@@ -28,18 +29,18 @@ class SeededOctaves {
   public:
     struct Octave {
         double min_m, max_m;   // diameters
-        double per_m2;         // number of things between the two
-        double larger_per_m2;  // number of things above the greater one
+        double per_m2;         // number between the two
+        double larger_per_m2;  // number above the larger one
         GroundCells cells;
     };
 
-    // A thing is what a cell says of it, before it has a shape.
+    // A thing as its cell draws it, before it has a shape.
     class Thing {
       public:
         Vec3d place;  // unit vector
         double above =
-            0;  // number per square metre of larger things, by the law: the inverse of the law is its diameter
-        double spare = 0;  // a number between 0 and 1 that is free
+            0;  // number per square metre of larger things; the inverse of the law gives its diameter
+        double spare = 0;  // a random number between 0 and 1 that is not used yet
 
         Thing(const SeededOctaves& from, const Octave& octave, const GroundCells::Cell& cell, int index)
             : from_(from), octave_(octave), cell_(cell), index_(index) {
@@ -61,14 +62,15 @@ class SeededOctaves {
         int index_;
     };
 
-    // per_m2: the law, number per square metre of diameters above one. cell_m: least width of an octave's cells.
+    // per_m2: the law, the number per square metre above a diameter. cell_m: smallest width of an octave's
+    // cells.
     SeededOctaves(double radius_m, std::int64_t seed, RandomPurpose purpose, double smallest_m,
                   double largest_m, const std::function<double(double diameter_m)>& per_m2,
                   const std::function<double(const Octave&)>& cell_m,
                   std::shared_ptr<const SeededFactor> factor = nullptr);
 
-    // Calls f(thing) for those of octaves with diameters above one that have their middles within an angle of a direction; some
-    // smaller ones are among them.
+    // Calls f(thing) for things whose middles are within an angle of a direction, in the octaves above a
+    // diameter; some may be smaller than that.
     template <class F>
     void visit_within(Vec3d middle, double reach_rad, double smallest_m, const F& f) const {
         for (const Octave& octave : octaves_)
@@ -77,8 +79,8 @@ class SeededOctaves {
                     if (length(thing.place - middle) <= 2 * std::sin(0.5 * reach_rad)) f(thing);
                 });
     }
-    // Calls f(thing) for all that may show on a patch, and perhaps a few more. min_texels: diameters of less are left out;
-    // reach: how far from its middle a thing reaches, in its diameters.
+    // Calls f(thing) for all things that may show on a patch, and possibly a few more. min_texels: smaller
+    // diameters are left out. reach: how far a thing extends from its middle, in diameters.
     template <class F>
     void visit_on(const GroundPatch& patch, double min_texels, double reach, const F& f) const {
         for (const Octave& octave : octaves_)
@@ -93,9 +95,9 @@ class SeededOctaves {
     std::vector<Octave> octaves_;
     std::shared_ptr<const SeededFactor> factor_;  // null: the law everywhere
 
-    // Finds the greatest factor at a cell's middle and corners.
+    // Returns the largest factor at a cell's middle and corners.
     double max_factor(const Octave& octave, const GroundCells::Cell& cell) const;
-    // Says whether a thing that was drawn for that factor is one by the factor of its own place.
+    // Decides, by the factor at its own place, whether a thing drawn for the largest factor is kept.
     bool is_kept(const Thing& thing, double most) const;
 
     template <class F>

@@ -13,21 +13,21 @@ constexpr int kStepsOfTile = 32;  // along a tile's edge
 constexpr std::size_t kTileTriangles =
     2 * kStepsOfTile * kStepsOfTile + 8 * kStepsOfTile;  // triangles of a tile with its skirts
 
-// A square of the map: its first column and row, and the distance between the columns it uses.
+// A square of the map: its first column and row, and the spacing of the columns that it uses.
 struct TerrainTile {
     int column = 0, row = 0, step = 1;
     double edge_px = 0;
     friend bool operator<(const TerrainTile& a, const TerrainTile& b) { return a.edge_px < b.edge_px; }
 };
 
-// Along the ground from the middle to what is under a point.
+// Returns the place below a point, along the ground from the middle.
 Vec2d ground_m(double radius_m, Vec3d p) {
     if (radius_m <= 0) return {p.x, p.y};
     const double across = std::hypot(p.x, p.y);
     const double angle = std::atan2(across, radius_m + p.z);
     return across > 0 ? Vec2d{p.x / across * angle * radius_m, p.y / across * angle * radius_m} : Vec2d{};
 }
-// The same in columns and rows of the map.
+// Returns the same in columns and rows of the map.
 Vec2d post_of(const HeightMap& map, double radius_m, Vec3d p) {
     const Vec2d at = ground_m(radius_m, p);
     return {at.x / map.spacing_m() + 0.5 * (map.columns() - 1),
@@ -41,7 +41,7 @@ class TerrainBuilder {
 
     TerrainMesh build() {
         TerrainMesh out;
-        // Under the camera, or at the nearest point of the map.
+        // Below the camera, or at the nearest point of the map.
         out.anchor_m = place(column_of(view_.camera_m), row_of(view_.camera_m));
         anchor_m_ = out.anchor_m;
         out.mesh.surfaces.resize(1);
@@ -63,7 +63,7 @@ class TerrainBuilder {
         const int span = step * kStepsOfTile;
         return {column / span, row / span, step};
     }
-    // The step of the tile that holds a point, if that tile is coarser than `step`; else `step`.
+    // Returns the step of the tile that holds a point if it is coarser than `step`; otherwise `step`.
     int coarser_step(int column, int row, int step) const {
         if (column < 0 || row < 0 || column >= map_.columns() - 1 || row >= map_.rows() - 1) return step;
         for (int s = step; s * kStepsOfTile < 2 * std::max(map_.columns(), map_.rows()); s *= 2)
@@ -71,8 +71,8 @@ class TerrainBuilder {
         return step;
     }
 
-    // A vertex of a tile, x and y counted in its steps. On a border to a coarser tile it lies on that one's
-    // edge.
+    // Returns a vertex of a tile, x and y counted in its steps. On the border to a coarser tile it is on that
+    // tile's edge.
     Vec3d vertex_at(const TerrainTile& t, int x, int y) const {
         const int column = last_column(t.column + x * t.step), row = last_row(t.row + y * t.step);
         if (x == 0 || x == kStepsOfTile) {
@@ -101,14 +101,14 @@ class TerrainBuilder {
     }
     int column_of(Vec3d p) const { return clamped(post_of(map_, radius_m_, p).x, map_.columns()); }
     int row_of(Vec3d p) const { return clamped(post_of(map_, radius_m_, p).y, map_.rows()); }
-    // A point of the map in terrain axes.
+    // Returns a point of the map in terrain axes.
     Vec3d place(int column, int row) const {
         const double x = (column - 0.5 * (map_.columns() - 1)) * map_.spacing_m();
         const double y = (0.5 * (map_.rows() - 1) - row) * map_.spacing_m();
         const double height = static_cast<double>(map_.height_m(column, row));
         if (radius_m_ <= 0) return {x, y, height};
         const double across = std::hypot(x, y), angle = across / radius_m_, r = radius_m_ + height;
-        // (R + h) cos a - R without losing digits: h cos a - 2 R sin^2(a/2).
+        // (R + h) cos a - R without loss of digits: h cos a - 2 R sin^2(a/2).
         const double half = std::sin(0.5 * angle);
         const double scale = across > 0 ? r * std::sin(angle) / across : 0;
         return {scale * x, scale * y, height * std::cos(angle) - 2 * radius_m_ * half * half};
@@ -116,11 +116,11 @@ class TerrainBuilder {
     int last_column(int column) const { return std::min(column, map_.columns() - 1); }
     int last_row(int row) const { return std::min(row, map_.rows() - 1); }
 
-    // Width of the tile's edges on the screen, where it is nearest to the camera.
+    // Returns the width of the tile's edges on the screen, where it is nearest to the camera.
     double edge_px(const TerrainTile& t) const {
         const int span = t.step * kStepsOfTile;
-        // The nearest point of a tile is near the one under the camera, if that is inside; else at its
-        // border.
+        // The nearest point of a tile is close to the one below the camera if that is inside; otherwise it is
+        // at the border.
         const int column = std::clamp(column_of(view_.camera_m), t.column, last_column(t.column + span));
         const int row = std::clamp(row_of(view_.camera_m), t.row, last_row(t.row + span));
         const double distance_m = std::max(length(place(column, row) - view_.camera_m), 1e-3);
@@ -170,7 +170,7 @@ class TerrainBuilder {
                 mesh.normals.push_back(normal_at(column, row, t.step));
             }
         const auto at = [&](int x, int y) { return base + static_cast<std::uint32_t>(y * kTileSide + x); };
-        // Past the map's edge points fall together: those quadrilaterals are left out.
+        // Beyond the map's edge points coincide; those quadrilaterals are left out.
         const auto inside = [&](int x, int y) {
             return t.column + x * t.step < map_.columns() - 1 && t.row + y * t.step < map_.rows() - 1;
         };
@@ -188,7 +188,7 @@ class TerrainBuilder {
         }
     }
 
-    // A strip that hangs from the border between two points: rounding shall open no gap.
+    // Adds a strip below the border between two points, so that rounding opens no gap.
     void skirt(const TerrainTile& t, int x0, int y0, int x1, int y1, std::uint32_t base, Mesh& mesh) const {
         constexpr int kTileSide = kStepsOfTile + 1;
         const auto down = [&](int x, int y) {
@@ -218,7 +218,7 @@ TerrainMesh terrain_mesh(const HeightMap& map, double radius_m, const TerrainVie
 
 std::optional<double> height_above_ground_m(const HeightMap& map, double radius_m, Vec3d point_m) {
     const Vec2d post = post_of(map, radius_m, point_m);
-    // The negation catches what is no number, too.
+    // The negation also catches NaN.
     if (!(post.x >= 0 && post.y >= 0 && post.x <= map.columns() - 1 && post.y <= map.rows() - 1)) return {};
     const int column = std::min(static_cast<int>(post.x), map.columns() - 2);
     const int row = std::min(static_cast<int>(post.y), map.rows() - 2);
@@ -227,7 +227,7 @@ std::optional<double> height_above_ground_m(const HeightMap& map, double radius_
     const double ground_m = (1 - down) * ((1 - right) * height(0, 0) + right * height(1, 0)) +
                             down * ((1 - right) * height(0, 1) + right * height(1, 1));
     if (radius_m <= 0) return point_m.z - ground_m;
-    // |p + (0, 0, R)| - R without losing digits.
+    // |p + (0, 0, R)| - R without loss of digits.
     const double z = point_m.z, across_squared = point_m.x * point_m.x + point_m.y * point_m.y;
     const double from_center = std::sqrt(across_squared + (radius_m + z) * (radius_m + z));
     return (across_squared + z * (2 * radius_m + z)) / (from_center + radius_m) - ground_m;

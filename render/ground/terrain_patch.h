@@ -1,13 +1,12 @@
 #pragma once
-// Terrain from one height map: a mesh for one place of the camera, so that a map
-// larger than memory can be looked at. Terrain axes: x east, y north, z up, origin at the
-// map's middle at height 0. On a sphere the map is laid out by distance and direction from that middle
-// (azimuthal equidistant).
+// Terrain from one height map, which may be larger than memory: a mesh for one place of the camera. Terrain
+// axes: x east, y north, z up, origin at the map's middle at height 0. On a sphere the map is laid out by
+// distance and direction from its middle (azimuthal equidistant).
 //
-// Tiles of 32 x 32 quadrilaterals in a quadtree; the tile whose edges are widest on the screen is split
-// first, until edges are as narrow as asked for or the triangles are used up. Where a tile meets a coarser
-// one its border lies on that one's edges; small skirts keep rounding from opening gaps. Normals are those of
-// the heights at the tile's own spacing. Not modelled: overhangs, and what lies beyond the map's edge.
+// Tiles of 32 x 32 quadrilaterals form a quadtree. The tile with the widest edges on the screen is divided
+// first, until edges are as narrow as needed or the triangles are used up. The border of a tile beside a
+// coarser one is on that one's edges, and small skirts close gaps from rounding. Normals are those of the
+// heights at the tile's own spacing. Not modelled: overhangs, and anything beyond the map's edge.
 
 #include <memory>
 #include <optional>
@@ -20,9 +19,8 @@ namespace hilcam {
 // radius_m: of the sphere under the map; 0: a plane. Any thread; allocates.
 TerrainMesh terrain_mesh(const HeightMap& map, double radius_m, const TerrainView& view);
 
-// Returns the height of a point, in terrain axes, above the ground along its own vertical [m], bilinear
-// between the map's four posts around; negative: below it. None beside the map. Loop, any thread; no
-// allocation.
+// Returns the height of a point (terrain axes) above the ground along its vertical [m], negative below it;
+// bilinear between the four posts around it. None outside the map. Loop, any thread; no allocation.
 std::optional<double> height_above_ground_m(const HeightMap& map, double radius_m, Vec3d point_m);
 
 class TerrainPatch final : public Terrain {

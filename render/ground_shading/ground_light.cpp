@@ -10,13 +10,13 @@
 namespace hilcam {
 namespace {
 
-// A pixel asks whether the Sun reaches it.
+// A pixel that has to test whether it is in the Sun.
 struct AskedPoint {
     std::uint32_t pixel;
     Spectrum light;
 };
 
-// One tile's way through its blocks of 4 x 4 pixels.
+// The blocks of 4 x 4 pixels of one tile.
 template <class Shadow>
 class GroundTileLight {
   public:
@@ -41,12 +41,12 @@ class GroundTileLight {
         const Vec3d right = step_px * rays.right, down = step_px * rays.down;
         corner_ = body_from_world * to_float(rays.corner + tile.box.x0 * right + tile.box.y0 * down);
         right_ = body_from_world * to_float(right), down_ = body_from_world * to_float(down);
-        // By place the law's other parameters differ, too, and slopes are for one place at a time.
+        // With maps the law's other parameters differ by place, and slopes are computed one place at a time.
         vectors_ =
             hapke_ && hapke_->parameters.roughness_tangent == 0 && frame_.surfaces->corner_hapke.empty();
     }
 
-    // x, y: of the block's corner in the picture. ids: of its pixels.
+    // x, y: the block's corner in the picture. ids: of its pixels.
     void add(int x, int y, const std::uint32_t* ids) {
         aim(x, y, ids);
         find_ground(frame_, packet_);
@@ -69,13 +69,13 @@ class GroundTileLight {
     Vec3f camera_m_, sun_dir_;     // ray space, world axes
     Vec3f corner_, right_, down_;  // the tile's rays, body axes
     GroundPacket packet_;
-    std::array<GroundPacket::Floats, kMaxBins> light_;  // radiance where the Sun is seen
+    std::array<GroundPacket::Floats, kMaxBins> light_;  // radiance if the Sun is visible
 
     void aim(int x, int y, const std::uint32_t* ids) {
         const auto left = static_cast<float>(x - tile_.box.x0) + 0.5f,
                    top = static_cast<float>(y - tile_.box.y0) + 0.5f;
         for (std::size_t i = 0; i < kPacketSize; ++i) {
-            // Beside the picture there may be none.
+            // Places outside the picture may have no id.
             packet_.triangle[i] = ids[i] == VisibilityTile::kNothing ? ids[0] : ids[i];
             const float dx = left + static_cast<float>(i % 4), dy = top + static_cast<float>(i / 4);
             packet_.dir.x[i] = corner_.x + dx * right_.x + dy * down_.x;
@@ -119,7 +119,7 @@ class GroundTileLight {
         }
     }
 
-    // Gives the block's pixels their light, or asks for it.
+    // Adds the block's light to its pixels, or tests the Sun for it.
     void give(int x, int y) {
         const int width = tile_.box.x1 - tile_.box.x0;
         for (std::size_t i = 0; i < kPacketSize; ++i) {
@@ -140,7 +140,7 @@ class GroundTileLight {
         return light;
     }
 
-    // From where a ray begins that leaves the ground, as ShadingPoint::start() has it.
+    // Starts at the same point as ShadingPoint::start().
     void ask(std::size_t i, std::uint32_t pixel) {
         const AskedPoint asked{pixel, light_of(i)};
         const auto& corners = frame_.mesh.triangles[packet_.triangle[i]];

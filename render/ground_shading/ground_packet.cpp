@@ -28,7 +28,7 @@ HWY_INLINE void store(V value, GroundPacket::Floats& to, std::size_t k) {
     hn::Store(value, Floats(), to.data() + k);
 }
 
-// Natural logarithm of a normal positive number, as sensor/noise.cpp has it: error below 2e-7.
+// The natural logarithm of a normal positive number, as in sensor/noise.cpp: error below 2e-7.
 HWY_INLINE V logarithm(V x) {
     const Floats d;
     const Ints di;
@@ -43,7 +43,7 @@ HWY_INLINE V logarithm(V x) {
                    hn::Mul(hn::Mul(number(2), s), series));
 }
 
-// Four packed normals about each place, two that lie side by side together, and where it is between them.
+// Four packed normals around each place, neighbours in pairs, and its position between them.
 struct alignas(64) Neighbours {
     std::uint32_t low[2 * GroundPacket::kSize], high[2 * GroundPacket::kSize];
     float x[GroundPacket::kSize], y[GroundPacket::kSize];
@@ -71,11 +71,12 @@ struct alignas(64) Neighbours {
     }
 };
 struct alignas(64) Lookups {
-    Neighbours own, above;             // normals of a tile's level, and of the level above it
-    float share[GroundPacket::kSize];  // share of the second
+    Neighbours own, above;             // normals of a tile's level, and of the next coarser one
+    float share[GroundPacket::kSize];  // weight of `above`
 };
 
-// Writes where in the grids of normals a place lies (GroundNormals::find). Triangles without any have their corners' instead.
+// Finds each place in the grids of normals (GroundNormals::find). Triangles without grids use their corners'
+// normals.
 void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
     constexpr int kQuads = GroundNormals::kQuads, kTexels = GroundNormals::kTexels;
     const GroundNormals* const normals = surfaces.ground_normals.get();
@@ -94,7 +95,7 @@ void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
         const std::uint32_t in_tile = triangle - first;
         at.share[i] = 0;
         if (!tile || in_tile >= 2 * kQuads * kQuads) {
-            // Barycentric shares as a bilinear mean: (1 - v) ((1 - x) n0 + x n1) + v n2.
+            // Barycentric weights as a bilinear mean: (1 - v) ((1 - x) n0 + x n1) + v n2.
             const auto& n = surfaces.triangles[triangle].corner_normals;
             const std::uint32_t corners[4] = {n[0], n[1], n[2], n[2]};
             at.own.take(i, corners, 2);
@@ -114,7 +115,7 @@ void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
     }
 }
 
-// Corners' positions and colours, gathered.
+// Positions and colours of corners, gathered.
 struct alignas(64) Corners {
     float position[3][3][GroundPacket::kSize];  // by corner and axis
     float color[3][3][GroundPacket::kSize];     // by corner and channel
@@ -151,13 +152,13 @@ HWY_INLINE void find_cosines(const GroundInFrame& frame, const Lookups& lookups,
     const Floats d;
     const V above = hn::Load(d, lookups.share + k);
     Vector sum = lookups.own.mean(k);
-    // Most of a picture is of one level.
+    // Most of a picture is at one level.
     if (!hn::AllTrue(d, hn::Eq(above, number(0))))
         sum = plus(times(hn::Sub(number(1), above), sum), times(above, lookups.above.mean(k)));
     const Vector geometric = load(p.geometric, k), view = times(number(-1), unit(load(p.dir, k)));
     Vector normal = unit(sum);
     normal = chosen(hn::Lt(dotted(normal, geometric), number(0)), times(number(-1), normal), normal);
-    // A smoothed normal that leans away from the viewer would make the surface vanish.
+    // A smoothed normal that faces away from the viewer would make the surface vanish.
     const auto none =
         hn::Or(hn::Le(dotted(sum, sum), number(1e-6f)), hn::Le(dotted(normal, view), number(1e-4f)));
     if (!hn::AllFalse(d, none)) normal = chosen(none, unit(geometric), normal);
@@ -193,12 +194,12 @@ void find(const GroundInFrame& frame, GroundPacket& p) {
             store(color, p.color[channel], k);
         }
     }
-    Lookups lookups{};  // those that no place needs are read, too
+    Lookups lookups{};  // entries that no place needs are read, too
     look_up(*frame.surfaces, p, lookups);
     for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) find_cosines(frame, lookups, k, p);
 }
 
-// hapke_geometry() (hapke.h) of ground without slopes.
+// The lanes' version of hapke_geometry() (hapke.h), for ground without slopes.
 void hapke(const HapkeParameters& h, const GroundPacket& p, HapkePacket& out) {
     const Floats d;
     const std::size_t lanes = hn::Lanes(d);
@@ -226,7 +227,7 @@ void hapke(const HapkeParameters& h, const GroundPacket& p, HapkePacket& out) {
     }
 }
 
-// hapke() and hapke_h() (hapke.h).
+// The lanes' version of hapke() and hapke_h() (hapke.h).
 void reflect(const HapkePacket& hapke, const GroundPacket& p, float scale,
              const GroundPacket::Floats& albedos, GroundPacket::Floats& out) {
     const Floats d;

@@ -7,13 +7,14 @@ namespace hilcam {
 namespace {
 
 constexpr int kStep_px = GroundUpsampler::kStep_px;
-constexpr int kRing = 2;  // places beside a box that its pixels take
+constexpr int kRing = 2;  // places around a box that its pixels need
 constexpr int kMaxPlaces = RadianceImage::kBlock_px / kStep_px + 2 * kRing;
 
-// Keys' weights of four places for what lies a quarter of the way from the second to the third; backwards: three quarters.
+// Keys' weights of four places for a point a quarter of the way from the second to the third; reversed: three
+// quarters.
 constexpr std::array<float, 4> kQuarter = {-0.0703125f, 0.8671875f, 0.2265625f, -0.0234375f};
 
-// These are what lies between four places from at[0] on, `apart` values apart each.
+// Interpolate between four values from at[0] on, `apart` values apart.
 float near_second(const float* at, int apart) {
     return kQuarter[0] * at[0] + kQuarter[1] * at[apart] + kQuarter[2] * at[2 * apart] +
            kQuarter[3] * at[3 * apart];
@@ -55,14 +56,14 @@ bool GroundUpsampler::knows(const PixelBox& b) const {
     return true;
 }
 
-// A pixel's middle lies a quarter of the way between two places, or three quarters.
+// A pixel's middle is a quarter of the way between two places, or three quarters.
 bool GroundUpsampler::give(const PixelBox& box, RadianceImage& picture) const {
     const int x0 = box.x0 / kStep_px - kRing, y0 = box.y0 / kStep_px - kRing;
     const int across = places(box.x1) + kRing - x0, down = places(box.y1) + kRing - y0;
     if (!knows({x0, y0, x0 + across, y0 + down})) return false;
     std::array<float, kMaxPlaces * kMaxPlaces>
-        in;  // the places about the box, the outermost ones repeated beyond the picture
-    std::array<float, 2 * kMaxPlaces * kMaxPlaces> lines;  // the picture's lines at the places' columns
+        in;  // places around the box; the outermost ones are repeated outside the picture
+    std::array<float, 2 * kMaxPlaces * kMaxPlaces> lines;  // the picture's lines, at the places' columns
     for (int plane = 0; plane < picture.planes(); ++plane) {
         for (int y = 0; y < down; ++y) {
             const auto row = light_.row(std::clamp(y0 + y, 0, light_.height() - 1), plane);

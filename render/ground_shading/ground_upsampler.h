@@ -1,9 +1,9 @@
 #pragma once
-// A frame's light at every second pixel each way, and the pixels that are made of it by cubic convolution (Keys, IEEE
-// Transactions ASSP 29, 1981, with a = -1/2; less than nothing is taken as nothing).
+// Holds a frame's light at every second pixel in each direction, and interpolates all pixels from it by cubic
+// convolution (Keys, IEEE Transactions ASSP 29, 1981, with a = -1/2; negative results become zero).
 //
-// Precision: what is narrower than two pixels is lost, or shows at another place. docs/ground.md has what that is of the sensor's
-// noise.
+// Structures narrower than two pixels are lost, or aliased. docs/ground.md has the error in units of the
+// sensor's noise.
 
 #include <cstdint>
 #include <vector>
@@ -16,20 +16,21 @@ namespace hilcam {
 class GroundUpsampler {
   public:
     static constexpr int kStep_px = 2;
-    static constexpr int kTile = 32;  // places on an edge of a tile, whose light is known or not
+    static constexpr int kTile = 32;  // places along the edge of a tile whose light is known or not
 
-    // Has room for a picture's. Owner thread.
+    // Allocates for a picture. Owner thread.
     explicit GroundUpsampler(const RadianceImage& picture);
     bool has_room_for(const RadianceImage& picture) const;
 
-    // The light at the places, whose corner is the picture's. A tile's is known from set_known() on. Loop, any thread, one a tile.
+    // The light at the places, from the picture's corner on. A tile's light is valid after set_known(). Loop,
+    // any thread, one per tile.
     RadianceImage& light() { return light_; }
     void set_known(const PixelBox& tile, bool known) {
         known_[index(tile.x0 / kTile, tile.y0 / kTile)] = known;
     }
 
-    // Writes the pixels of a box of the picture, of RadianceImage::kBlock_px at most. False, and nothing is written: a place is not
-    // known that it takes. Loop, any thread.
+    // Writes the pixels of a box of the picture, at most RadianceImage::kBlock_px wide and high. Returns
+    // false, and writes nothing, if a place that it needs is not known. Loop, any thread.
     bool give(const PixelBox& box, RadianceImage& picture) const;
 
   private:

@@ -1,5 +1,5 @@
-// Looks up what shading points reflect of the light that is cached (indirect_cache.h), and of the light of bodies that comes
-// without a way.
+// Looks up the cached light that shading points reflect (indirect_cache.h), and the unblocked direct light of
+// bodies.
 
 #include "render/indirect/indirect_cache.h"
 
@@ -19,35 +19,37 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own, float where_none = 1) 
     for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : where_none;
     return out;
 }
-// Returns the ratio of the place's spectrum to the material's own there: of its facets, where they have colours of their
-// own, and of all the rest.
+// Returns the ratio of the place's spectrum to the material's own: for facets that have their own colours,
+// and for the rest.
 Spectrum facet_tint(const Bsdf& at) { return ratio(at.highlight, at.material->highlight); }
 bool has_own_colors(const Bsdf& at) { return at.material->varies() && at.material->is_bare(); }
 bool is_tinted(const Bsdf& at) { return at.base.bin != at.material->base.bin; }
-// It scatters by a law of its own, which is neither Lambert's nor the sum of facets and what lies below them.
+// True when a material scatters by a diffuse law other than Lambert's and has no facets.
 bool has_own_law(const Material& of) {
     return !of.has_facets() && !of.transmits() && of.brdf.index() != kModel<brdf::Lambert>;
 }
 Spectrum base_tint(const Bsdf& at) { return ratio(at.base, at.material->base); }
 
-// Directions that differ by no more are one to a lobe: a degree, of lobes that are seven wide at least.
+// Lobes at least seven degrees wide treat directions within a degree as the same.
 constexpr float kSameLobe = 0.9998f;  // cosine
 
-// True when two shading points lie the same way, and are of one surface. A texture may give their facets colours of their own.
+// True when two shading points belong to one surface and have the same normal. A texture may still colour
+// their facets differently.
 bool lies_alike(const ShadingPoint& a, const ShadingPoint& b) {
     return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
            dot(a.normal, b.normal) > kSameLobe;
 }
-// True when they send lobes of one kind the same way besides.
+// True when they also have the same lobe and view direction.
 bool sends_alike(const ShadingPoint& a, const ShadingPoint& b) {
     return lies_alike(a, b) && a.surface.alpha == b.surface.alpha && dot(a.view_dir, b.view_dir) > kSameLobe;
 }
-// Numbers the square of four pixels that a shading point is seen in: cached light is too smooth to differ there.
+// Returns the number of the square of four pixels that sees a shading point; cached light is too smooth to
+// differ inside it.
 std::uint32_t quad_of(const Tile& tile, const ShadingPoint& at) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     return at.pixel / width / 2 * width + at.pixel % width / 2;
 }
-// near_m: what lies so close together is lit alike. Mirrors that do not lie in one plane show different things.
+// near_m: points closer than this receive the same light. Mirrors in different planes show different things.
 bool is_alike(const ShadingPoint& a, const ShadingPoint& b, float near_m) {
     constexpr float kPlane = 0.999998f;  // cosine
     const bool mirror = a.surface.material->has_facets() && a.surface.alpha < kNarrowestLobe;
@@ -58,21 +60,23 @@ bool is_alike(const ShadingPoint& a, const ShadingPoint& b, float near_m) {
 
 }  // namespace
 
-// Something may stand in the mirror's direction.
+// True when something may be in the mirror direction.
 bool IndirectCache::is_near(const FrameContext& frame, const Place& place) const {
     if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
     const ShadingPoint& at = *place.at;
     const Vec3f dir = to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal));
     const IrradianceCache& light = *objects_[at.object].light;
     if (light.is_near(place.nearest, dir)) return true;
-    // A step of brightness shows in a bright lobe where one probe knows and the next does not; asking all takes time.
+    // If one probe knows of something and the next does not, a bright lobe shows a step. Testing all probes
+    // takes time.
     if (at.surface.alpha < kNarrowestLobe || max_component(lobe_albedo(at)) < kBrightLobe) return false;
     return std::any_of(place.about.probe.begin(),
                        place.about.probe.begin() + static_cast<std::ptrdiff_t>(place.about.count),
                        [&](std::uint32_t probe) { return light.is_near(probe, dir); });
 }
 
-// The place whose light a shading point shares; null: it needs its own. What mirrors show may be seen from anywhere.
+// Returns the place whose light a shading point can share; null: it needs its own. For mirrors light from
+// anywhere matters.
 IndirectCache::Place* IndirectCache::shared_place(std::span<Place> places, const ShadingPoint& at,
                                                   std::uint32_t quad) const {
     const float near_m = 0.5f * objects_[at.object].light->table().probes().cube_m();
@@ -102,7 +106,7 @@ void IndirectCache::add_reflected(Tile& tile, std::span<const ShadingPoint> poin
     }
 }
 
-// Takes shading points from the first on, as many as there is room for. Returns the number of the one after them.
+// Takes as many shading points as fit, from the first on. Returns the number of the next one.
 std::size_t IndirectCache::gather(const Tile& tile, std::span<const ShadingPoint> points, std::size_t first,
                                   Together& block) const {
     std::size_t next = first, &count = block.place_count, &used = block.use_count;
@@ -128,7 +132,7 @@ void IndirectCache::reflect_clusters(const FrameContext& frame, Place& place) co
     if (at.surface.alpha < kNarrowestLobe) reflect_far_bodies(place);
 }
 
-// Adds what a shading point has of its place's light to its pixel, or leaves its lobe to rays.
+// Adds the shading point's share of its place's light to its pixel, or leaves its lobe to rays.
 void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest> requests) const {
     const ShadingPoint& at = *use.at;
     const Place& place = *use.place;
@@ -156,15 +160,16 @@ void IndirectCache::add_use(Tile& tile, const Use& use, std::span<GlossyRequest>
     tile.move(at, LightPart::kDiffuse, LightPart::kGlossy, at.throughput * met);
 }
 
-// Rays follow the lobes of what the camera sees, where what stands near could be seen in them: where a pixel has by it more than
-// half the threshold, against white paint in the Sun. From there to twice as much they count more and more against the cache's
-// directions, so that no edge shows where they begin.
+// Returns the weight of rays, 0 to 1. Rays follow the lobes of what the camera sees if near things may show
+// in them: if the light that they bring to the pixel exceeds half the threshold, relative to white paint in
+// the Sun. From there to the full threshold rays gain weight against the cache, so that no edge shows where
+// they begin.
 float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, const Place& place,
                                    const Spectrum& met) const {
     constexpr float kOfThreshold = 0.5f, kOfFree = 4;
     if (!tile.glossy || at.depth != 1 || tile.frame.max_depth < 2 || at.surface.alpha < kNarrowestLobe)
         return 0;
-    // Directions of a table fall beside a narrow lobe: what may stand in it is looked for.
+    // A table's directions may miss a narrow lobe, so rays search it.
     if (at.surface.alpha < kMinCachedAlpha && place.mirrors_near)
         return at.importance(at.throughput * lobe_albedo(at)) >= tile.frame.contribution_threshold ? 1.0f
                                                                                                    : 0.0f;
@@ -220,7 +225,7 @@ void IndirectCache::find(const FrameContext& frame, std::span<Place> places) con
     }
 }
 
-// The irradiance of all sources but the Sun by way of other surfaces, at a probe or about a place.
+// Returns the irradiance of all sources except the Sun by way of other surfaces, at a probe or about a place.
 template <class Where>
 Spectrum IndirectCache::others(const FrameContext& frame, const IrradianceCache& light,
                                const Where& where) const {
@@ -235,7 +240,7 @@ Spectrum IndirectCache::others(const FrameContext& frame, const IrradianceCache&
     return sum;
 }
 
-// This is what a surface of the material's own colour reflects without its facets.
+// Returns the radiance that a surface of the material's own colour reflects without its facets.
 Spectrum IndirectCache::reflect_diffuse(const FrameContext& frame, const Place& place) const {
     const ShadingPoint& at = *place.at;
     const Object& object = objects_[at.object];
@@ -251,21 +256,22 @@ Spectrum IndirectCache::reflect_diffuse(const FrameContext& frame, const Place& 
     return radiance_of(place, all) + reflect_bodies(place);
 }
 
-// The light of a body without a way, at a place.
+// Returns the unblocked direct irradiance of a body at a place.
 Spectrum IndirectCache::direct_irradiance(std::size_t body, const Place& place) const {
     const IrradianceCache& light = *objects_[place.at->object].light;
     return (place.found ? light.seen(RadiosityTerms::kBodies + body, place.about) : 1.0f) *
            planetshine_.irradiance(body, place.at->normal);
 }
 
-// Returns the diffuse radiance that a body's light without a way makes. It comes from a part of the sky, which rough surfaces send
-// back more of towards where it came from: their law is summed over the body's parts, and the sum takes the irradiance's scale. By
-// the albedo alone, white paint with the Earth behind the camera is 6 % too dark.
+// Returns the diffuse radiance that a body's direct light makes. The light comes from a part of the sky, and a
+// rough surface sends more of it back to where it came from. So the surface's law is summed over the parts of
+// the body, and the sum is scaled to the irradiance. With the albedo alone, white paint is 6 % too dark if the
+// Earth is behind the camera.
 Spectrum IndirectCache::reflect_body(std::size_t body, const Place& place) const {
     const ShadingPoint& at = *place.at;
     const Spectrum irradiance = direct_irradiance(body, place);
     if (!has_own_law(*at.surface.material)) return radiance_of(place, irradiance);
-    Bsdf plain = at.surface;  // textures' colours come later
+    Bsdf plain = at.surface;  // add_use() adds the colours of textures
     plain.base = plain.material->base;
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     Spectrum sent, met;
@@ -278,14 +284,15 @@ Spectrum IndirectCache::reflect_body(std::size_t body, const Place& place) const
     return max_component(met) > 0 ? ratio(sent, met, 0) * irradiance : radiance_of(place, irradiance);
 }
 
-// The part of reflect_diffuse() that is the bodies' light without a way.
+// Returns the part of reflect_diffuse() that is direct light of bodies.
 Spectrum IndirectCache::reflect_bodies(const Place& place) const {
     Spectrum all;
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b) all += reflect_body(b, place);
     return all;
 }
 
-// Returns the radiance that a surface of the material's own colour makes of an irradiance without its facets.
+// Returns the radiance that a surface of the material's own colour reflects of an irradiance, without its
+// facets.
 Spectrum IndirectCache::radiance_of(const Place& place, const Spectrum& irradiance) const {
     const ShadingPoint& at = *place.at;
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
@@ -294,8 +301,8 @@ Spectrum IndirectCache::radiance_of(const Place& place, const Spectrum& irradian
 
 void IndirectCache::reflect_lobe(const FrameContext& frame, Place& place) const {
     const ShadingPoint& at = *place.at;
-    // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
-    // does, it has all of them.
+    // If something is near, rays find the bodies in the middle of a narrow lobe. If not, the lobe has all of
+    // them.
     const bool narrow = at.surface.alpha < kMinCachedAlpha, whole = narrow && !place.mirrors_near;
     const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
     const MetByLobe met = met_by_lobe(frame, place, whole);
@@ -306,7 +313,8 @@ void IndirectCache::reflect_lobe(const FrameContext& frame, Place& place) const 
                            place.unhidden[b].facet_cosine};
 }
 
-// A mirror that shows no body, and has nothing near, has the bodies by its lobe's tails: four pixels have the same.
+// A mirror that shows no body and has nothing near sees bodies only by its lobe's tails, which four pixels
+// share.
 void IndirectCache::reflect_far_bodies(Place& place) const {
     const ShadingPoint& at = *place.at;
     const Vec3f mirror = reflect(at.view_dir, at.normal);
@@ -369,7 +377,8 @@ IndirectCache::SentOfBodies IndirectCache::sent_of_bodies(const ShadingPoint& at
     return sent;
 }
 
-// Returns what a facet lobe sends of all of a body's light, white where facets have colours of their own. reflectance: of the lobe.
+// Returns a body's whole light in a facet lobe, without the colour of facets that have their own.
+// reflectance: of the lobe.
 Planetshine::Glossy IndirectCache::sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
                                                 float reflectance) const {
     Planetshine::Glossy sent = planetshine_.glossy(body, normal, at.view_dir, at.surface.alpha, reflectance);
@@ -378,8 +387,8 @@ Planetshine::Glossy IndirectCache::sent_of_body(std::size_t body, const ShadingP
     return sent;
 }
 
-// The same of a shading point of several parts, each as it leans: of two that lean apart one may show the body, and their mean
-// none of it.
+// The same for a shading point with several normals, one by one: of two that differ one may show the body,
+// and their mean nothing of it.
 Planetshine::Glossy IndirectCache::sent_by_parts(std::size_t body, const ShadingPoint& at,
                                                  float reflectance) const {
     const bool own_colors = has_own_colors(at.surface);
@@ -422,7 +431,7 @@ void IndirectCache::add_bodies_in_lobe(const FrameContext& frame, const ShadingP
         radiance +=
             at.throughput * colored(at.surface, sent_of_body(b, at, at.normal, max_component(weight)));
     }
-    // Small bodies, and air.
+    // Small bodies and air.
     if (!meets && frame.background->may_meet_body(mirror))
         frame.background->add_bodies(at.start(), to_double(mirror), weight, radiance);
 }

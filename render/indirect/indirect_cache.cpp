@@ -11,14 +11,14 @@
 namespace hilcam {
 namespace {
 
-// The grid for an object that turns: light is made anew twice a second at most, up to steps of 10 degrees,
-// which are worth 0.7 of the sensor's noise (docs/performance.md).
+// Returns the grid step for an object that rotates: light is solved at most twice a second, with steps up to
+// 10 degrees, which cost 0.7 of the sensor's noise (docs/performance.md).
 float step_of(const ShownObject& object, float min_rad) {
     constexpr float kSolve_s = 0.5f, kMax_rad = 0.175f;
     return std::max(min_rad, std::min(kMax_rad, kSolve_s * static_cast<float>(object.turn_rate_rad_s)));
 }
 
-// The narrowest facet lobe of all materials; 1: there are no facets.
+// Returns the smallest alpha of all materials; 1: there are no facets.
 float narrowest_alpha(std::span<const ShownObject> objects) {
     float least = 1;
     for (const ShownObject& object : objects)
@@ -35,7 +35,7 @@ IndirectCache::IndirectCache(std::span<const ShownObject> objects, const EmbreeS
       objects_(objects.size()),
       planetshine_(narrowest_alpha(objects)) {
     std::vector<IrradianceCache*> lights(objects.size());
-    std::map<const ObjectSurfaces*, std::shared_ptr<const ObjectAlbedos>> albedos;  // by make
+    std::map<const ObjectSurfaces*, std::shared_ptr<const ObjectAlbedos>> albedos;  // by prototype
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (!objects[i].transfer || objects[i].transfer->size() == 0) continue;
         std::shared_ptr<const ObjectAlbedos>& of_make = albedos[objects[i].levels.front().get()];
@@ -84,7 +84,8 @@ void IndirectCache::take_inputs(const FrameContext& frame, const WorldSnapshot& 
 }
 
 void IndirectCache::set_key(const FrameContext& frame, const WorldSnapshot& world) {
-    // One place stands for a square of four pixels, which is 2.8 across, and its mirrors lean by 2 mrad against each other.
+    // One place represents a square of four pixels, 2.8 across, whose mirrors lean by 2 mrad against each
+    // other.
     constexpr float kSquare_px = 3, kLean_rad = 0.002f;
     planetshine_.place(*frame.background,
                        kSquare_px / static_cast<float>(frame.geometry.focal_length_px) + 2 * kLean_rad);
@@ -110,7 +111,7 @@ bool IndirectCache::prepare(const FrameContext& frame, const WorldSnapshot& worl
     return !updates_->is_busy();
 }
 
-// Has made what the next frames will need first, if everything moves on as it did.
+// Asks for the key that the next frames will need first if everything continues its motion.
 void IndirectCache::look_ahead() {
     if (frames_++ % kStride == 0) std::swap(long_before_, before_), before_ = now_;
     const auto past = static_cast<double>(kStride + (frames_ - 1) % kStride);  // frames since long_before_
@@ -120,7 +121,7 @@ void IndirectCache::look_ahead() {
         ahead_key_.set(ahead_, lights_, terms_);
         return !(ahead_key_ == key_);
     };
-    // Mostly nothing takes a step for long; only where something does its first one is looked for.
+    // Usually nothing changes by a step for a long time; the first change is searched only if there is one.
     constexpr int kFurthest = 128;
     if (!differs(kFurthest)) return;
     for (int ahead = 1; ahead <= kFurthest; ahead *= 2)

@@ -1,10 +1,11 @@
 #pragma once
-// The cached light of all objects (irradiance_cache.h) as one frame has it: brought up to where the sources are, and
-// looked up where a path meets a surface (cached_reflection.cpp).
+// The irradiance caches (irradiance_cache.h) of all objects for one frame: updated to the sources' positions
+// and looked up where a path meets a surface (cached_reflection.cpp). See docs/rendering.md, "Cached light".
 //
-// Cached are the light between the parts of an object and between objects that stand near each other, and what
-// of the bodies' light reaches them past their parts. The Sun and lamps shine on what a path meets by rays as
-// ever, and by way of flat mirrors (mirror_sunlight.h). Not cached: light of terrain, between objects far apart.
+// Cached: light between the parts of an object and between objects near each other, and the share of the
+// bodies' light that the parts do not block. Rays find the light of the Sun and lamps on what a path meets,
+// also by way of flat mirrors (mirror_sunlight.h). Not cached: light of terrain, and light between objects
+// far apart.
 
 #include <array>
 #include <cstdint>
@@ -30,41 +31,42 @@ class IndirectCache {
         std::size_t lamps = 0;
         bool emission = false;
     };
-    // Light is cached on the objects that have a table. They outlive this. Owner thread.
+    // Objects that have a transfer table cache light. They must outlive this. Owner thread.
     IndirectCache(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
                   const Settings& settings);
 
-    // Prepares a frame, after everything else is placed; solves for what has moved by a step, where that was
-    // not done ahead. Loop.
+    // Prepares a frame after everything else has been placed: solves what has changed by a step, unless that
+    // was done ahead. Loop.
     void place(const FrameContext& frame, const WorldSnapshot& world);
-    // Has the light of a frame that is placed solved by the thread that looks ahead, for who can do without
-    // it meanwhile. True: that is done, and place() has no more to solve than what has moved since the first
-    // call. Before the first place(); loop, nothing is allocated and nobody waited for.
+    // Lets the thread that works ahead solve the light of a placed frame; meanwhile frames do without it.
+    // Returns true when that is done; place() then has to solve only what has changed since the first call.
+    // Call it before the first place(). Loop; no allocation, no waiting.
     bool prepare(const FrameContext& frame, const WorldSnapshot& world);
-    // From now on nothing is made before a frame asks for it, and no thread is left that would. Owner thread.
+    // Ends the thread that works ahead; light is then solved when a frame needs it. Owner thread.
     void stop_looking_ahead() { updates_->stop_looking_ahead(); }
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
     const IrradianceCache& light(std::size_t object) const { return *objects_[object].light; }
-    // Returns the probe whose light is looked up at a point of an object, the nearest of those about it; none: there are none.
-    // side: its normal by world axes. Any thread.
+    // Returns the nearest of the probes about a point of an object, from which its light is looked up;
+    // nothing if there are none. side: with its normal in world axes. Any thread.
     std::optional<std::uint32_t> nearest_probe(const FrameContext& frame, std::size_t object, Vec3f point_m,
                                                const SurfaceSide& side) const;
-    // Says in words what is cached on an object.
+    // Describes in words what is cached on an object.
     std::string describe(std::size_t object) const;
 
-    // Adds to the tile's pixels what shading points whose light is cached reflect of it, narrow lobes apart. requests: gets what
-    // is left to rays, by the shading point's number. Loop, any thread.
+    // Adds the cached light that shading points reflect to the tile's pixels, except narrow lobes. requests:
+    // by shading point, gets what is left to rays. Loop, any thread.
     void add_reflected(Tile& tile, std::span<const ShadingPoint> points,
                        std::span<GlossyRequest> requests) const;
-    // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
+    // Adds the sunlight that they reflect by way of flat mirrors. Loop, any thread.
     void add_mirror_sunlight(Tile& tile, std::span<const ShadingPoint> points) const {
         mirror_sunlight_.add_light(tile, points);
     }
-    // Returns what the facets of a shading point whose light is cached reflect of light from everywhere. Loop, any thread.
+    // Returns the share of uniform light that the facets of a shading point reflect. Loop, any thread.
     Spectrum lobe_albedo(const ShadingPoint& at) const;
     const Planetshine& planetshine() const { return planetshine_; }
-    // Adds what a lobe too narrow to be cached reflects of the bodies; mirror: its middle. Loop, any thread.
+    // Adds the bodies' light that a lobe too narrow for the cache reflects. mirror: the lobe's middle. Loop,
+    // any thread.
     void add_bodies_in_lobe(const FrameContext& frame, const ShadingPoint& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
 
@@ -75,11 +77,12 @@ class IndirectCache {
     };
     RadiosityTerms terms_;
     std::vector<Object> objects_;
-    std::vector<const IrradianceCache*> lights_;  // the light kept on each of them
+    std::vector<const IrradianceCache*> lights_;  // cache of each object
     std::unique_ptr<SolveAhead> updates_;
     Planetshine planetshine_;
     MirrorSunlight mirror_sunlight_;
-    // The inputs now, some frames ago, and as far ahead, and the keys that they ask for.
+    // Inputs of this frame, of one up to kStride frames ago, and extrapolated ahead; and the keys that they
+    // give.
     static constexpr std::uint64_t kStride = 16;  // frames
     SolveInputs now_, before_, long_before_, ahead_;
     SolveKey key_, ahead_key_;
@@ -90,43 +93,43 @@ class IndirectCache {
     void take_inputs(const FrameContext& frame, const WorldSnapshot& world);
     void look_ahead();
 
-    // The radiance that a lobe sends of each body, if nothing is in the way; where a texture colours facets
-    // (has_own_colors()) white, with the cosine that Fresnel's term has.
+    // For each body, the radiance that a lobe reflects of it if nothing is in the way. If a texture colours
+    // the facets (has_own_colors()), it is that of white facets, with the cosine for Fresnel's term.
     using SentOfBodies = std::array<Planetshine::Glossy, Planetshine::kMaxBodies>;
-    // A shading point on its way through the lookup: many go together, so that none waits for memory.
+    // A shading point during the lookup. Many are processed together, so that none waits for memory.
     struct Place {
         const ShadingPoint* at;
-        std::uint32_t quad;  // square of four pixels in which it is seen
+        std::uint32_t quad;  // square of four pixels that sees it
         SurfaceProbes::Search search;
         ProbeWeights about;
-        std::uint32_t nearest;  // probe, where there is one
+        std::uint32_t nearest;  // nearest probe, if there is one
         bool found;
-        // Radiance that is reflected to the viewer: by all but facets, and by those of other surfaces and of bodies. Where a
-        // texture colours facets, theirs is what white ones would reflect.
+        // Radiance that it reflects to the viewer: without facets, and by facets from other surfaces and from
+        // bodies. If a texture colours the facets, the latter are those of white facets.
         Spectrum diffuse, met;
         SentOfBodies bodies;
-        SentOfBodies unhidden;                            // the latter, if nothing were in the way
-        std::array<float, Planetshine::kMaxBodies> free;  // share of each that nothing is in the way of
-        float directions;                                 // that bring what is met (IrradianceCache::Lobe)
-        bool mirrors_near;                                // see GlossyRequest
-        bool has_bodies;                                  // likewise
+        SentOfBodies unhidden;                            // `bodies` if nothing were in the way
+        std::array<float, Planetshine::kMaxBodies> free;  // unblocked share of each body
+        float directions;   // effective number of directions that bring `met` (IrradianceCache::Lobe)
+        bool mirrors_near;  // see GlossyRequest
+        bool has_bodies;    // see GlossyRequest
     };
-    // A shading point, its number, and the place whose light it has.
+    // A shading point, its number, and the place whose light it uses.
     struct Use {
         const ShadingPoint* at;
         std::uint32_t number;
         Place* place;
     };
-    // Shading points that go together, and where they are.
+    // Shading points that are processed together, and their places.
     struct Together {
         std::array<Place, 32> places;
         std::array<Use, 128> uses;
         std::size_t place_count = 0, use_count = 0;
     };
-    // A lobe's reflection of other surfaces.
+    // The light of other surfaces that a lobe reflects.
     struct MetByLobe {
-        Spectrum radiance;  // white or coloured as that of a place
-        // Share of each body's light that comes without a way.
+        Spectrum radiance;  // white or coloured like Place::met
+        // Unblocked share of each body's light.
         std::array<float, Planetshine::kMaxBodies> free;
         float directions;
     };
@@ -156,7 +159,7 @@ class IndirectCache {
     Planetshine::Glossy sent_of_body(std::size_t body, const ShadingPoint& at, Vec3f normal,
                                      float reflectance) const;
     Planetshine::Glossy sent_by_parts(std::size_t body, const ShadingPoint& at, float reflectance) const;
-    // Returns it in the colours that a shading point has.
+    // Returns it in the shading point's colours.
     static Spectrum colored(const Bsdf& at, const Planetshine::Glossy& sent);
     Spectrum sum_of_bodies(const ShadingPoint& at, const SentOfBodies& sent) const;
 };

@@ -13,38 +13,39 @@
 namespace hilcam {
 namespace {
 
-// Half of the light of the Sun's disk comes from within this of its middle [rad]: 4.65 mrad over the root of
-// two.
+// Half of the light of the Sun's disk comes from within this angle of its middle [rad]: 4.65 mrad over the
+// root of two.
 constexpr float kHalfSun_rad = 0.0033f;
-// A mirror throws next to nothing at flatter angles.
+// A mirror reflects next to nothing at flatter angles.
 constexpr float kMinCosine = 0.01f;
-// The share of GGX's slopes within r alpha is r^2 / (1 + r^2) (its density, Walter et al., EGSR 2007, eq. 33, integrated). Even
-// spreads over disks of r = 1/2, 1, 2, 4 and 8 with these shares have it there. Squares stand for the disks: of half sides of 0.76 r
-// [alpha] they have the share within a strip, too, to 0.024.
+// The share of GGX's slopes within r alpha is r^2 / (1 + r^2) (its density, Walter et al., EGSR 2007, eq. 33,
+// integrated). Uniform distributions over disks of r = 1/2, 1, 2, 4 and 8 with these shares approximate it.
+// Squares replace the disks: with half sides of 0.76 r [alpha] they also have the share within a strip, to
+// 0.024.
 struct Rectangle {
     float half, share;
 };
 constexpr std::array<Rectangle, 5> kRectangles{
     {{0.38f, 0.1f}, {0.76f, 0.3f}, {1.52f, 0.353f}, {3.04f, 0.1735f}, {6.08f, 0.0735f}}};
 
-// A shading point on its way to a mirror.
+// A shading point with its ray to a mirror.
 struct MirrorRay {
     const ShadingPoint* at;
-    Spectrum light;    // light that it sends towards the viewer if it sees all of the mirrored Sun
+    Spectrum light;    // sent towards the viewer if it sees the whole mirrored Sun
     Vec3f start_m;     // start of the ray
     Vec3f dir, sun;    // towards the mirrored Sun, and from the mirror to the Sun
     float cosine;      // cosine between the ray and the plane's normal
     float distance_m;  // to the plane
     float filled;      // share of its lobe that the mirror fills
-    float even;        // 1: that share counts, 0: whether the ray meets the mirror
+    float even;        // 1: that share counts; 0: the result of the ray counts
 };
 struct Reflected {
     const ShadingPoint* at;
     Spectrum light;
 };
 
-// The light from a direction that a shading point reflects to the viewer, per unit of irradiance across it, and the
-// start of a ray that asks for that light.
+// The light from a direction that a shading point reflects to the viewer, per unit of irradiance across that
+// direction, and the start of a ray to test it.
 struct Scattered {
     Spectrum light;
     Vec3f start_m;
@@ -53,7 +54,7 @@ struct Scattered {
 Scattered scatter(const FrameContext& frame, const ShadingPoint& at, Vec3f dir, float alpha) {
     Bsdf surface = at.surface;
     const bool facets = surface.material->has_facets();
-    // Slopes of independent causes add by their squares; rays follow narrow lobes to the mirror.
+    // Slopes of independent causes add in quadrature; rays follow narrow lobes to the mirror.
     if (facets)
         surface.alpha =
             surface.alpha < kMinCachedAlpha ? 0 : std::min(1.0f, std::hypot(surface.alpha, alpha));
@@ -72,7 +73,7 @@ Scattered scatter(const FrameContext& frame, const ShadingPoint& at, Vec3f dir, 
     return {light, at.start(), !(max_component(light) > 0)};
 }
 
-// Asks for one mirror, sixteen shading points at a time.
+// Tests one mirror for sixteen shading points at a time.
 template <class Lit>
 class Asker {
   public:
@@ -91,7 +92,7 @@ class Asker {
     Asker& operator=(const Asker&) = delete;
 
     void ask(const ShadingPoint& at) {
-        // Most that stand before a mirror face away from it; facets may lean otherwise, by half a right
+        // Most points in front of a mirror face away from it; normals of clusters may differ by half a right
         // angle.
         if (dot(at.normal, shown_.dir) <= (at.clusters ? -0.7f : -0.01f)) return;
         const float above_m = dot(at.point_m - shown_.corner_m, shown_.normal);
@@ -99,7 +100,7 @@ class Asker {
         MirrorRay asked;
         asked.at = &at;
         auto [sun, light] = sun_.of(at);
-        // A disk that is widened is widened by the Sun's disk, too.
+        // A widened disk includes the Sun's own.
         if (shown_.blur.x > 0)
             sun = to_float(frame_.background->sun_world_dir()),
             light = frame_.background->sun_irradiance_w_m2_um();
@@ -133,18 +134,19 @@ class Asker {
     HitPacket hits_;
     std::array<MirrorRay, kPacketSize> asked_;
 
-    // Finds how much of the lobe the mirror fills, seen about a place of its plane. False: nothing.
+    // Finds the share of the lobe that the mirror fills, around a place in its plane. Returns false if it is
+    // zero.
     bool look_up(Vec2f place, MirrorRay& asked) const {
         const Vec2f cell = shape_.cell_m();
-        // The map is as fine as its cells, and as true as the level of detail; what is sharper has the edges
-        // that rays meet.
+        // The map is as fine as its cells and as exact as the level of detail. Sharper light gets its edges
+        // from rays.
         const Vec2f coarse{2 * (cell.x + shown_.tolerance_m), 2 * (cell.y + shown_.tolerance_m)};
         const Vec2f blur{shown_.blur.x * asked.distance_m, shown_.blur.y * asked.distance_m};
         asked.even = std::clamp(std::min(blur.x / coarse.x, blur.y / coarse.y) - 1, 0.0f, 1.0f);
         asked.filled = 0;
         float most = 0;
         Vec2f brightest = place;
-        // The largest first: most see nothing of it.
+        // The largest first: most points see nothing of it.
         for (auto part = kRectangles.rbegin(); part != kRectangles.rend(); ++part) {
             const Vec2f size{std::max(2 * part->half * blur.x, coarse.x),
                              std::max(2 * part->half * blur.y, coarse.y)};
@@ -162,8 +164,9 @@ class Asker {
         return true;
     }
 
-    // The light that a rough mirror throws comes from where the mirror is, be it no more than a ring. One place of it tells whether
-    // it is seen and lit: that in the middle of what throws the most.
+    // Light from a rough mirror comes from where the mirror is, even if that is only a ring. One place
+    // decides whether it is visible and lit: a filled one in the middle of the rectangle that contributes
+    // most.
     void aim_at_mirror(Vec2f place, Vec2f brightest, MirrorRay& asked) const {
         const Vec2f from = shape_.nearest_filled(brightest);
         const Vec2f off{from.x - place.x, from.y - place.y};
@@ -190,7 +193,7 @@ class Asker {
         Vec3f from = asked.start_m + asked.distance_m * asked.dir + shown_.tolerance_m * shown_.normal;
         if (hit && (asked.distance_m - hits_.distance[k]) * asked.cosine > shown_.tolerance_m) {
             if (!frame_.has_glass) return;
-            // Behind glass the mirror's map says what is met.
+            // Behind glass the mirror's map decides what is met.
             const float until_m = asked.distance_m - shown_.tolerance_m / asked.cosine;
             asked.light = passed_through_glass(frame_, asked.start_m, asked.dir, until_m) * asked.light;
             met = asked.filled > 0.5f;
@@ -218,9 +221,9 @@ void MirrorSunlight::add(const ShownObject& object, std::size_t number, std::spa
 
 namespace {
 
-// A facet that leans along the plane of incidence turns light by twice that, one that leans across it by a
-// cosine less; seen on the mirror's own plane the former is a cosine longer. At flat angles, where facets
-// hide each other, no longer than at six degrees.
+// A facet that leans along the plane of incidence turns light by twice that angle; one that leans across it,
+// by a factor of the cosine less. On the mirror's plane the former is longer by one over the cosine. At flat
+// angles, where facets hide each other, it is limited to that at six degrees.
 Vec2f blur_of(const MirrorSunlight::Shown& shown, Vec3f sun) {
     const float cosine = std::max(dot(sun, shown.normal), 0.1f), turned = 2 * shown.mirror.alpha;
     const float along = std::hypot(turned, kHalfSun_rad) / cosine,
@@ -235,7 +238,7 @@ Vec2f blur_of(const MirrorSunlight::Shown& shown, Vec3f sun) {
     return {size(shown.across), size(shown.down)};
 }
 
-// least: what is to be added at least, of the Sun.
+// least: the smallest share of the Sun that counts.
 void find_beam(Vec3f sun, float least, MirrorSunlight::Shown& out) {
     using Line = ReflectedBeam::Line;
     const float cosine = dot(sun, out.normal);
@@ -248,7 +251,7 @@ void find_beam(Vec3f sun, float least, MirrorSunlight::Shown& out) {
     beam.distance = line(per_m);
     beam.x = line(out.across + dot(dir, out.across) * per_m);
     beam.y = line(out.down + dot(dir, out.down) * per_m);
-    // The farthest that any rectangle reaches which counts, or the edge of the Sun's disk.
+    // The extent of the widest rectangle that counts, or the edge of the Sun's disk.
     const float disk = 2 * kHalfSun_rad / cosine;
     float widest = 0, share = 0;
     for (auto part = kRectangles.rbegin(); part != kRectangles.rend() && widest == 0; ++part) {
@@ -286,7 +289,7 @@ void MirrorSunlight::place(const FrameContext& frame, const WorldSnapshot& world
         for (std::size_t l = 0; l < mirror.object->levels.size(); ++l)
             if (mirror.object->levels[l].get() == (*frame.objects)[mirror.number])
                 out.tolerance_m += static_cast<float>(mirror.object->error_m[l]);
-        // Rounding: a place in ray space is good to some 1e-7 of how far it is away.
+        // Rounding: a place in ray space is good to some 1e-7 of its distance.
         out.tolerance_m += 32 * std::numeric_limits<float>::epsilon() * length(out.corner_m);
         if (2 * mirror.alpha > kHalfSun_rad) out.blur = blur_of(out, sun);
         find_beam(sun, frame.contribution_threshold, out);
@@ -331,7 +334,7 @@ void MirrorSunlight::add_light(Tile& tile, std::span<const ShadingPoint> points)
     }
 }
 
-// shading points: as many as places at most, and at those.
+// points: at most as many as places, and at those places.
 void MirrorSunlight::add_light_of(const Shown& shown, Tile& tile, std::span<const ShadingPoint> points,
                                   BeamPlaces& places) const {
     find_places_in_beam(shown.beam, places);

@@ -1,19 +1,19 @@
 #pragma once
-// Sunlight that flat mirrors (probes/flat_mirrors.h) throw on other surfaces: each of them shows a second Sun,
-// behind its plane, to those that stand before it. A ray from the surface towards it asks whether the mirror
-// is met first, another from there whether the Sun is seen; what comes along is the Sun's irradiance times
-// the mirror's reflectance (material_albedo.h).
+// Sunlight that flat mirrors (probes/flat_mirrors.h) reflect onto other surfaces. A surface in front of a
+// mirror sees a second Sun behind the mirror's plane. One ray from the surface tests whether the mirror is
+// met first, another from there whether it sees the Sun; the light is the Sun's irradiance times the mirror's
+// reflectance (material_albedo.h). See docs/rendering.md, "The Sun in flat mirrors".
 //
-// The Sun is a point at its middle where a mirror's facets scatter less than its disk does: the edge of the
-// light is the mirror's own, as sharp as a shadow is (with sun_is_disk its place is drawn, as everywhere).
-// Rough mirrors widen it. The approximation: what a surface sees of a mirror's lobe is what the mirror fills
-// of three rectangles about the place where it would see the Sun's middle, as large as facets turn light that
-// lean by GGX's slopes (kRectangles below), the disk's half light added in squares. All comes from the
-// middle, or from the place of the mirror that is nearest to it; what stands in the way of that is in the way
-// of all. What adds less than contribution_threshold of the Sun fades out.
+// For a mirror that scatters less than the Sun's disk, the Sun is a point, and the light has the mirror's own
+// sharp edges (with sun_is_disk its place is drawn at random, as everywhere). Rough mirrors widen it.
+// Approximation: the share of the lobe that the mirror fills is the share that it fills of five nested
+// rectangles around the place where the surface would see the Sun's middle (kRectangles, made of GGX slopes),
+// with the half-light radius of the Sun's disk added in quadrature. One ray to a filled place in the middle
+// of the rectangle that contributes most decides for all of it whether it is visible and lit. Light fades out
+// below contribution_threshold of the Sun.
 //
-// Not here: mirrors that are curved, have a texture, or are objects without cached light; light that two
-// mirrors have thrown; the lobes of what is lit where they are too narrow to be cached (rays follow these).
+// Not included: mirrors that are curved, textured, or on objects without cached light; light by way of two
+// mirrors; and narrow lobes of the lit surface, which rays follow.
 
 #include <cstdint>
 #include <span>
@@ -37,28 +37,28 @@ class MirrorSunlight {
         const MaterialAlbedo* albedo;
         float alpha;
     };
-    // One with the Sun in it, in ray space.
+    // A mirror that the Sun shines on, in ray space.
     struct Shown {
         Mirror mirror;
-        Vec3f normal;  // on the side where the Sun is
+        Vec3f normal;  // on the Sun's side
         Vec3f corner_m, across, down;
         Spectrum reflectance;
-        float tolerance_m;  // greatest distance of its level of detail from the plane
-        // The distance by which a facet that leans by alpha moves the place where the Sun is seen, over the
+        float tolerance_m;  // largest distance of its level of detail from the plane
+        // The shift of the place where the Sun is seen for a facet that leans by alpha, per unit of
         // distance, along across and down; 0: the mirror is as sharp as its edge.
         Vec2f blur{};
-        Vec3f dir{};           // towards the mirrored Sun's middle
-        ReflectedBeam beam{};  // where anything of it counts
+        Vec3f dir{};           // towards the middle of the mirrored Sun
+        ReflectedBeam beam{};  // where its light counts
     };
 
-    // An object's mirrors and its materials' albedos, by surface; all outlive this. Owner thread.
+    // Adds an object's mirrors. albedos: of its materials, by surface. All must outlive this. Owner thread.
     void add(const ShownObject& object, std::size_t number, std::span<const FlatMirror> mirrors,
              std::span<const MaterialAlbedo> albedos);
 
-    // Takes the mirrors that the Sun shines on. The frame's objects and background are placed. Loop.
+    // Selects the mirrors that the Sun shines on. The frame's objects and background are placed. Loop.
     void place(const FrameContext& frame, const WorldSnapshot& world);
 
-    // Adds to the tile's pixels what shading points reflect of it. Loop, any thread.
+    // Adds the mirrored sunlight that shading points reflect to the tile's pixels. Loop, any thread.
     void add_light(Tile& tile, std::span<const ShadingPoint> points) const;
 
   private:

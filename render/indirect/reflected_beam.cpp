@@ -29,7 +29,7 @@ HILCAM_CLONES void find_places_in_beam(const ReflectedBeam& beam, BeamPlaces& pl
 void ReflectedBeams::add(const ReflectedBeam& beam) {
     const std::size_t i = count_++ % kTogether;
     if (i == 0) {
-        // No place is so far away: what a block has left meets nothing.
+        // No place is so far away: unused entries of a block meet nothing.
         blocks_.emplace_back();
         blocks_.back().min_m.fill(std::numeric_limits<float>::infinity());
     }
@@ -49,8 +49,8 @@ void ReflectedBeams::find(const PlaceBox& box, std::size_t block,
     find_in(blocks_[block], box, meets);
 }
 
-// Each line is within its value in the box's middle and what half the box adds to that at most, and a
-// rounding: of a dozen operations here and there, on terms as large as `size`.
+// Each line is within its value at the box's middle plus or minus the most that half the box adds, plus the
+// rounding of a dozen operations on terms as large as `size`.
 HILCAM_CLONES void ReflectedBeams::find_in(const Block& block, const PlaceBox& box,
                                            std::array<std::uint8_t, kTogether>& meets) {
     constexpr float kRounding = 16 * std::numeric_limits<float>::epsilon();

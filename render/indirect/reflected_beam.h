@@ -1,7 +1,6 @@
 #pragma once
-// The beams of light that flat mirrors throw (mirror_sunlight.h), one for each of them. Nearly all places are
-// in none, and are to cost nothing: a look at one mirror and many places, and one at many mirrors and a box
-// of places.
+// The beams of light from flat mirrors (mirror_sunlight.h), one for each. Nearly all places are in no beam,
+// so the test has to be cheap: one mirror against many places, and many mirrors against a box of places.
 
 #include <array>
 #include <cstdint>
@@ -12,28 +11,28 @@
 
 namespace hilcam {
 
-// Ray space, metres. A place is in the beam where it is farther than min_m from the mirror's plane, along
-// the beam, and where it sees the Sun's middle within the mirror's rectangle or a margin about it, which
-// grows with that distance.
+// Ray space, metres. A place is in the beam if it is farther than min_m from the mirror's plane, along the
+// beam, and sees the Sun's middle inside the mirror's rectangle extended by a margin that grows with the
+// distance.
 struct ReflectedBeam {
-    // A product with a place, and a constant.
+    // A linear function of a place.
     struct Line {
         Vec3f by_place;
         float constant = 0;
     };
     Line distance{}, x{},
-        y{};  // coordinates of the place; where on the mirror, along its sides, it sees the Sun's middle
+        y{};  // coordinates on the mirror, along its sides, where a place sees the Sun's middle
     float min_m = 0, width_m = 0, height_m = 0;
-    Vec2f margin{}, margin_m{};  // over the distance, and what there is of it at the mirror
+    Vec2f margin{}, margin_m{};  // margin per distance, and margin at the mirror
 };
 
 // Places side by side.
 struct BeamPlaces {
     static constexpr std::size_t kMax = 256;
     alignas(64) std::array<float, kMax> x, y, z;
-    alignas(64) std::array<std::uint8_t, kMax> in_beam;  // 1: it is
+    alignas(64) std::array<std::uint8_t, kMax> in_beam;  // 1: in the beam
 };
-// Sets in_beam of all kMax. Loop, any thread.
+// Sets in_beam of all kMax places. Loop, any thread.
 void find_places_in_beam(const ReflectedBeam& beam, BeamPlaces& places);
 
 // A box along the axes.
@@ -46,16 +45,16 @@ class ReflectedBeams {
   public:
     static constexpr std::size_t kTogether = 64;
 
-    // Makes room. Owner thread.
+    // Allocates memory. Owner thread.
     void reserve(std::size_t beams) { blocks_.reserve((beams + kTogether - 1) / kTogether); }
     // Loop; no allocation while there is room.
     void clear() { blocks_.clear(), count_ = 0; }
     void add(const ReflectedBeam& beam);
 
     std::size_t blocks() const { return blocks_.size(); }
-    // Tells the beams of a block, number 64 x block and on, that can meet the box: 1 in `meets`. It may name
-    // one that does not, and leaves out none in which find_places_in_beam() finds a place of the box. Loop,
-    // any thread.
+    // Finds the beams of a block (numbers 64 x block and on) that may meet the box, and sets 1 in `meets`. It
+    // may report beams that do not meet it, but misses none in which find_places_in_beam() finds a place of
+    // the box. Loop, any thread.
     void find(const PlaceBox& box, std::size_t block, std::array<std::uint8_t, kTogether>& meets) const;
 
   private:

@@ -28,7 +28,7 @@ using Tree = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 struct Place {
     float u, v;
 };
-// The barycentric place in a triangle that is nearest to p: Ericson, Real-Time Collision Detection, 2005,
+// Returns the barycentric place in a triangle nearest to p: Ericson, Real-Time Collision Detection, 2005,
 // section 5.1.5.
 Place nearest_place(Vec3f p, Vec3f a, Vec3f b, Vec3f c) {
     const Vec3f ab = b - a, ac = c - a, ap = p - a;
@@ -67,7 +67,7 @@ struct ClosestTriangle::Implementation {
         float distance = 0;  // distance of what is found
         std::optional<Found> found;
     };
-    // It takes the first of equally near ones: which is met first depends on the tree.
+    // Takes the first of equally near triangles, because the order of visits depends on the tree.
     static bool look_at(RTCPointQueryFunctionArguments* arguments) {
         Search& search = *static_cast<Search*>(arguments->userPtr);
         const Mesh& mesh = *search.mesh;
@@ -84,7 +84,7 @@ struct ClosestTriangle::Implementation {
         if (search.found && distance == search.distance && number > search.found->triangle) return false;
         search.distance = distance;
         search.found = Found{number, at.u, at.v};
-        // A little more, so that no other one that is as near is cut off.
+        // Slightly more, so that no equally near triangle is cut off.
         constexpr float kAsNear = 1.0001f, kMin_m = 1e-12f;
         arguments->query->radius = std::min(arguments->query->radius, std::max(kAsNear * distance, kMin_m));
         return true;

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the triangle of a mesh that is nearest to a place, by a tree over all of them (Embree).
+// Finds the triangle of a mesh nearest to a place, by a tree over all triangles (Embree).
 
 #include <cstdint>
 #include <memory>
@@ -11,22 +11,22 @@ namespace hilcam {
 
 class ClosestTriangle {
   public:
-    // The mesh outlives this. Owner thread.
+    // The mesh must outlive this. Owner thread.
     explicit ClosestTriangle(const Mesh& mesh);
     ~ClosestTriangle();
 
     struct Query {
         Vec3f place_m;
-        Vec3f normal;  // only triangles that face the same half of space are found
+        Vec3f normal;  // only triangles that face the same half-space are found
         std::uint16_t surface;
         float radius_m;
     };
     struct Found {
         std::uint32_t triangle;
-        float u, v;  // barycentric, of the second and the third corner
+        float u, v;  // barycentric: second and third corner
     };
-    // Returns none where there is no such triangle within the radius; of equally near ones the first. Any
-    // thread.
+    // Returns the nearest triangle within the radius, the first of equally near ones; none if there is none.
+    // Any thread.
     std::optional<Found> find(const Query& query) const;
 
   private:

@@ -7,16 +7,15 @@
 namespace hilcam {
 namespace {
 
-// Texels are no longer than this, where there are such: a choice by its error
-// (docs/decisions.md#coverage-maps-of-flat-parts).
+// Texels are not longer than this if finer ones exist: chosen by the error (docs/decisions.md).
 constexpr float kSharp_px = 0.35f;
 constexpr auto kEight = static_cast<int>(CoverageTexels::kLanes);
 
-// Whole numbers, from the first until before the end.
+// Integers from `first` to before `end`.
 struct WholeNumbers {
     int first, end;
 
-    // Those within reach, from 0 until before count.
+    // Returns the integers within reach of the middle, from 0 to before count.
     static WholeNumbers about(double middle, double reach, int count) {
         const auto bound = [&](double at) {
             return at > 0 ? static_cast<int>(std::min(at, static_cast<double>(count))) : 0;
@@ -28,14 +27,14 @@ struct WholeNumbers {
 
 }  // namespace
 
-// Ways of texels in a pixel, by the width that one takes there: a side falls off over it, so that pixels side by side add up to
-// one.
+// Steps of texels in a pixel, in units of a texel's width there: the filter's side falls off over one unit,
+// so that neighbouring pixels add up to one.
 struct CoverageMap::Steps {
-    // From a texel to the next in its row and in its column [widths].
+    // From a texel to the next one in its row and in its column [widths].
     float x_column, x_row, y_column, y_row;
     float x_px, y_px;  // width of the finest texels
 
-    // False: the pixel sees the plane from its edge.
+    // Returns false if the pixel sees the plane edge-on.
     static bool find(const Footprint& pixel, Steps& out) {
         const Vec2f x = pixel.per_x, y = pixel.per_y;
         const float turned = x.x * y.y - x.y * y.x, per = 1 / turned;
@@ -49,7 +48,7 @@ struct CoverageMap::Steps {
     }
 };
 
-// Returns the part of a level that is about a pixel.
+// Returns the part of a level around a pixel.
 CoverageWindow CoverageMap::window(const Footprint& pixel, const Steps& steps, std::size_t level) const {
     const Level& there = levels_[level];
     const auto size = static_cast<float>(std::size_t{1} << level);
@@ -62,7 +61,7 @@ CoverageWindow CoverageMap::window(const Footprint& pixel, const Steps& steps, s
             out.x_reach * steps.x_px * std::abs(x_way) + out.y_reach * steps.y_px * std::abs(y_way);
         return WholeNumbers::about(middle, static_cast<double>(reach), count);
     };
-    // In texels of this level, by their middles.
+    // In texels of this level, measured from their middles.
     const auto per_size = 1 / static_cast<double>(size);
     const double column = per_size * pixel.middle.x - 0.5, row = per_size * pixel.middle.y - 0.5;
     const WholeNumbers columns = about(column, pixel.per_x.x, pixel.per_y.x, there.columns),
@@ -124,7 +123,7 @@ bool CoverageMap::covers(const std::array<Vec3d, 3>& corners) const {
                            });
     };
     const Vec3d middle = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
-    // A texel inwards, as those at the border are filled in part.
+    // One texel inwards, because texels at the border are only partly filled.
     const auto inner = [&](Vec3d corner) {
         const double way_m = length(middle - corner), texel = static_cast<double>(texel_m);
         return way_m > texel ? corner + (texel / way_m) * (middle - corner) : middle;
@@ -139,7 +138,7 @@ bool CoverageMap::holds(std::uint16_t surface_there, const std::array<Vec3d, 3>&
         return false;
     const Vec3d facing = cross(corners[1] - corners[0], corners[2] - corners[0]), up = to_double(normal);
     if (std::abs(dot(facing, up)) < std::cos(static_cast<double>(kMaxLean)) * length(facing)) return false;
-    // What rounding and levels of detail move.
+    // The tolerance for rounding and levels of detail.
     const auto loose_m = static_cast<double>(kLoose * texel_m);
     return std::all_of(corners.begin(), corners.end(), [&](Vec3d corner) {
         const Vec3d at = corner - to_double(corner_m);

@@ -13,13 +13,14 @@
 namespace hilcam {
 namespace {
 
-// The largest triangles that are looked at as ground; not more coverage maps than a byte tells apart
+// The largest triangles that are tried as ground. A byte must distinguish all coverage maps
 // (PackedTriangle::coplanar_group).
 constexpr std::size_t kMaxGrounds = 64;
-constexpr int kFinest = 1536, kCoarsest = 16;        // texels along the longer side: at most, and at least
-constexpr double kMinFilled = 0.2;                   // the share of its rectangle that the ground fills
-constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // the share of the ground beside what lies on it
-constexpr float kFlatGroundCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
+constexpr int kFinest = 1536, kCoarsest = 16;  // largest and smallest number of texels along the longer side
+constexpr double kMinFilled = 0.2;             // the ground must fill this share of its rectangle
+constexpr double kMinSeen = 0.005, kMaxSeen = 0.98;  // bounds of the ground's visible share
+// Cosine of a degree: limit between corner normals and their triangle's.
+constexpr float kFlatGroundCorner = 0.99985f;
 
 struct GroundTriangle {
     std::uint32_t number;
@@ -33,7 +34,7 @@ std::array<Vec3d, 3> corners_of(const Mesh& mesh, std::uint32_t triangle) {
     return {to_double(mesh.vertices_m[a]), to_double(mesh.vertices_m[b]), to_double(mesh.vertices_m[c])};
 }
 
-// Triangles that a coverage map may have, the largest first.
+// Returns the triangles that a coverage map may have, the largest first.
 std::vector<GroundTriangle> flat_triangles(const Mesh& mesh, std::span<const std::uint8_t> may_be) {
     std::vector<GroundTriangle> out;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -76,7 +77,7 @@ class CoverageMapFinder {
         std::size_t seeds = 0;
         for (std::size_t s = 0; s < flat_.size() && seeds < kMaxGrounds; ++s) {
             if (used_[s]) continue;
-            // What is left is crumbs.
+            // The remaining ones are negligibly small.
             if (flat_[s].area_m2 < 8 * error_m_ * error_m_) break;
             ++seeds;
             CoverageMap coverage_map;
@@ -89,7 +90,7 @@ class CoverageMapFinder {
     const Mesh& mesh_;
     double error_m_, rounding_m_;
     std::vector<GroundTriangle> flat_;
-    std::vector<std::uint8_t> used_;  // in a coverage map, or looked at as ground
+    std::vector<std::uint8_t> used_;  // part of a coverage map, or tried as ground
     CoverageMapPainter painter_;
 
     std::array<Vec3d, 3> corners(std::size_t i) const { return corners_of(mesh_, flat_[i].number); }
@@ -107,7 +108,7 @@ class CoverageMapFinder {
         return false;
     }
 
-    // What goes on from the seed in its plane, by common corners.
+    // Returns everything connected to the seed in its plane by common corners.
     std::vector<std::size_t> ground_about(std::size_t seed) const {
         const Vec3d normal = flat_[seed].area / flat_[seed].area_m2, at = corners(seed)[0];
         std::vector<std::size_t> all;
@@ -131,10 +132,10 @@ class CoverageMapFinder {
         return out;
     }
 
-    // The rectangle lies along that edge with which it is smallest. False: it is too small, or not filled.
+    // Takes the smallest of the rectangles along an edge. Returns false if it is too small or not filled.
     bool lay_out(const std::vector<std::size_t>& ground, std::span<const Vec3d> edges, Vec3d up,
                  CoverageMap& out) const {
-        if (edges.empty()) return false;  // it goes round
+        if (edges.empty()) return false;  // it has no border
         std::vector<std::array<Vec3d, 3>> triangles;
         double area_m2 = 0;
         for (const std::size_t i : ground) triangles.push_back(corners(i)), area_m2 += flat_[i].area_m2;
@@ -147,7 +148,7 @@ class CoverageMapFinder {
         out.texel_m = static_cast<float>(std::max(error_m_, longer_m / kFinest));
         return area_m2 > kMinFilled * r.area() && longer_m > kCoarsest * static_cast<double>(out.texel_m);
     }
-    // The longest of the edges that one triangle has.
+    // Returns the longest of the edges that belong to one triangle only.
     std::vector<Vec3d> border(const std::vector<std::size_t>& ground) const {
         constexpr std::size_t kMaxEdges = 64;
         using Place = std::tuple<double, double, double>;
@@ -171,7 +172,7 @@ class CoverageMapFinder {
         return out;
     }
 
-    // Triangles of other surfaces that lie in the ground's rectangle, less than a texel high.
+    // Returns the triangles of other surfaces inside the ground's rectangle and less than a texel high.
     std::vector<std::size_t> upon_ground(const CoverageMap& ground) const {
         CoverageMap space = ground;
         const Vec3d up = to_double(ground.normal);

@@ -14,7 +14,8 @@
 namespace hilcam {
 namespace {
 
-// A gap runs along the side on which it is free for so many times longer: any figure well above one tells gaps from squares.
+// A gap runs along a side if it is free along that side for this many times as long. Any value well above one
+// separates gaps from squares.
 constexpr float kClear = 2;
 
 struct HashOfTexels {
@@ -29,12 +30,13 @@ struct HashOfTexels {
 
 int texel_of(double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1); }
 
-// A convex shape with a few corners [texels].
+// A convex polygon with a few corners [texels].
 struct Shape {
     std::array<Vec2d, 8> corner;
     std::size_t count = 0;
 
-    // The part for which depth(corner), linear, is not below zero (Sutherland & Hodgman, CACM 17(1), 1974).
+    // Returns the part in which depth(corner), a linear function, is not negative (Sutherland & Hodgman, CACM
+    // 17(1), 1974).
     template <class Depth>
     Shape cut(const Depth& depth) const {
         Shape out;
@@ -54,7 +56,7 @@ struct Shape {
             twice += corner[i].x * corner[(i + 1) % count].y - corner[(i + 1) % count].x * corner[i].y;
         return std::abs(twice) / 2;
     }
-    // Least and greatest of a coordinate.
+    // Returns least and greatest of a coordinate.
     template <class Of>
     std::pair<double, double> extent(const Of& of) const {
         double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -64,7 +66,7 @@ struct Shape {
     }
 };
 
-// Returns the part of a line along the texels' rows that lies in a triangle, begin and end [texels]; they are the wrong way round where
+// Returns the part of a line along the texels' rows inside a triangle, begin and end [texels]; begin > end if
 // there is none.
 std::pair<double, double> part_in(const std::array<Vec2d, 3>& triangle, double y) {
     double from = std::numeric_limits<double>::infinity(), until = -from;
@@ -78,8 +80,8 @@ std::pair<double, double> part_in(const std::array<Vec2d, 3>& triangle, double y
     return {from, until};
 }
 
-// Returns the texels of a row, from the first until before the end, that a triangle fills: those that lie in it at the row's top and bottom,
-// as it is convex.
+// Returns the texels of a row, first and end, that a triangle fills completely: those inside it at the row's
+// top and bottom, because it is convex.
 std::pair<int, int> full_texels(const std::array<Vec2d, 3>& triangle, int row) {
     constexpr double kRounding = 1e-6;  // texels
     const auto [top_from, top_until] = part_in(triangle, row);
@@ -131,7 +133,7 @@ void CoverageMapPainter::add(std::size_t layer, const std::array<Vec3d, 3>& corn
 
 double CoverageMapPainter::fill() {
     texels_.resize(at(0, rows_));
-    // By row, so that their sum is the same however rows are shared out.
+    // By row, so that the sum does not depend on how rows are divided.
     std::vector<Ground> ground(static_cast<std::size_t>(rows_));
     for_each_row(rows_, [&](int y) {
         const std::span<Texel> row(texels_.data() + at(0, y), static_cast<std::size_t>(columns_));
@@ -169,7 +171,7 @@ void CoverageMapPainter::fill_row(const Piece& piece, int y, std::span<Texel> te
     for (int x = end; x <= last; ++x) cut(x);
 }
 
-// Takes from each layer what those above it cover.
+// Removes from each layer what those above it cover.
 CoverageMapPainter::Ground CoverageMapPainter::hide_lower(std::span<Texel> texels) const {
     Ground out;
     for (Texel& texel : texels) {
@@ -177,7 +179,7 @@ CoverageMapPainter::Ground CoverageMapPainter::hide_lower(std::span<Texel> texel
         float open = whole, upper = 0;
         for (std::size_t k = coverage_map_->layers; k-- > 0;) {
             if (k > 0) upper += texel.share[k];
-            // What lies on it lies on what it covers, as far as there is enough of that.
+            // Layers above cover this one first, as far as it extends.
             texel.share[k] = std::clamp(std::min(texel.share[k], 1.0f) - (whole - open), 0.0f, open);
             open -= texel.share[k];
         }
@@ -197,7 +199,8 @@ void CoverageMapPainter::finish() {
     }
 }
 
-// Where gaps cross, lines along both sides are free for long: there the gaps are as narrow as beside.
+// Where gaps cross, lines along both sides are free for long; there gaps have the width of their
+// continuation.
 void CoverageMapPainter::find_gaps() {
     const std::array<std::vector<float>, 2> narrow{narrowness(0), narrowness(1)};
     const auto find_gap = [&](int x, int y) {
@@ -222,7 +225,7 @@ void CoverageMapPainter::find_gaps() {
     });
 }
 
-// Returns how narrow a gap is that comes from beside, along a column or a row; 0: there is none.
+// Returns the narrowness of a gap that continues from a neighbour along a column or a row; 0: there is none.
 float CoverageMapPainter::narrow_beside(const std::vector<float>& of, const std::vector<float>& against,
                                         int column, int row, bool along_rows) const {
     constexpr int kReach = 6;  // texels
@@ -235,16 +238,17 @@ float CoverageMapPainter::narrow_beside(const std::vector<float>& of, const std:
     return 0;
 }
 
-// Returns by texel how narrow what upper triangles leave free is along an axis, by lengths of lines; 0: it is nowhere free.
+// Returns, by texel, the narrowness of what upper triangles leave free along an axis, from lengths of lines;
+// 0: nothing is free.
 std::vector<float> CoverageMapPainter::narrowness(std::size_t axis) const {
     std::vector<float> out(texels_.size());
     const int texels = axis == 0 ? columns_ : rows_, across = axis == 0 ? rows_ : columns_;
     const std::vector<Parts> covered = covered_parts(axis, kLinesEach * across);
     for_each_row(across, [&](int row) {
-        // By texel along the row: how much of the lines is free, and how narrow there, times that.
+        // By texel along the row: the free share of the lines, and the narrowness times that.
         std::vector<Vec2f> free(static_cast<std::size_t>(texels));
         const auto take = [&](double from, double until, bool at_end) {
-            // At the end nothing shades it from one side.
+            // At the end of a row it is shaded from one side only.
             const double width_m =
                 (at_end ? 2 : 1) * (until - from) * static_cast<double>(coverage_map_->texel_m);
             const auto narrow =
@@ -272,7 +276,7 @@ std::vector<float> CoverageMapPainter::narrowness(std::size_t axis) const {
     return out;
 }
 
-// The parts of lines along an axis that upper triangles cover, in order.
+// Returns the parts of lines along an axis that upper triangles cover, in order.
 std::vector<CoverageMapPainter::Parts> CoverageMapPainter::covered_parts(std::size_t axis, int lines) const {
     std::vector<Parts> out(static_cast<std::size_t>(lines));
     for (const Piece& piece : pieces_) {
@@ -313,7 +317,7 @@ void CoverageMapPainter::pack() {
     level.kinds.shrink_to_fit();
 }
 
-// Eight texels of a row.
+// Packs eight texels of a row.
 CoverageTexels CoverageMapPainter::packed(int first, int row) const {
     CoverageTexels out{};
     const auto byte = [](float share) {
@@ -322,7 +326,7 @@ CoverageTexels CoverageMapPainter::packed(int first, int row) const {
     const auto count = std::min(CoverageTexels::kLanes, static_cast<std::size_t>(columns_ - first));
     for (std::size_t lane = 0; lane < count; ++lane) {
         const Texel& texel = texels_[at(first, row) + lane];
-        // Rounded so that their sum is.
+        // Rounded so that their sum is rounded, too.
         float sum = 0;
         int given = 0;
         for (std::size_t k = 0; k < coverage_map_->layers; ++k) {
@@ -342,7 +346,7 @@ CoverageTexels CoverageMapPainter::packed(int first, int row) const {
     return out;
 }
 
-// The means of four texels.
+// Halves the resolution: means of four texels.
 void CoverageMapPainter::halve() {
     const int columns = (columns_ + 1) / 2, rows = (rows_ + 1) / 2;
     halved_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));

@@ -1,6 +1,6 @@
 #pragma once
-// Makes the texels of a coverage map (coverage_map.h) of triangles, bands of rows on all threads; what they are does not hang on
-// how many these are.
+// Makes the texels of a coverage map (coverage_map.h) from triangles, in bands of rows on all threads. The
+// result does not depend on their number.
 
 #include <array>
 #include <span>
@@ -11,24 +11,24 @@
 
 namespace hilcam {
 
-// Owner thread. One painter may make many coverage maps after each other.
+// One painter can make many coverage maps in succession. Owner thread.
 class CoverageMapPainter {
   public:
-    // Begins a coverage map: its rectangle, texel_m and layers are known; its corner is the ground's.
+    // Starts a coverage map, whose rectangle, texel_m and layers are known; its corner is that of the ground.
     void begin(CoverageMap& coverage_map);
     // Adds a triangle of a layer.
     void add(std::size_t layer, const std::array<Vec3d, 3>& corners_m);
-    // Fills each texel by the areas of all triangles in it, and takes from each layer what those above it cover. Returns the share of the
-    // ground that is left.
+    // Fills the texels by the areas of all triangles, and removes from each layer what those above it cover.
+    // Returns the share of the ground that remains visible.
     double fill();
-    // Makes the coverage map's levels of that.
+    // Makes the coverage map's levels from the texels.
     void finish();
 
   private:
     static constexpr int kLinesEach = 2;  // lines through each row of texels, along which gaps are measured
     static constexpr int kRowsTogether = 32;
 
-    // A triangle, where it is [texels], and how it leans along both sides.
+    // A triangle, its place [texels], and its lean along both sides.
     struct Piece {
         std::size_t layer;
         std::array<Vec2d, 3> corners;
@@ -36,17 +36,17 @@ class CoverageMapPainter {
         Vec2f lean;
     };
     struct Texel {
-        std::array<float, CoverageMap::kMaxLayers> share{};  // that each layer fills
-        // The lean of what lies on the ground, along both sides, times its share.
+        std::array<float, CoverageMap::kMaxLayers> share{};  // share that each layer fills
+        // The lean of what is on the ground, along both sides, times its share.
         std::array<float, 2> lean{};
-        // The share of the ground that is in gaps which run down; and how narrow these are, and those that run across, times their
-        // shares.
+        // The share of the ground in gaps that run down; and the narrowness of gaps that run down and across,
+        // times their shares.
         float down = 0;
         std::array<float, 2> gap{};
 
         void add(const Texel& other, float weight);
     };
-    // Areas of the ground [texels]: all of it, and what is seen.
+    // Areas of the ground [texels]: all of it, and the visible part.
     struct Ground {
         double all = 0, seen = 0;
     };
@@ -55,7 +55,7 @@ class CoverageMapPainter {
     std::vector<Piece> pieces_;
     std::vector<Texel> texels_, halved_;
 
-    using Parts = std::vector<std::pair<double, double>>;  // parts of a line, begin and end [texels]
+    using Parts = std::vector<std::pair<double, double>>;  // parts of a line: begin and end [texels]
     std::size_t at(int column, int row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                static_cast<std::size_t>(column);

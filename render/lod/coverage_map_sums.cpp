@@ -16,21 +16,21 @@ namespace hilcam {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-// Two eights side by side, in as many vectors as they take.
+// Two groups of eight texels side by side, in as many vectors as needed.
 constexpr std::size_t kEight = CoverageTexels::kLanes, kLanes = 2 * kEight;
 using Floats = hn::CappedTag<float, kLanes>;
 using Numbers = hn::RebindToUnsigned<Floats>;
 using V = hn::Vec<Floats>;
 constexpr std::size_t kStep = hn::MaxLanes(Floats());
 
-// Two eights that lie anywhere.
+// Two groups anywhere in memory.
 using Pair = std::array<const CoverageTexels*, 2>;
-// A vector's part of them, which begins with lane kFirst.
+// A vector's part of them, starting with lane kFirst.
 template <std::size_t kFirst>
 struct Part {
     static constexpr std::size_t kOf = kFirst / kEight, kTexel = kFirst % kEight;
 
-    // What each texel is away from the first of its eight.
+    // Returns the offset of each texel from the first of its group.
     static HWY_INLINE V ways(float step) {
         const hn::RebindToSigned<Floats> di;
         const auto texel = hn::And(hn::Iota(di, static_cast<std::int32_t>(kFirst)), hn::Set(di, kEight - 1));
@@ -45,7 +45,7 @@ struct Part {
             return hn::Add(hn::Set(d, first[kOf]), ways);
         }
     }
-    // What the texels have at an offset in CoverageTexels.
+    // Returns the texels' values at an offset in CoverageTexels.
     template <class Byte = std::uint8_t>
     static HWY_INLINE V numbers(const Pair& eights, std::size_t offset) {
         const hn::Rebind<Byte, Floats> bytes;
@@ -62,13 +62,13 @@ struct Part {
     }
 };
 
-// Eights of which a part may be in the pixel, and where the first texel of each is.
+// Groups that may be partly in the pixel, and the place of the first texel of each.
 struct Found {
     std::size_t count = 0;
     alignas(64) std::array<std::uint32_t, CoverageWindow::kMax + kLanes> number;
     alignas(64) std::array<float, CoverageWindow::kMax + kLanes> x, y;
 
-    // Appends those of a vector that are seen.
+    // Appends those lanes of a vector that are in the pixel.
     HWY_INLINE void append(hn::Mask<Floats> seen, hn::Vec<Numbers> numbers, V x_there, V y_there) {
         const Floats d;
         const Numbers du;
@@ -78,7 +78,7 @@ struct Found {
             hn::StoreU(hn::Compress(y_there, seen), d, &y[count]);
             count += hn::CountTrue(d, seen);
         } else {
-            // Highway has a table for these, which is slower than one after the other.
+            // Highway uses a table for this, which is slower than one by one.
             alignas(64) std::array<std::uint32_t, kStep> n, is_seen;
             alignas(64) std::array<float, kStep> x_of, y_of;
             hn::Store(numbers, du, n.data()), hn::Store(x_there, d, x_of.data()),
@@ -92,10 +92,11 @@ struct Found {
     }
 };
 
-// One by a step. Along a side of the pixel a row is seen wholly or not at all, as by a step that is all but none.
+// Returns 1 / step. Along a side of the pixel a row is inside completely or not at all, as with a step near
+// zero.
 float inverse(float step) { return std::copysign(1 / std::max(std::abs(step), 1e-6f), step); }
 
-// False: there are too many. Rows are lanes.
+// Returns false if there are too many. Lanes are rows.
 HWY_INLINE bool find(const CoverageWindow& w, Found& out) {
     const Floats d;
     const Numbers du;
@@ -109,7 +110,7 @@ HWY_INLINE bool find(const CoverageWindow& w, Found& out) {
         for (std::uint32_t r = 0; r < w.rows; r += kStep) {
             const V below = hn::Add(hn::Set(d, w.row), hn::Iota(d, static_cast<float>(r)));
             const V x = hn::Mul(below, hn::Set(d, w.x_row)), y = hn::Mul(below, hn::Set(d, w.y_row));
-            // Columns from and until which the row is in the pixel.
+            // The columns between which the row is inside the pixel.
             const V x_middle = hn::Mul(x, hn::Set(d, -x_per_column)),
                     y_middle = hn::Mul(y, hn::Set(d, -y_per_column));
             const V from = hn::Max(hn::Sub(x_middle, x_half), hn::Sub(y_middle, y_half)),
@@ -123,13 +124,13 @@ HWY_INLINE bool find(const CoverageWindow& w, Found& out) {
             if (out.count > CoverageWindow::kMax) return false;
         }
     }
-    // They are taken by twos: the last may be one far away.
+    // They are processed in pairs, so the last one may be a dummy far away.
     out.number[out.count] = 0;
     out.x[out.count] = out.y[out.count] = 1e9f;
     return true;
 }
 
-// The share of a texel that is in the pixel along one side.
+// Returns the share of a texel inside the pixel along one side.
 HWY_INLINE V inside(V at, V reach) {
     const Floats d;
     return hn::Min(hn::Max(hn::Sub(reach, hn::Abs(at)), hn::Zero(d)), hn::Set(d, 1));
@@ -167,7 +168,7 @@ HWY_INLINE void sum_part(const CoverageWindow& w, const Found& found, Lanes& out
             add(kLean + k, hn::Mul(weight, P::template numbers<std::int8_t>(eights, lean)));
             gap[k] = P::numbers(eights, offsetof(CoverageTexels, gap) + k * kEight);
         }
-        // Texel by texel, as a narrow gap that is dark must not darken a wide one.
+        // Computed texel by texel, because a narrow dark gap must not darken a wide one.
         const V down = P::numbers(eights, offsetof(CoverageTexels, down)), across = hn::Sub(share[0], down);
         const V open = hn::Add(hn::Max(hn::Sub(down, hn::Mul(light_across, gap[0])), dark),
                                hn::Max(hn::Sub(across, hn::Mul(light_down, gap[1])), dark));
@@ -182,7 +183,7 @@ HWY_INLINE void sum_parts(const CoverageWindow& w, const Found& found, Lanes& ou
     (sum_part<kPart * kStep>(w, found, out), ...);
 }
 
-// Halves of lanes are added to each other, of four sums at a time.
+// Adds the halves of lanes to each other, for four sums at a time.
 CoverageSums add_lanes(const Lanes& lanes) {
     const hn::Full128<float> d;
     const auto four = [&](std::size_t term) HWY_ATTR {

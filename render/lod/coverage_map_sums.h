@@ -1,6 +1,6 @@
 #pragma once
-// Sums over the texels of a coverage map (coverage_map.h) about a pixel, twice eight texels of a row at a time. Compiled for
-// several widths of vectors that give the same results.
+// Sums the texels of a coverage map (coverage_map.h) around a pixel, twice eight texels of a row at a time.
+// Compiled for several vector widths, which give the same results.
 
 #include <array>
 #include <cstddef>
@@ -8,38 +8,41 @@
 
 namespace hilcam {
 
-// Texels side by side: a cache line.
+// Eight texels side by side: a cache line.
 struct alignas(64) CoverageTexels {
     static constexpr std::size_t kLanes = 8, kLayers = 3;
     using Bytes = std::array<std::uint8_t, kLanes>;
-    std::array<Bytes, kLayers> share;  // share that each layer fills; 255: all of the texel
-    // By the share of what lies on the ground, how it leans along both sides: signed, 127 is CoverageMap::kMaxLean.
+    std::array<Bytes, kLayers> share;  // share that each layer fills; 255: the whole texel
+    // The lean of what is on the ground along both sides, times its share: signed, 127 is
+    // CoverageMap::kMaxLean.
     std::array<Bytes, 2> lean;
-    // The share of the ground that is seen in gaps which run down the rectangle; the others run across it.
+    // The share of the visible ground in gaps that run down the rectangle; the others run across it.
     Bytes down;
-    // By the share of the ground that is in gaps which run down, and across: how narrow they are, 255 where they are as wide as
-    // CoverageMap::upper_m.
+    // The narrowness of gaps that run down, and across, times the share of the ground in them: 255 if they
+    // are as wide as CoverageMap::upper_m.
     std::array<Bytes, 2> gap;
 
     bool operator==(const CoverageTexels&) const = default;
 };
 static_assert(sizeof(CoverageTexels) == 64);
 
-// Eights of texels about a pixel, and how these lie in it. Lengths in it are widths that a texel takes along its sides there: a
-// side falls off over one, so that pixels side by side add up to one.
+// The groups of eight texels around a pixel, and where they are in it. The unit of length along each side is
+// the width of a texel's footprint there; the filter falls off over one unit, so that neighbouring pixels add
+// up to one.
 struct CoverageWindow {
     static constexpr std::size_t kMax = 256;
     const CoverageTexels* kinds = nullptr;
-    const std::uint32_t* eights = nullptr;  // the kind of each, from the window's first one on
+    const std::uint32_t* eights = nullptr;  // kind of each group, from the window's first one on
     std::uint32_t row_of_eights = 0;        // from one row to the next
-    std::uint32_t rows = 0, across = 0;     // number of rows, and of eights in each
-    float column = 0, row = 0;              // the first texel, from the pixel's middle [texels]
-    // The way in the pixel from a texel to the next in its row and in its column.
+    std::uint32_t rows = 0, across = 0;     // number of rows, and of groups in each
+    float column = 0, row = 0;              // first texel, relative to the pixel's middle [texels]
+    // The steps in the pixel from a texel to the next one in its row and in its column.
     float x_column = 0, x_row = 0, y_column = 0, y_row = 0;
-    // A texel is just not in the pixel as far from its middle as this, and wholly if a width nearer.
+    // A texel with its middle at this distance is just outside the pixel; one unit nearer, it is wholly
+    // inside.
     float x_reach = 0, y_reach = 0;
-    // The way of light along the coverage map's sides, either way, while it rises as high as what lies on the ground, less that
-    // of the line of sight [CoverageMap::upper_m].
+    // The movement of light along the map's sides, in either direction, while it rises to the height of what
+    // is on the ground, minus the same for the line of sight [CoverageMap::upper_m].
     float light_across = 0, light_down = 0;
 };
 struct CoverageSums {
@@ -47,9 +50,9 @@ struct CoverageSums {
     std::array<float, CoverageTexels::kLayers> x{},
         y{};  // sums of shares times their places, from the middle
     std::array<float, 2> lean{};
-    float lit = 0;  // sum of the share of the ground that light reaches
+    float lit = 0;  // sum of the ground's lit share
 };
-// False: the pixel has parts of more than kMax eights. Loop, any thread.
+// Returns false if the pixel has parts of more than kMax groups. Loop, any thread.
 bool find_sums(const CoverageWindow& window, CoverageSums& out);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that belong together, found by joining pairs of them: union by halving paths (Tarjan & van Leeuwen, J. ACM 31(2),
+// Sets of numbers, built by joining pairs: union-find with path halving (Tarjan & van Leeuwen, J. ACM 31(2),
 // 1984).
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace hilcam {
 
 class JoinedSets {
   public:
-    // Each number below `count` is a set of its own at first.
+    // Starts with each number below `count` as a set of its own.
     explicit JoinedSets(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0u); }
     // Returns the least number of a number's set.
     std::uint32_t of(std::uint32_t number) {

@@ -14,11 +14,10 @@
 namespace hilcam {
 namespace {
 
-// Normals that lean less apart than this are one: a sixth of the narrowest lobe that is kept
-// (irradiance_cache.h).
+// Normals that differ less than this count as one: a sixth of the narrowest cached lobe (irradiance_cache.h).
 constexpr double kApart = 0.02;
 
-// The shading normal at a place in a triangle; `geometric` where it has none.
+// Returns the shading normal at a place in a triangle; `geometric` if it has none.
 Vec3f normal_at(const Mesh& mesh, std::uint32_t triangle, float u, float v, Vec3f geometric) {
     if (mesh.normals.empty()) return geometric;
     const auto& t = mesh.triangles[triangle];
@@ -28,7 +27,7 @@ Vec3f normal_at(const Mesh& mesh, std::uint32_t triangle, float u, float v, Vec3
     return dot(n, n) > 1e-6f ? normalized(n) : geometric;
 }
 
-// A triangle of the mesh beside the level's that stands for it.
+// A triangle of the mesh, with the level's triangle that represents it.
 struct Part {
     std::uint32_t owner = std::numeric_limits<std::uint32_t>::max();  // none
     std::uint32_t number = 0;
@@ -52,7 +51,7 @@ Part part_of(const Mesh& mesh, const Mesh& level, const ClosestTriangle& near, s
     return {found->triangle, number, size, lean};
 }
 
-// Parts together: area, and the moments of how they lean.
+// Several parts: their area, and the moments of their normals.
 struct Group {
     std::span<Part> parts;
     double area = 0;
@@ -77,7 +76,7 @@ Group group_of(std::span<Part> parts) {
     return g;
 }
 
-// The axis in which a group scatters most, by powers of its matrix.
+// Returns the axis along which a group varies most, by powers of its matrix.
 Vec3d widest_axis(const Mat3d& scatter) {
     const Vec3d rows[3] = {scatter.x, scatter.y, scatter.z};
     Vec3d axis = *std::max_element(std::begin(rows), std::end(rows),
@@ -92,7 +91,8 @@ Vec3d widest_axis(const Mat3d& scatter) {
 
 std::size_t divide(const Group& group, std::span<Group> halves) {
     const Vec3d axis = widest_axis(group.scatter);
-    const double variance = length(axis);  // its eigenvalue, as the last power was of a unit vector
+    // Its eigenvalue, because the last power was applied to a unit vector.
+    const double variance = length(axis);
     if (group.parts.size() < 2 || !(variance > kApart * kApart)) {
         halves[0] = group;
         return 1;
@@ -113,7 +113,7 @@ LodNormals facets_of_parts(std::span<Part> parts) {
     const std::size_t two = divide(all, halves);
     for (std::size_t i = 0; i < two; ++i) count += divide(halves[i], std::span(groups).subspan(count, 2));
     std::array<LodNormals::Normal, LodNormals::kMax> normals{};
-    double variance = 0;  // within the groups, of both axes together: alpha squared (Beckmann's)
+    double variance = 0;  // within the groups, sum over both axes: alpha squared (Beckmann's)
     for (std::size_t i = 0; i < count; ++i) {
         const Group& g = groups[i];
         const double share = g.area / all.area;
@@ -136,7 +136,7 @@ LodNormals LodNormals::of(const std::array<Normal, kMax>& normals, float alpha) 
     for (std::size_t i = 0; i < kMax; ++i) {
         out.x_[i] = whole(normals[i].lean.x), out.y_[i] = whole(normals[i].lean.y);
         out.z_[i] = whole(normals[i].lean.z);
-        // A normal that is there stays there.
+        // A normal with any share keeps at least one unit.
         out.share_[i] = normals[i].share > 0
                             ? static_cast<std::uint8_t>(std::max(1L, std::lround(normals[i].share * kAll)))
                             : std::uint8_t{0};
@@ -153,7 +153,7 @@ std::vector<LodNormals> lod_normals_of(const Mesh& mesh, const Mesh& level, doub
         for (std::size_t i = range.begin(); i < range.end(); ++i)
             parts[i] = part_of(mesh, level, near, static_cast<std::uint32_t>(i), radius_m);
     });
-    // By owner; equal ones keep the mesh's order, whatever the thread count.
+    // By owner; equal ones keep the mesh's order, whatever the number of threads.
     tbb::parallel_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
         return a.owner != b.owner ? a.owner < b.owner : a.number < b.number;
     });

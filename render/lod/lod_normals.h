@@ -1,12 +1,12 @@
 #pragma once
-// The normals of the parts of a mesh for which a triangle of a coarser level stands. A level is flat where
-// the mesh is wrinkled, and wrinkles are seen by how they lean long before they are by their shape: so a
-// level's triangle keeps up to four of their normals, each with its share of their area.
+// The normals that a triangle of a coarser level represents. A level is flat where the mesh is wrinkled, and
+// the normals of wrinkles are visible long before their shape is. So a level's triangle keeps up to four of
+// their normals, each with its share of the area.
 //
-// The parts of the mesh belong to the triangle of the same surface that is nearest to them and faces as they
-// do. Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
-// are by Wu, ACM Trans. Graphics 10(4), 1991), which keeps their mean and most of their scatter; what is
-// left over within the four groups is kept as roughness. That parts shade each other is shading/normal_clusters.h's.
+// Each part of the mesh belongs to the nearest triangle of the same surface that faces the same way. The
+// normals are divided twice at their mean, across the axis along which they vary most (as Wu divides colours,
+// ACM Trans. Graphics 10(4), 1991). That keeps their mean and most of their variance; the rest, within the
+// four groups, is kept as roughness. shading/normal_clusters.h models how the parts shade each other.
 
 #include <array>
 #include <cstdint>
@@ -20,12 +20,12 @@ class LodNormals {
   public:
     static constexpr std::size_t kMax = 4;
     struct Normal {
-        Vec3f lean;   // added to the level's own normal there, before it is made a unit vector; body axes
-        float share;  // share of the area of all; 0: there are no more
+        Vec3f lean;   // added to the level's own normal before normalisation; body axes
+        float share;  // share of the total area; 0: there are no more
     };
-    // alpha: GGX's, of how normals scatter about these.
+    // alpha: GGX alpha of the variation about these normals.
     static LodNormals of(const std::array<Normal, kMax>& normals, float alpha);
-    // Leans nowhere.
+    // Returns a single normal that equals the level's own.
     static LodNormals flat() { return of({Normal{{}, 1}}, 0); }
 
     using Floats = std::array<float, kMax>;
@@ -47,21 +47,21 @@ class LodNormals {
         return out;
     }
     float alpha() const { return alpha_; }
-    // It leans as its own normals do.
+    // True when it equals flat().
     bool is_flat() const { return share_[1] == 0 && alpha_ == 0 && x_[0] == 0 && y_[0] == 0 && z_[0] == 0; }
 
-    static constexpr float kLean = 16383, kAll = 255;  // units of a lean (2 at most), and of a share
+    static constexpr float kLean = 16383, kAll = 255;  // units of a lean (at most 2), and of a share
 
   private:
-    // In this order for shading/cluster_packet.cpp, which reads them as eight words.
+    // The order matters: shading/cluster_packet.cpp reads the members as eight words.
     std::array<std::int16_t, kMax> x_{}, y_{}, z_{};
     std::array<std::uint8_t, kMax> share_{};
     float alpha_ = 0;
 };
 static_assert(sizeof(LodNormals) == 32);
 
-// One for each triangle of the level. error_m: how far the level is from the mesh, about. Owner thread; some
-// seconds per million triangles of the mesh.
+// Returns one for each triangle of the level. error_m: approximate distance between level and mesh. Owner
+// thread; some seconds per million triangles of the mesh.
 std::vector<LodNormals> lod_normals_of(const Mesh& mesh, const Mesh& level, double error_m);
 
 }  // namespace hilcam

@@ -15,13 +15,12 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kSmallMesh = 2000;  // triangles; below, nothing is gained
-// The part of a level's error that its shapes may have is one in so many. By four the light of `geo_inspection` from
-// 50 m is off by 2.3 %, by eight 1.9, by sixteen 1.8
-// (docs/decisions.md#levels-of-detail-keep-borders-and-shapes).
+constexpr std::size_t kSmallMesh = 2000;  // triangles; smaller meshes gain nothing
+// Shaped parts may have this fraction of a level's error. With a fourth the light of `geo_inspection` from 50
+// m is off by 2.3 %, with an eighth by 1.9, with a sixteenth by 1.8 (docs/decisions.md).
 constexpr double kShapeFiner = 8;
 
-// Each vertex of a surface's triangles once, in order of their first use.
+// The vertices of a surface's triangles, each once, in order of first use.
 struct Submesh {
     std::vector<std::uint32_t> vertices;  // into the mesh
     std::vector<unsigned> indices;        // into `vertices`, three a triangle
@@ -51,8 +50,8 @@ double area_of(const Mesh& mesh, std::uint16_t surface) {
     return sum;
 }
 
-// Flat-shaded surfaces come with corners of their own for every triangle, which could never be collapsed. If
-// most are such, equal places become one vertex and the level has no normals there (a zero normal means the
+// Flat-shaded surfaces have separate corners for every triangle and could never be collapsed. If most corners
+// are such, equal places become one vertex, and the level has no normals there (a zero normal means the
 // facet's own).
 bool weld_facets(Submesh& part, std::vector<Vec3f>& positions) {
     std::vector<unsigned> remap(positions.size());
@@ -68,15 +67,16 @@ bool weld_facets(Submesh& part, std::vector<Vec3f>& positions) {
     return true;
 }
 
-// Flattening wrinkles takes away area: a facet that leans by theta has 1 / cos theta times the area it
-// covers. For GGX-like slopes of mean square alpha^2 the ratio is about 1 + alpha^2 / 2 (small slopes).
+// Returns the alpha of flattened wrinkles from the loss of area: a facet that leans by theta has 1 / cos
+// theta times the area that it covers. For GGX-like slopes of mean square alpha^2 the ratio is about 1 +
+// alpha^2 / 2 (small slopes).
 float flattened_alpha(double area, double level_area) {
     if (!(level_area > 0) || area <= level_area) return 0;
     return static_cast<float>(std::min(1.0, std::sqrt(2 * (area / level_area - 1))));
 }
 
-// meshoptimizer asks each triangle at a vertex about each other one there: a fan of 100,000 takes it a
-// minute. What has so many stays as it is.
+// meshoptimizer compares each triangle at a vertex with all others there; for a fan of 100,000 it needs a
+// minute. Meshes with such vertices are not simplified.
 bool is_crowded(std::span<const unsigned> indices, std::span<const Vec3f> positions) {
     constexpr std::uint32_t kMaxAtAPlace = 4096;
     std::vector<unsigned> places(indices.size());
@@ -87,13 +87,13 @@ bool is_crowded(std::span<const unsigned> indices, std::span<const Vec3f> positi
                        [&](unsigned place) { return ++triangles[place] > kMaxAtAPlace; });
 }
 
-// A mesh, and which of its triangles are of shaped parts.
+// A mesh, with a flag for each triangle that belongs to a shaped part.
 struct Divided {
     Mesh mesh;
     std::vector<bool> shaped;
 };
 
-// Puts what is left of a part of a mesh into a level. kept: corners, three a triangle.
+// Appends the rest of a part of a mesh to a level. kept: corners, three per triangle.
 void append(const Mesh& mesh, const Submesh& part, std::span<const unsigned> kept, bool faceted,
             std::uint16_t surface, Mesh& out) {
     constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
@@ -122,7 +122,7 @@ void append_simplified(const Mesh& mesh, Submesh part, float error_m, std::uint1
     const bool faceted = weld_facets(part, positions);
     const float scale = meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(Vec3f));
     std::vector<unsigned> kept = part.indices;
-    // Down to nothing if the error allows it: what is smaller than the error does not matter.
+    // Down to nothing if the error permits it: what is smaller than the error does not matter.
     if (!is_crowded(part.indices, positions))
         kept.resize(scale > 0 ? meshopt_simplify(kept.data(), part.indices.data(), part.indices.size(),
                                                  &positions[0].x, positions.size(), sizeof(Vec3f), 3,
@@ -131,7 +131,7 @@ void append_simplified(const Mesh& mesh, Submesh part, float error_m, std::uint1
     append(mesh, part, kept, faceted, surface, out);
 }
 
-// error_m: of what is not shaped.
+// error_m: for parts that are not shaped.
 Divided simplified(const Mesh& mesh, const std::vector<bool>& shaped, double error_m) {
     std::vector<std::array<std::vector<std::uint32_t>, 2>> by_surface(mesh.surfaces.size());
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// The rectangle in a plane that holds what lies there, along one of some edges.
+// The smallest rectangle in a plane around some triangles, parallel to one of some edges.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace hilcam {
 
-// Its sides, unit, across x down = the plane's normal; and where they begin and end, from the origin's foot in the plane.
+// Sides (unit, across x down = the plane's normal), and their begin and end, measured from the projection of
+// the origin.
 struct PlaneRectangle {
     static constexpr double kFar = std::numeric_limits<double>::infinity();
     Vec3d across, down;
@@ -21,7 +22,7 @@ struct PlaneRectangle {
     double area() const { return width() * height(); }
 };
 
-// The smallest of those along an edge; the first of equal ones. Triangles and edges: at least one of each. Owner thread.
+// Returns the smallest one; the first of equal ones. At least one triangle and one edge. Owner thread.
 inline PlaneRectangle smallest_rectangle(std::span<const std::array<Vec3d, 3>> triangles,
                                          std::span<const Vec3d> edges, Vec3d normal) {
     PlaneRectangle best;

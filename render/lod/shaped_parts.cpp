@@ -15,10 +15,11 @@
 namespace hilcam {
 namespace {
 
-// Parts bent by less than this on the mean over their edges are flat [rad]: roundings of places bend a fine mesh by
-// a tenth of it.
+// Parts bent by less than this, on average over their edges, are flat [rad]: rounding of positions bends a
+// fine mesh by a tenth of it.
 constexpr double kFlat_rad = 1e-3;
-// The least size of a shaped part's sum of curvature, against the sum of sizes: a choice half-way between foil and masts.
+// The smallest ratio of a shaped part's sum of curvature to the sum of absolute values, chosen half-way
+// between foil and masts.
 constexpr double kOneSided = 0.5;
 
 // A side of a triangle, between two places.
@@ -31,7 +32,7 @@ struct Side {
     }
 };
 
-// Corners in one place have one number. Sides of an edge are next to each other.
+// Corners at one place get one number. The sides of an edge are adjacent.
 std::vector<Side> sides_of(const Mesh& mesh) {
     const std::size_t count = 3 * mesh.triangles.size();
     std::vector<std::uint32_t> places(count);
@@ -41,7 +42,7 @@ std::vector<Side> sides_of(const Mesh& mesh) {
     sides.reserve(count);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t* corner = &places[3 * std::size_t{t}];
-        // A triangle without width is not between those beside it.
+        // A triangle without width does not separate its neighbours.
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [from, to] = std::minmax(corner[k], corner[(k + 1) % 3]);
@@ -52,7 +53,7 @@ std::vector<Side> sides_of(const Mesh& mesh) {
     return sides;
 }
 
-// The bend of two triangles at their edge; angles are above zero where it is convex.
+// The bend of two triangles at their edge; angles are positive if convex.
 struct Bend {
     double length_m, angle_rad;
 };
@@ -65,7 +66,7 @@ Bend bend_of(const Mesh& mesh, const Side& side, const Side& other) {
     return {length(place_m(side.to) - place_m(side.from)), convex ? angle_rad : -angle_rad};
 }
 
-// Calls for each edge that two triangles of one surface share, and no third.
+// Calls each(...) for every edge that exactly two triangles of one surface share.
 template <class Each>
 void for_each_edge(const Mesh& mesh, std::span<const Side> sides, const Each& each) {
     for (std::size_t first = 0, end; first < sides.size(); first = end) {

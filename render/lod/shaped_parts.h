@@ -1,12 +1,13 @@
 #pragma once
-// Says which parts of a mesh are shaped, as masts, rings, dishes and boxes are: bent to one side more than to the other.
-// What is wrinkled, as crumpled foil, is bent to both alike. A level of detail may flatten wrinkles, whose light it keeps
-// by how they leaned (lod_normals.h), but not shapes: of a mast that is some of its own radius off in places, or of a
-// ring seen from its edge, the thin sunlit part has other light.
+// Finds the shaped parts of a mesh, such as masts, rings, dishes and boxes: they bend more to one side than
+// to the other. Wrinkles, as in crumpled foil, bend equally to both. A level of detail may flatten wrinkles,
+// whose normals it keeps (lod_normals.h), but not shapes: if a mast is off by part of its radius, or a ring
+// is seen edge-on, the thin sunlit part has other light.
 //
-// A part is what of one surface hangs together by edges of two triangles. How it is bent is measured by the mean
-// curvature over its edges, half of each one's length times its angle, above zero where it is convex (Cohen-Steiner &
-// Morvan, SoCG 2003, section 3): shaped is a part whose sum of these is half of the sum of their sizes or more.
+// A part is a piece of one surface, connected by edges of two triangles. Its bending is measured by the mean
+// curvature over its edges: half of each edge's length times its angle, positive if convex (Cohen-Steiner &
+// Morvan, SoCG 2003, section 3). A part is shaped if the sum of these is at least half of the sum of their
+// absolute values.
 
 #include <vector>
 
@@ -14,7 +15,8 @@
 
 namespace hilcam {
 
-// One for each triangle. Flat parts are not shaped: they have nothing to lose. Owner thread; half a second per million triangles.
+// Returns one flag for each triangle. Flat parts are not shaped, because they have nothing to lose. Owner
+// thread; half a second per million triangles.
 std::vector<bool> find_shaped(const Mesh& mesh);
 
 }  // namespace hilcam

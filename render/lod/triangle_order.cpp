@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// Spreads 10 bits so that two zeros follow each.
+// Spreads 10 bits, with two zeros after each.
 std::uint32_t spread(std::uint32_t x) {
     x = (x | (x << 16)) & 0x030000FFu;
     x = (x | (x << 8)) & 0x0300F00Fu;
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> order_triangles(Mesh& mesh) {
         return static_cast<std::uint32_t>(std::clamp(value, 0.0f, 1023.0f));
     };
 
-    // Key and old place in one word: equal keys keep their order, whatever the thread count.
+    // Key and old place in one word: equal keys keep their order, whatever the number of threads.
     std::vector<std::uint64_t> order(mesh.triangles.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Vec3f c = scale * (center(mesh.triangles[i]) - least);

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kLobeRays = 4;  // rays of a narrow lobe at the first surface, where neighbours share none
+constexpr int kLobeRays = 4;  // rays of a narrow lobe at the first surface, when neighbours do not share them
 
 void add(const Tile& tile, const NextRay& ray, NextRays& rays) {
     if (!(ray.from->importance(ray.throughput) >= tile.frame.contribution_threshold)) return;
@@ -30,12 +30,12 @@ void add_through_glass(const Tile& tile, const ShadingPoint& at, NextRays& rays)
     }
 }
 
-// Adds the rays of a lobe that is too narrow to be cached, and none's tails; mirror: its middle.
+// Adds the rays of a lobe that is too narrow to be cached, without its tails. mirror: the lobe's middle.
 void add_in_narrow_lobe(const Tile& tile, const ShadingPoint& at, Vec3f mirror, const Spectrum& weight,
                         NextRays& rays) {
     const float alpha = at.surface.alpha;
     const float core = 1 - tail_share(alpha);
-    // Behind the first surface the lobe's middle stands for all of it: rays do not multiply.
+    // Behind the first surface one ray along the lobe's middle represents it, so that rays do not multiply.
     const int count = at.depth == 1 ? kLobeRays : 1;
     const Frame local(at.normal);
     for (int i = 0; i < count; ++i) {
@@ -51,27 +51,28 @@ void add_in_narrow_lobe(const Tile& tile, const ShadingPoint& at, Vec3f mirror, 
     }
 }
 
-// Returns the number of rays along a lobe of what the camera sees. Neighbours share them (glossy_reuse.h): all of them where a
-// surface is smooth, few where each leans its own way or lobes are narrow. On Hubble's tube and ring four in place of two along narrow
-// lobes take p99 from 29 to 25 sensor noises, and four in place of two along wide ones change it by 1 % for a fifth of the frame's
-// time.
+// Returns the number of rays along a lobe that the camera sees. Neighbours share them (glossy_reuse.h): all
+// of them on a smooth surface, few if normals differ or lobes are narrow. On Hubble's tube and ring, four
+// instead of two for narrow lobes take p99 from 29 to 25 sensor noises; four instead of two for wide ones
+// change it by 1 % for a fifth of the frame's time.
 int lobe_rays(const ShadingPoint& at) {
     constexpr int kSmooth = 2, kAlone = 4;
-    constexpr float kFewSamples = 4;  // out of sixteen
+    constexpr float kFewSamples = 4;  // samples, of sixteen
     if (at.weight_samples < kFewSamples) return 1;
     return at.clusters || at.surface.alpha < kMinCachedAlpha ? kAlone : kSmooth;
 }
 
-// Returns how wide facet lobes are at least where a ray of this density ends. The ray stands for a cone of directions; a facet that turns
-// by half of the cone's half angle mirrors its rim (path space regularization: Kaplanyan & Dachsbacher, CGF 32(2), 2013). So a highlight
-// that one ray of a lobe's tail finds does not count for all of the tail.
+// Returns the smallest alpha of facet lobes that a ray of this density meets. The ray represents a cone of
+// directions, and a facet that leans by half of the cone's half angle mirrors its rim (path space
+// regularization: Kaplanyan & Dachsbacher, CGF 32(2), 2013). So a highlight that one ray of a lobe's tail
+// finds does not count for the whole tail.
 float cone_alpha(float per_density_sr) {
     constexpr float kShared =
         32;  // rays that share a lobe; from 16 to 64 errors of the zoo differ by less than 5 %
     return 0.5f * std::sqrt(per_density_sr / (kPiF * kShared));
 }
 
-// Adds rays along a lobe, drawn as it sends.
+// Adds rays along a lobe, distributed like its reflection.
 void add_along_lobe(Tile& tile, const ShadingPoint& at, GlossyPoint& lobe, NextRays& rays) {
     const int width = tile.box.x1 - tile.box.x0;
     const int x = tile.box.x0 + static_cast<int>(at.pixel) % width,
@@ -80,7 +81,7 @@ void add_along_lobe(Tile& tile, const ShadingPoint& at, GlossyPoint& lobe, NextR
     lobe.reach_px = glossy_reach_px(count);
     const Frame local(at.normal);
     const float no = std::max(dot(at.normal, at.view_dir), 1e-2f);
-    // What the ray finds is held against thresholds as the lobe's share.
+    // Thresholds apply to what the ray finds times the lobe's share.
     const float scale = max_component(lobe.weight) / static_cast<float>(count);
     if (!(scale > 0)) return;
     lobe.per_light = 1 / scale;
@@ -118,7 +119,7 @@ void add_glossy_rays(Tile& tile, const ShadingPoint& at, const GlossyRequest& re
     if (request.point) return add_along_lobe(tile, at, *request.point, rays);
     if (!surface.material->has_facets() || surface.alpha >= kMinCachedAlpha) return;
     const Spectrum weight = at.throughput * tile.frame.indirect->lobe_albedo(at);
-    // The directions of a table pass a mast by: what a good mirror shows is looked for anyway.
+    // A table's directions may miss a mast, so a good mirror always gets a ray.
     const bool is_bright = surface.alpha < kNarrowestLobe && at.importance(weight) >= kBrightLobe;
     if (request.has_bodies && surface.alpha > 0 && !is_bright) return;
     const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
@@ -127,14 +128,14 @@ void add_glossy_rays(Tile& tile, const ShadingPoint& at, const GlossyRequest& re
         NextRay ray{&at, at.start(), mirror, 0, surface.alpha, meets_sun, weight, true, !request.has_bodies};
         ray.part = LightPart::kMirrorRays;
         ray.may_be_many = is_bright && at.depth == 1 && at.samples != 0 && !at.clusters;
-        // What bad mirrors show is not looked for where nothing stands near.
+        // A poor mirror gets no ray if nothing is near.
         if (request.mirrors_near || is_bright)
             add(tile, ray, rays);
         else if (dot(at.geometric_normal, mirror) > 0)
             add_background(tile, ray);
         return;
     }
-    // Where nothing stands near, the bodies in a lobe are all there is, and indirect_cache.h has them.
+    // If nothing is near, the lobe contains only bodies, which indirect_cache.h adds.
     if (request.mirrors_near) add_in_narrow_lobe(tile, at, mirror, weight, rays);
 }
 

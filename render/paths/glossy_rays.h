@@ -1,15 +1,15 @@
 #pragma once
-// Rays by which paths go on from shading points whose light is cached (indirect_cache.h). Nothing is drawn: they go into fixed
-// directions, by mirrors, lobes too narrow to be cached, lobes whose cached light hangs on few directions, and glass. What can
-// add less than contribution_threshold is left out.
+// The rays by which paths continue from shading points with cached light (indirect_cache.h): mirrors, facet
+// lobes that the lookup has left to rays, and glass. Their directions are fixed, not random. Rays that can
+// add less than contribution_threshold are left out.
 
 #include "render/indirect/glossy_request.h"
 #include "render/paths/next_ray.h"
 
 namespace hilcam {
 
-// Adds the rays of a shading point whose light is cached: a mirror's one direction, which may be many, those of a facet lobe, both
-// of a sheet of glass. request: what the lookup has left to rays. Loop, any thread.
+// Adds the rays of a shading point with cached light: one for a mirror, which may become many; those of a
+// facet lobe; two for a sheet of glass. request: what the lookup has left to rays. Loop, any thread.
 void add_glossy_rays(Tile& tile, const ShadingPoint& at, const GlossyRequest& request, NextRays& rays);
 
 }  // namespace hilcam

@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-// Where in the disk of visible facets the rays of a pixel lie, by their number.
+// The places of a pixel's rays in the disk of visible facets, by number.
 struct Places {
     alignas(64) std::array<float, kMaxVisibilitySamples> radius, cosine, sine;
 };
@@ -30,7 +30,7 @@ const Places kMirrorPlaces = [] {
     return out;
 }();
 
-// Three coordinates of each lane.
+// Three coordinates for each lane.
 struct Lanes {
     using Floats = std::array<float, kPacketSize>;
     alignas(64) Floats x{}, y{}, z{};
@@ -38,8 +38,8 @@ struct Lanes {
     void set(std::size_t k, Vec3f v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
 };
 
-// Reflects the views of a lobe's points by a facet each, from place `first` on. to_viewer_m: from the shading point; ways_m: from
-// it to the points.
+// Reflects the views of a shading point's samples by one facet each, from place `first` on. to_viewer_m: from
+// the shading point; ways_m: from it to the samples.
 HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer_m, const Lanes& ways_m,
                                  std::size_t first, Lanes& dirs) {
     const Frame local = lobe;
@@ -50,7 +50,7 @@ HILCAM_CLONES void reflect_views(float alpha, const Frame& lobe, Vec3f to_viewer
                                   {radius[k], cosine[k], sine[k]}));
 }
 
-// Sends some of the rays, each from another of the samples that are left and by a facet of its own. first: how many there were
+// Sends some of the rays, each from another remaining sample and by a facet of its own. first: number of rays
 // before, a multiple of kPacketSize.
 void send(Tile& tile, const ShadingPoint& at, SampleMask& left, std::size_t first, std::size_t count,
           MirrorRays::Packet& out) {
@@ -74,11 +74,12 @@ void send(Tile& tile, const ShadingPoint& at, SampleMask& left, std::size_t firs
         if (meets_object(frame, out.hits, k, out.rays.origin(k), out.rays.dir(k))) out.met |= 1u << k;
 }
 
-// True when all that these meet is dark and faces away from the Sun: against the sensor's noise it matters little how much of a
-// pixel shows it. What a mirror throws of the Sun on such a thing is not asked for.
+// True when everything that these rays meet is dark and faces away from the Sun: compared with the sensor's
+// noise it then matters little how much of a pixel shows it. Sunlight that the mirror reflects onto such a
+// thing is not considered.
 bool meet_the_dark(const FrameContext& frame, const MirrorRays::Packet& packet) {
-    // Reflectance. An edge that sixteen rays see is off by a thirtieth of a pixel; of what has a tenth of the light of white paint
-    // for its own, and reflects a tenth of it, that is a third of a thousandth of the paint's light.
+    // Reflectance. An edge that sixteen rays see is off by a thirtieth of a pixel. For a thing that receives
+    // a tenth of the light of white paint and reflects a tenth of it, that is 1/3000 of the paint's light.
     constexpr float kDark = 0.1f;
     if (packet.met != 0 && frame.lamps && !frame.lamps->lit().empty()) return false;
     const Vec3f sun = to_float(frame.background->sun_world_dir());

@@ -1,6 +1,6 @@
 #pragma once
-// The rays of one pixel of a good mirror, where one from its middle would meet but a part of what the mirror shows: from each
-// sample that sees it, by a facet of its own.
+// Many rays for one pixel of a good mirror, one from each sample that sees it, each with its own facet. Used
+// when a single ray would meet only a part of what the mirror shows there.
 
 #include <array>
 #include <cstdint>
@@ -10,21 +10,23 @@
 
 namespace hilcam {
 
-// True when a lane's ray has met an object before which no body stands. origin_m: ray space. Loop, any thread.
+// True when a lane's ray has met an object and no body is in front of it. origin_m: ray space. Loop, any
+// thread.
 bool meets_object(const FrameContext& frame, const HitPacket& hits, std::size_t lane, Vec3f origin_m,
                   Vec3f dir);
 
 class MirrorRays {
   public:
     struct Packet {
-        RayPacket rays;  // those that leave the mirror
+        RayPacket rays;  // rays that leave the mirror
         HitPacket hits;
-        std::uint32_t met = 0;  // a bit for each ray that meets an object
+        std::uint32_t met = 0;  // one bit per ray that meets an object
     };
 
-    // Traces sixteen, far from each other, and where not all is dark that these meet, one from each sample, `most` at most.
-    // at: what samples of the visibility buffer see. Returns how many stand for the mirror's lobe: a facet may lean so far that
-    // its ray does not leave. Loop, any thread.
+    // Traces sixteen rays from samples far apart and, unless all that they meet is dark, one from each
+    // sample, `most` at most. at: seen by samples of the visibility buffer. Returns how many rays represent
+    // the mirror's lobe; that includes those that do not leave the surface because their facet leans too far.
+    // Loop, any thread.
     std::size_t trace(Tile& tile, const ShadingPoint& at, std::size_t most);
     // Returns the packets of the last trace().
     std::span<const Packet> packets() const { return std::span(packets_).first(count_); }

@@ -1,5 +1,5 @@
 #pragma once
-// The exchangeable models of the renderer, by name: what a scenario may choose from.
+// The exchangeable models of the renderer by name, from which a scenario chooses.
 
 #include <filesystem>
 #include <string>
@@ -29,8 +29,8 @@ struct Modules {
     Modules();
 };
 
-// Returns the path model of this name. Throws InputError that lists the names when there is none, and says where
-// one is that the program has had. Owner thread.
+// Returns the path model of this name. Throws InputError with the list of names if there is none; for a model
+// that the program used to have it says where that is. Owner thread.
 std::unique_ptr<PathModel> make_path_model(const Modules& modules, const std::string& name);
 
 }  // namespace hilcam

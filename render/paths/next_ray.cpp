@@ -8,7 +8,8 @@ namespace hilcam {
 void add_background(Tile& tile, const NextRay& ray) {
     Spectrum light;
     const bool meets_body = add_background_seen(tile.frame, ray, light);
-    // What next-event estimation leaves to a random path's own direction is light from its source all the same.
+    // Light from a source counts as direct, even if next-event estimation leaves it to a random path's own
+    // direction.
     const LightPart direct = meets_body ? LightPart::kPlanetshine : LightPart::kSun;
     tile.add(*ray.from, ray.part == LightPart::kPath ? direct : ray.part, light);
 }
@@ -27,7 +28,7 @@ bool add_background_seen(const FrameContext& frame, const NextRay& ray, Spectrum
     if (background.may_meet_body(ray.dir) &&
         background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light))
         return true;
-    // The Sun is a point here, and it is added only where no lobe has counted its light.
+    // The Sun is a point here, and counts only if no lobe has included its light.
     if (exact) {
         if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), weight, light);
         return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Rays that continue paths, and the background that they see where they meet nothing.
+// Rays that continue paths, and the background that they see if they meet nothing.
 
 #include <algorithm>
 #include <cmath>
@@ -17,24 +17,25 @@ struct NextRay {
     Vec3f origin_m;
     Vec3f dir;
     float density;      // density of the direction [sr^-1]; 0: exact
-    float alpha_least;  // least alpha of the next shading point's facet lobe
-    bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
+    float alpha_least;  // smallest alpha of the next shading point's facet lobe
+    bool meets_sun;     // for exact rays: the Sun's disk has not been counted as a highlight
     Spectrum throughput;
-    bool whole_lobe = false;            // it stands for all of a narrow facet lobe about it
+    bool whole_lobe = false;            // it represents the whole narrow facet lobe around it
     bool sees_bodies = true;            // false: their light in its lobe has been counted
-    LightPart part = LightPart::kPath;  // the part of what it meets
-    GlossyRay* glossy = nullptr;        // it is one of a lobe's; null: it is not
-    // True for a mirror's ray, in whose place many go where it, or one beside it, meets but a part of what the mirror shows.
+    LightPart part = LightPart::kPath;  // part of the light that it finds
+    GlossyRay* glossy = nullptr;        // it belongs to a lobe with shared rays; null: it does not
+    // True for a mirror's ray that becomes many if it, or one beside it, meets only a part of what the mirror
+    // shows.
     bool may_be_many = false;
 
-    // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
+    // The ray of a lobe represents a cone, as wide as its density says; an exact ray keeps its width.
     RayWidth width() const {
         const float spread = density > 0 ? std::min(0.5f, 0.25f / std::sqrt(density)) : 0.0f;
         return {from->footprint_m, spread};
     }
 };
 
-// Rays that are chosen, as many as there is room for.
+// A list of chosen rays, limited by its memory.
 struct NextRays {
     std::span<NextRay> room;
     std::size_t count = 0;
@@ -45,9 +46,10 @@ struct NextRays {
     }
 };
 
-// Adds the background that a ray sees to what its shading point sends. Loop, any thread.
+// Adds the background that a ray sees to the light of the shading point that it left. Loop, any thread.
 void add_background(Tile& tile, const NextRay& ray);
-// Adds the share of that light which next-event estimation has not counted. True: a body has been met. Loop, any thread.
+// Adds the share of that light which next-event estimation has not counted. Returns true if a body was met.
+// Loop, any thread.
 bool add_background_seen(const FrameContext& frame, const NextRay& ray, Spectrum& light);
 
 }  // namespace hilcam

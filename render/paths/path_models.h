@@ -1,5 +1,5 @@
 #pragma once
-// The program's own path models (see path_model.h).
+// The program's own path models (path_model.h).
 
 #include <memory>
 

@@ -13,12 +13,12 @@
 namespace hilcam {
 namespace {
 
-// A shading point as its plug-in sees it scatter.
+// The scattering of a shading point as the plug-in sees it.
 struct Scattering {
     const ShadingPoint* at;
-    Bsdf surface;      // a narrow facet lobe is a mirror
+    Bsdf surface;      // a narrow facet lobe becomes a mirror
     bool narrowed;     // it has such a lobe
-    float lobe_share;  // the lobe's albedo over what a mirror in its place reflects
+    float lobe_share;  // albedo of the lobe relative to that of the mirror that replaces it
 };
 const Scattering& scattering_of(const PathPoint& at) { return *static_cast<const Scattering*>(at.inside); }
 
@@ -53,7 +53,7 @@ PathPoint shown(const Scattering& scattering) {
             .inside = &scattering};
 }
 
-// Shading points that are lit together, and what the plug-in sees of them.
+// Shading points that are lit together, and the plug-in's view of them.
 template <std::size_t kMax>
 struct LitTogether {
     std::array<ShadingPoint, kMax> points;
@@ -69,10 +69,10 @@ struct LitTogether {
     }
 };
 
-// The view that a plug-in has of one tile after the other.
+// The view that a plug-in has of the tiles, one at a time.
 class TileView final : public PathView {
   public:
-    // Makes room for paths that deep.
+    // Allocates for paths of this depth.
     void reserve_depth(int max_depth) {
         const auto levels = static_cast<std::size_t>(max_depth);
         if (levels_.size() < levels) levels_.resize(levels);
@@ -142,7 +142,7 @@ class TileView final : public PathView {
     using Level = LitTogether<kMaxRays>;
     Tile* tile_ = nullptr;
     LitTogether<PathModel::kMaxShadingPoints> first_;
-    std::vector<Level> levels_;  // surfaces that rays have met, by the depth of the one that they left
+    std::vector<Level> levels_;  // surfaces that rays have met, by the depth of the surface that they left
     std::array<PathBody, kMaxBodies> bodies_;
     std::size_t body_count_ = 0;
 
@@ -159,12 +159,13 @@ class TileView final : public PathView {
     std::optional<PathDirection> direction_of(const PathPoint& at, const BrdfSample& sample) const {
         if (!sample.valid || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) return {};
         const Scattering& scattering = scattering_of(at);
-        // Highlights of a lobe that is taken as a mirror have counted the Sun.
+        // Highlights of a lobe that was replaced by a mirror already include the Sun.
         return PathDirection{sample.dir, (sample.exact ? scattering.lobe_share : 1.0f) * sample.weight,
                              sample.exact, sample.transmits, sample.exact && !scattering.narrowed};
     }
 
-    // Adds what rays find that leave the scene, and keeps what the others meet. Returns how many of these there are.
+    // Adds the light of rays that leave the scene, and stores what the others meet. Returns the number of the
+    // latter.
     std::size_t trace_rays(const PathPoint& at, std::span<const PathRay> rays) {
         const ShadingPoint& from = *scattering_of(at).at;
         RayPacket packet;

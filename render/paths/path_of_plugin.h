@@ -8,7 +8,7 @@
 
 namespace hilcam {
 
-// Owner thread; the model that it gives is used as PathModel says.
+// Owner thread; the returned model follows the rules of PathModel.
 std::unique_ptr<PathModel> make_path_of_plugin(std::unique_ptr<PathPlugin> model);
 
 }  // namespace hilcam

@@ -1,13 +1,14 @@
 #pragma once
-// The path model of a plug-in, and what it sees of the renderer: surfaces that light paths have met, how they scatter, and light that
-// is added to the picture. This header is all that such a plug-in includes of the renderer's light; what the renderer keeps beside
-// it may change without a new kPathPluginInterface.
+// The path model of a plug-in, and its view of the renderer: surfaces that light paths have met, how they
+// scatter light, and how light is added to the picture. Such a plug-in includes no other header of the
+// renderer's light; the renderer may change everything else without a new kPathPluginInterface.
 //
 //     #include "render/paths/path_plugin.h"
 //     class Mine final : public hilcam::PathPlugin { ... };
 //     HILCAM_PATH_PLUGIN("mine", Mine)
 //
-// Directions are unit vectors in world axes; places are in ray space: metres, world axes, counted from a point that a frame chooses.
+// Directions are unit vectors in world axes. Positions are in ray space: metres, world axes, from an origin
+// that the frame chooses.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,98 +21,102 @@
 
 namespace hilcam {
 
-// A surface that a light path has met. It is valid while the call of PathPlugin::light() runs that it was given to.
+// A surface that a light path has met. It is valid only during the call of PathPlugin::light() that receives
+// it.
 struct PathPoint {
     Vec3f point_m;           // in ray space
-    Vec3f geometric_normal;  // towards the viewer's side
+    Vec3f geometric_normal;  // on the viewer's side
     Vec3f normal;            // shading normal, on the same side
     Vec3f view_dir;          // back along the path
-    Spectrum throughput;     // share of the light that it sends which reaches its pixel
-    float samples;           // its throughput is that of so many samples; contribution_threshold() is for one
+    Spectrum throughput;     // share of the light it sends that reaches its pixel
+    float samples;           // number of samples its throughput is for; contribution_threshold() is for one
     std::uint32_t pixel;     // in the tile, row by row
     int depth;               // 1: the camera sees it
-    bool scatters;           // some light goes in all directions; false: exact directions are all there is
-    const void* inside;      // the renderer's own knowledge of it
+    bool scatters;           // some light is scattered in all directions; false: only exact directions
+    const void* inside;      // the renderer's own data
 
-    // Returns the figure that contribution_threshold() is held against.
+    // Returns the value to compare with contribution_threshold().
     float importance(const Spectrum& of) const { return max_component(of) / samples; }
 };
 
-// One direction in which light reaches a surface that sends it on towards the viewer.
+// A direction from which light reaches a surface that scatters it towards the viewer.
 struct PathDirection {
     Vec3f dir;
-    Spectrum weight;  // f cos over the density of directions; of an exact one: reflectance or transmittance
-    bool exact = false;      // a mirror's or a sheet's one direction
-    bool transmits = false;  // goes on to the other side
-    bool sees_sun = false;   // add_direct_light() has left out the Sun there
+    Spectrum weight;         // f cos / density of directions; for exact ones: reflectance or transmittance
+    bool exact = false;      // the one direction of a mirror or a sheet
+    bool transmits = false;  // continues on the other side
+    bool sees_sun = false;   // add_direct_light() has left out the Sun in this direction
 };
 
 // A ray that leaves a surface.
 struct PathRay {
     Vec3f dir;
     Spectrum throughput;        // the surface's, times the direction's weight
-    LightPart part;             // part of the light that surfaces on its way send
-    LightPart background_part;  // part of the light that it finds where it meets none
-    float spread_rad = 0;       // the cone for which it stands
-    bool below = false;         // leaves to the other side
-    bool sees_bodies = true;    // finds bodies and air where it meets no surface
-    bool sees_sun = false;      // finds the Sun's disk there, too
+    LightPart part;             // part of the light from surfaces on its way
+    LightPart background_part;  // part of the light that it finds if it meets none
+    float spread_rad = 0;       // the cone that it represents
+    bool below = false;         // starts on the other side
+    bool sees_bodies = true;    // finds bodies and air if it meets no surface
+    bool sees_sun = false;      // also finds the Sun's disk there
 };
 
 // The Earth, the Moon or a planet, as a source of light.
 struct PathBody {
     Vec3f dir;                // from the objects to its centre
     float one_minus_cosine;   // 1 - cosine of its half angle
-    float cone_sine_squared;  // square of the sine of its half angle; 1 inside it
-    float max_over_sun;       // greatest radiance over the Sun's irradiance [sr^-1]
+    float cone_sine_squared;  // sin^2 of its half angle; 1 inside it
+    float max_over_sun;       // largest radiance over the Sun's irradiance [sr^-1]
 };
 
 class PathPlugin;
 
-// Answers what a path model asks for. One thread at a time.
+// The renderer's services for a path model. One thread at a time.
 class PathView {
   public:
-    // Greatest number of rays that follow() takes at once.
+    // The largest number of rays in one call of follow().
     static constexpr std::size_t kMaxRays = 64;
 
-    // Returns the number of surfaces that a path may meet at most.
+    // Returns the largest number of surfaces on a path.
     virtual int max_depth() const = 0;
-    // Returns the least importance of a path that goes on.
+    // Returns the least importance with which a path continues.
     virtual float contribution_threshold() const = 0;
-    // True when there is a sky: air about the camera.
+    // True when the camera is in air, so that there is a sky.
     virtual bool in_air() const = 0;
     // Returns the bodies that light the objects.
     virtual std::span<const PathBody> bodies() const = 0;
 
-    // Returns f [sr^-1] for light from that direction; zero from below, and of exact directions.
+    // Returns f [sr^-1] for light from that direction; zero from below, and for exact directions.
     virtual Spectrum brdf(const PathPoint& at, Vec3f dir) const = 0;
-    // Returns an exact direction: 0 reflection, 1 transmission; nothing where there is none.
+    // Returns an exact direction: 0 reflection, 1 transmission; nothing if there is none.
     virtual std::optional<PathDirection> exact_direction(const PathPoint& at, int number) const = 0;
-    // Returns a direction drawn in proportion to f cos, about, by the sample's own random numbers; nothing where it leads below.
+    // Draws a direction roughly in proportion to f cos, by the sample's own random numbers; nothing if it
+    // leads below.
     virtual std::optional<PathDirection> random_direction(const PathPoint& at) const = 0;
 
     // Adds light that a surface sends to its pixel. light: radiance times the surface's throughput.
     virtual void add(const PathPoint& at, LightPart part, const Spectrum& light) = 0;
-    // Adds the light of the Sun and of lamps that surfaces reflect, and what they emit. points: as light() was given them.
+    // Adds the light of the Sun and of lamps that surfaces reflect, and what they emit. points: as passed to
+    // light().
     virtual void add_direct_light(std::span<const PathPoint> points) = 0;
-    // Adds what bodies send to a surface along directions that lead to them, where nothing stands in the way.
+    // Adds the light of bodies that reaches a surface along directions to them, if nothing is in the way.
     virtual void add_body_light(const PathPoint& at, std::span<const PathDirection> directions) = 0;
-    // Follows rays from a surface: adds what those find that leave the scene, and has the model light what the others meet, up to
-    // max_depth() surfaces. All that is added meanwhile is summed by itself, so that many small parts keep their digits.
+    // Follows rays from a surface: adds the light of those that leave the scene, and calls the model to light
+    // the surfaces that the others meet, up to max_depth(). Everything added in the meantime is summed
+    // separately, so that many small parts keep their digits.
     virtual void follow(const PathPoint& at, std::span<const PathRay> rays, PathPlugin& model) = 0;
 
   protected:
     ~PathView() = default;
 };
 
-// A path model. The renderer has one for each thread, and calls it in the loop: it allocates nothing and throws nothing.
+// A path model. The renderer has one per thread and calls it in the loop: it must not allocate or throw.
 class PathPlugin {
   public:
     virtual ~PathPlugin() = default;
 
-    // Adds the light of surfaces, all of one depth, that the camera sees or that rays have met.
+    // Adds the light of surfaces, all at one depth, that the camera sees or that rays have met.
     virtual void light(PathView& view, std::span<const PathPoint> points) = 0;
-    // Facet lobes narrower than this (GGX alpha) are mirrors of the same albedo to the view; 0: lobes are as they are.
+    // The view treats facet lobes narrower than this (GGX alpha) as mirrors of the same albedo; 0: no limit.
     virtual float narrowest_alpha() const { return 0; }
 };
 
@@ -125,7 +130,7 @@ struct PathPluginInfo {
     std::uint32_t shared_sizes;
     const char* compiler;
     const char* name;       // word of quality.path_model
-    PathPlugin* (*make)();  // gives a new one to its caller
+    PathPlugin* (*make)();  // the caller owns the result
 };
 
 }  // namespace hilcam

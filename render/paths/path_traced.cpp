@@ -1,10 +1,11 @@
-// One random path per sample, in waves of packets: at every shading point the lamps by next-event estimation and one
-// direction drawn from the surface's own reflection. Where both can find the same light they are weighed by
-// the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
-// lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
+// One random path per sample, in waves of packets: each shading point sends rays to the lights (next-event
+// estimation) and one ray in a direction drawn from its own BRDF. Where both can find the same light, they
+// are weighted by the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than
+// contribution_threshold continues by chance, with a correspondingly larger weight (Russian roulette; Arvo &
+// Kirk, SIGGRAPH 90).
 //
-// Where light is cached (indirect_cache.h) nothing is drawn: a path ends there, but for what fixed directions follow
-// (glossy_rays.h).
+// On surfaces with cached light (indirect_cache.h) nothing is random: the path ends there, except for rays in
+// fixed directions (glossy_rays.h).
 
 #include "render/paths/path_models.h"
 
@@ -40,16 +41,17 @@ class TracedPaths final : public PathModel {
   private:
     bool cached_;
     static constexpr auto kMax = static_cast<std::size_t>(kMaxShadingPoints);
-    // Each mirror there has room for so many rays in place of one that would meet but a part of what it shows, and for more
-    // where others need fewer.
+    // Room for at least this many rays for each mirror whose single ray would meet only a part of what it
+    // shows, and for more if others need fewer.
     static constexpr std::size_t kMinOfMirror = 8;
     static constexpr std::size_t kMaxRays = (kMinOfMirror + 5) * kMax;
     std::array<ShadingPoint, kMaxRays> a_, b_;
     std::array<NextRay, kMaxRays> next_;
-    std::array<GlossyRequest, kMaxRays> requests_;  // one for each shading point in work that keeps light
+    std::array<GlossyRequest, kMaxRays> requests_;  // one for each shading point in work with cached light
     ShadingPoint* current_ = a_.data();
     ShadingPoint* following_ = b_.data();
-    // What the first rays have met, those that may be many; and by pixel of the tile whether these meet a part near it.
+    // Hits of the first rays of mirrors that may become many; and by pixel of the tile, whether these hit a
+    // small part nearby.
     std::array<HitPacket, (kMax + kPacketSize - 1) / kPacketSize> mirror_hits_;
     std::array<bool, kMaxSamples> near_part_;
     MirrorRays many_;
@@ -76,7 +78,8 @@ class TracedPaths final : public PathModel {
         }
     }
 
-    // Draws a direction at each shading point. At the last surface only exact ones go on: no lamp has been counted in them.
+    // Draws a direction at each shading point. At the last surface only exact ones continue, because they
+    // include no light yet.
     static void choose(const Tile& tile, std::span<const ShadingPoint> points, bool last, NextRays& rays) {
         const FrameContext& frame = tile.frame;
         const float least = frame.contribution_threshold;
@@ -98,8 +101,8 @@ class TracedPaths final : public PathModel {
                 if (uniform01(random[3]) >= chance) continue;
                 weight = (1 / chance) * weight;
             }
-            // A facet lobe met through another is at least as wide as that one; behind a diffuse bounce, as
-            // wide as the quality says, so that the mean stays and the sparkle goes (Kaplanyan & Dachsbacher,
+            // A facet lobe met through another is at least as wide as that one. Behind a diffuse bounce it is
+            // as wide as the quality says, which keeps the mean and removes sparkle (Kaplanyan & Dachsbacher,
             // CGF 32(2), 2013).
             const float alpha_least = frame.alpha_behind_diffuse > 0
                                           ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
@@ -111,8 +114,9 @@ class TracedPaths final : public PathModel {
         }
     }
 
-    // True when a mirror's ray has met but a part of what the mirror shows about it: the triangle is small beside the ray's width,
-    // so that others, or none, lie within it, or within a pixel or two. What one of them sends may be a glint, or nothing.
+    // True when a mirror's ray has met only a part of what the mirror shows there: the triangle is small
+    // compared with the ray's width, so other triangles, or none, are within it or within a pixel or two. One
+    // of them may send a glint, or nothing.
     static bool has_met_a_part(const HitPacket& hits, std::size_t k, const NextRay& ray) {
         constexpr float kSmall = 4;
         const float size_m = std::sqrt(length(Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]}));
@@ -120,7 +124,8 @@ class TracedPaths final : public PathModel {
         return size_m < kSmall * width_m;
     }
 
-    // Follows many rays of a mirror's pixel, `most` at most, in the place of the one from its middle. Returns how many.
+    // Traces many rays for a mirror's pixel, at most `most`, instead of the one from its middle. Returns
+    // their number.
     std::size_t follow_many(Tile& tile, const NextRay& middle, std::size_t most, std::size_t& found) {
         const std::size_t sent = many_.trace(tile, *middle.from, most);
         NextRay ray = middle;
@@ -159,7 +164,7 @@ class TracedPaths final : public PathModel {
         return hits;
     }
 
-    // Makes what a ray has met the shading point after those that are found. False where there is nothing to see.
+    // Appends the hit of a ray as a shading point. Returns false if nothing is seen.
     bool add_met(const FrameContext& frame, const HitPacket& hits, std::size_t k, const NextRay& ray,
                  std::size_t found) {
         ShadingPoint& point = following_[found];
@@ -176,8 +181,9 @@ class TracedPaths final : public PathModel {
         return true;
     }
 
-    // Puts the rays that may be many first and traces them. Where one meets a part of what its mirror shows, those of the pixels
-    // about it, whose lobes have some of it, may have passed it by. Returns how many they are.
+    // Sorts the rays that may become many to the front and traces them. If one of them meets a small part,
+    // the rays of surrounding pixels, whose lobes contain some of it, may have missed it. Returns their
+    // number.
     std::size_t trace_mirrors(Tile& tile, std::size_t ray_count) {
         const auto begin = next_.begin();
         const auto mirrors =
@@ -198,12 +204,12 @@ class TracedPaths final : public PathModel {
         return mirrors;
     }
 
-    // Marks the pixels in whose lobes something is that a mirror shows at this distance.
+    // Marks the pixels whose lobes may contain something that a mirror shows at this distance.
     void mark_about(const Tile& tile, const ShadingPoint& mirror, float distance_m) {
-        // Four fifths of a lobe are within twice alpha of its facets' middle, which turns rays by twice that (Walter et al. 2007,
-        // eq. 35).
+        // Four fifths of a lobe come from facets within twice alpha, which turn rays by twice that angle
+        // (Walter et al. 2007, eq. 35).
         constexpr float kLobe = 4;
-        constexpr float kMax_px = 4;  // further off a pixel has little of it, and rays cost time
+        constexpr float kMax_px = 4;  // a pixel farther away has little of it, and rays cost time
         const auto focal_px = static_cast<float>(tile.frame.geometry.focal_length_px);
         const float in_all_m = mirror.footprint_m * focal_px + distance_m;
         const float blur_px = kLobe * mirror.surface.alpha * distance_m / in_all_m * focal_px;
@@ -215,12 +221,13 @@ class TracedPaths final : public PathModel {
                 near_part_[static_cast<std::size_t>(row * width + column)] = true;
     }
 
-    // Makes what one of many rays has met, the last of these shading points, a part of what others of the same pixel have, where
-    // that is alike: it is shaded once. Few, as a shadow's edge may pass between them. False: nothing is.
+    // Joins the hit of one of many rays, the last of these shading points, to a similar one of the same
+    // pixel, so that it is shaded once. Only a few are compared, because a shadow's edge may pass between
+    // them. Returns false if none is similar.
     static bool join(const NextRay& ray, ShadingPoint* found, std::size_t first, std::size_t last) {
         constexpr float kMaxBrighter = 8;
         const ShadingPoint& at = found[last];
-        // A facet lobe turns by twice as much: half of alpha, as far as 10 degrees.
+        // A lobe turns by twice the facet's angle: half of alpha, up to 10 degrees.
         constexpr float kLeansAlike = 0.985f, kOfAlpha = 0.5f;
         const float alpha = kOfAlpha * at.surface.alpha;
         const float least =
@@ -238,8 +245,8 @@ class TracedPaths final : public PathModel {
         return false;
     }
 
-    // Follows the chosen rays; what they meet becomes the next wave's shading points (none after the last), the rest
-    // sees the background.
+    // Traces the chosen rays. Hits become the next wave's shading points (none after the last); the others
+    // see the background.
     std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
         const FrameContext& frame = tile.frame;
         HitPacket own_hits;
@@ -257,7 +264,7 @@ class TracedPaths final : public PathModel {
             for (std::size_t k = 0; k < count; ++k) {
                 const NextRay& ray = next_[first + k];
                 if (first < mirrors && near_part_[ray.from->pixel]) {
-                    // All have the same room.
+                    // Each gets an equal part of the remaining room.
                     room -= follow_many(tile, ray, room / marked--, found);
                     continue;
                 }

@@ -1,9 +1,9 @@
 #pragma once
-// The radiance of a body's disk as objects see it, as a picture with its halves: for lobes of facets, each of which
-// sees many of its places. Made once a frame.
+// The radiance of a body's disk as objects see it: a picture with mip levels, for narrow facet lobes that
+// each see many of its places. Made once per frame.
 //
-// The picture is Lambert's azimuthal projection of the cone that holds the disk (Snyder, Map Projections, USGS
-// Professional Paper 1395, 1987, ch. 24): all of its texels have one solid angle.
+// The picture is Lambert's azimuthal projection of the cone around the disk (Snyder, Map Projections, USGS
+// Professional Paper 1395, 1987, ch. 24), so all texels have the same solid angle.
 
 #include <array>
 #include <vector>
@@ -14,20 +14,20 @@ namespace hilcam {
 
 class BodyMap {
   public:
-    // A texel is half as wide as the alpha of the narrowest lobe, but no narrower than this [rad]: about the part of a solar
-    // cell's lobe that one of sixteen facets sees.
+    // A texel is half as wide as the alpha of the narrowest lobe, but at least this wide [rad]: about the
+    // part of a solar cell's lobe that one of sixteen facets sees.
     static constexpr float kNarrowest_rad = 0.02f;
     static constexpr int kMinSide = 8, kMaxSide = 64;
 
     BodyMap();
 
-    // Looks at the disk that a cone about `axis` holds; world, unit. Loop; no allocation of its own.
-    // narrowest_alpha: of the lobes that will ask (GGX).
+    // Renders the disk inside a cone about `axis` (world, unit). narrowest_alpha: GGX alpha of the narrowest
+    // lobe that will be looked up. Loop; no allocation of its own.
     void place(const Background& background, Vec3f axis, float one_minus_cosine, float narrowest_alpha);
 
     float texel_sr() const { return texel_sr_; }
-    // Returns the mean radiance about a direction, over `spread_sr` or a texel; nothing beyond the cone. dir: unit,
-    // world. Loop, any thread.
+    // Returns the mean radiance about a direction (unit, world) over `spread_sr` or a texel; zero outside the
+    // cone. Loop, any thread.
     Spectrum about(Vec3f dir, float spread_sr) const;
 
   private:
@@ -40,7 +40,7 @@ class BodyMap {
     int side_ = kMinSide, levels_ = 1;
     float radius_ = 1;  // radius of the cone in the projection: 2 sin(half angle / 2)
     float texel_sr_ = 1;
-    // Level after level, each with a border of nothing.
+    // By level, each with a border of zeros.
     std::array<std::vector<Spectrum>, kLevels> texels_;
 
     Place place_of(int x, int y) const;

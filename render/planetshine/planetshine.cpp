@@ -15,14 +15,15 @@ namespace {
 constexpr float kGoldenTurns = 0.61803399f;
 constexpr std::size_t kSkyLanes = 16;
 
-// Sums over what a lobe sees of a body, by its brightest bin: of the light, and of it times Schlick's Fresnel term.
+// Sums over a body in a lobe, by its brightest bin: of the light, and of the light times Schlick's Fresnel
+// term.
 struct SchlickSums {
     float light = 0, term = 0;
 
-    // The cosine at which the term is its mean.
+    // Returns the cosine at which Fresnel's term equals its mean.
     float facet_cosine() const { return light > 0 ? 1 - std::pow(std::max(term / light, 0.0f), 0.2f) : 1.0f; }
 };
-// Vectors are written out, as GCC 12 takes a plain loop over sixteen lanes apart. count: a multiple of kLanes.
+// Vectors are written out because GCC 12 splits a plain loop over sixteen lanes. count: a multiple of kLanes.
 [[gnu::always_inline]] inline SchlickSums schlick_sums(const float* weight, const float* brightest,
                                                        const float* schlick, std::size_t count) {
     using Eight [[gnu::vector_size(32)]] = float;
@@ -44,8 +45,8 @@ struct SchlickSums {
     return {lane_sum(light), lane_sum(term)};
 }
 
-// Sum of weight times value: a vector holds the bins of one, and four sums side by side do not wait for each other.
-// count: a multiple of four.
+// Sums weight times value: a vector holds the bins of one value, and four sums in parallel do not wait for
+// each other. count: a multiple of four.
 [[gnu::always_inline]] inline void weighted_sum(const float* weights, const Spectrum* values,
                                                 std::size_t count, Spectrum& sum) {
     using Bins [[gnu::vector_size(sizeof(Spectrum))]] = float;
@@ -61,7 +62,7 @@ struct SchlickSums {
     std::memcpy(sum.bin.data(), &all, sizeof all);
 }
 
-// Direction i of count, evenly on a cone.
+// Returns direction i of `count`, spread evenly over a cone.
 Vec3f spiral(Vec3f axis, float one_minus_cosine, std::size_t i, std::size_t count) {
     const float below =
         (static_cast<float>(i) + 0.5f) / static_cast<float>(count) * one_minus_cosine;  // 1 - cos
@@ -69,8 +70,8 @@ Vec3f spiral(Vec3f axis, float one_minus_cosine, std::size_t i, std::size_t coun
     return Frame(axis).to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
-// Returns the share of an even sky that a lobe without Fresnel's term reflects: facets that are wide shadow
-// each other, and what they then reflect again is not the lobe's. Between 17 widths, linear.
+// Returns the share of a uniform sky that a lobe without Fresnel's term reflects: wide facets shadow each
+// other, and their further reflections are not in the lobe. Tabulated at 17 widths, linear in between.
 float whole_lobe(float alpha, float no) {
     constexpr int kSteps = 16;
     static const std::array<LobeAlbedo, kSteps + 1> by_alpha = [] {
@@ -86,14 +87,14 @@ float whole_lobe(float alpha, float no) {
     return below + (x - static_cast<float>(i)) * (at[1](no) - below);
 }
 
-// Half the angle of a body's cone.
+// Returns half the angle of a body's cone.
 float half_angle_rad(const PlanetshineSource& lamp) {
     return 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
 }
 
 float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
 
-// Bilinear in a square of steps + 1 values a side; x and y below steps.
+// Bilinear in a square of steps + 1 values per side; x and y are below `steps`.
 Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, float y) {
     const int ix = static_cast<int>(x), iy = static_cast<int>(y);
     const float tx = x - static_cast<float>(ix), ty = y - static_cast<float>(iy);
@@ -105,7 +106,7 @@ Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, fl
 }  // namespace
 
 Planetshine::Planetshine(float narrowest_alpha) : narrowest_alpha_(narrowest_alpha) {
-    whole_lobe(0, 1);  // the table is made here, so that no frame makes it
+    whole_lobe(0, 1);  // makes the table here, so that no frame has to
 }
 
 bool Planetshine::is_clear_of_bodies(Vec3f dir) const {
@@ -161,7 +162,7 @@ void Planetshine::place(const Background& background, float margin_rad) {
         place_disks(background, lamp, looks, disks_[count_]);
         Body& body = bodies_[count_];
         body = {to_float(lamp.world_dir), {}, 1, {}};
-        // Of all looks: in parts that a surface sees some of, a fourth as many are up to 3 % off.
+        // All looks count: with a fourth as many, surfaces that see a part of the disk are up to 3 % off.
         const auto add_to = [&looks](Vec3f normal, Spectrum& sum) {
             for (const Look& look : looks) sum += std::max(0.0f, dot(look.dir, normal)) * look.irradiance;
         };
@@ -177,7 +178,7 @@ void Planetshine::place(const Background& background, float margin_rad) {
     }
 }
 
-// Equal areas on the cone by a golden-angle spiral (Vogel 1979).
+// Equal areas on the cone, by a golden-angle spiral (Vogel 1979).
 std::array<Planetshine::Look, Planetshine::kLooks> Planetshine::looks_at(const Background& background,
                                                                          std::size_t number) {
     const PlanetshineSource& lamp = background.planetshine_sources()[number];
@@ -201,8 +202,8 @@ void Planetshine::place_disks(const Background& background, const PlanetshineSou
     const Vec3f axis = to_float(lamp.world_dir);
     for (std::size_t k = 0; k < kParts.size(); ++k) {
         if (k > kEven && narrowest_alpha_ >= disks.of[kEven].min_alpha) break;
-        // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half
-        // of that.
+        // The distance between patches is the cone's full angle over the root of their number; facets turn by
+        // half of that.
         disks.of[k].min_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
         place_parts(looks, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
     }
@@ -210,7 +211,7 @@ void Planetshine::place_disks(const Background& background, const PlanetshineSou
         disks.map.place(background, axis, lamp.one_minus_cosine, narrowest_alpha_);
 }
 
-// Each look's light goes to the nearest of fewer parts, which stand in the middle of what they have of it.
+// Assigns each look's light to the nearest of fewer parts, each at the centroid of its light.
 void Planetshine::place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine,
                               std::size_t count, Disk& out) {
     std::array<Vec3f, kPatches> seed, middle{};
@@ -233,8 +234,8 @@ void Planetshine::place_parts(std::span<const Look> looks, Vec3f axis, float one
 
 namespace {
 
-// Slopes of facets that share the GGX distribution evenly between them: a share u of it leans by no more than
-// alpha sqrt(u / (1 - u)) (Walter et al., EGSR 2007, eq. 35).
+// Slopes of facets that represent equal shares of the GGX distribution: a share u leans by at most alpha
+// sqrt(u / (1 - u)) (Walter et al., EGSR 2007, eq. 35).
 struct FacetSlopes {
     static constexpr std::size_t kMax = 64;
     std::size_t count;
@@ -249,14 +250,14 @@ struct FacetSlopes {
         }
     }
 };
-// The limb is an edge, for which sixteen are too few: 0.04 of the disk's light.
+// The limb is an edge, for which sixteen are not enough: 0.04 of the disk's light.
 const FacetSlopes kSlopes(16), kSlopesAtLimb(64);
 
 }  // namespace
 
-// Facets of the lobe, each with what it sees of the map over its share of the directions (Krivanek & Colbert, GPU
-// Gems 3, 2007, ch. 20). Those that the map is too coarse for see it together along the mirror's direction, and each
-// by itself where the disk's limb is near.
+// Facets of the lobe, each with what it sees of the map over its share of the directions (Krivanek & Colbert,
+// GPU Gems 3, 2007, ch. 20). Facets for which the map is too coarse look together along the mirror direction,
+// and one by one near the disk's limb.
 Planetshine::Glossy Planetshine::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir,
                                              float alpha) const {
     const Disks& disks = disks_[body];
@@ -287,8 +288,9 @@ Planetshine::Glossy Planetshine::narrow_lobe(std::size_t body, Vec3f normal, Vec
         const Vec3f dir = reflect(view_dir, facet);
         const float vh = dot(view_dir, facet), ni = dot(normal, dir);
         if (!(vh > 0 && ni > 0)) continue;
-        // The density of the facet's mirrored direction is D nh / (4 vh) (Walter et al., eq. 38): what the lobe sends over
-        // that, and the share of the directions that it stands for.
+        // The density of the facet's mirrored direction is D nh / (4 vh) (Walter et al., eq. 38). The weight
+        // is the lobe's reflection over that density; the spread is the share of directions that the facet
+        // represents.
         const float weight = 4 * vh / nh * ni * ggx_visibility(alpha, no, ni);
         const float spread_sr =
             4 * vh / (nh * ggx_distribution(alpha, nh) * static_cast<float>(slopes.count));
@@ -300,14 +302,14 @@ Planetshine::Glossy Planetshine::narrow_lobe(std::size_t body, Vec3f normal, Vec
         else
             together += weight, density += weight / spread_sr;
     }
-    // They look about as far as an even disk would of the same mean density.
+    // Together they cover about as much as a uniform disk of the same mean density.
     if (together > 0) add(look_at(mirror, together * together / density), together, no);
     if (!(all > 0)) return {};
     return {(whole_lobe(alpha, no) / all) * sum, sums.facet_cosine()};
 }
 
-// Middle and size of the even disk whose light has the same mean direction and spread: half angle is the root
-// of twice the mean square.
+// Finds middle and size of the uniform disk whose light has the same mean direction and spread: its half
+// angle is the root of twice the mean square.
 void Planetshine::place_light(const Disk& disk, Body& body) {
     Vec3f mean{};
     float sum = 0, square = 0;
@@ -328,20 +330,20 @@ void Planetshine::place_light(const Disk& disk, Body& body) {
 struct Planetshine::Seen {
     static constexpr float kNextToNothing = 1e-3f;
     std::array<float, Lobes::kMax> off;   // cosine between the mirror's direction and the disk's
-    std::array<float, Lobes::kMax> most;  // radiance as a share of the irradiance, at most
-    // Where that is not next to nothing.
+    std::array<float, Lobes::kMax> most;  // upper bound of radiance over irradiance
+    // For lobes in which this is not negligible.
     std::array<SchlickSums, Lobes::kMax> sums;
     std::array<Spectrum, Lobes::kMax> radiance;
 };
 
-// One kernel for all of it, as calls through clones cost as much as sixteen directions.
+// One kernel for everything, because calls through clones cost as much as sixteen directions.
 HILCAM_CLONES
 void Planetshine::look(const Disks& disks, const Disk& disk, std::size_t count, Vec3f body_dir,
                        const Lobes& lobes, Seen& seen) {
     const Vec3f view = lobes.view_dir;
     const float alpha = lobes.alpha;
-    // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
-    // the disk has.
+    // The lobe's value at the point of the limb nearest to the mirror direction: if it is negligible there,
+    // so it is on the whole disk.
     constexpr std::size_t kEach = 8;
     const std::size_t filled = (lobes.count + kEach - 1) / kEach * kEach;
     for (std::size_t k = 0; k < filled; ++k) {
@@ -354,7 +356,7 @@ void Planetshine::look(const Disks& disks, const Disk& disk, std::size_t count, 
         seen.most[k] = lobes.reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) * 0.5f /
                        (no * std::max(alpha, 1e-4f));
     }
-    // What Schlick's Fresnel term has of full reflection hangs on the viewer alone.
+    // Schlick's Fresnel term, relative to full reflection, depends only on the viewer.
     alignas(64) std::array<float, kPatches> to_view, schlick, weight;
     for (std::size_t i = 0; i < count; ++i) {
         to_view[i] = disk.x[i] * view.x + disk.y[i] * view.y + disk.z[i] * view.z;
@@ -368,7 +370,7 @@ void Planetshine::look(const Disks& disks, const Disk& disk, std::size_t count, 
         for (std::size_t i = 0; i < count; ++i) {
             const float ni =
                 std::max(disk.x[i] * normal.x + disk.y[i] * normal.y + disk.z[i] * normal.z, 0.0f);
-            // The patches' irradiance is across the way: their cosine belongs to the weight.
+            // The patches' irradiance is on a facing surface, so the weight includes their cosine.
             weight[i] = ni * law.at(std::max(ni, 1e-3f), to_view[i]);
         }
         weighted_sum(weight.data(), disk.irradiance.data(), count, seen.radiance[k]);
@@ -388,14 +390,14 @@ Planetshine::Glossy Planetshine::glossy(std::size_t body, Vec3f normal, Vec3f vi
 void Planetshine::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const {
     const Disks& disks = disks_[body];
     const float alpha = lobes.alpha;
-    // The fewer parts where facets turn by half of alpha, at most, from one to the next.
+    // Few parts if facets turn by at most half of alpha from one part to the next.
     const std::size_t parts =
         alpha < disks.of[kEven].min_alpha ? 2 : (alpha < 2 * disks.of.front().min_alpha ? 1 : 0);
     const Disk& disk = disks.of[parts];
     Seen seen;
     look(disks, disk, kParts[parts], bodies_[body].world_dir, lobes, seen);
-    // Two parts' distance past the limb a narrow lobe's tail is even over a part, and the disk is no half of
-    // the sky.
+    // Two parts' distance beyond the limb a narrow lobe's tail is uniform over a part, and the disk is less
+    // than half of the sky.
     const bool narrow = alpha < disk.min_alpha;
     const float close = narrow ? std::cos(disks.half_angle_rad + 4 * disk.min_alpha) : 1.0f;
     for (std::size_t k = 0; k < lobes.count; ++k) {

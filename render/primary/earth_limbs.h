@@ -1,6 +1,6 @@
 #pragma once
-// Where the Earth ends on the sky, and where its clouds do, which stand out beyond it: edges that one look along a
-// pixel's middle cannot tell.
+// Finds pixels that the Earth's limb passes, or that of its clouds, which extend beyond it: one look through
+// the pixel's middle cannot find such an edge.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ class EarthLimbs {
     // The Earth, placed.
     EarthLimbs(const PlacedBody& earth, bool has_clouds) : earth_(earth), has_clouds_(has_clouds) {}
 
-    // True when a limb passes within so much of a direction (world, unit).
+    // True when a limb is within this angle of a direction (world, unit).
     bool near(Vec3d dir, double within_rad) const {
         const double from_middle_rad = std::acos(std::clamp(dot(dir, earth_.world_dir), -1.0, 1.0));
         if (!may_be_near(from_middle_rad, within_rad)) return false;
@@ -36,8 +36,8 @@ class EarthLimbs {
     const PlacedBody& earth_;
     bool has_clouds_;
 
-    // A direction needs no closer look that is farther from the middle's circle than the flattening moves the limb, a third
-    // of a hundredth of the radius, or the clouds' level does.
+    // A coarse test. The limb differs from a circle by the flattening (1/300 of the radius) and by the
+    // clouds' level; directions farther from the circle than that cannot be near a limb.
     bool may_be_near(double from_middle_rad, double within_rad) const {
         constexpr double kFlattening = 0.0034;
         const double disk_rad = std::acos(earth_.disk_cosine);

@@ -1,4 +1,4 @@
-// Makes shading points of what a pixel sees of a coverage map (lod/coverage_map.h): one for each surface in it.
+// Makes the shading points of what a pixel sees of a coverage map (lod/coverage_map.h): one for each surface.
 
 #include <algorithm>
 
@@ -8,20 +8,20 @@
 namespace hilcam {
 namespace {
 
-// A surface in a coverage map is seen where it fills as much of a pixel: of sunlit paint a quarter of the noise of a full well of
-// 15,000 electrons.
+// A surface of a coverage map counts if it fills this share of a pixel: for sunlit paint a quarter of the
+// noise of a full well of 15,000 electrons.
 constexpr float kMinCoverage = 0.002f;
 
-// The halves of light whose middle is `off_px` from that of light with these halves.
+// Returns the moments of light whose middle is shifted by `off_px`.
 SubpixelMoments moved(const SubpixelMoments& from, Vec2f off_px) {
-    // An even pixel's half has its middle a quarter of a pixel away.
+    // In a uniform pixel the middle of a half is a quarter of a pixel away.
     return {std::clamp(from.across + 4 * off_px.x, -1.0f, 1.0f),
             std::clamp(from.down + 4 * off_px.y, -1.0f, 1.0f), from.crossed};
 }
 
 }  // namespace
 
-// Returns how far rays go along the sides while they rise by one.
+// Returns how far rays move along the sides while they rise by one.
 Vec2f PrimaryHits::ShownCoverageMap::slopes(Vec3f dir) const {
     const float per_rise = 1 / std::max(dot(dir, normal), 1e-3f);
     return {per_rise * dot(dir, across), per_rise * dot(dir, down)};
@@ -43,7 +43,7 @@ const PrimaryHits::ShownCoverageMap& PrimaryHits::shown(const CoverageMap& cover
     return coverage_map_;
 }
 
-// Returns what is seen of the coverage map through the pixel of fragment k.
+// Returns what the pixel of fragment k sees of the coverage map.
 PrimaryHits::CoverageMapPixel PrimaryHits::look_at_coverage_map(std::size_t k, Vec3f view_dir) const {
     const PixelRays pixel = rays_of(fragments_[k]);
     const Vec3d up = to_double(coverage_map_.normal);
@@ -65,8 +65,8 @@ PrimaryHits::CoverageMapPixel PrimaryHits::look_at_coverage_map(std::size_t k, V
     return out;
 }
 
-// One shading point for each surface of the coverage map that is in a pixel, with its part of what the samples see. Returns how
-// many shading points there are then.
+// Makes one shading point for each surface of the coverage map in a pixel, with its share of the samples.
+// Returns the new number of shading points.
 std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& surface_frame,
                                              std::span<ShadingPoint> points, std::size_t count) {
     const FrameContext& frame = tile_.frame;
@@ -90,7 +90,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
     for (std::size_t layer = 0; layer < coverage_map.layers; ++layer) {
         if (coverage.share[layer] < kMinCoverage) continue;
         ShadingPoint& point = points[count++];
-        // The ground is what the fragment has met.
+        // The fragment's own hit is on the ground.
         if (layer == 0) {
             make_shading_point(frame, hits_, lane, surface_frame, origins_[k], packet_.dir.at(k), 0, width,
                                point);
@@ -103,7 +103,7 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
                 normalized(surface_frame.geometric_normal + coverage.lean.x * coverage_map_.across +
                            coverage.lean.y * coverage_map_.down);
         }
-        // Parts of the coverage map may stand out of its plane by as much as it takes for rounding.
+        // Rounding may move parts of the coverage map out of its plane by this much.
         point.offset_m += CoverageMap::kLoose * coverage_map.texel_m;
         const Vec2f place = coverage.place[layer];
         const Vec2f off{place.x - 0.5f, place.y - 0.5f};
@@ -115,7 +115,8 @@ std::size_t PrimaryHits::make_covered_points(std::size_t k, const SurfaceFrame& 
     return count;
 }
 
-// The directions through a fragment's pixel: its middle, and a step to the right and down.
+// Returns the directions through a fragment's pixel: its middle, and the steps of one pixel to the right and
+// down.
 PrimaryHits::PixelRays PrimaryHits::rays_of(const Fragment& fragment) const {
     const FrameContext& frame = tile_.frame;
     const int x = tile_.box.x0 + fragment.x, y = tile_.box.y0 + fragment.y;

@@ -14,25 +14,28 @@
 namespace hilcam {
 namespace {
 
-// The greatest lean of two clusters against each other that make one shading point: its cached light and its mirrored
-// rays are those of one of them.
+// The largest angle between normals of fragments that become one shading point, whose cached light and
+// mirrored rays are those of one normal.
 constexpr float kNormalsAlike = 0.94f;        // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
-constexpr float kFlatTogether = 0.02f;        // the latter's sine: planes that are taken for one
-// Normals that turn by this much of a lobe's alpha within a triangle are several: at the lobe's middle one of them is off by
-// 4 % (GGX's density, 1 / (1 + t^2)^2 with t = angle over alpha, over a quarter of alpha to both sides). Paint is a lobe of 1.
+constexpr float kFlatTogether = 0.02f;        // sine of the latter: planes that count as one
+// If normals turn by this share of a lobe's alpha within a triangle, several are used. At this limit one of
+// them is off by 4 % in the lobe's middle (GGX's density, 1 / (1 + t^2)^2 with t = angle over alpha, over a
+// quarter of alpha on both sides). Paint counts as a lobe of 1.
 constexpr float kMinTurn = 0.5f;
-// So many alphas beside all of them, what the lobe reflects of the Sun is a twenty-fifth, and hardly differs among them.
+// This many alphas outside of all of them, the lobe reflects a twenty-fifth of the Sun, with little
+// difference between them.
 constexpr float kFarFromLobe = 2;
-// A look at a texture is so much narrower than what it stands for, as what lies between two texels blurs it again.
+// A texture lookup is narrower by this factor than the area it represents, because interpolation between
+// texels blurs it again.
 constexpr float kTextureWidth = 0.5f;
 constexpr float kMinFacing =
-    1e-4f;  // a shading point's normal against the viewer [cosine], as find_surface_frame() has it
-// Meshes have faces twice, or two that touch and cross within a pixel: rays begin above both, as a share of the pixel's width. Without it
-// Hubble's rods are black where the Sun or the Earth shines on them (p99 25 in place of 21 sensor noises); 0.05 leaks light into
-// crevices.
+    1e-4f;  // smallest cosine of a shading point's normal to the viewer, as in find_surface_frame()
+// Some meshes have faces twice, or faces that cross within a pixel. Rays start above both, at this share of
+// the pixel's width. Without it Hubble's rods are black in the light of the Earth (p99 25 instead of 21 sensor
+// noises); 0.05 leaks light into crevices.
 constexpr float kClearOfDoubles = 0.02f;
-constexpr float kFlattest = 1e-4f;  // a coverage map is seen as one from higher than this [sine]
+constexpr float kFlattest = 1e-4f;  // smallest sine of elevation at which a coverage map is used
 
 bool has_narrow_lobe(const Bsdf& surface) {
     return surface.material->has_facets() && surface.alpha < kMinCachedAlpha;
@@ -57,7 +60,8 @@ std::size_t PrimaryHits::next_fragments(std::span<ShadingPoint> points) {
     }
     std::size_t count = 0;
     tile_.clusters.clear();
-    // Rooms for a shading point of each surface of coverage maps: kMaxShadingPoints leave those of kMaxSamples together.
+    // Leaves room for a shading point of each surface of coverage maps: kMaxShadingPoints and kMaxSamples
+    // differ by that.
     static_assert(CoverageMap::kMaxLayers * kPacketSize <=
                   PathModel::kMaxShadingPoints - PathModel::kMaxSamples + kPacketSize);
     while (count + CoverageMap::kMaxLayers * kPacketSize <= points.size() &&
@@ -65,7 +69,7 @@ std::size_t PrimaryHits::next_fragments(std::span<ShadingPoint> points) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))
             take_next_pixel();
         if (fragment_count_ == 0) {
-            // Whatever comes last, the background comes once.
+            // The background is added once, after everything else.
             if (!std::exchange(ended_, true)) add_backdrop(tile_, uncovered_.data());
             break;
         }
@@ -74,7 +78,7 @@ std::size_t PrimaryHits::next_fragments(std::span<ShadingPoint> points) {
     return count;
 }
 
-// The next part of the tile in which anything is seen.
+// Opens the next part of the tile in which anything is seen.
 bool PrimaryHits::open_next_part() {
     const PixelBox& box = tile_.box;
     const int buffer_px = tile_.frame.samples.buffer_px();
@@ -89,9 +93,9 @@ bool PrimaryHits::open_next_part() {
     }
 }
 
-// Four neighbours after each other: they may share what changes slowly (IndirectCache::add_reflected()).
+// Four neighbours in succession: they may share what changes slowly (IndirectCache::add_reflected()).
 void PrimaryHits::take_next_pixel() {
-    // 16 or 8 pixels: a power of two, as divisions would take a third of the time.
+    // 16 or 8 pixels: a power of two, because divisions would take a third of the time.
     const auto pairs = static_cast<unsigned>(part_px_ / 2), i = static_cast<unsigned>(next_pixel_++),
                pair = i / 4;
     const int x = part_.x0 + static_cast<int>(2 * (pair & (pairs - 1)) + i % 2);
@@ -124,7 +128,7 @@ bool PrimaryHits::has_impostor(std::uint32_t id) const {
     return frame.has_impostor[frame.visibility->seen(id).shown->object] != 0;
 }
 
-// True when a body stands before what the samples see: they see the body then.
+// True when a body is in front of what the samples see; they then see the body.
 bool PrimaryHits::leave_to_body(std::size_t k) {
     const FrameContext& frame = tile_.frame;
     const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];
@@ -133,7 +137,7 @@ bool PrimaryHits::leave_to_body(std::size_t k) {
     return true;
 }
 
-// The shading point among those of the same pixel that a fragment is part of; null: none.
+// Returns the shading point of the same pixel that a fragment belongs to; null: none.
 ShadingPoint* PrimaryHits::join(std::span<ShadingPoint> so_far, std::uint32_t pixel, std::uint32_t object,
                                 std::uint16_t surface, const SurfaceFrame& surface_frame) {
     for (auto point = so_far.rbegin(); point != so_far.rend() && point->pixel == pixel; ++point) {
@@ -145,7 +149,7 @@ ShadingPoint* PrimaryHits::join(std::span<ShadingPoint> so_far, std::uint32_t pi
     return nullptr;
 }
 
-// The ray through a place in a fragment's pixel.
+// Returns the ray through a place in a fragment's pixel.
 PrimaryHits::Aim PrimaryHits::aim_at(const Fragment& fragment, Vec2f place_px) const {
     const FrameContext& frame = tile_.frame;
     const Vec3d dir =
@@ -155,7 +159,7 @@ PrimaryHits::Aim PrimaryHits::aim_at(const Fragment& fragment, Vec2f place_px) c
             frame.start_before_m > 0 ? frame.start_of(normalized(dir), eye - frame.camera_m) : to_float(eye)};
 }
 
-// The first fragments, as many as are of one object.
+// Processes the first fragments, as many as belong to one object.
 std::size_t PrimaryHits::look_at_fragments() {
     const FrameContext& frame = tile_.frame;
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
@@ -194,7 +198,8 @@ std::size_t PrimaryHits::look_at_fragments() {
     return n;
 }
 
-// True where normals turn so far within a fragment that one of them does not tell what its lobe reflects of the Sun.
+// True if normals turn so much within a fragment that a single one does not give the sunlight that its lobe
+// reflects.
 bool PrimaryHits::turns_much(std::size_t k) const {
     const float turn = packet_.turn[k];  // within the triangle, squared
     if (turn == 0) return false;
@@ -207,12 +212,12 @@ bool PrimaryHits::turns_much(std::size_t k) const {
     const Vec3f view_dir = packet_.view_dir.at(k);
     const Vec3f between = normalized(view_dir + to_float(frame.background->sun_world_dir()));
     if (length(between - packet_.normal.at(k)) > std::sqrt(turn) + kFarFromLobe * alpha) return false;
-    // A pixel has a part of it, where the triangle is wider.
+    // If the triangle is wider than the pixel, only a part of it counts.
     const float wide_m = pixel_m(k) / std::max(std::abs(dot(packet_.geometric.at(k), view_dir)), kMinFacing);
     return turn * wide_m * wide_m > least * least * packet_.height[k];
 }
 
-// The width of fragment k's pixel there, across its ray.
+// Returns the width of fragment k's pixel at the surface, across its ray.
 float PrimaryHits::pixel_m(std::size_t k) const {
     const auto from_m = static_cast<float>(tile_.frame.way_to_start_m());
     return (from_m + packet_.distance[k] * length(packet_.dir.at(k))) /
@@ -224,9 +229,9 @@ bool PrimaryHits::is_textured(std::size_t k) const {
     return object.materials[object.triangles[hits_.triangle[k]].surface].texture >= 0;
 }
 
-// Returns how many looks the colours of fragment k want.
+// Returns the number of texture lookups that fragment k needs.
 std::size_t PrimaryHits::looks_at_texture(std::size_t k, float samples) const {
-    constexpr float kPerLook = kVisibilitySamples / 4;  // samples for which a look stands
+    constexpr float kPerLook = kVisibilitySamples / 4;  // samples that a lookup represents
     if (samples <= kPerLook || !is_textured(k)) return 1;
     const ObjectSurfaces& object = *(*tile_.frame.objects)[hits_.object[k]];
     const std::uint32_t triangle = hits_.triangle[k];
@@ -237,8 +242,8 @@ std::size_t PrimaryHits::looks_at_texture(std::size_t k, float samples) const {
     return texels <= 1 ? 1 : static_cast<std::size_t>(std::ceil(samples / kPerLook));
 }
 
-// Puts a fragment among those that are looked at from several of their samples, as far from each other as may be. Returns how many;
-// none where one look is enough.
+// Adds a fragment to those that are looked at from several of their samples, as far apart as possible.
+// Returns the number of looks; zero if one is enough.
 std::size_t PrimaryHits::add_looks(std::size_t k) {
     const Fragment& fragment = fragments_[k];
     const PixelSamples& grid = tile_.frame.samples;
@@ -262,7 +267,7 @@ std::size_t PrimaryHits::add_looks(std::size_t k) {
     return count;
 }
 
-// Finds what the looks that were asked for meet; the first of them has this place among all.
+// Finds what the requested looks meet; `first` is the index of the first of them.
 void PrimaryHits::find_looks(std::size_t first) {
     if (looked_at_.count == 0) return;
     for (std::size_t i = looked_at_.count; i < kPacketSize; ++i)
@@ -275,15 +280,17 @@ void PrimaryHits::find_looks(std::size_t first) {
     looked_at_.count = 0;
 }
 
-// Looks at the packet's fragments that need it, many at a time: each by itself would fill a quarter of the vectors.
+// Looks at those fragments of the packet that need it, many at a time: one fragment alone would fill a
+// quarter of the vectors.
 void PrimaryHits::look_at_samples() {
     first_look_[0] = 0;
     for (std::size_t k = 0; k < packet_.count; ++k) first_look_[k + 1] = first_look_[k] + add_looks(k);
     find_looks(first_look_[packet_.count] - looked_at_.count);
 }
 
-// Returns the colours of a texture in fragment k. One look as wide as the pixel would blur it: of the contrast at Nyquist's frequency
-// a pixel leaves sinc(1/2) = 0.64, and texels of its width, linear between two, sinc(1/2)^3 = 0.26 (sinc x = sin(pi x) / (pi x)).
+// Returns a texture's colours in fragment k. A single lookup as wide as the pixel would blur it: at Nyquist's
+// frequency a pixel keeps the contrast sinc(1/2) = 0.64, but texels of its width with linear interpolation
+// keep sinc(1/2)^3 = 0.26 (sinc x = sin(pi x) / (pi x)).
 Spectrum PrimaryHits::texture_of(std::size_t k, const ShadingPoint& point) const {
     const auto looks = looks_of(k, look_places_);
     const std::uint32_t triangle = hits_.triangle[k];
@@ -296,7 +303,7 @@ Spectrum PrimaryHits::texture_of(std::size_t k, const ShadingPoint& point) const
     return sum;
 }
 
-// Gives a shading point a share of the colours of fragment k, which it has taken in.
+// Gives a shading point a share of the colours of fragment k, which has joined it.
 void PrimaryHits::mix_colors(std::size_t k, float share, ShadingPoint& point) const {
     const bool textured = is_textured(k);
     const ObjectSurfaces& object = *(*tile_.frame.objects)[point.object];
@@ -324,7 +331,7 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
         const Vec3f dir = packet_.dir.at(k);
         SurfaceFrame surface_frame{packet_.geometric.at(k), packet_.normal.at(k), packet_.view_dir.at(k),
                                    packet_.back[k] != 0};
-        // Too small for its square: by itself.
+        // Its normal is too small to be squared, so it is processed alone.
         if (surface_frame.geometric_normal == Vec3f{} &&
             !find_surface_frame(frame, hits_, static_cast<int>(k), dir, surface_frame))
             continue;
@@ -349,7 +356,7 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
         make_shading_point(frame, hits_, static_cast<int>(k), surface_frame, origins_[k], dir, 0,
                            {pixel_rad * from_m, pixel_rad}, point);
         point.offset_m = std::max(point.offset_m, kClearOfDoubles * point.footprint_m);
-        // Seen from its edge, what lies on the ground hides it.
+        // Seen edge-on, the parts on top hide the ground.
         if (facing > 0) set_surface(frame, coverage_map->surface[1], point);
         if (is_textured(k)) paint(texture_of(k, point), point);
         finish(k, samples, frame.samples.moments(fragment.samples), places_px_[k], point);
@@ -364,7 +371,7 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
     return count;
 }
 
-// Makes fragment k, which is alike, a part of a shading point.
+// Joins fragment k to a similar shading point.
 void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, ShadingPoint& point) {
     const FrameContext& frame = tile_.frame;
     const SampleMask seen_by = fragments_[k].samples;
@@ -374,18 +381,19 @@ void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, Shad
                        {surface_frame.geometric_normal, surface_frame.normal,
                         point_m + point.offset_m * surface_frame.geometric_normal, samples, seen_by},
                        hits_.triangle[k], false, turns_of(k), point);
-    // Rays begin at its samples, too, where it lies in the shading point's plane but for a little: at those twice as much above
-    // it. All others begin where they did, as what is higher misses the shadow of what is near.
+    // Its samples become ray starts, too, if it is nearly in the shading point's plane; these starts are
+    // raised by twice the difference. Otherwise rays keep their starts, because higher ones would miss
+    // shadows of near things.
     const Vec3f way_m = point_m - point.point_m;
     const float above_m = std::abs(dot(way_m, point.geometric_normal));
     if (above_m < kFlatTogether * length(way_m)) {
         point.samples |= seen_by;
         point.lift_m = std::max(point.lift_m, 2 * above_m);
     }
-    // Cached light and what lobes show is asked for once, as the parts lean in the mean; clusters and mirrors lean by themselves.
+    // Cached light and lobes are looked up once, with the mean normal; clusters and mirrors keep their own.
     const Vec3f mean = normalized(point.weight_samples * point.normal + samples * surface_frame.normal);
     if (!has_narrow_lobe(point.surface) && dot(mean, point.view_dir) > kMinFacing) point.normal = mean;
-    // Alike in all bins, but for the air before it.
+    // The same factor for all bins, apart from the air in front.
     const float all = point.weight_samples + samples;
     mix_colors(k, samples / all, point);
     point.throughput = (all / point.weight_samples) * point.throughput;
@@ -394,7 +402,7 @@ void PrimaryHits::take_in(std::size_t k, const SurfaceFrame& surface_frame, Shad
     point.weight_samples = all;
 }
 
-// The pixel of fragment k, for a shading point that is part of what is seen in it.
+// Sets the pixel data of a shading point that is part of fragment k.
 void PrimaryHits::finish(std::size_t k, float samples, SubpixelMoments moments, Vec2f place_px,
                          ShadingPoint& point) {
     const Fragment& fragment = fragments_[k];

@@ -1,7 +1,7 @@
 #pragma once
-// Finds what the camera sees of a tile, as shading points: by rays (primary_rays.cpp), or out of the frame's
-// visibility buffer. There each triangle that a pixel's samples see is one shading point at their middle, with the
-// throughput of so many samples.
+// Finds what the camera sees in a tile, as shading points: by rays (primary_rays.cpp), or from the frame's
+// visibility buffer. In the latter case each triangle that samples of a pixel see becomes one shading point
+// at their middle, with the throughput of all of them.
 
 #include <array>
 #include <cstdint>
@@ -17,8 +17,9 @@ class PrimaryHits {
   public:
     explicit PrimaryHits(Tile& tile) : tile_(tile) {}
 
-    // Writes the next shading points, PathModel::kMaxShadingPoints at a time at most, and adds the background to the
-    // tile's pixels. Returns how many; 0: that was all. shading points: room for kMaxShadingPoints. Loop, any thread.
+    // Writes the next shading points, at most PathModel::kMaxShadingPoints (for which `points` must have
+    // room), and adds the background to the tile's pixels. Returns their number; 0: there are no more. Loop,
+    // any thread.
     std::size_t next(std::span<ShadingPoint> points);
 
   private:
@@ -26,31 +27,31 @@ class PrimaryHits {
     struct Fragment {
         std::uint32_t id;
         std::uint16_t pixel;  // in the tile
-        std::uint8_t x, y;    // where it is there [px]
+        std::uint8_t x, y;    // place in the pixel
         SampleMask samples;
     };
     Tile& tile_;
     bool begun_ = false, ended_ = false;
-    PixelBox part_{};                                           // the part of the tile that the buffer has
-    int part_px_ = 0;                                           // its edge
-    int next_pixel_ = 0, pixels_ = 0;                           // there
-    std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
+    PixelBox part_{};                                           // the part of the tile that the buffer holds
+    int part_px_ = 0;                                           // edge of that part
+    int next_pixel_ = 0, pixels_ = 0;                           // in that part
+    std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // by pixel: samples that see no object
     std::array<Fragment, kPacketSize + kMaxVisibilitySamples> fragments_;
     std::size_t fragment_count_ = 0;
-    // The packet of fragments that is looked at: what find_surface_frames() takes and gives, and its rays.
+    // The packet of fragments in work: arguments and results of find_surface_frames(), and its rays.
     FragmentPacket packet_;
     HitPacket hits_;
-    FragmentMesh mesh_{};  // the packet's object, and its place [ray space]
+    FragmentMesh mesh_{};  // the packet's object and its position [ray space]
     Vec3f body_m_;
-    std::array<Vec2f, kPacketSize> places_px_;  // in their pixels
+    std::array<Vec2f, kPacketSize> places_px_;  // in the fragments' pixels
     std::array<Vec3d, kPacketSize> dirs_;
     std::array<Vec3f, kPacketSize> origins_;
-    // Those of them that one look does not tell, as they turn much or a texture paints them, from several of their samples:
-    // fragment k has the looks from first_look_[k] to first_look_[k + 1].
+    // Fragments for which one look is not enough, because their normals vary much or they have a texture, are
+    // looked at from several of their samples. Those of fragment k are first_look_[k] to first_look_[k + 1].
     static constexpr std::size_t kLooks = NormalClusters::kTurns;
     FragmentPacket looked_at_;
     std::array<Vec3f, kPacketSize * kLooks> look_normals_;
-    std::array<Vec2f, kPacketSize * kLooks> look_places_;  // in the triangle: u and v
+    std::array<Vec2f, kPacketSize * kLooks> look_places_;  // u and v in the triangle
     std::array<std::size_t, kPacketSize + 1> first_look_;
     std::array<bool, kPacketSize> turns_;
     // The coverage map that was met last, as the frame shows it.
@@ -59,7 +60,7 @@ class PrimaryHits {
         std::uint32_t object = 0;
         Vec3f normal, across, down;  // world axes
         Vec3d corner_m;              // world axes, from the body's origin
-        Vec2f to_sun{};              // way of a ray to the Sun along the sides while it rises by one
+        Vec2f to_sun{};              // movement of a ray to the Sun along the sides while it rises by one
 
         Vec2f slopes(Vec3f dir) const;
     };
@@ -100,7 +101,7 @@ class PrimaryHits {
     PixelRays rays_of(const Fragment& fragment) const;
     const ShownCoverageMap& shown(const CoverageMap& coverage_map);
     struct CoverageMapPixel {
-        // Where its middle is from the camera, and how far a step of a pixel goes.
+        // Its middle from the camera, and the steps of one pixel.
         Vec3d middle_m, per_x_m, per_y_m;
         CoverageMap::Coverage coverage;
     };
@@ -113,13 +114,14 @@ class PrimaryHits {
                               std::uint16_t surface, const SurfaceFrame& surface_frame);
 };
 
-// The camera's rays through a tile, in packets of 4 x 4 pixels. Writes at most shading points.size() shading points
-// (PathModel::kMaxSamples are enough) and adds the background to the tile's pixels. Returns how many. Loop, any
-// thread.
+// Traces the camera's rays through a tile in packets of 4 x 4 pixels. Writes at most points.size() shading
+// points (PathModel::kMaxSamples are enough), adds the background to the tile's pixels, and returns the
+// number of points. Loop, any thread.
 std::size_t trace_primary_rays(Tile& tile, std::span<ShadingPoint> points);
-// Adds the background alone. uncovered: the samples that see no object, by pixel, row by row. Loop, any thread.
+// Adds the background alone. uncovered: by pixel, row by row, the samples that see no object. Loop, any
+// thread.
 void add_backdrop(Tile& tile, const SampleMask* uncovered);
-// Adds the air between the camera and a shading point that it sees along dir, and dims the shading point by it.
+// Adds the air between the camera and a shading point that it sees along dir, and dims the point by it.
 void add_air_before(Tile& tile, Vec3d dir, ShadingPoint& point);
 
 }  // namespace hilcam

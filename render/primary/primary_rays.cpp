@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kFarthestHit = std::numeric_limits<float>::infinity();
 
-// One tile's way through its packets.
+// The packets of one tile.
 class PrimaryRays {
   public:
     PrimaryRays(Tile& tile, std::span<ShadingPoint> points)
@@ -34,7 +34,7 @@ class PrimaryRays {
         std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
         rays_.nearest.fill(0), rays_.farthest.fill(kFarthestHit);
         if (linear_) {
-            // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
+            // From the tile's corner on single precision suffices: 32 px of 2^-24 of a pixel's angle.
             corner_ = linear_->corner + tile.box.x0 * linear_->right + tile.box.y0 * linear_->down;
         }
         if (frame_.sees_earth_impostor_only(tile.box)) place_picture();
@@ -43,10 +43,11 @@ class PrimaryRays {
         patched_ = bodies_ && linear_ && !by_impostor_ && frame_.background->earth_in_patches();
     }
 
-    // uncovered: samples of each pixel that see no object; null: rays find the objects.
+    // uncovered: by pixel, the samples that see no object; null: rays find the objects.
     std::size_t trace(const SampleMask* uncovered) {
         uncovered_ = uncovered;
-        // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
+        // Blocks of 4 x 4 pixels, so that a packet's rays are close together; they are the mask's blocks,
+        // too.
         static_assert(ScreenMask::kBlock_px == 4);
         const PixelBox& box = tile_.box;
         for (int by = box.y0; by < box.y1; by += 4)
@@ -78,13 +79,13 @@ class PrimaryRays {
     const FrameContext& frame_;
     std::span<ShadingPoint> points_;
     const SampleMask* uncovered_ = nullptr;
-    bool even_ = false;  // one ray a pixel
+    bool even_ = false;  // one ray per pixel
     bool bodies_, sun_;
     const LinearRays* linear_;
-    bool plain_;                // the one body in view is done sixteen rays at a time
-    bool by_impostor_ = false;  // the Earth alone is in view, and its picture is kept
-    bool patched_;              // the Earth is seen in patches, where that is good enough
-    EarthImpostorView earth_;   // looked at for the packet's samples
+    bool plain_;                // only one body is in view, and it is computed sixteen rays at a time
+    bool by_impostor_ = false;  // only the Earth is in view, and it has an impostor
+    bool patched_;              // the Earth is computed in patches where that is accurate enough
+    EarthImpostorView earth_;   // for the packet's samples
     Spectrum picture_weight_;   // the weight of a pixel that sees nothing else
     std::optional<EarthPatch> patch_;
     RayWidth width_;  // width of each ray, and the angle between neighbouring ones
@@ -95,11 +96,12 @@ class PrimaryRays {
     std::array<float, kPacketSize> x_of_{}, y_of_{};  // places of the packet's pixels, from the tile's corner
     std::array<float, kPacketSize> x_at_{}, y_at_{};  // places of their samples
     std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // words of their sequences
-    std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
+    std::array<CameraRay, kPacketSize> exact_;  // used if rays are not linear or objects are far away
     std::size_t count_ = 0;
 
-    static constexpr std::uint32_t kAllPixels = 0xFFFF;  // a bit for each of a block's 4 x 4, row by row
-    // Takes those pixels of a block that are asked for. False where there are none.
+    // One bit for each of a block's 4 x 4 pixels, row by row.
+    static constexpr std::uint32_t kAllPixels = 0xFFFF;
+    // Takes those pixels of a block that are set in `pixels`. Returns false if there are none.
     bool gather(int bx, int by, std::uint32_t pixels) {
         const PixelBox& box = tile_.box;
         rays_.count = 0;
@@ -113,7 +115,7 @@ class PrimaryRays {
         return rays_.count > 0;
     }
 
-    // Traces the pixels taken, by one ray each where they are even.
+    // Traces the selected pixels, with one ray each if the block is even.
     void trace_block(bool objects, bool even) {
         if (tile_.scattered) choose_sequences();
         const int n = even ? 1 : tile_.samples_per_axis;
@@ -130,9 +132,9 @@ class PrimaryRays {
     }
 
     enum class Block { kDark, kEven, kRim, kUneven };
-    // A block of 4 x 4 pixels is even where nothing of it is near the rim of a body or of its air, or near the Sun: one ray
-    // tells of all of a pixel. It is a rim where that is so but for the limb of the Earth by its model, which each pixel meets or
-    // not. It is dark where no body can be met.
+    // A block of 4 x 4 pixels is even if it is not near the rim of a body, of its air, or of the Sun: one ray
+    // then represents a pixel. It is a rim if only the limb of the modelled Earth passes, so that some of its
+    // pixels are even. It is dark if no body can be met.
     Block block_at(int x, int y) const {
         if (frame_.background->camera_in_air()) return Block::kUneven;
         if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return Block::kUneven;
@@ -141,7 +143,7 @@ class PrimaryRays {
         const Vec3d dir = normalized(linear_ ? corner_ + static_cast<double>(at_x) * linear_->right +
                                                    static_cast<double>(at_y) * linear_->down
                                              : direction_seen(frame_, x + 2, y + 2, {}));
-        // From its middle to its corners: two rows away, which a camera that turns from row to row sees elsewhere.
+        // From its middle to its corners: two rows, which a rotating camera sees elsewhere.
         const double two_rows_rad = 4 * frame_.rays->sweep_rad() / frame_.geometry.padded_height();
         const double block_rad = 3 / frame_.geometry.focal_length_px + two_rows_rad;
         Block out = Block::kDark;
@@ -151,7 +153,7 @@ class PrimaryRays {
             const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
             if (from_middle_rad - block_rad >= radius_rad) continue;
             if (out == Block::kDark) out = Block::kEven;
-            // The Earth is flat by a third of a hundredth, and its air a hundredth high.
+            // The Earth is flattened by 1/300, and its air is 1/100 of its radius high.
             constexpr double kWithin = 0.97;
             const bool modelled = frame_.background->earth() && body.id == BodyId::kEarth;
             if (modelled && limbs_of(body).near(dir, rim_rad() + block_rad)) out = Block::kRim;
@@ -173,7 +175,7 @@ class PrimaryRays {
         by_impostor_ = seen == EarthImpostorView::Seen::kPicture;
     }
 
-    // No object hides anything of a block's 4 x 4 pixels, all of which the tile has.
+    // True when no object covers any of a block's 4 x 4 pixels, all of which are in the tile.
     bool sees_nothing_else(int bx, int by) const {
         const PixelBox& box = tile_.box;
         if (!uncovered_ || tile_.scattered || bx + 4 > box.x1 || by + 4 > box.y1) return false;
@@ -188,7 +190,7 @@ class PrimaryRays {
     void add_picture_block(int x, int y) {
         earth_.add_block(x, y, picture_weight_, tile_.pixels);
         if (!tile_.parts) return;
-        // Nothing else is in these pixels.
+        // These pixels contain nothing else.
         const int width = tile_.box.x1 - tile_.box.x0, first = (y - tile_.box.y0) * width + x - tile_.box.x0;
         for (int i = 0; i < 16; ++i) {
             const auto pixel = static_cast<std::uint32_t>(first + i / 4 * width + i % 4);
@@ -196,20 +198,20 @@ class PrimaryRays {
         }
     }
 
-    // The packet's samples, each of which stands for a part of its pixel's width.
+    // Looks up the packet's samples, each of which represents a part of its pixel's width.
     void look_at_picture(bool whole) {
         const float share =
             whole ? 1.0f : (tile_.scattered ? 0.0f : 1 / static_cast<float>(tile_.samples_per_axis));
         earth_.look(x_at_, y_at_, static_cast<std::size_t>(rays_.count), share);
     }
 
-    // By its model, which filters what a ray stands for, the Earth is uneven only within this of its limbs.
+    // The Earth's model filters over the ray's cone, so it is uneven only within this distance of its limbs.
     static constexpr double kRim_px = 1.0;
     double rim_rad() const { return kRim_px / frame_.geometry.focal_length_px; }
     EarthLimbs limbs_of(const PlacedBody& earth) const {
         return {earth, frame_.background->earth()->has_clouds()};
     }
-    // The pixels of a rim that have a limb in or about them.
+    // Returns the pixels of a rim that a limb passes or nearly passes.
     std::uint32_t limb_pixels(int bx, int by) const {
         std::uint32_t out = 0;
         for (int i = 0; i < 16; ++i)
@@ -233,7 +235,7 @@ class PrimaryRays {
                uncovered_[(y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0] != 0;
     }
 
-    // The packet's samples, all at the same place of their pixels.
+    // Puts the packet's samples at the same place in their pixels.
     void center(float dx, float dy) {
         for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
     }
@@ -246,7 +248,7 @@ class PrimaryRays {
             word_x_[k] = words[0], word_y_[k] = words[1];
         }
     }
-    // Each at a place of its own, of its pixel's sequence.
+    // Puts each sample at a place of its pixel's own sequence.
     void scatter(std::uint16_t sample) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
             const auto [dx, dy] = place_in_sequence(sample, word_x_[k], word_y_[k]);
@@ -281,14 +283,14 @@ class PrimaryRays {
         }
     }
 
-    // In double precision: the limb of a planet must not crawl.
+    // In double precision: a planet's limb must not crawl.
     Vec3d exact_dir(std::size_t k) const {
         if (!linear_) return exact_[k].dir;
         return corner_ + static_cast<double>(x_at_[k]) * linear_->right +
                static_cast<double>(y_at_[k]) * linear_->down;
     }
 
-    // The ray met an object that the camera sees.
+    // True when the ray met an object that the camera sees.
     bool meets_object(std::size_t k) const {
         const std::uint32_t object = hits_.object[k];
         if (object == HitPacket::kMiss || frame_.is_point[object]) return false;
@@ -354,7 +356,8 @@ class PrimaryRays {
         }
     }
 
-    // A ray tells for itself; the one ray of an even pixel for all samples that see no object.
+    // A ray represents its own sample; the single ray of an even pixel represents all samples that see no
+    // object.
     void add_backdrop_to(std::uint32_t pixel, std::size_t k, std::uint16_t sample, float sun_cosine) {
         const PixelSamples& grid = frame_.samples;
         if (even_ && uncovered_[pixel] == grid.all()) {

@@ -11,20 +11,21 @@
 namespace hilcam {
 namespace {
 
-constexpr double kSamePlane = 0.999986;    // cosine of 0.3 degrees
-constexpr float kMirrorCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
-// Mirrors that are smaller than this share of the object's radius, squared, throw too little; so do those
-// that fill less than this of their rectangle, as bars do.
+constexpr double kSamePlane = 0.999986;  // cosine of 0.3 degrees
+// Cosine of a degree: limit between corner normals and their triangle's.
+constexpr float kMirrorCorner = 0.99985f;
+// Mirrors smaller than this share of the object's squared radius reflect too little, and so do those that
+// fill less than this share of their rectangle, such as bars.
 constexpr double kMinArea = 1e-2, kMinMirrorFilled = 0.2;
-// The number of the largest parts that are looked at, each with all that lies in its plane.
+// The number of largest parts that are examined, each with everything in its plane.
 constexpr std::size_t kMaxMirrorSeeds = 64;
 
-// Triangles that lie in one plane to the last digits that count.
+// Triangles in one plane, up to insignificant digits.
 struct PlanePart {
     std::uint64_t key = 0;
     std::uint16_t surface = 0;
-    Vec3d area;    // sum of area vectors, all turned to one side
-    Vec3d middle;  // mean of the places, weighted by area; a sum before that
+    Vec3d area;    // sum of area vectors, all on one side
+    Vec3d middle;  // area-weighted mean of positions; until then a sum
     double area_m2 = 0;
     int mirror = -1;
 };
@@ -34,7 +35,7 @@ struct MirrorTriangle {
     Vec3d area;  // vector
 };
 
-// Returns that one of two opposite vectors which points up, or else along y, or else along x.
+// Returns the one of two opposite vectors that points up, or else along y, or else along x.
 Vec3d upwards(Vec3d v) {
     const bool down = v.z < 0 || (v.z == 0 && (v.y < 0 || (v.y == 0 && v.x < 0)));
     return down ? -v : v;
@@ -48,7 +49,7 @@ bool is_curved(const PackedTriangle& triangle, Vec3d normal) {
                        });
 }
 
-// The rectangle lies along that edge of the largest triangle with which it is smallest.
+// Takes the smallest of the rectangles along an edge of the largest triangle.
 void lay_out(std::span<const MirrorTriangle> triangles, Vec3d normal, Vec3d middle, FlatMirror& out) {
     const MirrorTriangle& largest = *std::max_element(triangles.begin(), triangles.end(),
                                                       [](const MirrorTriangle& a, const MirrorTriangle& b) {
@@ -111,7 +112,7 @@ class MirrorFinder {
     std::unordered_map<std::uint64_t, std::size_t> part_of_;  // by key
     std::vector<Mirror> mirrors_;
 
-    // visit(surface, triangle, key) for all triangles that mirror and are flat.
+    // Calls visit(surface, triangle, key) for all flat triangles that mirror.
     template <class Visit>
     void for_each_triangle(const Visit& visit) const {
         for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
@@ -129,7 +130,8 @@ class MirrorFinder {
         }
     }
 
-    // Steps of a fifth of a degree of the normal, and of the tolerance of the plane's way from the origin.
+    // Steps of a fifth of a degree of the normal, and of the tolerance of the plane's distance from the
+    // origin.
     std::uint64_t key_of(std::uint16_t surface, Vec3d normal, Vec3d place) const {
         const auto step = [](double x, double size, std::uint64_t mask) {
             return static_cast<std::uint64_t>(std::llround(x / size)) & mask;
@@ -152,7 +154,7 @@ class MirrorFinder {
             part.area_m2 += area_m2;
         });
         for (PlanePart& part : parts_) part.middle = part.middle / part.area_m2;
-        // The largest first; of equal ones by their keys, so that the mesh's order does not matter.
+        // The largest first; equal ones by key, so that the mesh's order does not matter.
         std::sort(parts_.begin(), parts_.end(), [](const PlanePart& a, const PlanePart& b) {
             return a.area_m2 != b.area_m2 ? a.area_m2 > b.area_m2 : a.key < b.key;
         });
@@ -192,7 +194,7 @@ class MirrorFinder {
             for (const std::size_t p : mirrors_[m].parts) parts_[p].mirror = static_cast<int>(m);
     }
 
-    // Each mirror's triangles.
+    // Returns the triangles of each mirror.
     std::vector<std::vector<MirrorTriangle>> triangles() const {
         std::vector<std::vector<MirrorTriangle>> out(mirrors_.size());
         for_each_triangle([&](std::uint16_t, const MirrorTriangle& t, std::uint64_t key) {
@@ -219,7 +221,7 @@ void FlatMirror::draw(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
         return Vec2d{cells_x * dot(from, to_double(across)), cells_y * dot(from, to_double(down))};
     };
     const std::array<Vec2d, 3> p{place(a), place(b), place(c)};
-    // Twice the area of the triangle with a place, one side after the other: all of one sign inside.
+    // Twice the area of the triangle formed by a side and a place: all have one sign inside.
     const auto side = [&](std::size_t i, double x, double y) {
         const Vec2d u = p[i], v = p[(i + 1) % 3];
         return (v.x - u.x) * (y - u.y) - (v.y - u.y) * (x - u.x);
@@ -231,13 +233,13 @@ void FlatMirror::draw(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
         for (int x = x0; x <= x1; ++x) {
             const double s0 = side(0, x + 0.5, y + 0.5), s1 = side(1, x + 0.5, y + 0.5),
                          s2 = side(2, x + 0.5, y + 0.5);
-            // A place on an edge belongs to both of its triangles.
+            // A place on an edge belongs to both triangles.
             if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))
                 sums_[static_cast<std::size_t>((y + 1) * (kCells + 1) + x + 1)] = 1;
         }
 }
 
-// From all filled cells at once outwards, ring by ring.
+// Starts from all filled cells at once and moves outwards, ring by ring.
 void FlatMirror::find_nearest() {
     constexpr std::size_t kAll = std::size_t{kCells} * kCells;
     static_assert(kAll - 1 <= 0xFFFF);
@@ -286,8 +288,8 @@ void FlatMirror::sum_up() {
         }
 }
 
-// The sum over all that is to the left and above of a place in cells, as if each cell's were spread evenly in
-// it.
+// Returns the sum over everything to the left and above a place in cells, with each cell's value spread
+// evenly over it.
 double FlatMirror::sum_to(double x, double y) const {
     x = std::clamp(x, 0.0, static_cast<double>(kCells)), y = std::clamp(y, 0.0, static_cast<double>(kCells));
     const int i = std::min(static_cast<int>(x), kCells - 1), k = std::min(static_cast<int>(y), kCells - 1);

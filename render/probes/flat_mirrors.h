@@ -1,12 +1,11 @@
 #pragma once
-// Flat parts of a mesh that mirror, as light that they throw sees them: a plane, a rectangle in it, and a map
-// of what the mirror fills there. Tiles of a radiator or cells of a panel that lie in one plane are one
-// mirror.
+// The flat parts of a mesh that mirror sunlight: each has a plane, a rectangle in it, and a map of where the
+// mirror fills the rectangle. Tiles of a radiator or cells of a panel in one plane are one mirror.
 //
-// Coplanar means: leaning less than 0.3 degrees, the Sun's half disk and a bit, off the largest of them, and
-// as near to its plane as the object is accurate (a ten-thousandth of its size, a millimetre at least).
-// Curved surfaces are none: those whose corner normals lean away from their triangles, and what is too small
-// by itself. Both sides of a triangle mirror.
+// Coplanar triangles lean less than 0.3 degrees from the largest one (slightly more than half the Sun's disk)
+// and are as near to its plane as the object is accurate: a ten-thousandth of its size, at least a
+// millimetre. Curved surfaces are excluded: those whose corner normals differ from their triangles', and
+// single pieces that are too small. Both sides of a triangle mirror.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,46 +20,48 @@ namespace hilcam {
 class FlatMirror {
   public:
     std::uint16_t surface = 0;  // surface of the mesh
-    Vec3f normal;               // body axes, unit; either way
+    Vec3f normal;               // body axes, unit; either side
     Vec3f corner_m;             // corner of the rectangle, body axes
-    Vec3f across, down;         // its sides, body axes, unit; normal = across x down
+    Vec3f across, down;         // sides of the rectangle, body axes, unit; normal = across x down
     float width_m = 0, height_m = 0;
-    float tolerance_m = 0;  // greatest distance of the surface from its plane
+    float tolerance_m = 0;  // largest distance of the surface from its plane
     float area_m2 = 0;
 
-    // The share of a rectangle that the mirror fills. middle_m: along the sides from the corner; size_m:
-    // along them, at least a cell's, else as one of that size. Continuous in all four. Loop, any thread.
+    // Returns the share of a rectangle that the mirror fills. middle_m: from the corner, along the sides.
+    // size_m: at least the size of a cell, smaller values count as that. Continuous in all four numbers.
+    // Loop, any thread.
     float filled(Vec2f middle_m, Vec2f size_m) const;
-    // Returns the middle of the part of a rectangle that lies in the mirror's own. Both as filled() has them.
+    // Returns the middle of the part of a rectangle that is inside the mirror's own; arguments as for
+    // filled().
     Vec2f middle_within(Vec2f middle_m, Vec2f size_m) const;
-    // Returns the place that the mirror fills which is nearest to another in its plane: the middle of a cell. Along the sides from
+    // Returns the filled place nearest to a place in the plane: the middle of a cell, along the sides from
     // the corner. Loop, any thread.
     Vec2f nearest_filled(Vec2f place_m) const;
-    // The map is this fine.
+    // The resolution of the map.
     Vec2f cell_m() const { return {width_m / kCells, height_m / kCells}; }
-    // True when a place of the body lies in it, about; normal: there, either way.
+    // True when a point of the body is in the mirror, approximately. normal: at the point, either side.
     bool holds(Vec3f point_m, Vec3f normal_there) const;
 
-    // Adds a triangle to the map; the corners are of the mirror's surface. Owner thread.
+    // Adds a triangle of the mirror's surface to the map. Owner thread.
     void draw(const Vec3f& a, const Vec3f& b, const Vec3f& c);
-    // Ends that.
+    // Completes the map.
     void sum_up();
 
   private:
     static constexpr int kCells = 256;  // along each side
-    // Before sum_up(), this is 1 where a cell's middle is filled; afterwards it holds sums over all cells to
-    // the left and above (summed-area table: Crow, SIGGRAPH 84), from which the mean of any rectangle is four
-    // values.
+    // A 1 marks a cell whose middle is filled, until sum_up() replaces the marks by sums over all cells to
+    // the left and above (summed-area table: Crow, SIGGRAPH 84), which give the mean of any rectangle from
+    // four values.
     std::vector<std::uint32_t> sums_ = std::vector<std::uint32_t>((kCells + 1) * (kCells + 1));
 
-    std::vector<std::uint16_t> nearest_;  // by cell: the filled cell that is nearest
+    std::vector<std::uint16_t> nearest_;  // by cell: the nearest filled cell
 
     void find_nearest();
     double sum_to(double x, double y) const;
 };
 
-// The flat mirrors of a mesh, those that throw the most light first, kMaxFlatMirrors of them at most.
-// throws: by surface, the share of the light that it mirrors; 0: it is no mirror. Owner thread.
+// Returns the flat mirrors of a mesh, in falling order of the light that they reflect, kMaxFlatMirrors at
+// most. throws: by surface, the share of light that it mirrors; 0: it is not a mirror. Owner thread.
 inline constexpr std::size_t kMaxFlatMirrors = 8;
 std::vector<FlatMirror> find_flat_mirrors(const MeshView& mesh, const ObjectSurfaces& surfaces,
                                           std::span<const float> throws);

@@ -20,20 +20,20 @@ void merge_equal(std::vector<FoundCell>& cells) {
     cells.resize(out);
 }
 
-// Adds what lies in a cell to the last ones, as neighbours in a run are mostly of one cell.
+// Adds to a cell among the last ones, because neighbours in a run are mostly in one cell.
 void append(std::vector<FoundCell>& cells, const FoundCell& cell) {
     for (std::size_t back = 1; back <= 2 && back <= cells.size(); ++back)
         if (cells[cells.size() - back].order() == cell.order()) return cells[cells.size() - back].add(cell);
     cells.push_back(cell);
 }
 
-// Runs of triangles, a fixed number of them: sums do not depend on how many threads there are.
+// A fixed number of runs of triangles, so that sums do not depend on the number of threads.
 constexpr std::size_t kRuns = 256;
 
 // A point of a mesh and its place.
 struct PointPlace {
     std::size_t triangle;
-    std::uint32_t number;  // in the triangle
+    std::uint32_t number;  // number in the triangle
     float share_m2;        // its share of the triangle's area
     std::uint16_t surface;
     Vec3f normal;  // normal of the triangle's own side
@@ -51,7 +51,7 @@ float middle_of(std::uint64_t key) {
                                     static_cast<float>(c.z) + 0.5f});
 }
 
-// visit(place) for each point of a run's triangles on which light is cached.
+// Calls visit(place) for each point of a run's triangles whose surface caches light.
 template <class Visit>
 void for_each_point(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
                     std::size_t run, const Visit& visit) {
@@ -70,7 +70,7 @@ void for_each_point(const Mesh& mesh, std::span<const std::uint8_t> keeps, const
     }
 }
 
-// The layers of the keys that have more than one, in the order of keys.
+// The layers of those keys that have more than one, sorted by key.
 class LayerMap {
   public:
     LayerMap(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid) {
@@ -122,7 +122,7 @@ class LayerMap {
     }
 };
 
-// round: of those that draw points. wanted: only cells that it has, in order; null: all.
+// round: number of the drawing round. wanted: draws only for these cells, in order; null: for all.
 std::vector<FoundCell> draw_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
                                   const LayerMap& layers, std::uint64_t round,
                                   const std::vector<FoundCell>* wanted) {
@@ -135,8 +135,8 @@ std::vector<FoundCell> draw_cells(const Mesh& mesh, std::span<const std::uint8_t
     tbb::parallel_for(std::size_t{0}, kRuns, [&](std::size_t run) {
         std::vector<FoundCell>& out = runs[run];
         for_each_point(mesh, keeps, grid, run, [&](const PointPlace& place) {
-            // By area, without order: the least of -ln(u) / area (Efraimidis & Spirakis, Inf. Process.
-            // Lett. 97, 2006).
+            // Random in proportion to area, independent of order: the smallest -ln(u) / area wins (Efraimidis
+            // & Spirakis, Inf. Process. Lett. 97, 2006).
             const std::uint64_t word = mixed(round << 56 ^ (place.triangle << 24 | place.number));
             const float u = (static_cast<float>(word >> 41) + 0.5f) * 0x1p-23f;
             const float priority = -std::log(u) / place.share_m2;
@@ -162,12 +162,12 @@ std::vector<FoundCell> draw_cells(const Mesh& mesh, std::span<const std::uint8_t
     return all;
 }
 
-// The points of cells that are seen: those that stand free, and those in nooks.
+// The visible points of cells: those that are open, and those in nooks.
 struct OpenPoints {
     std::vector<FoundCell> free, nooks;
 };
 
-// Sorts the cells' points, each with the chance that it is seen.
+// Sorts the cells' points, each with the probability that it is visible.
 OpenPoints open_points(const Mesh& mesh, const CubeGrid& grid, float above_m, const Openness& openness,
                        const std::vector<FoundCell>& cells) {
     constexpr float kNook = 0.05f, kOpenThere = 0.75f;
@@ -184,7 +184,7 @@ OpenPoints open_points(const Mesh& mesh, const CubeGrid& grid, float above_m, co
             const std::uint64_t word = mixed(cell.key ^ (std::uint64_t{point.triangle} << 24 | point.point));
             const float u = static_cast<float>(word >> 40) * 0x1p-24f;
             const auto [near, far] = openness(at, normal, kNook * grid.cube_m, 0.5f * grid.cube_m);
-            // A point in a corner is seen as well as one that stands free; one that looks out of a slit is not.
+            // A point in a corner is as visible as an open one; one that looks out of a slit is not.
             if (u >= 3 * far) continue;
             FoundCell& to = near >= kOpenThere ? free : nook;
             to.best[static_cast<std::size_t>(to.count++)] = point;
@@ -193,7 +193,7 @@ OpenPoints open_points(const Mesh& mesh, const CubeGrid& grid, float above_m, co
     return out;
 }
 
-// Adds points of some of the cells to those of all, so many as there may be.
+// Adds points of some cells to those of all, up to the maximum.
 void take_more(const std::vector<FoundCell>& more, const std::vector<FoundCell>& most,
                std::vector<FoundCell>& to) {
     std::size_t c = 0;

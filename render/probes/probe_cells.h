@@ -1,6 +1,5 @@
 #pragma once
-// The parts of a mesh that lie in each cube: the cells of surface_probes.h as they are found, each with some
-// points on it.
+// Divides a mesh into the cells of surface_probes.h, and chooses some points on each.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +19,7 @@ struct Corner {
     std::uint32_t vertex;
 };
 
-// A triangle with its longest edge from b to c, and how many points are spread over it.
+// A triangle with its longest edge from b to c, and the grid of points spread over it.
 struct TriangleSpread {
     std::array<Corner, 3> corner;  // apex, b, c
     int along = 1, across = 1;
@@ -50,7 +49,8 @@ struct TriangleSpread {
         across = static_cast<int>(std::clamp(std::ceil(size / longest / step_m), 1.0f, most));
     }
     int points() const { return along * across; }
-    // Weights of the corners of point i; equal areas (Turk, Graphics Gems, 1990, p. 24).
+    // Returns the weights of the corners for point i; points represent equal areas (Turk, Graphics Gems,
+    // 1990, p. 24).
     Vec3f weights(int i) const {
         const float r1 = std::sqrt((static_cast<float>(i / along) + 0.5f) / static_cast<float>(across));
         const float r2 = (static_cast<float>(i % along) + 0.5f) / static_cast<float>(along);
@@ -60,20 +60,20 @@ struct TriangleSpread {
 };
 
 struct CellPoint {
-    float priority = 0;  // the smaller, the sooner it is taken
+    float priority = 0;  // points with smaller values are taken first
     std::uint32_t triangle = 0;
     std::uint32_t point = 0;
     bool back = false;
 };
 
-// The state of a cell while it is found: its area, and candidates for its points.
+// A cell while it is being found: its area, and candidates for its points.
 struct FoundCell {
-    std::uint64_t key = 0;  // key of all layers there
+    std::uint64_t key = 0;  // key of all layers in the cube
     unsigned layer = 0;
-    float lowest = 0, highest = 0;  // height_of() what lies in it
+    float lowest = 0, highest = 0;  // range of height_of() for what is in it
     double area_m2 = 0;
     int count = 0;
-    // More than a probe has, as a wall may stand between them (probe_division.h).
+    // More than a probe needs, because a wall may divide them (probe_division.h).
     static constexpr int kMax = 2 * SurfaceProbe::kPoints;
     std::array<CellPoint, kMax> best;
 
@@ -101,17 +101,18 @@ struct MeshExtent {
     double area_m2 = 0;
 };
 
-// Returns the extent of those surfaces on which light is cached.
+// Returns the extent of the surfaces that cache light.
 MeshExtent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps);
-// Finds the cells in the order of their keys and layers. On oneTBB; the same on any number of threads.
+// Finds the cells, sorted by key and layer. Runs on oneTBB; the result does not depend on the number of
+// threads.
 std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps,
                                   const CubeGrid& grid);
 
-// Draws the cells' points anew where they are hidden, each with the chance that it is seen: most of a panel
-// may lie under tiles, and what is seen of it is the gaps. Points in a nook, with something within a twentieth of a cube of
-// them, are taken where a cell has no others: four stand for all of it, and one beside a sunlit lip of a millimetre would
-// give its light to a quarter. A cell that is hidden all over keeps what it had.
-// above_m: how far off the surface points are.
+// Replaces hidden points of cells by visible ones, each with the probability that it is visible: most of a
+// panel may be under tiles, and only the gaps are seen. A point in a nook (something is within a twentieth of
+// a cube) is used only if a cell has no others: four points represent the whole cell, and one beside a sunlit
+// lip of a millimetre would spread its light over a quarter. A cell that is completely hidden keeps its
+// points. above_m: height of the points above the surface.
 void prefer_open_points(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
                         float above_m, const Openness& openness, std::vector<FoundCell>& cells);
 

@@ -10,14 +10,14 @@ constexpr float kNearly = 0.8f;  // share of all
 
 using Numbers = std::vector<std::size_t>;
 
-// Knows of each two of some points whether anything stands between them.
+// Finds, for each pair of points, whether anything is between them.
 class Walls {
   public:
     Walls(std::span<const Vec3f> points_m, const Sight& sight)
         : points_m_(points_m), sight_(sight), known_(points_m.size() * points_m.size()) {}
 
     bool is_between(std::size_t i, std::size_t j) { return i != j && wall(i, j).has_value(); }
-    // Both faces of what stands between two points.
+    // Adds both faces of what is between two points.
     void add_faces(std::size_t i, std::size_t j, std::vector<Wall>& out) {
         if (const std::optional<Wall>& there = wall(i, j)) out.push_back(*there);
         const auto [from, to] = std::minmax(i, j);
@@ -29,7 +29,7 @@ class Walls {
     const Sight& sight_;
     std::vector<std::optional<std::optional<Wall>>> known_;
 
-    // Returns what is met on the way from the point with the lesser number.
+    // Returns what is met on the way from the point with the smaller number.
     const std::optional<Wall>& wall(std::size_t i, std::size_t j) {
         const auto [from, to] = std::minmax(i, j);
         std::optional<std::optional<Wall>>& known = known_[from * points_m_.size() + to];
@@ -38,7 +38,7 @@ class Walls {
     }
 };
 
-// Takes the one of these points that sees most of them, and those that it sees, away from them.
+// Removes the point that sees most of the others, together with those that it sees, and returns them.
 Numbers take_group(Walls& walls, Numbers& from) {
     Numbers best;
     for (const std::size_t i : from) {
@@ -51,7 +51,7 @@ Numbers take_group(Walls& walls, Numbers& from) {
     return best;
 }
 
-// The share of pairs of one point each that a wall stands between.
+// Returns the share of pairs between the groups that a wall separates.
 float share_hidden(Walls& walls, const Numbers& a, const Numbers& b) {
     float hidden = 0;
     for (const std::size_t i : a)
@@ -59,7 +59,7 @@ float share_hidden(Walls& walls, const Numbers& a, const Numbers& b) {
     return hidden / static_cast<float>(a.size() * b.size());
 }
 
-// The plane of what stands between two groups, upright on the surface.
+// Returns the plane between two groups, perpendicular to the surface.
 std::optional<ProbeDivision> plane_between(Walls& walls, std::span<const Vec3f> points_m,
                                            const Numbers& below, const Numbers& above, Vec3f facing) {
     std::vector<Wall> faces;
@@ -83,7 +83,7 @@ std::optional<ProbeDivision> plane_between(Walls& walls, std::span<const Vec3f> 
 
 std::optional<DividedPoints> find_division(std::span<const Vec3f> points_m, Vec3f facing,
                                            const Sight& sight) {
-    // Mostly there is no wall.
+    // Usually there is no wall.
     if (points_m.empty() || std::none_of(points_m.begin() + 1, points_m.end(), [&](Vec3f point_m) {
             return sight(points_m.front(), point_m).has_value();
         }))

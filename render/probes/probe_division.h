@@ -1,7 +1,7 @@
 #pragma once
-// Walls that stand between the points of a place where light is cached (surface_probes.h). A ring on a deck keeps the light
-// within from what is without, though both are one surface that faces one way, a few centimetres apart: such a place is two, on
-// either side of a plane.
+// Finds walls between the points of a probe (surface_probes.h). A ring on a deck separates the light inside
+// from that outside, although both sides are one surface with one normal and a few centimetres apart. Such a
+// probe becomes two, on either side of a plane.
 
 #include <cstddef>
 #include <functional>
@@ -13,11 +13,11 @@
 
 namespace hilcam {
 
-// A surface that stands between two points.
+// A surface between two points.
 struct Wall {
-    Vec3f at_m, normal;  // where it is met, and its normal, to either side
+    Vec3f at_m, normal;  // where it is met, and its normal, on either side
 };
-// Returns what is met first on the way from a point to another. Any thread.
+// Returns what a ray from one point to another meets first. Any thread.
 using Sight = std::function<std::optional<Wall>(Vec3f from_m, Vec3f to_m)>;
 
 // A plane between two groups of points; above: along * place > offset.
@@ -28,15 +28,15 @@ struct ProbeDivision {
     bool is_above(Vec3f place_m) const { return dot(along, place_m) > offset_m; }
 };
 
-// Points on either side of a wall, by their numbers.
+// Indices of the points on either side of a wall.
 struct DividedPoints {
     ProbeDivision by;
     std::vector<std::size_t> below, above;
 };
-// Divides points that a wall stands between. None: there is no wall that hides nearly all of one group from nearly all of
-// another, or it is not flat enough for a plane to leave them on their sides; points that see neither group are left out.
-// points_m: so far above their surface that what is no wall does not reach them; each two are asked for. facing: mean of the
-// surface's normals, unit.
+// Divides points that a wall separates. Returns none if no wall hides nearly all of one group from nearly all
+// of the other, or if no plane separates the groups. Points that see neither group are left out. points_m:
+// raised above their surface as far as low obstacles reach; each pair is tested. facing: mean normal of the
+// surface, unit.
 std::optional<DividedPoints> find_division(std::span<const Vec3f> points_m, Vec3f facing, const Sight& sight);
 
 }  // namespace hilcam

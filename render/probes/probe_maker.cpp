@@ -10,12 +10,13 @@
 namespace hilcam {
 namespace {
 
-// The cells of a set, without its unused places.
+// Returns the cells of a set, without its unused entries.
 std::span<const std::uint32_t> used(const CellSet& set) {
     return {set.begin(), std::find(set.begin(), set.end(), SurfaceProbes::kClosed)};
 }
 
-// Takes one of some items for each of a probe's points, evenly by their areas one behind the other. pick(point, item).
+// Chooses one of several items for each of a probe's points, evenly along their cumulative areas. Calls
+// pick(point, item).
 template <class AreaOf, class Pick>
 void spread_evenly(std::size_t items, std::uint64_t seed, const AreaOf& area_of, const Pick& pick) {
     double area_m2 = 0;
@@ -30,7 +31,7 @@ void spread_evenly(std::size_t items, std::uint64_t seed, const AreaOf& area_of,
     }
 }
 
-// color: sum of the points'.
+// color: sum over the points.
 void finish(SurfaceProbe& probe, Vec3f color) {
     probe.color = color / static_cast<float>(SurfaceProbe::kPoints);
     Vec3f mean{};
@@ -57,7 +58,7 @@ MadeProbe ProbeMaker::make(const CellSet& set, std::uint64_t seed) const {
     const Candidates all = candidates(used(set));
     const std::optional<DividedPoints> divided = find_division(all.raised_m, all.facing, sight_);
     if (!divided) return {of_cells(used(set), seed), {}, {}};
-    // What few points of a side meet is chance: the probe is the other side's.
+    // A side with few points was found by chance; the probe then belongs to the other side.
     constexpr std::size_t kFew = 16;
     const auto is_few = [&](const std::vector<std::size_t>& side) {
         return kFew * side.size() < all.point.size();
@@ -68,8 +69,8 @@ MadeProbe ProbeMaker::make(const CellSet& set, std::uint64_t seed) const {
 }
 
 ProbeMaker::Candidates ProbeMaker::candidates(std::span<const std::uint32_t> cells) const {
-    constexpr float kWall = 0.15f;    // in cubes: tiles and wrinkles are lower
-    constexpr std::size_t kMax = 32;  // each two of them cost a ray
+    constexpr float kWall = 0.15f;    // in cubes: higher than tiles and wrinkles
+    constexpr std::size_t kMax = 32;  // each pair costs a ray
     Candidates out;
     for (const std::uint32_t c : cells) {
         const FoundCell& cell = cells_[c];
@@ -87,7 +88,7 @@ ProbeMaker::Candidates ProbeMaker::candidates(std::span<const std::uint32_t> cel
     return out;
 }
 
-// The probe of some of the candidates.
+// Makes the probe of some candidates.
 SurfaceProbe ProbeMaker::of_points(const Candidates& all, std::span<const std::size_t> here,
                                    std::uint64_t seed) const {
     SurfaceProbe probe;
@@ -99,7 +100,7 @@ SurfaceProbe ProbeMaker::of_points(const Candidates& all, std::span<const std::s
     return probe;
 }
 
-// The probe of all points of some cells.
+// Makes the probe of all points of some cells.
 SurfaceProbe ProbeMaker::of_cells(std::span<const std::uint32_t> cells, std::uint64_t seed) const {
     SurfaceProbe probe;
     Vec3f color{};

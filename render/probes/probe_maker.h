@@ -1,6 +1,6 @@
 #pragma once
-// Makes probes (surface_probes.h) of the cells about a corner: some points on these, and two probes where a wall stands between
-// the points.
+// Makes a probe (surface_probes.h) from the cells around a cube's corner: some points on them, and two probes
+// if a wall separates the points.
 
 #include <array>
 #include <cstdint>
@@ -14,22 +14,22 @@
 
 namespace hilcam {
 
-// Returns how far above the surface points are [m]: as rays leave it in shading_point.cpp, with room for the triangles' own
-// rounding.
+// Returns the height of points above the surface [m]: as for rays in shading_point.cpp, plus the rounding of
+// the triangles.
 float points_above_m(const Mesh& mesh);
 
-// A probe, or two, for the places below and above a wall.
+// A probe, or two, for the sides below and above a wall.
 struct MadeProbe {
     SurfaceProbe probe, above;
     std::optional<ProbeDivision> division;
 };
 
-// Mesh, cells and sight outlive it. Any thread.
+// Mesh, cells and sight must outlive this. Any thread.
 class ProbeMaker {
   public:
     ProbeMaker(const Mesh& mesh, const CubeGrid& grid, std::span<const FoundCell> cells, const Sight& sight);
 
-    // set: the cells that the probe stands for. seed: the probe's own.
+    // set: the cells that the probe represents. seed: the probe's own.
     MadeProbe make(const CellSet& set, std::uint64_t seed) const;
 
   private:
@@ -40,10 +40,10 @@ class ProbeMaker {
     std::vector<MipTexture> pictures_;
     float above_m_;
 
-    // The points of a probe's cells, and places above them, higher than what is no wall.
+    // The points of a probe's cells, and the same points raised above low obstacles.
     struct Candidates {
         std::vector<CellPoint> point;
-        std::vector<double> area_m2;  // that each stands for
+        std::vector<double> area_m2;  // area that each represents
         std::vector<Vec3f> raised_m;
         Vec3f facing;
     };

@@ -16,17 +16,17 @@
 namespace hilcam {
 namespace {
 
-// The cells about a corner of the grid, and which corner of which cell's cube that is.
+// The cells around a corner of the grid, and which corner of each cell's cube it is.
 struct CornerUse {
     std::uint64_t key;        // key of the cube above it in all axes
-    std::uint32_t layer = 0;  // number among the layers about the corner
+    std::uint32_t layer = 0;  // number among the layers around the corner
     std::uint32_t cell;
     std::uint32_t corner;  // corner of the cell's cube: x + 2 y + 4 z
 
     bool together(const CornerUse& other) const { return key == other.key && layer == other.layer; }
 };
 
-// Numbers the layers about a corner, whose cells these are. Cells that go on from cube to cube are one.
+// Numbers the layers around a corner, given its cells. Cells that continue from cube to cube are one layer.
 void number_layers(std::span<const FoundCell> cells, std::span<CornerUse> about) {
     std::sort(about.begin(), about.end(), [&](const CornerUse& a, const CornerUse& b) {
         return std::tuple(cells[a.cell].lowest, a.cell) < std::tuple(cells[b.cell].lowest, b.cell);
@@ -71,7 +71,7 @@ SurfaceProbes::SurfaceProbes(const Mesh& mesh, std::span<const std::uint8_t> kee
     if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
     const Vec3f size = extent.most - extent.least;
     const float min_cube_m = std::max({size.x, size.y, size.z}) / (kMaxCubes - 8);
-    // Two sides; a wall that is aslant lies in half as many cubes again. Corrected by what is found.
+    // Two sides; an oblique wall occupies half as many cubes again. Corrected by the number that is found.
     cube_m_ =
         std::max(min_cube_m, static_cast<float>(std::sqrt(3 * extent.area_m2 / static_cast<double>(wanted))));
     std::vector<FoundCell> cells;
@@ -95,7 +95,7 @@ SurfaceProbes::SurfaceProbes(const Mesh& mesh, std::span<const std::uint8_t> kee
         Group group{{}, i};
         group.set.fill(kClosed);
         std::size_t count = 0;
-        // A wall may have more than eight cells about a corner, which a third one joins: eight are enough.
+        // A wall may have more than eight cells around a corner if a third one joins it; eight are enough.
         for (const CornerUse& use = uses[i]; i < uses.size() && uses[i].together(use); ++i)
             if (count < group.set.size()) group.set[count++] = uses[i].cell;
         groups.push_back(group);
@@ -144,7 +144,7 @@ void SurfaceProbes::take(const std::array<std::uint32_t, 8>& of_corner, Cell& ce
         if (pair(cell.probe[i])) cell.divided = static_cast<std::uint16_t>(cell.divided | 1u << i);
 }
 
-// Null: the probe is no pair's.
+// Returns the pair that a probe belongs to; null: none.
 const SurfaceProbes::Pair* SurfaceProbes::pair(std::uint32_t probe) const {
     const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), probe,
                                      [](const Pair& p, std::uint32_t name) { return p.name() < name; });
@@ -169,7 +169,7 @@ const SurfaceProbes::Slot* SurfaceProbes::slot(std::uint64_t key) const {
     return nullptr;
 }
 
-// The layer next to a place.
+// Returns the layer nearest to a place.
 const SurfaceProbes::Cell* SurfaceProbes::cell(const Slot& slot, Vec3f at) const {
     const Cell* best = &cells_[slot.cell];
     if (slot.layers == 1) return best;
@@ -191,11 +191,11 @@ SurfaceProbes::Search SurfaceProbes::begin(Vec3f point_m, const SurfaceSide& sid
 void SurfaceProbes::open(Search& search) const {
     if (slots_.empty()) return;
     if (const Slot* found = slot(search.key)) search.cell = cell(*found, search.at);
-    // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little
-    // beside the mesh: then the nearest of the neighbours that share a face or an edge.
+    // The surface may cut a corner off a cube that no point has hit, and a level of detail may be slightly
+    // beside the mesh. Then the nearest neighbour with a common face or edge is used.
     if (!search.cell) take_neighbour(search);
     if (!search.cell) return;
-    // Half of them lie in two lines.
+    // Half of them span two cache lines.
     __builtin_prefetch(search.cell);
     __builtin_prefetch(reinterpret_cast<const std::byte*>(search.cell + 1) - 1);
 }
@@ -241,7 +241,7 @@ bool SurfaceProbes::finish(const Search& search, ProbeWeights& about) const {
     return true;
 }
 
-// The one of a pair for a place; at: in cubes.
+// Returns the probe of a pair for a place; at: in cubes.
 std::uint32_t SurfaceProbes::on_side(const Pair& pair, Vec3f at) const {
     return pair.division.is_above(corner_m_ + cube_m_ * at) ? pair.above : pair.below;
 }
@@ -297,7 +297,7 @@ std::size_t SurfaceProbes::bytes() const {
            probes_.size() * sizeof(SurfaceProbe) + pairs_.size() * sizeof(Pair);
 }
 
-// True when most of a probe's points lie on one side.
+// True when most of a probe's points are on one side.
 bool SurfaceProbes::lies(std::uint32_t probe, const Pair& pair, bool above) const {
     int here = 0;
     for (const Vec3f point_m : probes_[probe].point_m) here += pair.division.is_above(point_m) == above;
@@ -315,7 +315,7 @@ ProbeNeighbours SurfaceProbes::neighbours() const {
         for (const std::uint32_t probe : {one->below, one->above})
             if (probe != kClosed) out.push_back({probe, one});
     };
-    // A part of what a wall divides has none beside it but on its own side.
+    // A part of a divided probe has neighbours only on its own side.
     const auto on_side_of = [&](const Part& a, const Part& b) {
         return !a.of || lies(b.probe, *a.of, a.probe == a.of->above);
     };

@@ -1,16 +1,20 @@
 #pragma once
-// Surface probes: places on an object's surface where light is kept from frame to frame (radiosity/irradiance_cache.h).
+// Surface probes: places on an object's surface where light is cached between frames
+// (radiosity/irradiance_cache.h). See docs/rendering.md, "Cached light".
 //
-// Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same
-// side of its triangles (so that the inside of a body thinner than a cube is no part of its outside), faces one
-// of 54 ways (30 degrees wide) and has no gap of a quarter of a cube in it, along that way, is a cell. Light belongs to probes,
-// which are the corners of the cubes: a probe stands for the cells of one kind that touch its corner, by a few points on them. A
-// place between has its cube's eight corners, weighted linearly, so that light is continuous where the surface is.
-// Corners that touch the same cells are one probe: a flat wall has one layer. Where something stands between a probe's
-// points, there are two, for the places on either side of it (probe_division.h).
+// Space is divided into cubes of one size. A cell is the part of a cube's content that belongs to one surface
+// of the mesh and to one side of its triangles (so that the inside of a thin body is separate from its
+// outside), faces one of 54 directions (30 degrees wide), and has no gap of a quarter of a cube along that
+// direction.
 //
-// Nothing here depends on how the mesh is triangulated, so every level of detail finds its light in the same
-// probes. What is finer than a cube is blurred: the size follows from how many probes are wanted.
+// Probes belong to the corners of the cubes. A probe represents all cells of one kind that touch its corner,
+// by a few points on them. A place between is interpolated linearly from the eight corners of its cube, so
+// light is continuous on a continuous surface. Corners that touch the same cells share a probe, so a flat
+// wall has one layer of them. If something stands between a probe's points, there are two probes, for the
+// places on either side (probe_division.h).
+//
+// Nothing here depends on the mesh's triangulation, so every level of detail finds its light in the same
+// probes. Details smaller than a cube are blurred; the cube's size follows from the wanted number of probes.
 
 #include <array>
 #include <cstdint>
@@ -28,9 +32,9 @@ namespace hilcam {
 struct ProbeWeights {
     std::array<std::uint32_t, 8> probe;
     std::array<float, 8> weight;
-    std::size_t count = 0;  // 0: the place is closed in, no light comes there
+    std::size_t count = 0;  // 0: the place is enclosed, and no light reaches it
 
-    // The one with the greatest weight; count > 0.
+    // Returns the probe with the largest weight; count > 0.
     std::uint32_t nearest() const {
         std::size_t best = 0;
         for (std::size_t i = 1; i < count; ++i)
@@ -39,29 +43,29 @@ struct ProbeWeights {
     }
 };
 
-// Points on the cells that a probe stands for, body axes, metres; just above the surface.
+// Points on the cells that a probe represents: body axes, metres, just above the surface.
 struct SurfaceProbe {
     static constexpr int kPoints = 4;
     std::array<Vec3f, kPoints> point_m;
-    std::array<std::uint32_t, kPoints> normal;     // packed (surface.h): the shading normal on this side
-    std::array<std::uint32_t, kPoints> geometric;  // packed: the triangle's, on this side
-    std::uint32_t mean_normal = 0;                 // mean normal of the points, packed
+    std::array<std::uint32_t, kPoints> normal;     // packed (packed_normal.h): shading normal on this side
+    std::array<std::uint32_t, kPoints> geometric;  // packed: the triangle's normal on this side
+    std::uint32_t mean_normal = 0;                 // packed: mean normal of the points
     std::uint16_t surface = 0;
     std::uint16_t unused = 0;
-    Vec3f color{1, 1,
-                1};  // colour of the texture and of the mesh's corners about there, linear RGB; 1 without
+    Vec3f color{1, 1, 1};  // colour of texture and vertices there, linear RGB; 1 without
 };
 
-// The shares of what a place just above a surface sees that are further away than each of two distances. Any thread.
+// The shares of what a place just above a surface sees that are farther away than each of two distances. Any
+// thread.
 struct OpenShares {
     float near, far;
 };
 using Openness = std::function<OpenShares(Vec3f point_m, Vec3f geometric_normal, float near_m, float far_m)>;
 
-// A list for each probe of those that lie beside it on its surface.
+// For each probe, a list of its neighbours on the surface.
 struct ProbeNeighbours {
-    std::vector<std::uint32_t> first;  // by probe, and one more: where its list begins
-    std::vector<std::uint32_t> probe;  // the lists, each in the order of numbers, without the probe itself
+    std::vector<std::uint32_t> first;  // by probe, and one more: start of its list
+    std::vector<std::uint32_t> probe;  // lists, each in rising order and without the probe itself
 
     std::span<const std::uint32_t> of(std::size_t n) const {
         return std::span(probe).subspan(first[n], first[n + 1] - first[n]);
@@ -69,7 +73,7 @@ struct ProbeNeighbours {
     std::size_t bytes() const { return (first.size() + probe.size()) * sizeof(std::uint32_t); }
 };
 
-// Cells that a probe stands for, in order; unused places hold SurfaceProbes::kClosed.
+// The cells that a probe represents, in order; unused entries are SurfaceProbes::kClosed.
 using CellSet = std::array<std::uint32_t, 8>;
 class ProbeMaker;
 
@@ -78,30 +82,30 @@ class SurfaceProbes {
     static constexpr std::uint32_t kClosed = ~std::uint32_t{0};
 
     SurfaceProbes() = default;
-    // keeps: per surface of the mesh, whether light is cached on it. wanted: about so many probes (between half
-    // and one and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of
-    // threads.
+    // keeps: for each surface of the mesh, whether light is cached on it. wanted: approximate number of
+    // probes (the result has half to one and a half times as many, except for small meshes). Owner thread,
+    // runs on oneTBB; the result does not depend on the number of threads.
     SurfaceProbes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
                   const Openness& openness, const Sight& sight);
 
-    // The probes of a cell's cube, each once, and which of them its corners are.
+    // The probes of a cell's cube, each listed once, and which of them belongs to each corner.
     struct Cell {
         static constexpr unsigned kNone = 8;
         std::array<std::uint32_t, 8> probe{};
         std::uint16_t count = 0;
-        std::uint16_t divided = 0;      // a bit each: the probe is one of two
-        std::uint32_t corners = 0;      // four bits each: x + 2 y + 4 z; kNone: closed
-        float lowest = 0, highest = 0;  // height_of() what lies in it
+        std::uint16_t divided = 0;      // one bit per probe: it is one of two
+        std::uint32_t corners = 0;      // four bits per corner x + 2 y + 4 z; kNone: closed
+        float lowest = 0, highest = 0;  // range of height_of() for what is in it
 
         Cell() = default;
-        // Takes the probes of its corners, in order.
+        // Sets the probes of its corners, in order.
         void take(const std::array<std::uint32_t, 8>& of_corner);
         unsigned corner(std::size_t i) const { return corners >> (4 * i) & 0xFu; }
-        // Returns how far a height is outside of it, in cubes.
+        // Returns how far a height is outside of the cell, in cubes.
         float off(float height) const { return std::max({lowest - height, height - highest, 0.0f}); }
     };
-    // A search for a place in body axes, in steps: each asks for the memory that the next one reads, so that
-    // who looks up many places takes every step for all of them. Loop, any thread.
+    // The search for a place (body axes) in three steps. Each step prefetches the memory that the next one
+    // reads, so a caller with many places does each step for all of them. Loop, any thread.
     struct Search {
         Vec3f at{};  // in cubes
         Cube cube{};
@@ -110,9 +114,9 @@ class SurfaceProbes {
     };
     Search begin(Vec3f point_m, const SurfaceSide& side) const;
     void open(Search& search) const;
-    // False where there are no cells: the place is off every surface by more than a cube.
+    // Returns false if there are no cells: the place is more than a cube away from every surface.
     bool finish(const Search& search, ProbeWeights& about) const;
-    // All steps in one.
+    // All steps in one call.
     bool find(Vec3f point_m, const SurfaceSide& side, ProbeWeights& about) const {
         Search search = begin(point_m, side);
         open(search);
@@ -122,22 +126,22 @@ class SurfaceProbes {
     const std::vector<SurfaceProbe>& probes() const { return probes_; }
     float cube_m() const { return cube_m_; }
     std::size_t bytes() const;
-    // Returns which probes are corners of one cell with each. Owner thread.
+    // Returns, for each probe, the probes that are corners of a common cell. Owner thread.
     ProbeNeighbours neighbours() const;
 
-    // Makes them the probes of a mesh so many times as large.
+    // Scales the probes for a mesh that is larger by this factor.
     void scale(float factor);
-    // Renumbers: new_number[old], or kClosed for probes that go.
+    // Renumbers the probes: new_number[old], or kClosed for those that are dropped.
     void keep(std::span<const std::uint32_t> new_number);
 
-    // Gives all its members to files (io/cache/transfer_cache.h).
+    // Lists all members for the cache file (io/cache/transfer_cache.h).
     struct Slot {
         std::uint64_t key = kNone;
-        std::uint32_t cell = 0;  // the first of its layers, in the order of their heights
+        std::uint32_t cell = 0;  // first of its layers, which are sorted by height
         std::uint32_t layers = 0;
         static constexpr std::uint64_t kNone = ~std::uint64_t{0};
     };
-    // Two probes in one's place; cells name the one that is not closed, or the first.
+    // Two probes in the place of one. Cells refer to them by the one that is not closed, or the first.
     struct Pair {
         ProbeDivision division;
         std::uint32_t below = kClosed, above = kClosed;
@@ -148,13 +152,13 @@ class SurfaceProbes {
         archive(self.corner_m_), archive(self.cube_m_), archive(self.slots_), archive(self.cells_),
             archive(self.probes_), archive(self.pairs_);
     }
-    // True when what was read fits together.
+    // True when the data read from a file are consistent.
     bool is_whole() const;
 
   private:
     Vec3f corner_m_;
     float cube_m_ = 1;
-    std::vector<Slot> slots_;  // open addressing; a power of two
+    std::vector<Slot> slots_;  // open addressing; size is a power of two
     std::vector<Cell> cells_;
     std::vector<SurfaceProbe> probes_;
     std::vector<Pair> pairs_;  // by name

@@ -17,14 +17,14 @@ namespace hilcam {
 namespace {
 
 constexpr float kGoldenRatio = 0.61803399f;
-// From probe to probe, of a whole turn: the root of a half. How many directions of two to nine probes side by side lie in a small
-// disk then scatters by a third of what it does by the golden section, which would turn the spiral, being one by it itself, into
-// its own next directions (docs/decisions.md#cached-light-in-probes).
+// The rotation from probe to probe, in turns: the root of a half. The number of directions of two to nine
+// neighbouring probes in a small disk then varies a third as much as with the golden section, which would map
+// the golden-angle spiral onto its own next directions (docs/decisions.md).
 constexpr float kTurn = 0.70710678f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
-// The state of a direction while it is being traced: the probe that it meets, whether it is nearer than half a
-// cube, and which of the probe's points is next to the place; or one of these.
+// The state of a direction during tracing: the probe that it meets, whether that is nearer than half a cube,
+// and which of its points is nearest to the hit; or one of these values.
 struct Met {
     static std::uint32_t pack(std::uint32_t probe, bool close, std::size_t point) {
         return probe << 3 | static_cast<std::uint32_t>(close) << 2 | static_cast<std::uint32_t>(point);
@@ -36,14 +36,14 @@ struct Met {
 static_assert(SurfaceProbe::kPoints == 4);
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::uint32_t kDarkNode = kFree - 1;
-constexpr std::uint32_t kBuried = kFree - 2;  // index of a point that does not count
-constexpr std::uint32_t kUnder = kFree - 3;   // below the surface at its point: does not count
+constexpr std::uint32_t kBuried = kFree - 2;  // point that does not count
+constexpr std::uint32_t kUnder = kFree - 3;   // below the surface at its point; does not count
 constexpr std::uint32_t kTracing = kFree - 4;
 
 struct Ray {
     std::size_t direction;
     Vec3f origin_m, dir;
-    int sheets = 0;  // number of sheets of glass that it has passed
+    int sheets = 0;  // sheets of glass passed so far
 };
 
 // Traces a block of probes.
@@ -121,7 +121,7 @@ class Tracer {
         const Vec3f point_m = ray.origin_m + hits.distance[k] * ray.dir;
         const std::uint16_t surface = mesh_.surface_of_triangle[hits.triangle[k]];
         if (glass_[surface]) {
-            // As rays leave surfaces in shading_point.cpp.
+            // The same offset as for rays in shading_point.cpp.
             const float greatest = std::max({std::abs(point_m.x), std::abs(point_m.y), std::abs(point_m.z)});
             constexpr int kMaxSheets = 16;
             out = kDarkNode;
@@ -165,7 +165,7 @@ class Tracer {
     }
 };
 
-// Returns the openness by sixteen directions; glass is clear.
+// Returns the openness from sixteen directions; glass is transparent.
 OpenShares openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene,
                     Vec3f point_m, Vec3f normal, float near_m, float far_m) {
     static const std::vector<Vec3f> kDirections = transfer_directions(kPacketSize);
@@ -185,7 +185,7 @@ OpenShares openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const
     return {static_cast<float>(near) / kPacketSize, static_cast<float>(far) / kPacketSize};
 }
 
-// Glass is no wall.
+// Glass is not a wall.
 std::optional<Wall> wall_between(std::span<const std::uint8_t> glass, const Mesh& mesh,
                                  const EmbreeScene& scene, Vec3f from_m, Vec3f to_m) {
     const Vec3f way_m = to_m - from_m;
@@ -231,7 +231,7 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
         },
         [&](Vec3f from_m, Vec3f to_m) { return wall_between(glass, mesh, scene, from_m, to_m); });
     for (std::size_t n = 0; n < size(); ++n) {
-        // Turns that are far from those of the probes beside.
+        // Rotations that differ strongly from those of neighbouring probes.
         const float part = std::fmod(static_cast<float>(n % 4096) * kTurn, 1.0f);
         turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
     }
@@ -272,7 +272,7 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
     return blocks;
 }
 
-// visit(probe, its links).
+// Calls visit(probe, its links).
 void TransferTable::for_each_probe(std::vector<Block>& blocks,
                                    const std::function<void(std::size_t, std::span<Link>)>& visit) {
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -284,8 +284,8 @@ void TransferTable::for_each_probe(std::vector<Block>& blocks,
     }
 }
 
-// Darkens links that meet a buried point at once: they are buried, too, and the probe's light is that of its
-// other points.
+// Links that meet a buried point closely become dark: such a direction is buried, too, and the probe uses
+// those of its other points.
 void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
     for_each_probe(blocks, [&](std::size_t, std::span<Link> links) {
         for (Link& link : links)
@@ -294,7 +294,8 @@ void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
     });
 }
 
-// New numbers for the probes that light reaches: which are free somewhere, or meet one that light reaches.
+// Returns new numbers for the probes that light reaches: those that are free somewhere, or meet one that
+// light reaches.
 std::vector<std::uint32_t> TransferTable::numbers_of_open(std::vector<Block>& blocks, bool enclosed) {
     std::vector<std::uint8_t> open(size(), enclosed);
     for (std::size_t n = 0; n < size(); ++n)

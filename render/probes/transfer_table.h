@@ -1,15 +1,16 @@
 #pragma once
-// The transfer table: what each probe on an object meets along fixed directions of its half sphere, traced once,
-// kept for good, since it is knowledge of the mesh and not of a frame (radiosity/irradiance_cache.h makes light of it).
+// The transfer table: what each probe of an object meets along fixed directions of its hemisphere. It depends
+// on the mesh only, so it is traced once and kept on disk; radiosity/irradiance_cache.h computes light from
+// it. See docs/rendering.md, "Cached light".
 //
-// The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance
+// There are sixty directions as in the paper (Peng et al. 2011), or 16 or 256, in equal shares of irradiance
 // instead of solid angle: a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179) projected up from the
-// disk (Malley), turned for each probe by an angle of its own. A probe's points share them in turn, so that a
-// probe sees what its whole surface sees. Glass is passed. Each direction either is free, or meets another
-// probe, or ends in the dark: behind the horizon of a rough place, or where no light is cached.
+// disk (Malley), rotated for each probe by an angle of its own. They are divided among the probe's points, so
+// that a probe sees what its whole surface sees. Glass is transparent. A direction is free, meets another
+// probe, or ends in the dark: below the horizon of a rough place, or on a surface without cached light.
 //
-// Probes that no light can reach (the inside of a closed body, if nothing shines there) are left out; a point
-// that sees nothing but what is nearer than half a cube is buried and does not count.
+// Probes that no light can reach (inside a closed body, unless something shines there) are left out. A point
+// that sees only things nearer than half a cube is buried and does not count.
 
 #include <bit>
 #include <cstdint>
@@ -23,17 +24,17 @@
 namespace hilcam {
 
 struct TransferSettings {
-    int directions = 60;           // a multiple of SurfaceProbe::kPoints, 256 at most
-    std::size_t probes = 100'000;  // about, before those that no light reaches are left out
-    bool enclosed = false;         // light can begin in closed rooms: lamps, materials that emit
+    int directions = 60;           // multiple of SurfaceProbe::kPoints, at most 256
+    std::size_t probes = 100'000;  // approximate number, before those without light are left out
+    bool enclosed = false;         // light can start in closed rooms: lamps, materials that emit
 };
 
-// Is told, now and then, which share of the work is done, on any of its threads; what it throws ends the
+// Called now and then, on any thread of the work, with the share that is done. An exception from it ends the
 // work.
 using WorkWatcher = std::function<void(double share)>;
 
-// The directions in local axes (z: the probe's normal), before a probe's own turn; those of a probe's first
-// point come first, then those of its second, and so on.
+// Returns the directions in local axes (z: the probe's normal), before the probe's own rotation: first those
+// of its first point, then those of its second, and so on.
 std::vector<Vec3f> transfer_directions(int count);
 
 class EmbreeScene;
@@ -41,8 +42,8 @@ class EmbreeScene;
 class TransferTable {
   public:
     TransferTable() = default;
-    // glass: per surface, whether it is. Throws InputError when memory runs out, and what the watcher throws.
-    // Owner thread, on oneTBB; the same on any number of threads.
+    // glass: for each surface, whether it is glass. Throws InputError if memory runs out, and whatever the
+    // watcher throws. Owner thread, runs on oneTBB; the result does not depend on the number of threads.
     TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass, const TransferSettings& settings,
                   const WorkWatcher& watcher = {});
 
@@ -51,7 +52,7 @@ class TransferTable {
     int directions() const { return directions_; }
     std::size_t bytes() const;
 
-    // An entry says what a probe's directions meet.
+    // The probe that a direction meets.
     struct Entry {
         std::uint32_t probe : 24;
         std::uint32_t direction : 8;
@@ -63,14 +64,14 @@ class TransferTable {
     std::uint32_t first_entry(std::size_t probe) const { return first_entry_[probe]; }
     const Entry* entry(std::size_t number) const { return entries_.data() + number; }
     std::size_t entries() const { return entries_.size(); }
-    // Bits by direction, 64 to a word: nothing is met.
+    // Returns one bit per direction, 64 in a word; 1: it meets nothing.
     std::span<const std::uint64_t> free(std::size_t probe) const {
         return {free_.data() + probe * free_words(), free_words()};
     }
     bool is_free(std::size_t probe, std::size_t direction) const {
         return free(probe)[direction / 64] >> (direction % 64) & 1u;
     }
-    // A direction belongs to one of the probe's points; those of buried points do not count.
+    // Each direction belongs to one of the probe's points; those of buried points do not count.
     std::size_t directions_of_point() const {
         return static_cast<std::size_t>(directions_) / SurfaceProbe::kPoints;
     }
@@ -78,12 +79,12 @@ class TransferTable {
     bool is_live(std::size_t probe, std::size_t point) const {
         return (static_cast<unsigned>(live_[probe]) >> point & 1u) != 0;
     }
-    // Directions that count: of live points, and above the surface there.
+    // Returns the number of directions that count: those of live points, above the surface there.
     int counted(std::size_t probe) const { return counted_[probe]; }
-    // A direction's angle of turn about the normal, of this probe [cos, sin].
+    // Returns the rotation of a probe's directions about its normal [cos, sin].
     Vec2f turn(std::size_t probe) const { return turns_[probe]; }
 
-    // Gives files all that cannot be computed from the rest.
+    // Lists, for files, all data that cannot be computed from the rest.
     template <class Archive>
     static void list(auto& self, Archive& archive) {
         SurfaceProbes::list(self.probes_, archive);
@@ -91,7 +92,7 @@ class TransferTable {
             archive(self.live_), archive(self.counted_), archive(self.turns_);
     }
     bool is_whole() const;
-    // Makes it the table of a mesh so many times as large: what is met does not change with the size.
+    // Scales the table for a mesh that is larger by this factor; what directions meet stays the same.
     void scale(float factor) { probes_.scale(factor); }
 
   private:
@@ -100,11 +101,11 @@ class TransferTable {
     std::vector<std::uint32_t> first_entry_;  // by probe, and one more
     std::vector<Entry> entries_;
     std::vector<std::uint64_t> free_;
-    std::vector<std::uint8_t> live_;  // bits by point
+    std::vector<std::uint8_t> live_;  // one bit per point
     std::vector<std::uint16_t> counted_;
     std::vector<Vec2f> turns_;
 
-    // The blocks of probes while the table is made, each with what its probes meet, one after the other.
+    // Blocks of probes during construction; each lists what its probes meet, probe by probe.
     static constexpr std::size_t kBlock = 256;
     struct Link {
         std::uint32_t met;

@@ -1,4 +1,4 @@
-// IrradianceCache's lookup by a facet lobe.
+// The lookup of an IrradianceCache by a facet lobe.
 
 #include <algorithm>
 #include <bit>
@@ -21,8 +21,8 @@ struct LobeQuery {
     float whole = 0, cached = 0;
 };
 
-// The sum of every sixteenth value. Vectors are written out, as GCC 12 keeps sums in memory, where each waits for the one
-// before. n is a multiple of kDirectionLanes.
+// Sums every sixteenth value. Vectors are written out because GCC 12 keeps sums in memory, where each waits
+// for the one before. n is a multiple of kDirectionLanes.
 [[gnu::always_inline]] inline std::array<float, kDirectionLanes> sums_by_lane(const float* value,
                                                                               std::size_t n) {
     using Eight [[gnu::vector_size(32)]] = float;
@@ -38,14 +38,15 @@ struct LobeQuery {
     return out;
 }
 
-// The weight of each direction: whole, of a lobe without Fresnel's term; cached, without what rays follow of a narrow one.
-// Directions lie as the cosine to the probe's normal, so that of a surface which leans against it each counts by the ratio of
-// both cosines (importance sampling: Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the
-// probe's; 0 for directions that only fill up. n is a multiple of kDirectionLanes.
+// Computes the weight of each direction. `whole`: in the lobe without Fresnel's term; `cached`: without the
+// part of a narrow lobe that rays follow. Directions are distributed like the cosine to the probe's normal,
+// so for a surface with another normal each is weighted by the ratio of both cosines (importance sampling:
+// Pharr et al., Physically Based Rendering, 3rd ed., section 13.10). per_cosine: one over the probe's cosine;
+// 0 for padding. n is a multiple of kDirectionLanes.
 HILCAM_CLONES
 void lobe_weights(const float* x, const float* y, const float* z, const float* per_cosine, std::size_t n,
                   LobeQuery& query, float* whole, float* cached) {
-    // A narrow lobe's tails begin 15 degrees from the mirror's direction and are whole at 30.
+    // A narrow lobe's tails begin 15 degrees from the mirror direction and are complete at 30.
     constexpr float kNone = 0.966f, kWhole = 0.866f;
     const Vec3f m = query.normal, v = query.view, r = query.mirror;
     const GgxLobe law = query.law;
@@ -66,7 +67,7 @@ void lobe_weights(const float* x, const float* y, const float* z, const float* p
         query.whole += wholes[i], query.cached += cached_sums[i];
 }
 
-// The weights of the directions in a cone, by direction, and their sum. n is a multiple of kDirectionLanes.
+// Computes the weights of the directions in a cone, and their sum. n is a multiple of kDirectionLanes.
 HILCAM_CLONES
 float cone_weights(const float* x, const float* y, const float* z, const float* weight, std::size_t n,
                    const ConeShare& share, float* in_cone) {
@@ -114,7 +115,7 @@ IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const 
     alignas(64) std::array<float, kMaxDirections> whole, cached;  // weights, by direction
     lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), per_cosine_.data(), per_cosine_.size(),
                  query, whole.data(), cached.data());
-    // Points that are buried do not count.
+    // Buried points do not count.
     const std::size_t of_point = table_->directions_of_point();
     for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p)
         for (std::size_t d = p * of_point; !(probe.live >> p & 1u) && d < (p + 1) * of_point; ++d) {
@@ -123,7 +124,7 @@ IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const 
         }
     Lobe out;
     if (!(query.whole > 0)) return out;
-    // Sixty directions are too few for a sum over a lobe; for its tails they are enough.
+    // Sixty directions are too few to normalise a narrow lobe by their sum, but suffice for its tails.
     const float all =
         query.narrow ? static_cast<float>(probe.counted) / kPiF : std::max(query.cached, 1e-20f);
     for (std::size_t c = 0; c < cones.size(); ++c) {
@@ -142,7 +143,7 @@ IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const 
     const TransferTable::Entry* const entries = table_->entry(probe.first_entry);
     std::array<float, kMaxDirections> of_entry;  // a direction meets one thing at most
     Brought brought;
-    // One loop for all sums, each of which waits for itself.
+    // One loop for all sums, because each waits for its own result.
     for (std::size_t i = 0; i < probe.entries; ++i) {
         occupied += of_entry[i] = cached[entries[i].direction];
         if (along) brought.add(of_entry[i] * along[i].greatest());
@@ -160,15 +161,15 @@ IrradianceCache::Lobe IrradianceCache::lobe(const RadiositySolution* sun, const 
     }
     out.cached = (1 / all) * out.cached;
     out.directions = brought.directions();
-    // Light that comes along the directions that meet something makes the probe's irradiance: pi / counted of
-    // each one's radiance.
+    // Light along the directions that meet something makes up the probe's irradiance: pi / counted times each
+    // radiance.
     if (met_probes > 0)
         out.of_irradiance =
             occupied / all * static_cast<float>(probe.counted) / (kPiF * static_cast<float>(met_probes));
     return out;
 }
 
-// visit(direction) where a probe's direction meets something, be it dark.
+// Calls visit(direction) where a probe's direction meets something, even if it is dark.
 template <class Visit>
 void IrradianceCache::for_each_met(std::size_t n, const Visit& visit) const {
     const auto directions = static_cast<std::size_t>(table_->directions());

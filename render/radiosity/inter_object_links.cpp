@@ -27,7 +27,7 @@ class Prober {
            std::span<const IrradianceCache* const> lights, const EmbreeScene& scene)
         : near_(near), self_(self), lights_(lights), scene_(scene) {}
 
-    // Those that meet a place where light is cached, or one that does not: probe kDark.
+    // Finds the directions that meet a surface, with its probe; kDark if it caches no light.
     static constexpr std::uint32_t kDark = ~std::uint32_t{0};
     std::vector<Probe> probe(std::size_t first, std::size_t last) const {
         std::vector<Probe> probes;
@@ -81,7 +81,7 @@ class Prober {
                 for (std::size_t i = 0; i < packet.size(); ++i) {
                     if (hits.object[i] == HitPacket::kMiss) continue;
                     if (!note(other, hits, i, *packet[i])) {
-                        // A sheet of glass: on behind it.
+                        // Continues behind a sheet of glass.
                         from[i] = hits.distance[i] * (1 + 1e-5f) + 1e-5f;
                         again = true;
                     }
@@ -102,7 +102,7 @@ class Prober {
         probe.distance_m = hits.distance[k];
         const bool found = light.table().probes().find(other.place(probe.origin_m) + hits.distance[k] * dir,
                                                        {back ? -normal : normal, surface, back}, about);
-        // Light that mirrors send is too sharp to be cached from object to object.
+        // Light from mirrors is too sharp to be cached from object to object.
         const bool keeps = found && about.count > 0 && !light.is_mirror(surface);
         probe.link = {keeps ? about.nearest() : kDark, static_cast<std::uint16_t>(other.object),
                       probe.direction};
@@ -115,7 +115,7 @@ class Prober {
 NeighbourObject NeighbourObject::rounded(const Pose& self, const Pose& other, std::size_t object,
                                          float step_rad, float min_m) {
     const Quat turn = conjugate(other.world_from_body) * self.world_from_body;
-    // Half a turn's sine a component.
+    // A component of the quaternion: the sine of half the angle.
     const double step = 0.5 * static_cast<double>(step_rad);
     const auto part = [step](double x) { return step * std::round(x / step); };
     const Mat3d axes = to_matrix(normalized(Quat{part(turn.w), part(turn.x), part(turn.y), part(turn.z)}));
@@ -148,7 +148,7 @@ void InterObjectLinks::make(std::span<const NeighbourObject> near, std::size_t s
         std::stable_sort(blocks[b].begin(), blocks[b].end(),
                          [](const Probe& x, const Probe& y) { return x.probe < y.probe; });
     };
-    // One at a time, so that one who waits for a block does not wait long.
+    // One block at a time, so that waiting for one is short.
     tbb::parallel_for(std::size_t{0}, blocks.size(), ask, tbb::simple_partitioner{});
     const std::size_t words = table.free(0).size();
     for (std::size_t n = 0; n < table.size(); ++n)

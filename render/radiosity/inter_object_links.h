@@ -1,7 +1,7 @@
 #pragma once
-// The links of an object's probes to other objects that stand near it: the part of the transfer table
-// (probes/transfer_table.h) that depends on where objects stand to each other, traced anew when that has
-// changed by a step. Turning parts are objects here. Glass of another object is passed.
+// Links from an object's probes to other objects near it: the part of the transfer table
+// (probes/transfer_table.h) that depends on the objects' relative poses, traced again when those change by a
+// step. Turning parts are objects here. Glass of other objects is transparent.
 
 #include <cstdint>
 #include <span>
@@ -12,11 +12,12 @@
 
 namespace hilcam {
 
-// Another object, where it stands to this one: rounded, so that what is cached is a function of that alone.
+// Another object's pose relative to this one, rounded, so that cached light depends on the rounded pose
+// alone.
 struct NeighbourObject {
     std::size_t object = 0;
-    Mat3f axes;     // turns this object's axes into the other's
-    Vec3f shift_m;  // shift of this one's origin, in the other's axes
+    Mat3f axes;     // rotate from this object's axes to the other's
+    Vec3f shift_m;  // this object's origin in the other's axes
 
     Vec3f place(Vec3f point_m) const { return axes * point_m + shift_m; }
     Vec3f dir(Vec3f d) const { return axes * d; }
@@ -24,7 +25,8 @@ struct NeighbourObject {
         return object == o.object && axes.x == o.axes.x && axes.y == o.axes.y && axes.z == o.axes.z &&
                shift_m == o.shift_m;
     }
-    // step_rad: of the turn; min_m: of the shift, which otherwise is rounded to about a hundredth.
+    // step_rad: step of the rotation. min_m: smallest step of the shift, which is otherwise rounded to about
+    // a hundredth.
     static NeighbourObject rounded(const Pose& self, const Pose& other, std::size_t object, float step_rad,
                                    float min_m);
 };
@@ -32,7 +34,7 @@ struct NeighbourObject {
 class InterObjectLinks {
   public:
     struct Link {
-        std::uint32_t probe;  // a probe of the other object
+        std::uint32_t probe;  // number in the other object's table
         std::uint16_t object;
         std::uint16_t direction;
     };
@@ -46,7 +48,7 @@ class InterObjectLinks {
         if (links_.empty()) return {};
         return {links_.data() + first_[probe], first_[probe + 1] - first_[probe]};
     }
-    // Bits by direction, as the table's, without those that meet another object.
+    // Returns bits by direction, like the table's, without those that meet another object.
     std::span<const std::uint64_t> free(const TransferTable& table, std::size_t probe) const {
         if (free_.empty()) return table.free(probe);
         const std::size_t words = table.free(probe).size();
@@ -54,8 +56,8 @@ class InterObjectLinks {
     }
     std::size_t bytes() const;
 
-    // Traces them. lights: of all objects, by number; null where none is cached. On oneTBB; the same on any
-    // number of threads.
+    // Traces the links. lights: of all objects, by number; null if the object caches no light. Runs on
+    // oneTBB; the result does not depend on the number of threads.
     void make(std::span<const NeighbourObject> near, std::size_t self,
               std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 

@@ -48,7 +48,7 @@ ObjectAlbedos::ObjectAlbedos(const ObjectSurfaces& surfaces, const MeshView& mes
     mirrors = find_flat_mirrors(mesh, surfaces, throws);
 }
 
-// A lobe's half width is about twice its alpha; sixty directions stand 0.32 rad apart.
+// A lobe's half width is about twice its alpha; sixty directions are 0.32 rad apart.
 float IrradianceCache::min_alpha(const TransferTable& table) {
     return 1.16f / std::sqrt(static_cast<float>(table.directions()));
 }
@@ -110,7 +110,7 @@ void IrradianceCache::describe_lobe(std::size_t n) {
     lobe.all_free = all_of(table.free(n), table.directions());
     for (std::size_t p = 0; p < SurfaceProbe::kPoints; ++p)
         lobe.live = static_cast<std::uint8_t>(lobe.live | table.is_live(n, p) << p);
-    // Curved surfaces widen lobes, so that any may be asked for.
+    // Curved surfaces widen lobes, so a lookup may ask for any alpha.
     lobe.first_along = kNoLobe;
     if (materials_[probe.surface]->has_facets()) {
         lobe.first_along = static_cast<std::uint32_t>(along_);

@@ -45,7 +45,7 @@ void ProbeSenders::light(const RadiosityMember& member) {
         [&](const Probes& r) { light_block(member, r.begin(), r.end()); }, tbb::simple_partitioner{});
 }
 
-// Returns which rays are blocked by the object itself, or by one that stands near.
+// Returns which rays are blocked by the object itself or by a near one.
 std::uint32_t ProbeSenders::blocked(const RadiosityMember& member, const RayPacket& rays) const {
     std::uint32_t out = scene_.occluded_by(member.object, rays);
     for (const NeighbourObject& other : member.links->near()) {
@@ -70,7 +70,7 @@ void ProbeSenders::light_block(const RadiosityMember& member, std::size_t first,
     ProbeSender* const senders = senders_.data() + base_[member.object];
     std::array<LitPoints, kBlock> lit;
     RayPacket rays;
-    std::array<float*, kPacketSize> of;  // by ray, what it asks for
+    std::array<float*, kPacketSize> of;  // result of each ray
     rays.count = 0;
     const auto flush = [&] {
         if (rays.count == 0) return;
@@ -135,8 +135,7 @@ void ProbeSenders::light_block(const RadiosityMember& member, std::size_t first,
     }
 }
 
-// A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
-// reflect.
+// A wide source widens lobes. Those wider than half a radian send all their light like paint.
 void ProbeSenders::widen(const IrradianceCache& light, std::size_t n, const RadiositySource& source,
                          ProbeSender& sender) {
     constexpr float kBegins = 0.2f, kWhole = 0.4f;
@@ -166,7 +165,7 @@ void ProbeSenders::send(const IrradianceCache& light, std::size_t n, const LitPo
     if (!material.has_facets()) return;
     sender.lit = lit;
     sender.alpha = std::max(material.ggx_alpha, IrradianceCache::min_alpha(light.table()));
-    // However wide the facets are taken, they send as much in all as they reflect.
+    // Whatever width is used for the facets, they send in total what they reflect.
     const float whole = max_component(light.wide_albedo(surface).lobe(cosine));
     sender.gain = whole > 0 ? max_component(albedo.lobe(cosine)) / whole : 0.0f;
     sender.lobe = PackedSpectrum(sender.gain * light.facet_color(n, material.highlight));

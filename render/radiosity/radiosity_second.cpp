@@ -1,4 +1,4 @@
-// Finds what bright facets send on by their lobes, of the source's light that has come to them by one way.
+// The second step: light that has arrived directly from senders and continues by bright facet lobes.
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace hilcam {
 
-// Leaves to lobes what they send on of the Sun's light, where that is worth it. Not of what mirrors throw, which is not along
-// the entries.
+// Assigns the Sun's light of bright facets to lobes where that is worthwhile. Sunlight from mirrors is
+// excluded, because it does not arrive along table entries.
 void RadiositySolver::part_lobes(const Member& member) {
-    // A hundredth of what white paint sends in the Sun: with all of them light between the parts of geo_inspection is the same to
-    // 0.1 %, for three times the work.
+    // A hundredth of what white paint sends in the Sun. With all lobes the light between the parts of
+    // geo_inspection is the same to 0.1 %, for three times the work.
     constexpr float kWorthIt = 0.01f / kPiF;
     const IrradianceCache& light = *lights_[member.object];
     const std::size_t base = senders_.first(member.object);
@@ -32,7 +32,7 @@ void RadiositySolver::part_lobes(const Member& member) {
     });
 }
 
-// Numbers what facets will have of the lobes of others, by probe in order.
+// Numbers, probe by probe, the entries that receive light from others' lobes.
 std::size_t RadiositySolver::number_second(const Member& member) {
     const IrradianceCache& light = *lights_[member.object];
     const std::uint8_t* const sends = sends_on_.data() + senders_.first(member.object);
@@ -62,7 +62,8 @@ void RadiositySolver::gather_second(const Member& member) {
     }
     std::vector<PackedSpectrum>& along = second_along_[member.object];
     if (const std::size_t count = number_second(member); count > along.size()) along.resize(count);
-    // The golden section of 2^32, so that a place's points take turns (Schretter et al., Journal of Graphics Tools 16(2), 2012).
+    // The golden section of 2^32, so that a probe's points take turns (Schretter et al., Journal of Graphics
+    // Tools 16(2), 2012).
     constexpr std::uint32_t kGolden = 0x9E3779B9;
     for_probes(table.size(), [&](const Probes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
@@ -81,8 +82,9 @@ void RadiositySolver::gather_second(const Member& member) {
     });
 }
 
-// The radiance that a probe's facets send in a direction of what has come to it by one way. One of its points stands for all of
-// them, as often as it is seen from there. choice: 0 to 1.
+// Returns the radiance that a probe's facets send in a direction, of light that has arrived in the first
+// step. One of its points represents all of them, chosen in proportion to its visibility from there. choice:
+// 0 to 1.
 Spectrum RadiositySolver::sent_on(const Member& member, std::size_t n, float choice, Vec3f to) const {
     const IrradianceCache& light = *lights_[member.object];
     const SurfaceProbe& probe = light.table().probes().probes()[n];

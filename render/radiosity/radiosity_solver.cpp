@@ -12,7 +12,8 @@
 namespace hilcam {
 namespace {
 
-// The lobe of a sender's facets towards one that gathers: of its points, as each leans and as much as it is seen.
+// Adds the radiance of a sender's facet lobe towards a receiver: the mean over its points, each with its
+// normal and weighted by its visibility.
 void add_lobe(const ProbeSender& from, Vec3f dir, Vec3f source_dir, Spectrum& radiance) {
     const float io = -dot(dir, source_dir);
     const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f)), ih = 0.5f / inverse;
@@ -40,8 +41,8 @@ Spectrum at_least_zero(Spectrum s) {
     return s;
 }
 
-// Returns the direction in which a source is seen from an object. A lamp is taken as seen from its middle: it
-// differs by probe, but little.
+// Returns the direction of a source seen from an object. A lamp's direction is that from the object's origin;
+// it differs only a little between probes.
 Vec3f direction_to(const RadiositySource& source) {
     const bool lamp = source.kind == RadiositySource::Kind::kLamp && length(source.position_m) > 0;
     return lamp ? normalized(source.position_m) : source.dir;
@@ -55,7 +56,7 @@ RadiositySolver::RadiositySolver(std::span<const IrradianceCache* const> lights,
     radiosity_.resize(probes), brought_.resize(probes), first_.resize(probes), sends_on_.resize(probes),
         by_lobes_.resize(probes), second_.resize(probes), first_second_.resize(probes), now_.resize(probes),
         before_.resize(probes);
-    // Addresses for the most there can be; pages are taken as they are needed.
+    // Reserves addresses for the largest number; pages are used only as needed.
     second_along_.resize(lights_.size());
     for (std::size_t i = 0; i < lights_.size(); ++i)
         if (lights_[i]) second_along_[i].reserve(lights_[i]->entries_along());
@@ -84,7 +85,7 @@ void RadiositySolver::gather_first(const Member& member, std::span<const Member>
     RadiositySolution& out = *member.out;
     const bool keeps_along = member.source.kind == RadiositySource::Kind::kSun;
     if (keeps_along) out.along_links.resize(member.links->size());
-    // By object: where its links' senders have the source.
+    // Returns the source's direction from the object that a link leads to.
     const auto source_of = [&](std::size_t object) {
         for (const Member& other : group)
             if (other.object == object) return direction_to(other.source);
@@ -128,8 +129,8 @@ void RadiositySolver::gather_first(const Member& member, std::span<const Member>
                 const InterObjectLinks::Link& link = links[i];
                 const ProbeSender& from = senders_[senders_.first(link.object) + link.probe];
                 Spectrum radiance = from.diffuse.unpacked();
-                // A mirror's light is too sharp for directions to find it far away, and blurred it falls
-                // where none is.
+                // A mirror's light is too sharp for distant directions to find; blurred, it would fall where
+                // there is none.
                 if (from.alpha > 0 && !is_narrow(link))
                     add_lobe(from, member.links->neighbour(link.object).dir(direction(link.direction)),
                              source_of(link.object), radiance);
@@ -146,8 +147,8 @@ void RadiositySolver::gather_first(const Member& member, std::span<const Member>
     });
 }
 
-// Bounces until what is left is little, and that by its geometric series: white paint in a hollow keeps light
-// for long.
+// Bounces until little light is left, and adds the rest as a geometric series: white paint in a hollow keeps
+// light for long.
 void RadiositySolver::bounce(std::span<const Member> group) {
     constexpr int kMaxBounces = 64;
     constexpr double kLeft = 0.03, kMaxRatio = 0.95;
@@ -185,12 +186,12 @@ void RadiositySolver::bounce(std::span<const Member> group) {
     }
 }
 
-// One more bounce.
+// Gathers one more bounce.
 RadiositySolver::Progress RadiositySolver::gather_again(const Member& member) {
     const IrradianceCache& light = *lights_[member.object];
     const TransferTable& table = light.table();
     const std::size_t base = senders_.first(member.object);
-    // Sums that do not depend on how the work was shared out.
+    // Sums that do not depend on how the work is divided.
     return tbb::parallel_deterministic_reduce(
         Probes(0, table.size(), kBlock), Progress{},
         [&](const Probes& r, Progress sum) {
@@ -200,7 +201,8 @@ RadiositySolver::Progress RadiositySolver::gather_again(const Member& member) {
                 for (const InterObjectLinks::Link& link : member.links->of(n)) met += radiosity_to(link);
                 const Spectrum next = first_[base + n] + second_[base + n] +
                                       (kPiF / static_cast<float>(table.counted(n))) * met;
-                // By how much of it can be seen from outside; a little, so that closed rooms have an end too.
+                // Weighted by how much of it can be seen from outside, plus a little, so that closed rooms
+                // converge, too.
                 const double weight = 0.01 + static_cast<double>(std::popcount(table.free(n)[0]));
                 for (int b = 0; b < kMaxBins; ++b)
                     sum.change += weight * static_cast<double>(std::abs(next[b] - now_[base + n][b])),
@@ -215,11 +217,11 @@ RadiositySolver::Progress RadiositySolver::gather_again(const Member& member) {
         });
 }
 
-// Leaves what the probes keep in before_. A probe's directions are too few to tell how much of a small bright part it
-// sees: one of sixty meets a lit rim, and the next probe's none. Where that is so, a probe and those beside it have
-// their mean, the more so the fewer directions of equal light their sum hangs on (Kish's effective size of a weighted
-// sample, Survey Sampling, 1965, section 8.2). What many directions see is left as sharp as it is, and so is what has
-// come by further bounces alone.
+// Leaves what is cached in before_. A probe has too few directions to resolve a small bright part: one of its
+// sixty meets a lit rim, and none of its neighbour's does. Such a probe gets a mean with its neighbours, with
+// a weight that grows as the effective number of directions falls (Kish's effective sample size, Survey
+// Sampling, 1965, section 8.2). Light from many directions, and light of later bounces alone, stays as sharp
+// as it is.
 void RadiositySolver::smooth(const Member& member) {
     constexpr float kFew = 4, kMany = 1e9f;
     const IrradianceCache& light = *lights_[member.object];
@@ -233,7 +235,7 @@ void RadiositySolver::smooth(const Member& member) {
             Brought brought = brought_[base + n];
             Spectrum sum = cached(n);
             for (const std::uint32_t other : beside) brought += brought_[base + other], sum += cached(other);
-            // They are counted over all of these probes, of which each has its part.
+            // Counted over all of these probes, so divided by their number.
             const float directions =
                 brought.squares > 0 ? brought.sum * brought.sum / (count * brought.squares) : kMany;
             const float share = kFew / (kFew + directions);

@@ -1,19 +1,20 @@
 #pragma once
-// Solves cached light (irradiance_cache.h) for a source, over objects that stand near each other together.
+// Solves cached light (irradiance_cache.h) for one source, over a group of objects near each other. It is
+// radiosity (Goral et al., SIGGRAPH 84) with a fixed set of directions in place of form factors; nothing is
+// random, and the only rays test which probes the source lights. See docs/rendering.md, "Cached light".
 //
-// What a probe receives first is summed from what its directions meet (probes/transfer_table.h, inter_object_links.h),
-// each seen from there as its own reflection law says, point by point as these lean. What is bright of the Sun's light goes on so
-// once more within an object, by lobes about what a probe's directions have brought; then light goes on as from white, grey or
-// coloured paint until it stays the same (radiosity: Goral et al., SIGGRAPH 84), with the directions in place of form
-// factors. No ray is traced but those that ask which probes a source shines on, and nothing is drawn by
-// chance.
+// - The first light of a probe is summed over what its directions meet (probes/transfer_table.h,
+// inter_object_links.h). Each sender uses its own BRDF, at each of its points.
+// - Within an object, bright sunlight makes one more step by facet lobes, over what the probe's directions
+// have brought.
+// - Then light bounces as between white, grey or coloured paint until it no longer changes.
 //
-// What flat mirrors throw of the Sun goes on from where it falls, but is not in what is cached: who looks that
-// up has it sharp (mirror_sunlight.h).
+// Sunlight from flat mirrors is included in what bounces further but not in what is cached; mirror_sunlight.h
+// adds it sharply at lookup.
 //
-// The approximation: facets that other surfaces see are at least so wide that the directions find their
-// light; from the third bounce on (of what is dim, of lamps and bodies, and between objects from the second) everything
-// scatters as a diffuse surface of the same albedo; glass is clear.
+// Approximations: facets that other surfaces see have a minimum width, so that the directions find their
+// light. From the third bounce on, everything scatters like a diffuse surface of the same albedo; for dim
+// light, for lamps and bodies, and between objects this starts at the second bounce. Glass is clear.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -29,7 +30,8 @@ class RadiositySolver {
   public:
     using Member = RadiosityMember;
 
-    // lights: of all objects, by number; null where none is cached; they outlive this. Owner thread.
+    // lights: of all objects, by number; null if the object caches no light. They must outlive this. Owner
+    // thread.
     RadiositySolver(std::span<const IrradianceCache* const> lights, const EmbreeScene& scene);
 
     const EmbreeScene& scene() const { return senders_.scene(); }
@@ -41,12 +43,12 @@ class RadiositySolver {
         return lights_[object]->table().size() * (kOfProbe + (mirrored_.empty() ? 0 : sizeof(Spectrum))) +
                second_along_[object].size() * sizeof(PackedSpectrum);
     }
-    // One term. On oneTBB; where its group of tasks is canceled, what comes out is worth nothing. Nothing is allocated but
-    // by links that are more than ever before.
+    // Solves one term. Runs on oneTBB; if its task group is cancelled, the result is undefined. Allocates
+    // only if there are more links than ever before.
     void solve(std::span<const Member> group);
 
   private:
-    // The light that a probe's directions bring the first way, by its brightest bin: sums of it and of its squares.
+    // The first light that a probe's directions bring, by its brightest bin: sum, and sum of squares.
     struct Brought {
         float sum = 0, squares = 0;
 
@@ -56,22 +58,24 @@ class RadiositySolver {
         }
     };
     struct Progress {
-        double change = 0, light = 0;  // weighed sums over all probes and bins
+        double change = 0, light = 0;  // weighted sums over all probes and bins
     };
 
     std::vector<const IrradianceCache*> lights_;
-    ProbeSenders senders_;             // their numbers of probes are those of all that follows
-    std::vector<Spectrum> radiosity_;  // over pi
+    ProbeSenders senders_;             // probes have the same numbers in all that follows
+    std::vector<Spectrum> radiosity_;  // divided by pi
     std::vector<Brought> brought_;
-    std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
-    // Light that has come by one way and goes on by the lobes of bright facets: whether a probe has such, the part of what it
-    // sends, over pi, which therefore is no radiosity, and the irradiance that others' make.
+    // Irradiance: of the first step, of all steps so far, one bounce ago.
+    std::vector<Spectrum> first_, now_, before_;
+    // The second step, by bright facet lobes. By probe: whether it has such a lobe; what it sends by it, over
+    // pi, which is therefore not in radiosity_; and the irradiance that it receives from such lobes.
     std::vector<std::uint8_t> sends_on_;
     std::vector<Spectrum> by_lobes_, second_;
-    // Radiance along the entries of probes with facets that meet such probes, by object; and the number of each probe's first.
+    // By object, the radiance along table entries that meet such probes; by probe, the index of its first
+    // one.
     std::vector<std::vector<PackedSpectrum>> second_along_;
     std::vector<std::uint32_t> first_second_;
-    // The Sun's light that flat mirrors throw on the first's probes; empty: none does.
+    // Sunlight that flat mirrors reflect onto probes in the first step; empty if there are no mirrors.
     std::vector<Spectrum> mirrored_;
 
     using Probes = tbb::blocked_range<std::size_t>;
@@ -85,12 +89,12 @@ class RadiositySolver {
     void part_lobes(const Member& member);
     std::size_t number_second(const Member& member);
     Spectrum sent_on(const Member& member, std::size_t probe, float choice, Vec3f to) const;
-    // Returns what a probe of another object sends along a link: all of it as paint does.
+    // Returns what a probe of another object sends along a link, all of it as from paint.
     Spectrum radiosity_to(const InterObjectLinks::Link& link) const {
         const std::size_t n = senders_.first(link.object) + link.probe;
         return radiosity_[n] + by_lobes_[n];
     }
-    // Returns a probe's irradiance without what mirrors throw there. Only of an object that has such.
+    // Returns a probe's irradiance without the sunlight of mirrors. For objects with mirrors only.
     Spectrum unmirrored(const std::vector<Spectrum>& irradiance, std::size_t probe) const;
     void bounce(std::span<const Member> group);
     Progress gather_again(const Member& member);

@@ -1,6 +1,6 @@
 #pragma once
-// A source whose light is cached (irradiance_cache.h): a place in an object's own axes, rounded, so that what is cached
-// for it is a function of the place alone.
+// A source whose light is cached (irradiance_cache.h): its place in an object's axes, rounded, so that the
+// cached light depends on the rounded place alone.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@
 
 namespace hilcam {
 
-// Directions on an octahedron's faces (Cigolle et al., JCGT 3(2), 2014), at the middle of a cell of a grid.
+// Rounds a direction to the middle of a cell of a grid on an octahedron's faces (Cigolle et al., JCGT 3(2),
+// 2014).
 inline Vec3f rounded_dir(Vec3f dir, float step_rad) {
     const float sum = std::abs(dir.x) + std::abs(dir.y) + std::abs(dir.z);
     const auto sign = [](float x) { return x >= 0 ? 1.0f : -1.0f; };
@@ -24,7 +25,7 @@ inline Vec3f rounded_dir(Vec3f dir, float step_rad) {
     }
     // A face's edge of length 1 spans a right angle.
     const float cells = std::ceil(0.5f * kPiF / step_rad);
-    // Shifted, so that the axes, where much points to, are not on the border of two cells.
+    // Shifted, because many sources are on an axis, which should not be on the border of two cells.
     const auto middle = [cells](float v) { return (std::floor(v * cells + 0.3f) + 0.2f) / cells; };
     x = std::clamp(middle(x), -1.0f, 1.0f), y = std::clamp(middle(y), -1.0f, 1.0f);
     const float z = 1 - std::abs(x) - std::abs(y);
@@ -36,13 +37,13 @@ inline Vec3f rounded_dir(Vec3f dir, float step_rad) {
 struct RadiositySource {
     enum class Kind : std::uint8_t {
         kNone,
-        kSun,   // a point far away; unit: 1 W m^-2 um^-1 across the way
-        kCone,  // a body's disk, of even radiance; the same unit on a surface that faces it
-        kLamp,  // a lamp; unit: intensity on its axis
-        kGlow   // emission of the materials themselves
+        kSun,   // a point far away; unit: 1 W m^-2 um^-1 across its direction
+        kCone,  // a body's disk with uniform radiance; unit: the same on a surface that faces it
+        kLamp,  // unit: intensity on its axis
+        kGlow   // emission of the materials
     };
     Kind kind = Kind::kNone;
-    Vec3f dir{};            // to it; unit. A lamp's axis
+    Vec3f dir{};            // towards the source, unit; a lamp's axis
     float cone_cosine = 1;  // cosine of the cone's half angle
     Vec3f position_m{};     // position of a lamp
     const LampBeam* beam = nullptr;
@@ -51,14 +52,14 @@ struct RadiositySource {
         return kind == o.kind && dir == o.dir && cone_cosine == o.cone_cosine && position_m == o.position_m &&
                beam == o.beam;
     }
-    // Returns the source at the middle of its cell of a grid of about `step_rad`, and of a hundredth of what
-    // is near for a lamp's place.
+    // Returns the source at the middle of its cell, in a grid of about `step_rad`. A lamp's position is
+    // rounded to about a hundredth of its distance from the origin.
     RadiositySource rounded(float step_rad) const;
 };
 
-// The share of a cone of light in each of a probe's directions: those within it whole, and those beside it by
-// falling weights, so far that there are half a dozen: of all directions, sin^2 of a cone's half angle times
-// the cosine of its axis are in it.
+// The weight of each of a probe's directions in a cone of light: 1 inside the cone, falling outside it so far
+// that about six directions count. Of all directions, a cone contains the share sin^2(half angle) times the
+// cosine of its axis.
 struct ConeShare {
     Vec3f axis{0, 0, 1};  // probe axes
     float inside = 1, outside = 1;
@@ -81,7 +82,7 @@ inline RadiositySource RadiositySource::rounded(float step_rad) const {
     RadiositySource out = *this;
     if (kind == Kind::kNone || kind == Kind::kGlow) return out;
     out.dir = rounded_dir(dir, step_rad);
-    // Steps of a sixty-fourth of the sine: 1 % of the half angle, about.
+    // Steps of a sixty-fourth of an octave in the sine: about 1 % of the half angle.
     const float sine = std::sqrt(std::max(0.0f, 1 - cone_cosine * cone_cosine));
     if (kind == Kind::kCone && cone_cosine > 0) {
         const float cached = std::exp2(std::round(std::log2(std::max(sine, 1e-6f)) * 64) / 64);

@@ -41,8 +41,8 @@ void SolveAhead::look_ahead(const SolveKey& key) {
     ahead_.ask();
 }
 
-// Fills the stage with what the key has and the lights have not; what it holds already and is asked for
-// stays. Given up, it holds less.
+// Fills the stage with everything that the key needs and the lights lack, and keeps what it already has. If
+// the work is given up, something is missing.
 void SolveAhead::prepare(const SolveKey& key) {
     prepare_links(key);
     if (AheadThread::was_given_up()) return;
@@ -71,14 +71,15 @@ void SolveAhead::prepare_links(const SolveKey& key) {
         }
         const bool given_up = AheadThread::was_given_up();
         stage_.has_links[i] = wanted && !given_up;
-        // Solutions by way of other links are worth nothing.
+        // Solutions with other links are invalid.
         for (std::vector<std::uint8_t>& has : stage_.has_solution) std::fill(has.begin(), has.end(), 0);
         if (given_up) return;
     }
 }
 
-// True when the group of an object has other members than it is shown with. A group is solved until all of it has enough, so what one
-// of them has depends on the others, also on those that it does not see itself.
+// True when the group of an object has other members than in the light that is in use. A group is solved
+// together until all of it has converged, so each member depends on the others, even on those that it does
+// not see.
 bool SolveAhead::is_regrouped(const SolveKey& key, std::size_t member) const {
     if (key.group == shown_.group) return false;
     return std::any_of(order_.begin(), order_.end(), [&](std::size_t i) {
@@ -99,7 +100,7 @@ void SolveAhead::prepare_group(const SolveKey& key, std::size_t term, std::span<
         shines = shines || source.kind != RadiositySource::Kind::kNone;
     }
     if (staged && differs) return;
-    // A source that does not shine stays as it was: its level is zero.
+    // A source that is off keeps its solution, because its level is zero.
     if (differs && shines) solver_.solve(members_);
     for (const RadiositySolver::Member& member : members_) {
         stage_.has_solution[member.object][term] = differs && shines && !AheadThread::was_given_up();

@@ -1,7 +1,6 @@
 #pragma once
-// Brings cached light up to where the sources are: at once where a frame needs it, and ahead of time, on a
-// thread of its own, where it can be told what the next frames will need. What is cached for a key is the
-// same either way.
+// Updates cached light to the sources' positions: at once if a frame needs it, or ahead of time on a thread
+// of its own if the next frames can be predicted. The result for a key is the same either way.
 
 #include <memory>
 #include <vector>
@@ -14,27 +13,27 @@ namespace hilcam {
 
 class SolveAhead {
   public:
-    // lights: by object, null where none is cached; with the terms in their order. All outlive this. Owner
-    // thread.
+    // lights: by object, null if the object caches no light; with their terms in order. All must outlive
+    // this. Owner thread.
     SolveAhead(std::span<IrradianceCache* const> lights, const EmbreeScene& scene,
                const RadiosityTerms& terms);
     SolveAhead(const SolveAhead&) = delete;
     SolveAhead& operator=(const SolveAhead&) = delete;
 
-    // The lights have what the key asks for when this returns. Loop; where the thread is at work it gives up
-    // the term that it is at, and what is left is made here.
+    // Updates the lights to a key before it returns. If the thread is at work, it abandons its present term,
+    // and the rest is computed here. Loop.
     void bring_to(const SolveKey& key);
-    // Asks the thread for what will be needed; does nothing while it is at work. Loop.
+    // Asks the thread for a key that will be needed; does nothing while the thread is at work. Loop.
     void look_ahead(const SolveKey& key);
     // Ends the thread (AheadThread). Owner thread.
     void stop_looking_ahead() { ahead_.stop(); }
-    // Returns an object's share of the memory of what is made and not taken yet, and of the work.
+    // Returns an object's share of the memory for finished but unused solutions, and for the solver.
     std::size_t bytes(std::size_t object) const;
     bool is_busy() const { return ahead_.is_busy(); }
 
   private:
-    // The parts that have been made and not been taken: links by object, solutions by object and term; and what
-    // of the key they were made for.
+    // Parts that are finished but not in use: links by object, solutions by object and term, and the key that
+    // they belong to.
     struct Stage {
         SolveKey key;
         std::vector<InterObjectLinks> links;
@@ -47,12 +46,12 @@ class SolveAhead {
     RadiosityTerms terms_;
     RadiositySolver solver_;
     SolveKey shown_;
-    std::vector<InterObjectLinks> links_;  // shown
+    std::vector<InterObjectLinks> links_;  // in use
     Stage stage_;
     SolveKey wanted_;
-    std::vector<std::size_t> order_;  // objects whose light is cached, by their groups
+    std::vector<std::size_t> order_;  // objects that cache light, by group
     std::vector<RadiositySolver::Member> members_;
-    AheadThread ahead_;  // the last: it ends first
+    AheadThread ahead_;  // last member, so that it ends first
 
     void prepare(const SolveKey& key);
     void prepare_links(const SolveKey& key);

@@ -18,12 +18,12 @@ Quat extrapolated(Quat then, Quat now, double by) {
         Quat{part(then.w, now.w), part(then.x, now.x), part(then.y, now.y), part(then.z, now.z)});
 }
 
-// Scenes of more objects keep each one's light for itself: pairs would be too many.
+// With more objects than this, each keeps its light to itself: there would be too many pairs.
 constexpr std::size_t kMaxLinked = 64;
-// An object that covers less than this of the sky, where it is nearest, is not looked for.
+// An object that covers less than this share of the sky, where it is nearest, is ignored.
 constexpr float kMinShare = 0.004f;
 
-// True when the other is worth a look from this object; both are in the other's axes.
+// True when the other object matters for this one; both are in the other's axes.
 bool is_near(const IrradianceCache& self, const IrradianceCache& other, const NeighbourObject& there) {
     const float gap_m =
         length(there.place(self.bounds().middle_m) - other.bounds().middle_m) - self.bounds().radius_m;
@@ -105,7 +105,8 @@ void SolveKey::set(const SolveInputs& inputs, std::span<const IrradianceCache* c
         if (terms.emission) add(terms.glow(), {.kind = Kind::kGlow});
         for (std::size_t k = 0; k < count && count <= kMaxLinked; ++k) {
             if (k == i || !lights[k]) continue;
-            // A step of the turn moves what is met by as much as two of the Sun's move its light.
+            // A step of this rotation moves what is met as much as two steps of the Sun's direction move its
+            // light.
             const NeighbourObject there = NeighbourObject::rounded(
                 pose, inputs.objects[k], k, 2 * step_rad, 0.5f * lights[k]->table().probes().cube_m());
             if (!is_near(*lights[i], *lights[k], there)) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// The key of what is solved for a frame (irradiance_cache.h): where the sources are and how the objects stand to each
-// other, all of it rounded.
+// The key of what is solved for a frame (irradiance_cache.h): the positions of the sources and the relative
+// poses of the objects, all rounded.
 
 #include <array>
 #include <span>
@@ -23,7 +23,7 @@ struct RadiosityTerms {
     RadiositySource::Kind kind(std::size_t term) const;
 };
 
-// The places of all that matters in a frame, as they are; world axes.
+// The exact positions of everything that matters in a frame; world axes.
 struct SolveInputs {
     struct Lamp {
         std::size_t number;
@@ -42,21 +42,20 @@ struct SolveInputs {
     std::array<Body, Planetshine::kMaxBodies> bodies;
     std::vector<Lamp> lamps;
 
-    // Finds what comes after `now`, as far from it as `by` times what lies between it and `then`, everything
-    // moving on as it did. False where they have not the same things in them. No allocation but at the first
-    // calls.
+    // Extrapolates from `then` to `now` and beyond by `by` times their difference. Returns false if the two
+    // do not contain the same things. Allocates in the first calls only.
     static bool extrapolate(const SolveInputs& then, const SolveInputs& now, double by, SolveInputs& out);
 };
 
 struct SolveKey {
     std::vector<std::vector<NeighbourObject>> near;     // by object
-    std::vector<std::vector<RadiositySource>> sources;  // by object and term; kNone: it does not shine
-    std::vector<std::uint32_t> group;  // by object: those of one number stand near each other
+    std::vector<std::vector<RadiositySource>> sources;  // by object and term; kNone: the source is off
+    std::vector<std::uint32_t> group;  // by object: objects with the same number are near each other
 
-    // Makes all the room that set() can need. Owner thread.
+    // Allocates everything that set() can need. Owner thread.
     void reserve(std::size_t objects, const RadiosityTerms& terms);
-    // lights: by object, null where none is cached. No allocation after reserve(); without it at the first call
-    // and for neighbours that are more than ever before. Loop.
+    // lights: by object, null if the object caches no light. Without reserve() it allocates at the first
+    // call, and for more neighbours than ever before. Loop.
     void set(const SolveInputs& inputs, std::span<const IrradianceCache* const> lights,
              const RadiosityTerms& terms);
     bool operator==(const SolveKey& o) const { return near == o.near && sources == o.sources; }

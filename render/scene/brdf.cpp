@@ -25,7 +25,7 @@ const LobeAlbedo* facets_of(const Material& material) {
 
 namespace {
 
-// top: the model's chance of a highlight.
+// top: probability of a highlight sample in this model.
 template <class Model>
 float density_of(const Model& model, const Bsdf& at, Cosines c, float top) {
     const float diffuse = (1 - top) * c.ni / kPiF;
@@ -126,8 +126,8 @@ float brdf_below_facets(const Material& material, float no) {
 
 namespace {
 
-// The share of sunlight from 45 degrees that comes back in all directions: the midpoint rule over the
-// hemisphere, for models without narrow lobes.
+// Returns the share of sunlight from 45 degrees that is reflected in all directions: the midpoint rule over
+// the hemisphere, for models without narrow lobes.
 double hemispherical_reflectance(const Bsdf& at, const SpectralGrid& grid) {
     constexpr int kCosines = 32, kAzimuths = 64;
     constexpr float in = 0.70710678f;
@@ -145,7 +145,7 @@ double hemispherical_reflectance(const Bsdf& at, const SpectralGrid& grid) {
 
 }  // namespace
 
-// The albedo that brdf_albedo() has for a path's sake is far above what these models reflect.
+// brdf_albedo(), which serves paths, is far above what these models reflect.
 double reflectance_of(const Material& material, const SpectralGrid& grid) {
     const Bsdf at{&material, material.ggx_alpha, material.base, material.highlight};
     constexpr float kCosine = 0.7f;

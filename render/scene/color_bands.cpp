@@ -35,7 +35,7 @@ Spectrum ColorBands::spectrum(Vec3f rgb) const {
 
 namespace {
 
-// The two texels about a place along one side of a picture, and the share of the second.
+// The two texels around a place along one side of a picture, and the weight of the second.
 struct TexelPair {
     int first, second;
     float share;
@@ -121,7 +121,7 @@ Vec3f MipTexture::sample(float u, float v, float footprint) const {
     const auto last = static_cast<float>(levels_.size() - 1);
     const float at = std::min(level, last);
     const auto low = static_cast<std::size_t>(at);
-    // The finer one alone for half of the way: it is sharper, and one look instead of two.
+    // The finer level alone for half of the way: it is sharper, and needs one lookup instead of two.
     const float share = std::max(0.0f, 2 * (at - static_cast<float>(low)) - 1);
     const Vec3f fine = bilinear(levels_[low], u, v);
     return share > 0 ? (1 - share) * fine + share * bilinear(levels_[low + 1], u, v) : fine;

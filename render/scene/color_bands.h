@@ -1,6 +1,6 @@
 #pragma once
-// Turns the colours of pictures into spectra: sRGB texels as reflectance in three broad bands, laid onto the
-// spectral bins.
+// Turns the colours of pictures into spectra: sRGB texels become reflectance in three broad bands,
+// distributed over the spectral bins.
 
 #include <array>
 #include <cstdint>
@@ -12,17 +12,16 @@
 
 namespace hilcam {
 
-// Linear value of an 8-bit sRGB code (IEC 61966-2-1:1999), 0..1.
+// Returns the linear value of an 8-bit sRGB code (IEC 61966-2-1:1999), 0..1.
 float linear_from_srgb(std::uint8_t code);
 
-// The shares of a texel's red, green and blue that each bin takes; the three sum to 1 in every bin. Blue
-// below 0.49 um, green to 0.58 um, red above (near infrared goes with red): a picture holds no more than
-// that.
+// The weights of a texel's red, green and blue in each bin; they sum to 1. Blue is below 0.49 um, green from
+// there to 0.58 um, red above; near infrared counts as red, because a picture has no more than that.
 class ColorBands {
   public:
     explicit ColorBands(const SpectralGrid& grid);
     Spectrum spectrum(Vec3f linear_rgb) const;
-    // Returns the shares of red, green and blue that one bin takes.
+    // Returns the weights of red, green and blue in one bin.
     std::array<float, 3> shares(int bin) const { return {red_[bin], green_[bin], blue_[bin]}; }
 
   private:
@@ -30,8 +29,8 @@ class ColorBands {
     Spectrum red_, green_, blue_;
 };
 
-// A picture and its halves: each level has half the width and height of the one before, averaged in linear
-// light (Williams, "Pyramidal parametrics", SIGGRAPH 83), kept as 8-bit sRGB.
+// A picture with its mip levels: each level has half the width and height of the one before, averaged in
+// linear light (Williams, "Pyramidal parametrics", SIGGRAPH 83), and is stored as 8-bit sRGB.
 class MipTexture {
   public:
     MipTexture() = default;
@@ -40,11 +39,11 @@ class MipTexture {
     bool empty() const { return levels_.empty(); }
     int width() const { return levels_.front().width; }
     int height() const { return levels_.front().height; }
-    // Linear RGB, 0..1, averaged over about `footprint` (share of the picture's width that is asked for; 0:
-    // none). Bilinear in a level and linear from half of the way to the next on, going on beyond its edges as the
-    // picture says; (0, 0) is the outer corner of texel (0, 0).
+    // Returns linear RGB, 0..1, averaged over about `footprint` (share of the picture's width; 0: no
+    // averaging). Bilinear within a level; from halfway to the next level on, linear between the two. Beyond
+    // the edges the picture's wrap mode applies. (0, 0) is the outer corner of texel (0, 0).
     Vec3f sample(float u, float v, float footprint) const;
-    // Returns the mean of all texels, weighted by `row_weight(v)`, v of the row's middle.
+    // Returns the mean of all texels, weighted by `row_weight(v)` where v is the middle of the row.
     Vec3f mean(const std::function<double(double)>& row_weight) const;
 
   private:

@@ -14,10 +14,10 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kNeighbours = 4096;  // triangles in memory among which groups are looked for
-constexpr int kMaxElsewhere = 256;         // that one meets in other planes before it looks no further
+constexpr std::size_t kNeighbours = 4096;  // triangles in memory that are searched for groups
+constexpr int kMaxElsewhere = 256;         // after this many hits in other planes a triangle stops searching
 
-// Triangles with equal keys may be of one group.
+// Triangles with equal keys may belong to one group.
 struct Candidate {
     std::uint64_t key;
     float area;  // twice that of the triangle [m^2]
@@ -30,8 +30,8 @@ class CoplanarGroupFinder {
     CoplanarGroupFinder(const Mesh& mesh, ObjectSurfaces& surfaces)
         : mesh_(mesh),
           surfaces_(surfaces),
-          // Eight times what single precision rounds a corner by where the body is widest: the plane through three such
-          // corners is off by some times as much.
+          // Eight times the rounding of a corner in single precision at the body's largest extent. The plane
+          // through three such corners is off by several roundings.
           tolerance_m_(0x1p-21 * surfaces.radius_m) {
         surfaces_.coplanar_groups.resize(mesh.triangles.size());
         std::iota(surfaces_.coplanar_groups.begin(), surfaces_.coplanar_groups.end(), 0u);
@@ -75,7 +75,7 @@ class CoplanarGroupFinder {
         all.push_back({std::uint64_t{packed.surface} << 33 | std::uint64_t{packed.flat} << 32 | normal,
                        static_cast<float>(area), t});
     }
-    // A geometric normal in steps so wide that those of one plane hardly ever differ.
+    // A geometric normal in steps so coarse that those of one plane hardly ever differ.
     static std::uint64_t steps(Vec3d normal) {
         const auto step = [](double x) { return static_cast<std::uint64_t>(std::lround(16 * x) + 16); };
         return step(normal.x) | step(normal.y) << 8 | step(normal.z) << 16;
@@ -111,7 +111,7 @@ class CoplanarGroupFinder {
             if (dot(cross(corners[1] - corners[0], corners[2] - corners[0]), normal_) <= 0) return false;
             const double squared = dot(normal_, normal_), off = tolerance_m * std::sqrt(squared);
             constexpr double kReach =
-                static_cast<double>(kCoplanarReach) - 1;  // less what a place is rounded by
+                static_cast<double>(kCoplanarReach) - 1;  // minus the rounding of a place
             return std::all_of(corners.begin(), corners.end(), [&](Vec3d at) {
                 const Vec3d way = at - corner_;
                 return std::abs(dot(way, normal_)) <= off &&
@@ -142,7 +142,8 @@ void find_coplanar_groups(const Mesh& mesh, ObjectSurfaces& surfaces) {
 std::vector<std::uint8_t> may_be_in_coverage_maps(const Mesh& mesh, const ObjectSurfaces& surfaces) {
     std::vector<std::uint8_t> out(mesh.triangles.size());
     if (!mesh.colors.empty() || !mesh.hapke.empty()) return out;
-    // What mirrors show hangs on where they are: tiles of radiators as coverage maps had more false lights than as tiles.
+    // The picture in a mirror depends on its exact position: radiator tiles had more false lights as coverage
+    // maps than as tiles.
     constexpr float kMirror = 0.02f;  // alpha
     for (std::size_t t = 0; t < out.size(); ++t) {
         const Material& material = surfaces.materials[surfaces.triangles[t].surface];
@@ -155,12 +156,12 @@ std::vector<std::uint8_t> may_be_in_coverage_maps(const Mesh& mesh, const Object
 
 namespace {
 
-// Texels may be so much coarser than a level's error. Where an object is nearest that is four times lod_error_px at most, at real time
-// six tenths of a pixel: it blurs gaps, but has their light, which samples that are lit from the middles of gaps have not
-// (docs/decisions.md#coverage-maps-of-flat-parts).
+// The most by which texels may be coarser than a level's error. Where an object is nearest that is at most
+// four times lod_error_px, six tenths of a pixel at real time. It blurs gaps but keeps their light, while
+// samples lit from the middles of gaps lose it (docs/decisions.md).
 constexpr double kTexelOverError = 4;
 
-// Places of a coverage map are found from its ground's triangle, by its edges.
+// Places on a coverage map are computed from its ground's triangle, by the edges of that triangle.
 bool reaches_all(const Mesh& mesh, std::uint32_t triangle, const CoverageMap& coverage_map) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     const Vec3f u = mesh.vertices_m[b] - mesh.vertices_m[a], v = mesh.vertices_m[c] - mesh.vertices_m[a];
@@ -185,7 +186,7 @@ void attach_coverage_maps(const std::shared_ptr<const std::vector<CoverageMap>>&
             surfaces.coplanar_groups.resize(mesh.triangles.size());
             std::iota(surfaces.coplanar_groups.begin(), surfaces.coplanar_groups.end(), 0u);
         }
-        // Who goes on in the ground's plane beside the coverage map is by himself.
+        // Triangles that continue the ground's plane outside the coverage map represent themselves.
         for (std::uint32_t t = 0; t < surfaces.coplanar_groups.size(); ++t)
             if (surfaces.coplanar_groups[t] == ground) surfaces.coplanar_groups[t] = t;
         for (const std::uint32_t t : parts[m].ground) surfaces.coplanar_groups[t] = ground;

@@ -1,11 +1,12 @@
 #pragma once
-// Finds the triangles of a mesh that a pixel may take for one, as they go on in one plane: the cells of a solar panel, the
-// two halves of a quadrangle. One of them, the largest, stands for all: light meets its plane wherever the others are.
+// Finds triangles of a mesh that continue each other in one plane, such as the cells of a solar panel or the
+// two halves of a quadrangle. A pixel then treats the group as one triangle: the largest one represents the
+// others, and its plane is used wherever they are hit.
 //
-// Triangles of a group have the same surface and face the same way, they have one normal (no texture, colours, parameters of
-// their own, or wrinkles that a level has flattened), and their corners lie in the largest one's plane but for the rounding of
-// single precision. They are looked for among neighbours in memory (triangle_order.h), so that groups end here and there where
-// the plane goes on.
+// All triangles of a group have the same surface, side and single normal (no texture, no colours or
+// parameters of their own, no wrinkles flattened by a level). Their corners are in the largest one's plane up
+// to single-precision rounding. Only neighbours in memory are compared (triangle_order.h), so some groups end
+// although the plane continues.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,21 +20,24 @@ namespace hilcam {
 class CoverageMap;
 struct ObjectSurfaces;
 
-// Corners of a group lie no farther from the first corner of what stands for it than so many of its edges.
+// The corners of a group are at most this many edge lengths of its largest triangle away from that triangle's
+// first corner.
 inline constexpr float kCoplanarReach = 64;
 
-// This stands in ObjectSurfaces::coplanar_groups where the camera sees a triangle as part of what lies below it (coverage_map.h).
+// The value of ObjectSurfaces::coplanar_groups for a triangle that the camera sees as part of the coverage
+// map below it (coverage_map.h).
 inline constexpr std::uint32_t kNotShown = ~std::uint32_t{0};
 
-// Writes ObjectSurfaces::coplanar_groups and the marks of those that stand for others, after the normals of a level. The same for
-// any number of threads. mesh: that of which the surfaces were made. Owner thread; some tenths of a second for a million
-// triangles.
+// Fills ObjectSurfaces::coplanar_groups and marks the triangles that represent others; call it after the
+// normals of a level are made. The result does not depend on the number of threads. mesh: the one from which
+// the surfaces were made. Owner thread; takes some tenths of a second for a million triangles.
 void find_coplanar_groups(const Mesh& mesh, ObjectSurfaces& surfaces);
 
-// By triangle, 1 where a coverage map may have it (coverage_map_finder.h). Owner thread.
+// Returns 1 for each triangle that may become part of a coverage map (coverage_map_finder.h). Owner thread.
 std::vector<std::uint8_t> may_be_in_coverage_maps(const Mesh& mesh, const ObjectSurfaces& surfaces);
-// In a level of detail, the ground's largest triangle stands for all of a coverage map where its texels are at most four times as
-// coarse as the level's error, and what lies on the ground is not shown by itself. After find_coplanar_groups(). Owner thread.
+// Attaches coverage maps to a level of detail. The largest triangle of the map's ground represents the whole
+// map, if the map's texels are at most four times as coarse as the level's error; triangles on the ground are
+// then not shown themselves. Call it after find_coplanar_groups(). Owner thread.
 void attach_coverage_maps(const std::shared_ptr<const std::vector<CoverageMap>>& coverage_maps,
                           const Mesh& mesh, double error_m, ObjectSurfaces& surfaces);
 

@@ -25,9 +25,9 @@
 namespace hilcam {
 namespace {
 
-// Occlusion never takes Embree's coherent path: built by a GCC before 14 (Debian 12's is) it does not end on
-// processors with AVX-512, as the compiler leaves rubbish above a 16-bit mask (Embree pull request 574,
-// 2025).
+// Occlusion never uses Embree's coherent path. Built by a GCC before 14, such as Debian 12's, that path does
+// not end on processors with AVX-512, because the compiler leaves garbage above a 16-bit mask (Embree pull
+// request 574, 2025).
 constexpr Coherence kOcclusion = Coherence::kIncoherent;
 // Trees with spatial splits take longer to build and suit long thin triangles, as simplified meshes have.
 constexpr std::size_t kSpatialSplits = 1000000;
@@ -76,16 +76,16 @@ void set_valid(int count, int* valid) {
     for (int i = 0; i < kPacketSize; ++i) valid[i] = i < count ? -1 : 0;
 }
 
-// Rays that do not exist are made harmless: on processors without AVX-512 Embree takes a packet of sixteen
-// apart and looks at all of them, whatever the mask says.
+// Makes unused rays harmless: on processors without AVX-512, Embree splits a packet of sixteen and looks at
+// all of them, whatever the mask says.
 void blank_ray(int i, RTCRay16& rays) {
     rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0;
     rays.dir_x[i] = rays.dir_y[i] = 0, rays.dir_z[i] = 1;
     rays.tnear[i] = 0, rays.tfar[i] = -std::numeric_limits<float>::infinity();
 }
 
-// Embree ends the program at a ray that begins or points beyond the root of the largest float, or is no number. What is let into
-// a frame makes none (motion_bounds.h); should there be one all the same, it meets nothing.
+// Embree ends the program at a ray that starts or points beyond the root of the largest float, or is not
+// finite. Frames make no such rays (motion_bounds.h); if there is one nevertheless, it meets nothing.
 void stop_wild_rays(RTCRay16& rays) {
     constexpr float kMax = 1.8e18f;
     const auto wild = [&rays](int i) {
@@ -159,7 +159,7 @@ MeshView view_of(RTCScene scene, const Mesh& mesh) {
 
 }  // namespace
 
-// An object whose instance has to be told its scene anew.
+// Marks an object whose instance needs its scene set again.
 constexpr std::size_t kNoLevel = std::numeric_limits<std::size_t>::max();
 
 struct EmbreeScene::Implementation {
@@ -168,9 +168,9 @@ struct EmbreeScene::Implementation {
     std::vector<std::vector<RTCScene>> levels;  // per object
     std::vector<std::vector<MeshView>> meshes;  // their meshes, where Embree keeps them
     std::vector<std::size_t> shown;             // level of each
-    std::vector<std::uint8_t> absent;           // per object: it is nowhere in this frame
+    std::vector<std::uint8_t> absent;           // per object: it is not in this frame
     std::vector<RTCGeometry> instances;
-    std::vector<PreparedMesh::Grids> grids;  // per object; of a mesh of triangles none
+    std::vector<PreparedMesh::Grids> grids;  // per object; empty for a mesh of triangles
 
     struct Recorded {
         RayPacket rays;
@@ -237,7 +237,7 @@ struct EmbreeScene::Implementation {
         rtcCommitScene(scene);
         require_no_error("building a mesh's tree");
     }
-    // Finds which triangle of the object was met, and where, from what Embree says of a grid.
+    // Finds the object's triangle and the place in it from Embree's hit on a grid.
     void name_triangle(std::size_t object, HitPacket& hits, std::size_t i) const {
         const std::vector<MeshGrid>& all = grids[object].all;
         if (all.empty()) return;
@@ -286,7 +286,7 @@ void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size
     Implementation& my = *implementation_;
     HILCAM_CHECK(objects.size() == my.instances.size() && levels.size() == objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
-        // One whose place is no number is nowhere.
+        // An object with a position that is not finite is left out.
         const bool absent = !is_finite(objects[i].position_world_m);
         if (absent != (my.absent[i] != 0)) (absent ? rtcDisableGeometry : rtcEnableGeometry)(my.instances[i]);
         my.absent[i] = absent;
@@ -294,7 +294,7 @@ void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size
         if (my.shown[i] != levels[i])
             rtcSetGeometryInstancedScene(my.instances[i], my.levels[i][my.shown[i] = levels[i]]);
         const Mat3d r = to_matrix(objects[i].world_from_body);
-        // The only narrowing of the world: after the camera is subtracted.
+        // The only narrowing of the world, after the camera was subtracted.
         const Vec3f t = to_float(objects[i].position_world_m - origin_world_m);
         const Vec3f rx = to_float(r.x), ry = to_float(r.y), rz = to_float(r.z);
         const float columns[12] = {rx.x, ry.x, rz.x, rx.y, ry.y, rz.y, rx.z, ry.z, rz.z, t.x, t.y, t.z};

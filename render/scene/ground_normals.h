@@ -1,9 +1,11 @@
 #pragma once
-// Normals of ground that is finer than its triangles: a grid of them on each square tile of 32 x 32 quadrilaterals, kTexels on an
-// edge of a quadrilateral, and another half as fine, between which the tile's vertices choose.
+// Normals of ground at a finer resolution than its triangles. Each square tile has 32 x 32 quadrilaterals and
+// a grid of normals with kTexels along an edge of a quadrilateral, and a second grid with half that
+// resolution. Weights at the tile's vertices blend the two.
 //
-// A tile's triangles come two by two, row by row: of the quadrilateral at (x, y) first that of its corners (0, 0), (1, 0), (0, 1), then
-// (1, 0), (1, 1), (0, 1). What comes after them in a tile, and after the last tile, has no such normals.
+// A tile's triangles come in pairs, row by row: for the quadrilateral at (x, y) first the triangle of the
+// corners (0, 0), (1, 0), (0, 1), then (1, 0), (1, 1), (0, 1). Later triangles of a tile, and those after the
+// last tile, have no such normals.
 
 #include <array>
 #include <cmath>
@@ -16,7 +18,7 @@
 
 namespace hilcam {
 
-// A triangle's sunlight is known in one of these ways before a ray asks.
+// A triangle's sunlight as known in advance: a ray has to ask, it is lit, or it is dark.
 enum class SunVisibility : std::uint8_t { kAsk, kLit, kDark };
 
 class GroundNormals {
@@ -26,8 +28,9 @@ class GroundNormals {
     using Grid = std::vector<std::uint32_t>;  // packed normals, by row
 
     struct Tile {
-        std::shared_ptr<const Grid> own, above;                       // kSide x kSide, kHalfSide x kHalfSide
-        std::array<std::uint8_t, (kQuads + 1) * (kQuads + 1)> share;  // at a vertex, of the second: 0 to 255
+        std::shared_ptr<const Grid> own, above;  // kSide x kSide, kHalfSide x kHalfSide
+        // Weight of `above` at each vertex, 0 to 255.
+        std::array<std::uint8_t, (kQuads + 1) * (kQuads + 1)> share;
     };
     std::vector<Tile> tiles;
     std::uint32_t triangles_per_tile = 1;
@@ -37,7 +40,8 @@ class GroundNormals {
                triangle % triangles_per_tile < 2 * kQuads * kQuads;
     }
 
-    // Finds the normal at barycentric (u, v) of a triangle, unit; false where there is none. Loop, any thread.
+    // Finds the unit normal at barycentric (u, v) of a triangle; returns false if it has no such normals.
+    // Loop, any thread.
     bool find(std::uint32_t triangle, float u, float v, Vec3f& normal) const {
         if (!has(triangle)) return false;
         const std::uint32_t in_tile = triangle % triangles_per_tile;

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kQuads = GroundNormals::kQuads, kSide = kQuads + 1;
 using SeenCells = std::array<std::uint8_t, kSide * kSide>;             // 1: the vertex sees the Sun
-constexpr int kCellsAcross = 4, kLanes = kCellsAcross * kCellsAcross;  // vertices that are asked together
+constexpr int kCellsAcross = 4, kLanes = kCellsAcross * kCellsAcross;  // vertices that are tested together
 constexpr std::uint32_t kBlock = 4;                                    // quadrilaterals on an edge of a block
 constexpr float kInfinitelyFar = std::numeric_limits<float>::infinity();
 
-// A box as the Sun sees it: z towards the Sun.
+// A box in the Sun's view: z towards the Sun.
 struct Box {
     float x0 = kInfinitelyFar, x1 = -kInfinitelyFar, y0 = kInfinitelyFar, y1 = -kInfinitelyFar,
           z0 = kInfinitelyFar, z1 = -kInfinitelyFar;
@@ -31,7 +31,7 @@ struct Box {
         grow(Vec3f{other.x0, other.y0, other.z0});
         grow(Vec3f{other.x1, other.y1, other.z1});
     }
-    // True where something in this box may stand between something in the other and the Sun.
+    // True if something in this box may be between something in the other box and the Sun.
     bool may_shade(const Box& other) const {
         return x0 <= other.x1 && x1 >= other.x0 && y0 <= other.y1 && y1 >= other.y0 && z1 > other.z0;
     }
@@ -48,7 +48,7 @@ struct Shades {
     std::vector<std::array<Vec3f, 3>> triangles;
 };
 
-// A mesh as the Sun sees it.
+// A mesh in the Sun's view.
 class SunView {
   public:
     SunView(const TerrainMesh& terrain, Vec3d sun_dir)
@@ -80,7 +80,7 @@ class SunView {
     const Mesh& mesh_;
     const std::vector<MeshGrid>& grids_;
     Vec3f x_, y_, z_;
-    std::vector<Vec3f> points_;  // vertices as the Sun sees them
+    std::vector<Vec3f> points_;  // vertices in the Sun's view
     std::vector<Shades> shades_;
 
     Vec3f seen_by_sun(Vec3f v) const { return {dot(v, x_), dot(v, y_), dot(v, z_)}; }
@@ -112,12 +112,14 @@ void SunView::find_shades(const MeshGrid& grid, Shades& out) const {
         }
 }
 
-// Bit i set: the triangle, which faces away from the Sun, stands between vertex i and the Sun.
+// Returns a word in which bit i is set if the triangle, which faces away from the Sun, is between vertex i
+// and the Sun.
 std::uint32_t SunView::blocked(const Packet& p, const std::array<Vec3f, 3>& t) {
     const auto& [a, b, c] = t;
     std::array<std::uint32_t, kLanes> over;
     for (std::size_t i = 0; i < kLanes; ++i) {
-        // Twice the areas on the other sides of the three edges; along an edge that two triangles share they differ in the sign alone.
+        // Twice the areas beyond the three edges. For an edge that two triangles share they differ only in
+        // sign.
         const float ax = a.x - p.x[i], ay = a.y - p.y[i], bx = b.x - p.x[i], by = b.y - p.y[i],
                     cx = c.x - p.x[i], cy = c.y - p.y[i];
         const float ab = by * ax - bx * ay, bc = cy * bx - cx * by, ca = ay * cx - ax * cy;
@@ -129,7 +131,7 @@ std::uint32_t SunView::blocked(const Packet& p, const std::array<Vec3f, 3>& t) {
     return bits;
 }
 
-// The blocks that may stand between something in a box and the Sun.
+// Returns the blocks that may be between something in a box and the Sun.
 std::vector<SunView::Candidate> SunView::shades_over(const Box& box) const {
     std::vector<Candidate> out;
     for (const Shades& shades : shades_)
@@ -143,12 +145,12 @@ SeenCells SunView::seen_from_tile(const MeshGrid& grid) const {
     const auto vertex = [&](int x, int y) {
         return grid.first_vertex + static_cast<std::size_t>((y + 1) * (kQuads + 3) + x + 1);
     };
-    // Above the ground by a hundredth of an edge, so that no triangle at the vertex hides it.
+    // Raised above the ground by a hundredth of an edge, so that no triangle at the vertex hides it.
     constexpr float kAbove = 0.01f;
     const float above_m = kAbove * length(mesh_.vertices_m[vertex(1, 0)] - mesh_.vertices_m[vertex(0, 0)]);
     std::array<Vec3f, kSide * kSide> starts;
     SeenCells seen;
-    Box all;  // about those that face the Sun
+    Box all;  // around those that face the Sun
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const std::size_t v = vertex(static_cast<int>(i) % kSide, static_cast<int>(i) / kSide);
         const Vec3f normal = seen_by_sun(mesh_.normals[v]);
@@ -161,7 +163,7 @@ SeenCells SunView::seen_from_tile(const MeshGrid& grid) const {
     for (int y0 = 0; y0 < kSide; y0 += kCellsAcross)
         for (int x0 = 0; x0 < kSide; x0 += kCellsAcross) {
             Packet packet;
-            std::array<std::size_t, kLanes> of;  // beyond the tile's edge those at it
+            std::array<std::size_t, kLanes> of;  // clamped to the tile's edge
             std::uint32_t lit = 0;
             for (std::size_t i = 0; i < kLanes; ++i) {
                 const int dx = static_cast<int>(i) % kCellsAcross, dy = static_cast<int>(i) / kCellsAcross;
@@ -182,7 +184,7 @@ SeenCells SunView::seen_from_tile(const MeshGrid& grid) const {
     return seen;
 }
 
-// Returns what those around a quadrilateral in the tile have seen.
+// Returns the visibility of the Sun at the vertices around a quadrilateral.
 SunVisibility known_of(const SeenCells& seen, int x, int y) {
     int lit = 0, all = 0;
     for (int j = std::max(0, y - 1); j <= std::min(kQuads, y + 2); ++j)

@@ -1,10 +1,12 @@
 #pragma once
-// Where the ground of a mesh of tiles (ground_normals.h) is surely lit by the Sun or surely in shadow: the Sun stands still while a
-// mesh is shown, so one question a vertex, beside the frames, saves most of those a pixel.
+// Finds which parts of a ground mesh (ground_normals.h) are surely lit by the Sun or surely in shadow. The
+// Sun stands still while a mesh is shown, so one test per vertex, made beside the frames, saves most of the
+// tests per pixel.
 //
-// Ground is seen as the Sun sees it: in a plane across its rays, where a vertex is a point and whatever shades it lies over it. A ray that leaves
-// the ground can come back into it only where the ground faces away from the Sun, which little of it does: only those triangles are asked,
-// and exactly (an irregular z-buffer; Johnson, Lee, Burns and Mark, ACM Trans. Graphics 24(4), 1462, 2005).
+// The ground is projected along the Sun's rays, where each vertex is a point and the triangles that shade it
+// cover that point. A ray from the ground to the Sun can re-enter the ground only through triangles that face
+// away from the Sun. These are few, and are tested exactly (an irregular z-buffer; Johnson, Lee, Burns and
+// Mark, ACM Trans. Graphics 24(4), 1462, 2005).
 
 #include <vector>
 
@@ -12,9 +14,9 @@
 
 namespace hilcam {
 
-// Asks the Sun from each vertex of a mesh with tiles, sun_dir in terrain axes. A triangle is lit or dark where all
-// vertices within a quadrilateral of its corners are; others, and those of a tile's skirts, are to be asked. A
-// shadow that passes between vertices, narrower than a quadrilateral, is not seen. Any thread; allocates.
+// Tests each vertex of a mesh with tiles; sun_dir in terrain axes. A triangle is lit or dark if all vertices
+// within one quadrilateral of its corners are. Rays must ask for the others and for those of tile skirts.
+// Shadows narrower than a quadrilateral can pass between vertices unnoticed. Any thread; allocates.
 std::vector<SunVisibility> sun_visibility(const TerrainMesh& terrain, Vec3d sun_dir);
 
 }  // namespace hilcam

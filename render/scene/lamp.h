@@ -1,13 +1,13 @@
 #pragma once
-// Lamps: what shines in the world besides the Sun and the bodies that it lights. Flood lights of an
-// inspector, the landing light of a lander.
+// Lamps: sources of light besides the Sun and the bodies that it lights, such as flood lights of an inspector
+// or the landing light of a lander.
 //
-// A lamp is a point. At the angle theta off its axis it sends the radiant intensity
+// A lamp is a point. At the angle theta from its axis its radiant intensity is
 //     I(theta) = level I_0 b(theta)    [W sr^-1 um^-1],
-// the same all around the axis; a surface at a distance d across the ray gets the irradiance I(theta) / d^2
-// (Lambert, Photometria, 1760). Level 1 is the data sheet's I_0, 0 is off.
+// the same all around the axis; a surface across the ray at a distance d receives the irradiance I(theta) /
+// d^2 (Lambert, Photometria, 1760). Level 1 is the data sheet's I_0, level 0 is off.
 //
-// Not modelled: the lamp's size (shadows have sharp edges), its warming up, a beam that is not round.
+// Not modelled: the lamp's size (shadows have sharp edges), its warm-up, beams that are not round.
 
 #include <array>
 #include <cstddef>
@@ -19,23 +19,24 @@
 
 namespace hilcam {
 
-// A lamp may sit on a surface: what is nearer to it than that casts no shadow.
+// A lamp may be mounted on a surface, so anything nearer to it than this casts no shadow.
 inline constexpr double kLampClearance_m = 1e-3;
 
-// b(theta): intensity over that on the axis. Immutable; any thread.
+// b(theta): the intensity relative to that on the axis. Immutable; any thread.
 class LampBeam {
   public:
-    // The same in all directions.
+    // The same intensity in all directions.
     LampBeam() = default;
-    // b = cos^n(theta), the usual model of an LED behind a lens (Moreno & Sun, Optics Express 16(3), 2008),
-    // and nothing behind. The beam angle is the full one between the directions of half the intensity
-    // (ANSI/IES LS-1): n = ln(1/2) / ln(cos(angle / 2)). 120 degrees are a Lambertian source. In (0, pi).
+    // Returns b = cos^n(theta), the usual model of an LED behind a lens (Moreno & Sun, Optics Express 16(3),
+    // 2008); nothing is emitted backwards. The beam angle, in (0, pi), is the full angle between the two
+    // directions of half intensity (ANSI/IES LS-1): n = ln(1/2) / ln(cos(angle / 2)). 120 degrees give a
+    // Lambertian source.
     static LampBeam of_angle(double full_rad);
-    // Makes the beam from measurements: relative intensity over theta [rad], from 0 on; dark beyond the last
-    // angle.
+    // Makes the beam from measured relative intensity over theta [rad], which starts at 0; dark beyond the
+    // last angle.
     static LampBeam of_table(Table by_angle_rad);
 
-    // Unit vectors.
+    // Returns b along a direction from the lamp. Both are unit vectors.
     double at(Vec3d axis, Vec3d from_lamp_dir) const;
 
   private:
@@ -44,25 +45,26 @@ class LampBeam {
     Table by_angle_;  // empty: none
 };
 
-// More would want another way than a shadow ray to each.
+// Each lamp costs a shadow ray at each shading point; more lamps would need another method.
 inline constexpr std::size_t kMaxLamps = 16;
 
-// A lamp as it stands after loading.
+// A lamp after loading.
 struct SceneLamp {
     std::string name;
-    std::size_t thing = 0;       // that carries it; 0: the camera's body; 1, 2, ...: of the scene's objects
+    // The thing that carries it; 0: the camera's body; 1, 2, ...: objects of the scene.
+    std::size_t thing = 0;
     Spectrum intensity_w_sr_um;  // I_0
     LampBeam beam;
 };
 
-// A lamp at one instant, or the mean over several.
+// The state of a lamp at one instant, or its mean over several.
 struct ShownLamp {
     Vec3d position_world_m;
-    Vec3d axis{0, 0, 1};  // in the world, unit
+    Vec3d axis{0, 0, 1};  // unit vector in the world
     double level = 0;
 };
 
-// The lamps of a world, in a list that needs no memory of its own.
+// The lamps of a world, in a list that does not allocate.
 class ShownLamps {
   public:
     std::size_t size() const { return size_; }

@@ -139,8 +139,8 @@ Material make_material(const MeshSurface& surface, const SpectralGrid& grid) {
                        static_cast<double>(surface.base_color.y), static_cast<double>(surface.base_color.x)},
                       {}};
     if (surface.opacity < 1) return veil_of(surface, color, grid);
-    // glTF 2.0, appendix B, blends both looks; here the greater share decides, and a half metal is a darker
-    // one.
+    // glTF 2.0, appendix B, blends both looks. Here the larger share decides, and a half metal becomes a
+    // darker one.
     const float metallic = std::clamp(surface.metallic, 0.0f, 1.0f);
     // A file's roughness 0 means "polished"; 0.03 keeps the highlight wider than the Sun's own disk.
     const float roughness = std::clamp(surface.roughness, 0.03f, 1.0f);

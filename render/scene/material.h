@@ -2,8 +2,8 @@
 // The material of a surface: a reflection model (render/brdf) with its spectra. brdf.h says how it scatters
 // light.
 //
-// Emission: a grey-by-bin body of 1 - reflectance (Kirchhoff 1860) at `temperature_k`. Not modelled:
-// polarisation, anisotropy, fluorescence, subsurface transport.
+// Emission: in each bin a grey body of emissivity 1 - reflectance (Kirchhoff 1860) at `temperature_k`. Not
+// modelled: polarisation, anisotropy, fluorescence, subsurface transport.
 
 #include <memory>
 #include <span>
@@ -16,42 +16,42 @@
 
 namespace hilcam {
 
-// A material as a file gives it: keys that models share, and those of each model.
+// A material as a file gives it: keys that all models share, and the keys of each model.
 using MaterialConfig = BrdfModels::Keys;
 Fields fields(MaterialConfig& config);
-// Refuses what would create energy. InputError.
+// Throws InputError if the material would create energy.
 void validate(const MaterialConfig& config);
 
-// A surface of a mesh and what covers it.
+// A surface of a mesh and its material.
 struct SurfaceConfig {
-    std::string name;  // name of the mesh's surface; "*" is a prefix match ("mli_*")
+    std::string name;  // name of the mesh's surface; "*" at the end matches any ending ("mli_*")
     MaterialConfig material;
 };
 Fields fields(SurfaceConfig& config);
 
-// A material on the run's spectral grid. For rays.
+// A material on the run's spectral grid, as rays use it.
 struct Material {
     Brdf brdf;
-    Spectrum base, highlight;  // spectra as BsdfInputs has them
-    float ggx_alpha = 0;       // 0: an exact mirror on top
-    Spectrum emission;         // radiance of its own [W m^-2 sr^-1 um^-1]
-    int texture = -1;  // into the object's textures; scales base, and the highlight where there is no body
-    bool colored = false;  // the mesh has colours at its corners, which scale the same
+    Spectrum base, highlight;  // spectra, see BsdfInputs
+    float ggx_alpha = 0;       // 0: an exact mirror
+    Spectrum emission;         // emitted radiance [W m^-2 sr^-1 um^-1]
+    int texture = -1;  // index of the object's textures; scales base, or the highlight if there is no body
+    bool colored = false;  // the mesh has vertex colours, which scale the same spectra
 
     bool varies() const { return texture >= 0 || colored; }
     const BrdfTraits& traits() const { return kBrdfTraits[brdf.index()]; }
     bool has_facets() const { return traits().has_facets; }
     bool transmits() const { return traits().transmits; }
-    // Facets are all there is: a metal or a mirror.
+    // True when the surface consists of facets only: a metal or a mirror.
     bool is_bare() const { return has_facets() && !traits().has_body; }
 };
 
-// Throws InputError where a curve does not cover the grid. `table` is for a model that takes one.
+// Throws InputError if a curve does not cover the grid. `table` is for models that use one.
 Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
                        std::shared_ptr<const BrdfTable> table = nullptr);
-// The mesh's own colours, for surfaces that no config names. Linear sRGB primaries are taken as three broad
-// bands (below 0.49 um blue, to 0.58 um green, above red): a stand-in with the right colour, not a measured
-// spectrum.
+// Makes the material of a surface that no config names, from the mesh's own colours. Linear sRGB values
+// become three broad bands (blue below 0.49 um, green to 0.58 um, red above): the right colour, but not a
+// measured spectrum.
 Material make_material(const MeshSurface& surface, const SpectralGrid& grid);
 // Returns the first config whose name matches, or null.
 const SurfaceConfig* find_surface(std::span<const SurfaceConfig> configs, const std::string& name);

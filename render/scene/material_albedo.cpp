@@ -37,8 +37,8 @@ MaterialAlbedo::MaterialAlbedo(const Material& material) {
         if (!material.has_facets()) {
             base_[k] = all;
         } else {
-            // The base is light that leaves the facets after several reflections, or enters the body
-            // (material.h).
+            // The base is light that leaves the facets after several reflections or enters the body
+            // (facet_lobe.h).
             base_[k] = std::max(0.0f, brdf_below_facets(material, cosine)) * material.base;
             for (int b = 0; b < kMaxBins; ++b) lobe_[k][b] = std::max(0.0f, all[b] - base_[k][b]);
         }

@@ -1,6 +1,6 @@
 #pragma once
-// The share of light that a material reflects in all, by the cosine of the angle to its normal: all that kept
-// light (irradiance_cache.h) needs of a BRDF, as it knows light only by the irradiance that it makes.
+// The total share of light that a material reflects, by the cosine of the angle to its normal. The irradiance
+// cache (irradiance_cache.h) needs no more of a BRDF, because it knows light only by its irradiance.
 
 #include <array>
 
@@ -8,19 +8,19 @@
 
 namespace hilcam {
 
-// Directional albedos at equal steps of the cosine, linear between them; integrated from the material's own
-// samples (brdf.h), so for every model the same way: good to 1e-3. By reciprocity they hold for the direction
-// to the light under a wide sky's view and for the direction to the viewer under a wide sky.
+// Directional albedos at equal steps of the cosine, linear between them. They are integrated from the
+// material's own samples (brdf.h), so it works the same for every model, and are good to 1e-3. By reciprocity
+// the cosine may be that of the light or that of a viewer under uniform light.
 class MaterialAlbedo {
   public:
     MaterialAlbedo() = default;
     explicit MaterialAlbedo(const Material& material);
 
-    // This is what facets reflect at once; zero for materials without them.
+    // Returns the share that facets reflect directly; zero for materials without facets.
     Spectrum lobe(float cosine) const { return at(lobe_, cosine); }
-    // This is all the rest, which goes everywhere.
+    // Returns the share of everything else, which is scattered in all directions.
     Spectrum base(float cosine) const { return at(base_, cosine); }
-    // These are the same two, under light from everywhere.
+    // The same two under uniform light from all directions.
     const Spectrum& white_lobe() const { return white_lobe_; }
     const Spectrum& white_base() const { return white_base_; }
 

@@ -1,9 +1,11 @@
 #pragma once
-// Squares of a mesh whose vertices are a grid: a tree over them is made in a quarter of the time of one over their triangles.
+// Parts of a mesh whose vertices form a square grid. A tree over grids is built in a quarter of the time of
+// one over triangles.
 //
-// Vertices lie row by row, quads + 3 along an edge. The outermost ring of them is the lower end of a skirt that hangs from the grid's edges; its four
-// corners are where their neighbours are. Triangles come two by two, row by row: of the quadrilateral at (x, y) first that of the corners (0, 0),
-// (1, 0), (0, 1), then (1, 0), (1, 1), (0, 1); after those within the skirt come the skirt's, around the grid against the clock.
+// Vertices are stored row by row, quads + 3 along an edge. The outermost ring is the lower end of a skirt
+// that hangs from the grid's edges; its four corners coincide with their neighbours. Triangles come in pairs,
+// row by row: for the quadrilateral at (x, y) first the triangle of the corners (0, 0), (1, 0), (0, 1), then
+// (1, 0), (1, 1), (0, 1). The skirt's triangles follow, counterclockwise around the grid.
 
 #include <algorithm>
 #include <array>
@@ -16,12 +18,12 @@ struct MeshGrid {
     std::uint32_t first_vertex = 0, first_triangle = 0;  // numbers in the mesh
     std::uint32_t quads = 1;                             // along an edge, without the skirt
 
-    // A grid of so many quadrilaterals has so many of these.
+    // The sizes of a grid with this many quadrilaterals along an edge.
     static constexpr std::size_t side(std::size_t quads) { return quads + 3; }
     static constexpr std::size_t vertices(std::size_t quads) { return side(quads) * side(quads); }
     static constexpr std::size_t triangles(std::size_t quads) { return 2 * quads * (quads + 4); }
 
-    // Returns the number of a quadrilateral with the skirt's around the others, 0 to quads + 1 each way.
+    // Returns the number of a quadrilateral; x and y run from 0 to quads + 1, including the skirt's.
     std::uint32_t quad_at(std::uint32_t x, std::uint32_t y) const {
         const auto along = [&](std::uint32_t k) { return std::clamp(k, 1u, quads) - 1; };
         const std::uint32_t inner = quads * quads;
@@ -31,7 +33,8 @@ struct MeshGrid {
         if (x == 0) return inner + 3 * quads + quads - 1 - along(y);
         return (y - 1) * quads + x - 1;
     }
-    // Calls f(first triangle, lower left vertex) for each quadrilateral but the four in the corners, which have no area.
+    // Calls f(first triangle, lower left vertex) for each quadrilateral except the four at the corners, which
+    // have no area.
     template <class F>
     void for_each_quad(const F& f) const {
         for (std::uint32_t y = 0; y <= quads + 1; ++y)
@@ -45,7 +48,7 @@ struct MeshGrid {
         std::uint32_t triangle;
         float u, v;  // barycentric: corner 1, corner 2
     };
-    // Finds what lies at shares of the whole grid's width and height, with the skirt.
+    // Returns the place at a share (0..1) of the width and height of the whole grid, including the skirt.
     Place place_at(float across, float up) const {
         const auto cells = static_cast<float>(quads + 2);
         const auto cell = [&](float at) {

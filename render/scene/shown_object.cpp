@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-// Widens the lobes of facets that a level has flattened: slopes add by their squares.
+// Widens the lobes of facets by the slopes that a level has flattened, in quadrature.
 std::vector<Material> widened(std::vector<Material> materials, const std::vector<float>& flattened_alpha) {
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (materials[i].has_facets() && materials[i].ggx_alpha > 0 && flattened_alpha[i] > 0)
@@ -19,7 +19,7 @@ std::vector<Material> widened(std::vector<Material> materials, const std::vector
     return materials;
 }
 
-// Neighbours in the mesh's order, which lie close together, have a box together.
+// Neighbours in the mesh's order, which are close together, share a box.
 std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
     constexpr std::size_t kMax = 512;  // a frame looks at all of them
     const auto& clusters = mesh.cluster_bounds_m;
@@ -32,8 +32,9 @@ std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
     return out;
 }
 
-// Levels of smaller errors, over the object's size, have no coverage maps: texels of small panels would be many. Those of a
-// satellite with wings from 20 to 40 m have more (docs/decisions.md#coverage-maps-of-flat-parts).
+// Levels with smaller errors, relative to the object's size, have no coverage maps, because small panels
+// would have too many texels. Those of a satellite with wings from 20 to 40 m have larger errors
+// (docs/decisions.md).
 constexpr double kFinestCoverageMap = 1.0 / 65536;
 
 }  // namespace

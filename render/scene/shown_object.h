@@ -1,5 +1,5 @@
 #pragma once
-// The scene's objects as the renderer keeps them: surfaces for shading at every level of detail.
+// The scene's objects as the renderer holds them: surfaces for shading at every level of detail.
 
 #include <array>
 #include <memory>
@@ -13,23 +13,23 @@ namespace hilcam {
 
 struct ShownObject {
     std::string name;
-    std::vector<std::shared_ptr<const ObjectSurfaces>> levels;  // the mesh itself first; shared by its like
+    std::vector<std::shared_ptr<const ObjectSurfaces>> levels;  // full mesh first; shared by equal objects
     std::vector<double> error_m;                                // error of each level
-    std::shared_ptr<const TransferTable> transfer;  // null: no light is cached on it; shared by its like
+    std::shared_ptr<const TransferTable> transfer;  // null: no light is cached; shared by equal objects
     double turn_rate_rad_s = 0;
-    // Least and greatest corners of boxes that hold the mesh, 512 at most; body axes.
+    // Boxes (least and greatest corner) that together hold the mesh, 512 at most; body axes.
     std::vector<std::array<Vec3f, 2>> bounds_m;
 
-    // Returns how far a place [m, body axes] is from the nearest of these boxes; 0 within one.
+    // Returns the distance from a place [m, body axes] to the nearest of these boxes; 0 inside one.
     double distance_m(Vec3d from_m) const;
     const std::vector<Material>& materials() const { return levels.front()->materials; }
     double radius_m() const { return levels.front()->radius_m; }
 };
 
-// Per object its meshes, from fine to coarse, their triangles ordered for the cache. They stay in the scene.
-// Objects that are like another have the same ones.
+// Returns the meshes of each object, from fine to coarse, with triangles ordered for the cache. The scene
+// keeps ownership. Objects that are like another get the same meshes.
 std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene);
-// Takes the objects out of the scene; ordered_meshes() comes first.
+// Moves the objects out of the scene; call ordered_meshes() first.
 std::vector<ShownObject> shown_objects(Scene& scene);
 
 }  // namespace hilcam

@@ -16,7 +16,7 @@ Pose pose_on_body(const SceneTerrain& terrain, const BodyState& body) {
             to_quat(world_from_fixed * fixed_from_terrain)};
 }
 
-// Beyond the field, so that a camera that turns slowly sees no edge of what is fine.
+// Extends the field, so that a slowly turning camera does not see the edge of the fine part.
 constexpr double kFieldMargin_rad = 0.1;
 
 }  // namespace
@@ -41,8 +41,8 @@ ShownTerrain::ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> te
       index_(index),
       streamer_(embree, *terrain_->ground, terrain_->material) {}
 
-// Other terrain is needed once the camera has moved by a fiftieth of its distance to the ground under it, or where
-// its field reaches beyond what the mesh was made for.
+// Terrain has to be made anew when the camera has moved by a fiftieth of its distance to the ground below it,
+// or when its field extends beyond the one that the mesh was made for.
 bool ShownTerrain::is_stale(const TerrainView& view) const {
     const TerrainView& old = made_for_;
     if (length(view.camera_m - old.camera_m) > 0.02 * length(view.camera_m - anchor_m_)) return true;
@@ -98,7 +98,7 @@ std::optional<double> ShownTerrain::height_above_ground_m() const {
     const Terrain& ground = *terrain_->ground;
     if (const auto known = ground.height_above_ground_m(seen_from_m_)) return known;
     if (!any_ || !is_finite(seen_from_m_)) return {};
-    // Down, or where nothing is below, up.
+    // Downwards, or upwards if nothing is below.
     const Vec3f up = to_float(ground.up_at(seen_from_m_)), from = to_float(seen_from_m_ - anchor_m_);
     RayPacket rays;
     rays.count = 2;

@@ -1,5 +1,5 @@
 #pragma once
-// The scene's terrain as one of the renderer's objects, brought up to date with the camera.
+// The scene's terrain as one of the renderer's objects, kept up to date with the camera.
 
 #include <memory>
 #include <optional>
@@ -10,29 +10,29 @@
 
 namespace hilcam {
 
-// Gives a scene with terrain an object in its place, the last one; nothing without terrain.
+// Adds an object for the terrain as the scene's last one, if the scene has terrain.
 Scene& with_terrain_object(Scene& scene);
 
 class ShownTerrain {
   public:
-    // index: of that object. Owner thread.
+    // index: number of that object. Owner thread.
     ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> terrain, std::size_t index);
 
-    // Returns the greatest number of triangles that its mesh is made of, about.
+    // Returns the approximate largest number of triangles of its mesh.
     std::size_t max_triangles() const { return terrain_->max_triangles; }
-    // Frames wait for the mesh that they ask for.
+    // True when frames wait for the mesh that they ask for.
     bool waits() const { return terrain_->wait; }
-    // Returns the body with which it turns.
+    // Returns the body that it rotates with.
     std::optional<BodyId> body() const { return terrain_->body; }
-    // Takes what the streamer has ready and asks it for what the camera needs; the first call, and every one
-    // of a terrain that waits, makes it at once. Gives the pose of the object's mesh. Loop, but for those
-    // calls.
-    // half_field_rad: angle from the boresight beyond which the camera sees nothing.
+    // Takes a mesh that the streamer has finished and requests the one that the camera needs. The first call
+    // makes its mesh at once, and so does every call of a terrain that waits; other calls are for the loop.
+    // Returns the pose of the object's mesh. half_field_rad: angle from the boresight beyond which the camera
+    // sees nothing.
     Pose update(const WorldSnapshot& world, double focal_length_px, double half_field_rad,
                 ShownObject& object);
 
-    // Returns the camera's height at the last update() over the ground, as the map has it where that is known
-    // without the mesh, else over the mesh; none beside the ground. Loop.
+    // Returns the camera's height above the ground at the last update(): from the map if it knows it without
+    // the mesh, otherwise from the mesh. Nothing beside the ground. Loop.
     std::optional<double> height_above_ground_m() const;
 
   private:
@@ -42,7 +42,7 @@ class ShownTerrain {
     TerrainStreamer streamer_;
     bool any_ = false;
     Vec3d anchor_m_;        // anchor of the mesh that is shown
-    TerrainView made_for_;  // the same mesh's view
+    TerrainView made_for_;  // view that this mesh was made for
     Vec3d seen_from_m_;     // the camera at the last update(), terrain axes
 
     bool is_stale(const TerrainView& view) const;

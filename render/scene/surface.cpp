@@ -90,7 +90,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
     if (!mesh.colors.empty()) corner_colors.reserve(mesh.triangles.size());
     if (!mesh.hapke.empty()) corner_hapke.resize(mesh.triangles.size());
     std::vector<std::uint32_t> normals(mesh.normals.size());
-    // A zero normal stands for "the file has none here".
+    // A zero normal means that the file has none here.
     std::vector<std::uint8_t> missing(mesh.normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) {
         missing[i] = dot(mesh.normals[i], mesh.normals[i]) > 0 ? 0 : 1;

@@ -1,6 +1,6 @@
 #pragma once
-// The data that shading needs of a mesh, packed so that a hit touches one cache line: per triangle three
-// normals and a surface.
+// The data that shading needs of a mesh, packed so that a hit touches one cache line: three normals and a
+// surface for each triangle.
 
 #include <algorithm>
 #include <array>
@@ -20,58 +20,60 @@ namespace hilcam {
 class CoverageMap;
 
 struct PackedTriangle {
-    std::array<std::uint32_t, 3> corner_normals;  // meaningless when flat
+    std::array<std::uint32_t, 3> corner_normals;  // undefined if flat
     std::uint16_t surface;
     std::uint8_t flat;  // 1: the mesh has no normals; use the geometric one
-    // 1: it stands for others that go on in its plane (coplanar_groups.h); 2 and more: for coverage map number 0 and on
-    // (coverage_map.h).
+    // 1: it represents other triangles in its plane (coplanar_groups.h); 2 and more: it represents coverage
+    // map number 0 and on (coverage_map.h).
     std::uint8_t coplanar_group;
 };
 static_assert(sizeof(PackedTriangle) == 16);
 
-// Factors on a material's base, linear red, green, blue, each 0 to 4 in 16 bits.
+// Factors on a material's base: linear red, green, blue, each 0 to 4 in 16 bits.
 using PackedColor = std::array<std::uint16_t, 3>;
 inline constexpr float kColorSteps = 65535.0f / 4;
 
 inline constexpr std::size_t kClusterTriangles = 256;
 
-// Makes a box (least and greatest corner) hold a point.
+// Extends a box (least and greatest corner) to hold a point.
 void grow(std::array<Vec3f, 2>& box_m, Vec3f to_m);
 
 // An object as rays see it.
 struct ObjectSurfaces {
-    // materials: one per surface of the mesh; texture of a material indexes the textures.
+    // materials: one for each surface of the mesh; a material's texture is an index into `textures`.
     ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials,
                    std::shared_ptr<const std::vector<MipTexture>> textures);
 
     std::vector<PackedTriangle> triangles;
-    std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
+    std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty if no material has a texture
     std::vector<float>
-        uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
-    std::vector<std::array<PackedColor, 3>> corner_colors;     // empty when the mesh has none
-    std::vector<std::array<HapkeParameters, 3>> corner_hapke;  // empty when the mesh has none
+        uv_per_m;  // per triangle of a textured object: length in the picture per length on the surface
+    std::vector<std::array<PackedColor, 3>> corner_colors;     // empty if the mesh has none
+    std::vector<std::array<HapkeParameters, 3>> corner_hapke;  // empty if the mesh has none
     std::vector<Material> materials;
-    // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
-    // have them, too. The mesh itself has flattened none: empty.
+    // For each surface, the slopes that this level of detail has flattened, as a GGX alpha. The materials'
+    // alphas already include them. Empty for the full mesh, which flattens nothing.
     std::vector<float> flattened_alpha;
-    std::vector<LodNormals> lod_normals;  // normals below a level's triangles; empty for the mesh itself
+    // Normals that a level's triangles represent; empty for the full mesh.
+    std::vector<LodNormals> lod_normals;
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
-    std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
-    std::vector<SunVisibility> sun_visibility;                // per triangle; empty: rays ask the Sun
-    // Least and greatest corner of each kClusterTriangles triangles, body axes: together they cover the object closely.
+    std::shared_ptr<const GroundNormals> ground_normals;      // null: only the corners' normals
+    std::vector<SunVisibility> sun_visibility;                // per triangle; empty: rays have to ask
+    // A box (least and greatest corner, body axes) around each kClusterTriangles triangles; together they fit
+    // the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
-    // By triangle the one that stands for it, or kNotShown; empty: each for itself.
+    // For each triangle the one that represents it, or kNotShown; empty: each represents itself.
     std::vector<std::uint32_t> coplanar_groups;
     std::shared_ptr<const std::vector<CoverageMap>>
-        coverage_maps;    // those that triangles stand for; null: none does
+        coverage_maps;    // the maps that triangles represent; null: none
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 
-    // Returns a lobe's alpha without the slopes that the level has flattened in a surface.
+    // Returns a lobe's alpha without the slopes that the level has flattened on a surface.
     float unflattened(std::uint16_t surface, float alpha) const {
         const float flattened = flattened_alpha.empty() ? 0.0f : flattened_alpha[surface];
         return flattened > 0 ? std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened)) : alpha;
     }
-    // Returns the factor on the base at barycentric (u, v) of a triangle; only where there are corner_colors.
+    // Returns the factor on the base at barycentric (u, v) of a triangle. Needs corner_colors.
     Vec3f color_at(std::size_t triangle, float u, float v) const {
         const auto& c = corner_colors[triangle];
         const auto at = [&](std::size_t k) {
@@ -81,12 +83,13 @@ struct ObjectSurfaces {
         };
         return {at(0), at(1), at(2)};
     }
-    // Returns the place's parameters of Hapke's law; only where there are corner_hapke.
+    // Returns the parameters of Hapke's law at this place. Needs corner_hapke.
     HapkeParameters hapke_at(std::size_t triangle, float u, float v) const {
         const auto& c = corner_hapke[triangle];
         return blend(c[0], 1 - u - v, c[1], u, c[2], v);
     }
-    // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
+    // Returns the shading normal at barycentric (u, v), body axes, unit; `geometric` if the mesh has no
+    // normals.
     static Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) {
         if (triangle.flat) return geometric;
         const Vec3f n = (1 - u - v) * unpack_normal(triangle.corner_normals[0]) +

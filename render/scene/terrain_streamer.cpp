@@ -21,7 +21,7 @@ TerrainStreamer::~TerrainStreamer() {
 
 std::unique_ptr<PreparedTerrain> TerrainStreamer::make(const TerrainView& view) const {
     TerrainMesh terrain = ground_.mesh(view);
-    // A mesh with normals of its own is in their order.
+    // A mesh with normals of its own has to keep its order.
     if (!terrain.normals) order_triangles(terrain.mesh);
     auto surfaces = std::make_shared<ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr);
     if (terrain.normals) surfaces->sun_visibility = sun_visibility(terrain, view.sun_dir);
@@ -60,8 +60,9 @@ void TerrainStreamer::work() {
     }
 }
 
-// Where the camera will be if it goes on as it does, some meshes from now: a camera that comes down by half needs a level of new tiles,
-// which would all fall to one mesh. False: there is nothing left to make.
+// Predicts where the camera will be some meshes from now if it continues its motion: a camera that descends
+// to half its height needs a level of new tiles, which would otherwise all be made for one mesh. Returns
+// false if nothing is left to make.
 bool TerrainStreamer::look_ahead(const TerrainView& before, const TerrainView& now) {
     constexpr double kMeshes[] = {2, 5, 10, 15, 20, 25};
     const Vec3d step_m = now.camera_m - before.camera_m;

@@ -1,6 +1,6 @@
 #pragma once
-// Terrain that follows the camera: a thread makes the next mesh while the present one is shown, and hands it
-// over without a lock; what is replaced goes back to that thread to be freed.
+// Terrain that follows the camera. A thread makes the next mesh while the present one is shown and hands it
+// over without a lock; the replaced mesh goes back to that thread, which frees it.
 
 #include <atomic>
 #include <memory>
@@ -15,25 +15,25 @@ namespace hilcam {
 
 inline constexpr const char* kTerrainThreadName = "terrain";
 
-// Ready for rays: tree, surfaces, and where its anchor is.
+// A mesh that is ready for rays: tree, surfaces, and its anchor.
 struct PreparedTerrain {
     PreparedMesh tree;
     std::shared_ptr<const ObjectSurfaces> surfaces;
     Vec3d anchor_m;
-    TerrainView view;  // view that it was made for
+    TerrainView view;  // the view that it was made for
 };
 
 class TerrainStreamer {
   public:
-    // All but the material must outlive this. Owner thread.
+    // References must stay valid while this exists; the material is copied. Owner thread.
     TerrainStreamer(const EmbreeScene& embree, Terrain& ground, const Material& material);
     ~TerrainStreamer();
 
-    // Makes terrain for a view at once. Not for the loop.
+    // Makes the terrain for a view at once. Not for the loop.
     std::unique_ptr<PreparedTerrain> make(const TerrainView& view) const;
-    // Tells the thread what the camera sees now; starts it at the first call. Loop.
+    // Tells the thread what the camera sees; the first call starts it. Loop.
     void request(const TerrainView& view);
-    // The newest that is ready, or null. Whoever takes it gives back what it replaces. Loop.
+    // Returns the newest mesh that is ready, or null. The caller gives back the one that it replaces. Loop.
     PreparedTerrain* take() { return ready_.exchange(nullptr, std::memory_order_acquire); }
     void give_back(PreparedTerrain* used) { used_.store(used, std::memory_order_release); }
 

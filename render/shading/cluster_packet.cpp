@@ -23,13 +23,13 @@ HWY_INLINE void store(V v, ClusterPacket::Floats& to, std::size_t k) {
     hn::Store(v, Floats(), to.data() + k);
 }
 
-// The parts of each cluster: leans (body axes), shares, and the square of the alpha that their normals scatter by.
+// The LOD normals of each cluster: leans (body axes), weights, and the squared alpha of their scatter.
 struct Parts {
     Vector lean[kParts];
     V share[kParts];
     V rougher;
 
-    // from: as many as a vector has lanes.
+    // from: one entry for each lane of a vector.
     HWY_INLINE Parts(const LodNormals* from, V side) {
         const Floats d;
         const Ints di;
@@ -67,11 +67,12 @@ HWY_INLINE Vector turned(const Mat3f& m, const Vector& a) {
     return {row(m.x), row(m.y), row(m.z)};
 }
 
-// Weighs the parts of clusters by how much the viewer sees of them and how the light falls.
+// Weights the LOD normals of clusters by how much the viewer sees of them and by the incident light.
 //
-// Wrinkles shade each other, most where the light comes along them: as much of it falls on all of them together as on the flat
-// triangle, whatever their sides face (the condition that Smith's shadowing is made of: Heitz, JCGT 3(2), 2014, section 2). More
-// than 1 where they lean away from the light; so much only, as the triangle has an error of its own.
+// Wrinkles shade each other, most for grazing light: together they receive as much light as the flat
+// triangle, whatever their sides face (the condition from which Smith's shadowing is derived: Heitz, JCGT
+// 3(2), 2014, section 2). The factor exceeds 1 where they lean away from the light; it is limited, because
+// the triangle has an error of its own.
 HWY_INLINE void weigh(const Mat3f& world_from_body, const Parts& parts, std::size_t k, ClusterPacket& p) {
     const V zero = number(0), one = number(1);
     const Vector normal = load(p.normal, k), view = load(p.view, k), light = load(p.light, k);
@@ -91,7 +92,7 @@ HWY_INLINE void weigh(const Mat3f& world_from_body, const Parts& parts, std::siz
     const V flat = load(p.flat, k);
     const auto shaded = hn::And(hn::Gt(all_lit, zero), hn::Gt(flat, zero));
     const V share = hn::Min(hn::Div(hn::Mul(flat, hn::Sqrt(dotted(area, area))), all_lit), number(kMax));
-    // A cluster that leans away from the viewer as a whole is seen as it lies itself.
+    // A cluster that faces away from the viewer as a whole is weighted by area.
     const auto hidden = hn::Not(hn::Gt(all_seen, zero));
     const V each = hn::Div(hn::Mul(hn::IfThenElse(shaded, share, one), load(p.samples, k)),
                            hn::IfThenElse(hidden, one, all_seen));
@@ -144,9 +145,10 @@ class Albedos {
     V low_[2], more_[2];
 };
 
-// Slopes s of density a^2 / (pi (a^2 + s^2)^2) (GGX's: Heitz, JCGT 3(2), 2014) that are scattered by r: to the first order the
-// density changes by r (4 s^2 - 2 a^2) / (a^2 + s^2)^2 of itself. A lobe whose a^2 grows by 4 r a^2 / (2 a^2 + s^2) does so at its
-// middle and in its tails, which hardly change. Then ggx_distribution() times ggx_visibility(), by one division.
+// Slopes s with the density a^2 / (pi (a^2 + s^2)^2) (GGX's: Heitz, JCGT 3(2), 2014) are scattered by r. To
+// first order the density changes by the relative amount r (4 s^2 - 2 a^2) / (a^2 + s^2)^2. A lobe whose a^2
+// grows by 4 r a^2 / (2 a^2 + s^2) has this change in its middle, and in its tails, which hardly change. Then
+// ggx_distribution() times ggx_visibility(), with one division.
 HWY_INLINE V lobe_of(V alpha_squared, V rougher, V over_half, V no, V ni) {
     const V one = number(1);
     const V nh = hn::Min(hn::Mul(hn::Add(no, ni), over_half), one), squared = hn::Mul(nh, nh);

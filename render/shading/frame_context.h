@@ -1,9 +1,9 @@
 #pragma once
 // Everything that the rays of one frame share: scene, camera, background, quality.
 //
-// Ray space: world axes, metres, single precision, counted from `rays_world_m`. That is the camera, unless
-// everything is far away against its own size: then it is a point amid the objects, and the camera's rays
-// begin just before them, so that a target keeps its digits at any distance.
+// Ray space has world axes, metres, single precision, and its origin at `rays_world_m`. That is the camera,
+// unless everything is far away compared with its size. Then the origin is a point among the objects, and the
+// camera's rays start just in front of them, so that a target keeps its precision at any distance.
 
 #include <array>
 #include <vector>
@@ -32,51 +32,54 @@ struct FrameContext {
     const EmbreeScene* scene = nullptr;
     const std::vector<const ObjectSurfaces*>* objects = nullptr;  // each at its level of detail
     std::vector<Mat3f> world_from_body;                           // per object
-    std::vector<std::uint8_t> is_point;   // per object: drawn as a point, the camera's rays pass it
-    std::vector<std::uint8_t> is_cached;  // per object: light from other surfaces and bodies is cached on it
-    // Per object: where the frame's visibility buffer sees it, it is dark, as its light comes as points (object_impostor.h).
+    std::vector<std::uint8_t> is_point;  // per object: it is drawn as points, and camera rays pass through it
+    // Per object: it has a cache of light from other surfaces and bodies.
+    std::vector<std::uint8_t> is_cached;
+    // Per object: it is dark in the frame's visibility buffer, because its impostor (object_impostor.h) draws
+    // its light as points.
     std::vector<std::uint8_t> has_impostor;
-    bool has_impostors = false;               // any of them
-    const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
+    bool has_impostors = false;               // any of has_impostor
+    const ScreenMask* object_mask = nullptr;  // pixels that may meet an object
     const VisibilityBuffer* visibility =
-        nullptr;  // visibility_buffer.h; null: rays find what the camera sees
-    const VisibilityBuffer* ground =
-        nullptr;             // buffer of ground that alone is seen (ground_light.h); null: likewise
-    int ground_step_px = 1;  // pixels between the places that it sees
-    PixelSamples samples;    // those of the visibility buffer, or that it would have
+        nullptr;                               // visibility_buffer.h; null: rays find what the camera sees
+    const VisibilityBuffer* ground = nullptr;  // buffer for ground alone (ground_light.h); null: none
+    int ground_step_px = 1;                    // pixels between the places that are shaded
+    PixelSamples samples;  // samples of the visibility buffer, or those that it would have
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
-    const Lamps* lamps = nullptr;                   // lamp_light.h; null: none
-    const IndirectCache* indirect = nullptr;        // indirect_cache.h; null: the path model does without
-    const EarthImpostor* earth_impostor = nullptr;  // the first body's; null: it is worked out pixel by pixel
-    float earth_impostor_factor = 1;                // on its radiance, by the Sun's distance
+    const Lamps* lamps = nullptr;             // lamp_light.h; null: none
+    const IndirectCache* indirect = nullptr;  // indirect_cache.h; null: the path model does not use it
+    // Replaces the first body; null: that is computed pixel by pixel.
+    const EarthImpostor* earth_impostor = nullptr;
+    float earth_impostor_factor = 1;  // factor on the impostor's radiance, for the Sun's distance
     const ColorBands* bands = nullptr;
     const RayGenerator* rays = nullptr;
     ImageGeometry geometry;
     Vec3d rays_world_m;         // origin of ray space
     Vec3d camera_m;             // the camera in ray space
-    double start_before_m = 0;  // > 0: the camera's rays begin this far before start_at_m
+    double start_before_m = 0;  // > 0: the camera's rays start this far before start_at_m
     Vec3d start_at_m;           // in ray space
     int bins = 0;
     int max_depth = 1;
     float contribution_threshold = 0;
-    bool sun_is_disk = false;  // shadows and highlights of a disk, by sampling; else of its middle
-    bool has_glass = false;    // shadow rays must look at what they meet
+    bool sun_is_disk = false;  // sample the Sun's disk for shadows and highlights; otherwise use its middle
+    bool has_glass = false;    // shadow rays must find out what they meet
     bool has_emission = false;
-    bool paths_sample_lobes = false;  // a path's own directions meet lamps too: both are weighed
-    float alpha_behind_diffuse = 0;   // facet lobes met behind a diffuse bounce are at least this wide
+    // Directions of a path may meet lamps too, so both estimates are weighted.
+    bool paths_sample_lobes = false;
+    float alpha_behind_diffuse = 0;  // smallest alpha of facet lobes behind a diffuse bounce
     RandomKey key;
-    bool bodies_may_hide = false;                 // an object is so far away that a body can stand before it
-    std::array<PixelBox, kMaxBodies> body_boxes;  // pixels that can meet a body of disks() or its air
+    bool bodies_may_hide = false;  // an object is so far away that a body may be in front of it
+    std::array<PixelBox, kMaxBodies> body_boxes;  // pixels that may meet each body of disks() or its air
     std::size_t body_box_count = 0;
-    PixelBox sun_box;  // pixels that can meet the Sun's disk
+    PixelBox sun_box;  // pixels that may meet the Sun's disk
 
     bool may_see_body(const PixelBox& box) const {
         for (std::size_t i = 0; i < body_box_count; ++i)
             if (box.overlaps(body_boxes[i])) return true;
         return false;
     }
-    // Nothing but the background's plain body can be met in the box.
+    // True when rays in the box can meet nothing but the background's plain body.
     bool sees_plain_body_only(const PixelBox& box) const {
         bool plain = false;
         for (std::size_t i = 0; i < body_box_count; ++i) {
@@ -86,24 +89,23 @@ struct FrameContext {
         }
         return plain;
     }
-    // Nothing but the impostor of the Earth can be met in the box.
+    // True when rays in the box can meet nothing but the Earth's impostor.
     bool sees_earth_impostor_only(const PixelBox& box) const {
         if (!earth_impostor || box.overlaps(sun_box)) return false;
         for (std::size_t i = 1; i < body_box_count; ++i)
             if (box.overlaps(body_boxes[i])) return false;
         return box.overlaps(body_boxes[0]);
     }
-    // Returns how far the camera's rays have come where they begin, about [m].
+    // Returns roughly how far the start of the camera's rays is from the camera [m].
     double way_to_start_m() const {
         return start_before_m > 0 ? std::max(0.0, length(start_at_m - camera_m) - start_before_m) : 0;
     }
-    // Returns where a ray of the camera begins in ray space; from_camera_m is not zero when rows have poses
-    // of their own.
+    // Returns where a camera ray starts in ray space. from_camera_m is not zero if rows have their own poses.
     Vec3f start_of(Vec3d unit_dir, Vec3d from_camera_m = {}) const {
         const Vec3d eye_m = camera_m + from_camera_m;
         if (start_before_m <= 0) return to_float(eye_m);
-        // The ray begins on the plane through that point that faces it, less a margin; for what lies behind,
-        // at the eye.
+        // The ray starts on the plane through start_at_m that faces it, less a margin. If that is behind the
+        // eye, it starts at the eye.
         const double along_m = dot(start_at_m - eye_m, unit_dir) - start_before_m;
         return to_float(eye_m + std::max(0.0, along_m) * unit_dir);
     }

@@ -15,15 +15,15 @@ constexpr double kNoDistance_m = 1e-9;
 
 struct LitBy {
     const ShadingPoint* at;
-    Spectrum weight;  // the light that comes if nothing is between
+    Spectrum weight;  // the light that arrives if nothing is in between
 };
 
-// Returns how far towards a lamp something can be in the way. Single precision leaves a share of 6e-8 of the
-// length and of its ends' coordinates; a millionth keeps clear of that.
+// Returns how far towards a lamp an obstacle is looked for. Single precision leaves an error of 6e-8 of the
+// length and of the ends' coordinates; a millionth is a safe margin.
 double free_length_m(double distance_m) { return std::max(0.0, (1 - 1e-6) * distance_m - kLampClearance_m); }
 
-// True when an object hides it, also one that is points itself: a PointField looks for those that are traced,
-// and dims what is behind their glass.
+// True if an object hides it, including one that is drawn as points: a PointField tests those that are
+// traced, and dims what is behind their glass.
 bool is_hidden(const FrameContext& frame, Vec3d dir, double distance_m) {
     const Vec3f start_m = frame.start_of(dir);
     const double until_m = distance_m - length(to_double(start_m) - frame.camera_m);

@@ -12,10 +12,10 @@ namespace hilcam {
 namespace {
 
 constexpr float kSame = 0.999998f;  // cosine
-// The only part of a cluster that stands for none.
+// The single LOD normal of a cluster that has flattened none.
 const LodNormals kItself = LodNormals::flat();
 
-// Clusters of shading points on their way through packets, those of one material of an object at a time.
+// Sorts the clusters of shading points into packets of one material of an object each.
 class Reflection {
   public:
     Reflection(const FrameContext& frame, std::span<const SunlitPoint> points, std::span<ClusterLight> out)
@@ -46,10 +46,10 @@ class Reflection {
     const ShadingPoint* kind_ = nullptr;                      // one of those in the packet
     struct Sum {
         float samples;
-        // By a cluster's lobe alone: depends on the angle between viewer and light, and on nothing else.
+        // The reflection by a cluster's lobe. It depends only on the angle between viewer and light.
         Spectrum mirrored;
         float light;              // over all bins together
-        float going_on;           // light of the clusters so far that one triangle's normals make
+        float going_on;           // light so far of clusters that belong to one curved triangle
         SubpixelMoments moments;  // times the light
     };
     std::array<Sum, SunlitPoint::kMaxTogether> sums_;
@@ -106,7 +106,7 @@ class Reflection {
         Sum& sum = sums_[v];
         sum.light += light, sum.going_on += light;
         sum.moments += light * moments;
-        // For shadows these are one.
+        // Shadow rays treat these as one.
         if (!cluster.goes_on) out_[v].add(cluster, std::exchange(sum.going_on, 0.0f));
     }
 

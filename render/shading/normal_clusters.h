@@ -1,8 +1,8 @@
 #pragma once
-// The parts of what the camera sees in a pixel that lean otherwise, for the Sun to be reflected by each of
-// them: what a shading point of many samples has joined, and what a level of detail has flattened
-// (lod/lod_normals.h). What is curved, a tube as wide as the pixel, has several normals in one triangle: clusters that
-// share its samples, and of which shadows ask as of one.
+// The normal clusters of what a pixel sees: parts with different normals, each of which reflects the Sun on
+// its own. They come from joining many samples into one shading point and from levels of detail that flatten
+// normals (lod/lod_normals.h). A curved surface, such as a tube as wide as the pixel, has several clusters in
+// one triangle: they share its samples, and shadow rays treat them as one.
 
 #include <span>
 
@@ -11,18 +11,19 @@
 
 namespace hilcam {
 
-// Memory for the clusters of a tile's shading points. One thread at a time.
+// Memory for the clusters of all shading points in a tile. One thread at a time.
 class NormalClusters {
   public:
-    static constexpr std::size_t kTurns = 4;  // normals of a part at most
+    static constexpr std::size_t kTurns = 4;  // largest number of normals of a curved part
 
     void clear() { count_ = 0; }
-    // Returns how many calls of add() have a place; a shading point's own part comes late.
+    // Returns how many more calls of add() fit. A shading point's first part is stored only with its second.
     std::size_t room() const { return (kMax - count_) / (1 + kTurns); }
 
-    // Adds a part to a shading point, whose own is the first. Clusters are made where there is more than one, and of
-    // what a level has flattened: its own lobe is wider than theirs. turns: normals of the part in place of
-    // its one, each of as many of its samples; empty: that one. Loop, any thread.
+    // Adds a part to a shading point; `first` marks the point's own. Clusters are stored if there is more
+    // than one, or if a level of detail has flattened the part, because the point's own lobe is then wider
+    // than theirs. turns: normals that replace the part's one, each with an equal share of its samples;
+    // empty: that one. Loop, any thread.
     void add(const FrameContext& frame, NormalCluster part, std::uint32_t triangle, bool first,
              std::span<const Vec3f> turns, ShadingPoint& point);
 
@@ -34,27 +35,28 @@ class NormalClusters {
     void push(const NormalCluster& part, ShadingPoint& point);
 };
 
-// The light that the clusters of a shading point reflect from a source of irradiance 1, with the shading point's throughput.
+// The light that a shading point's clusters reflect from a source of irradiance 1, times the point's
+// throughput.
 struct ClusterLight {
     static constexpr std::size_t kStarts = 4;
     Spectrum reflected;
-    // The clusters that reflect most, most first, and how much, over all bins together.
+    // The clusters that reflect most, in falling order, and how much, summed over the bins.
     std::array<const NormalCluster*, kStarts> brightest{};
     std::array<float, kStarts> share{};
-    SubpixelMoments moments;  // the light of all clusters is there
+    SubpixelMoments moments;  // where in the pixel the light of all clusters is
 
     bool none() const { return !(share[0] > 0); }
     void add(const NormalCluster& cluster, float light);
 };
-// A shading point with clusters, for light from one direction.
+// A shading point with clusters, and light from one direction.
 struct SunlitPoint {
-    static constexpr std::size_t kMaxTogether = 128;  // together
+    static constexpr std::size_t kMaxTogether = 128;  // largest number in one call
     const ShadingPoint* at;
     Vec3f dir;    // towards the light, unit
     float alpha;  // alpha of the clusters' own lobes
 };
-// Finds what the normal clusters of shading points reflect, SunlitPoint::kMax at most. out: one for each, as they are made.
-// Loop, any thread.
+// Computes the light that shading points with clusters reflect, SunlitPoint::kMaxTogether at most. out: one
+// for each point, newly constructed. Loop, any thread.
 void lit_clusters(const FrameContext& frame, std::span<const SunlitPoint> points,
                   std::span<ClusterLight> out);
 

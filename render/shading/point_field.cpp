@@ -17,14 +17,14 @@ PointField::PointField(const FrameContext& frame, const WorldSnapshot& world)
       min_cosine_(std::cos(field_rad_)) {}
 
 double half_field_rad(const ImageGeometry& g) {
-    // Distortion may push any of the four corners out.
+    // Distortion may move any of the four corners outwards.
     double farthest_rad = 0;
     for (const int x : {-g.guard_px, g.width_px + g.guard_px})
         for (const int y : {-g.guard_px, g.height_px + g.guard_px}) {
             const Vec3d d = g.direction_camera(x, y);
             farthest_rad = std::max(farthest_rad, std::atan2(std::hypot(d.x, d.y), d.z));
         }
-    // A rounding more: what lies on the corner is in the image.
+    // Plus a rounding: a direction on the corner is in the image.
     return farthest_rad + 1e-9;
 }
 
@@ -37,7 +37,7 @@ StarObserver PointField::observer_of(TimeTai star_time) const {
 }
 
 bool PointField::find(Vec3d dir, double distance_m, Sighting& seen) const {
-    // Parallax moves a thing at hand; only what is far away can be told by its direction alone.
+    // Parallax shifts near things; only for distant ones the direction alone decides.
     if (std::isinf(distance_m) && dot(dir, boresight_dir_) < min_cosine_) return false;
     if (!frame_.rays->find(dir, distance_m, seen)) return false;
     const ImageGeometry& g = frame_.geometry;
@@ -52,7 +52,7 @@ void PointField::push(const Sighting& seen, const PointSource& point,
         points.back().position_px = {static_cast<float>(seen.position_px.x), static_cast<float>(y_px)};
         points.back().irradiance_w_m2_um = static_cast<float>(light_ratio) * point.irradiance_w_m2_um;
     };
-    // A hundredth of a row more is no streak.
+    // A hundredth of a row more is not a streak.
     const auto rows = static_cast<std::size_t>(std::ceil(std::max(0.0, seen.light_ratio - 0.01)));
     if (rows <= 1 || points.capacity() - points.size() < rows)
         return add(seen.position_px.y, seen.light_ratio);
@@ -75,7 +75,7 @@ bool PointField::look(Vec3d dir, double distance_m, const Spectrum& irradiance, 
     seen = irradiance;
     if (frame_.may_see_body(here)) {
         if (frame_.background->hides_seen(dir, distance_m)) return false;
-        // The air between dims it; the air's own light is in the image already.
+        // The air in between dims it; the air's own light is already in the image.
         Spectrum ignored;
         if (frame_.background->air()) frame_.background->add_bodies_seen(dir, seen, ignored);
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Things smaller than a pixel become point sources where nothing but air and glass is before them: stars, far
-// planets, far objects.
+// Makes point sources of things smaller than a pixel (stars, far planets, far objects) if nothing but air and
+// glass is in front of them.
 
 #include <vector>
 
@@ -11,24 +11,24 @@
 
 namespace hilcam {
 
-// Half the angle of the cone about the boresight that holds the padded image of an instant.
+// Returns half the angle of the cone about the boresight that holds the padded image at one instant.
 double half_field_rad(const ImageGeometry& geometry);
 
-// The points of light of one frame. With rows of different instants each point is where the row is that sees
-// it; a scanning line that is slow over a star draws it as a column of points, one per row, while the vector
-// has room. Loop; no allocation while the vector has room.
+// The point sources of one frame. If rows have different instants, each point is placed by the row that sees
+// it. A line scanner that passes slowly over a star draws it as a column of points, one per row, while the
+// vector has room. Loop; no allocation while the vector has room.
 class PointField {
   public:
     PointField(const FrameContext& frame, const WorldSnapshot& world);
 
     void add_stars(const StarSky& stars, std::vector<PointSource>& points) const;
-    // Calls use(star, apparent direction) for each star that can be in the image.
+    // Calls use(star, apparent direction) for each star that may be in the image.
     template <class Use>
     void each_star(const StarSky& stars, const Use& use) const {
         stars.each_within(observer_of(stars.time()), boresight_dir_, field_rad_, use);
     }
-    // A thing at a distance [m] in a direction (unit, world) with this irradiance at the camera; part of an
-    // object, or of the sky.
+    // Adds a thing at a distance [m] in a direction (unit, world) with this irradiance at the camera; it
+    // belongs to an object or to the sky.
     void add(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
              std::vector<PointSource>& points, std::uint32_t object = PointSource::kSky) const;
     // True when the thing is in the padded image.
@@ -36,8 +36,8 @@ class PointField {
         Sighting ignored;
         return find(dir, distance_m, ignored);
     }
-    // Finds where add() draws it, and with what light: that which air and glass before it leave. False: it is
-    // outside, or hidden.
+    // Finds where add() would draw it, and with which light: what air and glass in front of it let through.
+    // False: it is outside the image or hidden.
     bool look(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um, Sighting& where,
               Spectrum& seen_w_m2_um) const;
 
@@ -45,7 +45,7 @@ class PointField {
     const FrameContext& frame_;
     const WorldSnapshot& world_;
     Vec3d boresight_dir_;
-    double field_rad_;   // from the boresight at the frame's time, of what can be in the image
+    double field_rad_;   // largest angle from the boresight (at the frame's time) of what may be in the image
     double min_cosine_;  // cosine of that angle
 
     StarObserver observer_of(TimeTai star_time) const;

@@ -1,9 +1,9 @@
 #pragma once
-// The light that a surface sends towards the viewer by itself: the terms of equation (1) that need no
-// recursion. One of the program's exchangeable models; the recursion is path_model.h's.
+// The light that a surface sends to the viewer by itself: the terms of equation (1) that need no recursion.
+// It is one of the program's exchangeable models; recursion is the task of path_model.h.
 //
-//   reflected   Sun, bodies and lamps, reflected (the paper's equation without emission)
-//   emissive    the same, and eps L_T of materials that have a temperature
+//     reflected   Sun, bodies and lamps, reflected (the paper's equation without emission)
+//     emissive    the same, and eps L_T of materials that have a temperature
 
 #include <span>
 
@@ -11,23 +11,23 @@
 
 namespace hilcam {
 
-// The rays that find the light of the Earth, the Moon and the planets on the objects.
+// The way in which the light of the Earth, the Moon and the planets on objects is found.
 enum class BodySampling {
-    kNone,     // nobody
-    kSampled,  // one random direction to each, weighed against the path's own direction
+    kNone,     // not at all
+    kSampled,  // one random direction to each, weighted against the path's own direction
 };
 
 class RadianceModel {
   public:
     virtual ~RadianceModel() = default;
 
-    // Adds to the tile's pixels, shading point by shading point, throughput times radiance towards the viewer. All shading points
-    // are of one depth. Loop, any thread.
+    // Adds throughput times radiance towards the viewer, for each shading point, to the tile's pixels. All
+    // shading points have the same depth. Loop, any thread.
     virtual void add_light(Tile& tile, std::span<const ShadingPoint> points, BodySampling lamps) const = 0;
-    // The materials' own emission counts.
+    // True when the emission of materials is included.
     virtual bool emits() const = 0;
-    // True where of a surface that the Sun alone shines on it has f L cos, and its emission, and nothing else: such ground is
-    // worked out without asking it (render/ground_shading).
+    // True when a surface that only the Sun lights has exactly f L cos and its emission. Such ground is then
+    // computed without calling this model (render/ground_shading).
     virtual bool reflects_plainly() const { return false; }
 };
 

@@ -49,7 +49,7 @@ class RowRays : public RayGenerator {
         geometry_ = geometry;
         motion_ = {camera, line_time_s_, 0.5 * geometry.height_px};
     }
-    // A row's pose is worked out once for the rays that follow each other in it.
+    // A row's pose is computed once for consecutive rays in it.
     void generate(std::span<const Vec2d> points_px, std::span<CameraRay> rays) const override {
         double row = -1;
         RowPose at;
@@ -74,13 +74,13 @@ class RowRays : public RayGenerator {
         Vec3d moved_m;
         Mat3d world_from_camera;
     };
-    // At the instant of a place down the image; the middle of row i is at i + 0.5.
+    // The pose at the instant of a place down the image; the middle of row i is at i + 0.5.
     RowPose pose_at(double y_px) const {
         const Pose pose = motion_.pose_at(y_px);
         return {pose.position_world_m - motion_.camera.pose.position_world_m,
                 to_matrix(pose.world_from_body)};
     }
-    // Finds where the sensor has a thing at that instant. False: behind it.
+    // Finds the thing's place on the sensor at that instant. Returns false if it is behind the camera.
     bool project(Vec3d dir, double distance_m, double y_px, Sighting& seen) const {
         const RowPose at = pose_at(y_px);
         const Vec3d d = in_camera(at, dir, distance_m);
@@ -89,11 +89,12 @@ class RowRays : public RayGenerator {
         seen.from_camera_m = at.moved_m;
         return true;
     }
-    // True when the lens has it where project() said. On the way to its row a thing may be where it has not.
+    // True when the lens shows it where project() said. A thing may pass such false places on its way to its
+    // row.
     bool lens_shows(Vec3d dir, double distance_m, double y_px, const Sighting& seen) const {
         return geometry_.shows(in_camera(pose_at(y_px), dir, distance_m), seen.position_px);
     }
-    // The place on the sensor of a place down the image, in its row.
+    // Returns the row of the sensor for a place down the image, in its row.
     virtual double sensor_row(double y_px, double row) const = 0;
 
     double line_time_s_;
@@ -115,8 +116,8 @@ class RollingRays final : public RowRays {
     using RowRays::RowRays;
 
     const RowMotion* row_motion() const override { return &motion_; }
-    // The row y with y = (the thing's place at the instant of y), by the secant method: one step for a thing
-    // that moves evenly.
+    // Finds the row y with y = (the thing's place at the instant of y) by the secant method: one step for
+    // uniform motion.
     bool find(Vec3d dir, double distance_m, Sighting& seen) const override {
         double y = 0.5 * geometry_.height_px;
         if (!project(dir, distance_m, y, seen)) return false;
@@ -135,7 +136,7 @@ class RollingRays final : public RowRays {
 
   private:
     double sensor_row(double y_px, double) const override { return y_px; }
-    // A frame's height beside the image is no place to look for a row.
+    // A row is not searched farther than a frame's height beside the image.
     bool is_near(double y_px) const { return std::abs(y_px) < 2.0 * geometry_.padded_height(); }
 };
 
@@ -144,9 +145,9 @@ class PushbroomRays final : public RowRays {
     using RowRays::RowRays;
 
     double scan_line_time_s() const override { return line_time_s_; }
-    // The instant at which the thing crosses the sensor's row. Each line that passes over it collects light
-    // for a line's time; with s rows of the image for each row of the sensor that it moves, that is s times
-    // the light of a thing that is stared at.
+    // Finds the instant at which the thing crosses the sensor's row. Each line that passes over it collects
+    // light for one line time. If it moves by one row of the sensor in s rows of the image, it has s times
+    // the light that it would have in a staring camera.
     bool find(Vec3d dir, double distance_m, Sighting& seen) const override {
         double y = 0.5 * geometry_.height_px;
         double miss = 0;
@@ -166,7 +167,7 @@ class PushbroomRays final : public RowRays {
                 return true;
             }
             y = next, miss = next_miss, next -= next_miss / speed;
-            // A sweep's end is no place to extrapolate to.
+            // The extrapolation is limited to the sweep.
             const double reach = 2.0 * geometry_.padded_height();
             next = std::clamp(next, -reach, reach);
             if (next == y) return false;
@@ -178,7 +179,8 @@ class PushbroomRays final : public RowRays {
     double sensor_row(double y_px, double row) const override {
         return geometry_.center_px().y + (y_px - row - 0.5);
     }
-    // It does not move by a quarter of a pixel in the whole frame: on the sensor's row or not, all the time.
+    // True if it moves by less than a quarter of a pixel in the whole frame; then it is on the sensor's row
+    // or beside it all the time.
     bool stays_on_line(double miss_px, Sighting& seen) const {
         seen.position_px.y = 0.5 * geometry_.height_px;
         seen.light_ratio = geometry_.padded_height();

@@ -30,7 +30,7 @@ Vec3d eye_m(const FrameContext& frame, int y_px) {
 
 namespace {
 
-// The least cosine to the viewer of a plane that is seen, not its edge.
+// The least cosine to the viewer at which a plane counts as visible, and not as seen edge-on.
 constexpr float kMinFacingOfWay = 0.02f;
 
 }  // namespace

@@ -19,7 +19,7 @@ void prefetch_shading_points(const FrameContext& frame, const HitPacket& hits, i
 
 namespace {
 
-// Member by member: a Bsdf that is made first and copied then waits for its own stores.
+// Member by member: a Bsdf that is made first and then copied waits for its own stores.
 void set_material(const Material& material, float alpha_least, ShadingPoint& point) {
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     point.surface.material = &material;
@@ -46,7 +46,7 @@ bool find_surface_frame(const FrameContext& frame, const HitPacket& hits, int la
 
     Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
     float squared = dot(geometric_raw, geometric_raw);
-    // Twice the area, squared: of edges below 1e-8 m or above 1e7 m it leaves single precision's range.
+    // Twice the area, squared. For edges below 1e-8 m or above 1e7 m it leaves the range of single precision.
     if (!(squared > 1e-30f && squared < 1e30f)) {
         const float greatest =
             std::max({std::abs(geometric_raw.x), std::abs(geometric_raw.y), std::abs(geometric_raw.z)});
@@ -66,7 +66,7 @@ bool find_surface_frame(const FrameContext& frame, const HitPacket& hits, int la
     surface_frame.back = dot(geometric, surface_frame.view_dir) < 0;
     if (surface_frame.back) geometric = -geometric;
     if (dot(normal, geometric) < 0) normal = -normal;
-    // A smoothed normal that leans away from the viewer would make the surface vanish.
+    // A smoothed normal that faces away from the viewer would make the surface vanish.
     if (dot(normal, surface_frame.view_dir) <= 1e-4f) normal = geometric;
     surface_frame.geometric_normal = geometric;
     surface_frame.normal = normal;
@@ -137,8 +137,7 @@ Spectrum texture_at(const FrameContext& frame, const ShadingPoint& point, std::u
     const ObjectSurfaces& object = *(*frame.objects)[point.object];
     const auto& corner = object.corner_uvs[triangle];
     const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(point.surface.material->texture)];
-    // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
-    // of four.
+    // The footprint is longer on an oblique surface; its shorter side counts, up to a factor of four.
     const float slant = 1 / std::max(0.25f, dot(point.geometric_normal, point.view_dir));
     const float footprint = share * point.footprint_m * std::sqrt(slant) * object.uv_per_m[triangle];
     const float first = 1 - at.x - at.y;
@@ -147,7 +146,7 @@ Spectrum texture_at(const FrameContext& frame, const ShadingPoint& point, std::u
                                                 footprint));
 }
 
-// The one colour of a file scales what the material mostly is.
+// A file's only colour scales the larger part of the material.
 void paint(const Spectrum& colors, ShadingPoint& point) {
     point.surface.base = point.surface.base * colors;
     if (point.surface.material->is_bare()) point.surface.highlight = point.surface.highlight * colors;

@@ -1,5 +1,6 @@
 #pragma once
-// Rays that ask whether what shines is seen, sixteen at a time; through glass if there is any.
+// Shadow rays: they test whether a light is visible, sixteen at a time, and through glass if the scene has
+// any.
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace hilcam {
 
-// Returns the share that sheets of glass within `until_m` let pass; zero where something else is met. dir:
+// Returns the transmittance of all glass sheets within `until_m`; zero if the ray meets anything else. dir:
 // unit. Loop, any thread.
 inline Spectrum passed_through_glass(const FrameContext& frame, Vec3f origin_m, Vec3f dir,
                                      float until_m = std::numeric_limits<float>::infinity()) {
@@ -33,8 +34,8 @@ inline Spectrum passed_through_glass(const FrameContext& frame, Vec3f origin_m, 
     return {};
 }
 
-// Payload: what the caller needs to know of a ray again. Lit is called as lit(payload, transmittance) for
-// every ray that gets through, in order; transmittance is null where nothing is in the way.
+// Payload: what the caller needs to identify a ray. lit(payload, transmittance) is called for every ray that
+// gets through, in order; transmittance is null if nothing is in the way.
 template <class Payload, class Lit>
 class ShadowRays {
   public:
@@ -46,7 +47,7 @@ class ShadowRays {
     ShadowRays(const ShadowRays&) = delete;
     ShadowRays& operator=(const ShadowRays&) = delete;
 
-    // until_m: how far away that is; dir: unit.
+    // dir: unit. until_m: distance of the light.
     void add(Vec3f origin_m, Vec3f dir, const Payload& payload,
              float until_m = std::numeric_limits<float>::infinity()) {
         payloads_[static_cast<std::size_t>(rays_.count)] = payload;

@@ -3,8 +3,8 @@
 namespace hilcam {
 namespace {
 
-// Returns how many of sixteen samples of its pixel see a shading point. One of several rays does not tell what others of its
-// pixel meet.
+// Returns how many of sixteen samples of its pixel see a shading point. For one of several rays it is
+// unknown, because the others may meet something else.
 float samples_of(const Tile& tile, const ShadingPoint& at) {
     if (at.samples != 0) return at.weight_samples;
     return tile.samples_per_axis == 1 ? kVisibilitySamples : 0.0f;
@@ -30,7 +30,7 @@ void Tile::note(const ShadingPoint& at, LightPart of_source, const Spectrum& lig
         if (parts->is_recorded(at.pixel)) parts->record->add(entry_of(*this, at, part, parts->share * light));
         return;
     }
-    // How much of it each pixel gets is known when all rays have come back.
+    // Each pixel's share is known when all rays are finished.
     const GlossyPoint& of = glossy->point_of(*at.glossy_ray);
     if (!parts->is_recorded(of.pixel)) return;
     PixelRecord::Entry entry = entry_of(*this, at, part, (parts->share * of.per_light) * (of.weight * light));

@@ -1,6 +1,5 @@
 #pragma once
-// Everything that the models share which trace a tile: the frame, the tile's pixels, counters, random
-// numbers.
+// Everything that models share which trace a tile: the frame, the tile's pixels, counters, random numbers.
 
 #include <array>
 #include <cstdint>
@@ -22,7 +21,7 @@ class PenumbraSampler;
 
 struct TileStats : RayCounts {
     double covered_px = 0;         // by objects
-    std::uint64_t not_finite = 0;  // pixels and points whose light was no number, and was left out
+    std::uint64_t not_finite = 0;  // pixels and points whose light was not finite and was dropped
 
     TileStats& operator+=(const TileStats& other) {
         RayCounts::operator+=(other);
@@ -36,28 +35,30 @@ struct Tile {
     const FrameContext& frame;
     PixelBox box;
     int samples_per_axis;        // n: an n x n grid of rays in each pixel
-    std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
+    std::span<Spectrum> pixels;  // sums of radiance over a pixel's samples, row by row
     TileStats& stats;
-    NormalClusters& clusters;  // clusters of what is seen
-    // Rays go through places of a sequence in each pixel (place_sequence.h); false: through a regular grid.
+    NormalClusters& clusters;  // memory for normal clusters
+    // Rays go through the places of a sequence in each pixel (place_sequence.h); false: through a regular
+    // grid.
     bool scattered = false;
-    VisibilityTile* seen = nullptr;  // for what the visibility buffer finds; null: rays do
-    const VisibilityTile* ground =
-        nullptr;                          // for what the frame's buffer of the ground finds; null: likewise
-    PenumbraSampler* penumbra = nullptr;  // where that is so, to find shadows' edges; null: they are hard
+    VisibilityTile* seen = nullptr;  // memory for what the visibility buffer finds; null: rays find it
+    const VisibilityTile* ground = nullptr;  // results of the frame's ground buffer; null: rays find it
+    // Finds penumbrae if the visibility buffer is used; null: shadows have hard edges.
+    PenumbraSampler* penumbra = nullptr;
 
-    // Charge rates by channel, difference and pixel (subpixel_light.h), and what makes them of radiance; empty: nobody
-    // asks where in its pixel light falls.
+    // Sub-pixel moments as charge rates by channel, difference and pixel (subpixel_light.h), and the
+    // responses that make them of radiance; empty: moments are not kept.
     std::span<float> moments{};
     std::span<const Spectrum> moment_responses{};
-    std::span<SubpixelKind> kinds{};  // by pixel; likewise
+    std::span<SubpixelKind> kinds{};  // by pixel; empty like moments
 
     GlossyBuffer::Part* glossy =
-        nullptr;  // gets the lobes that rays are to follow; null: the cache alone has their light
-    const TileParts* parts = nullptr;  // for the parts of the light; null: nobody asks
+        nullptr;  // takes the lobes that get rays; null: their light comes from the cache alone
+    const TileParts* parts = nullptr;  // takes the parts of the light; null: parts are not kept
 
-    // Adds light that a shading point sends, to its pixel or to the lobe whose rays have met it: radiance, times the samples for
-    // which it stands. part: of light that the camera sees there; what a ray has met is of the ray's part.
+    // Adds light that a shading point sends to its pixel, or to the lobe whose ray has met it: radiance,
+    // times the number of samples that the point represents. part: used if the camera sees the point; light
+    // behind a ray belongs to the ray's part.
     void add(const ShadingPoint& at, LightPart part, const Spectrum& light) {
         add(at, part, at.moments, light);
     }
@@ -69,13 +70,13 @@ struct Tile {
         }
         add(at.pixel, shares, light);
     }
-    // Counts light that was added as one part as another.
+    // Counts light that was added as one part as another part.
     void move(const ShadingPoint& at, LightPart from, LightPart to, const Spectrum& light) const {
         if (parts) note_move(at, from, to, light);
     }
-    // Notes light that somebody adds to a pixel by himself, where parts are asked for.
+    // Records light that the caller adds to a pixel itself, if parts are kept.
     void note(std::uint32_t pixel, LightPart part, const Spectrum& light) const;
-    // Adds light that no shading point sends.
+    // Adds light that does not come from a shading point.
     void add(std::uint32_t pixel, LightPart part, const SubpixelMoments& shares, const Spectrum& light) {
         if (parts) note(pixel, part, light);
         add(pixel, shares, light);
@@ -86,7 +87,7 @@ struct Tile {
     std::uint32_t frame_pixel(int x, int y) const {
         return static_cast<std::uint32_t>(y * frame.geometry.padded_width() + x);
     }
-    // Random words of a shading point; `use` (below 16) tells apart what they are for.
+    // Returns random words for a shading point; `use` (below 16) distinguishes their purposes.
     std::array<std::uint32_t, 4> random_of(const ShadingPoint& at, std::uint32_t use) const {
         const int width = box.x1 - box.x0;
         const int px = box.x0 + static_cast<int>(at.pixel) % width;

@@ -1,5 +1,5 @@
 #pragma once
-// The light in a tile's pixels by its parts, for those who ask what a picture is made of. Frames of the loop have none.
+// The light in a tile's pixels by parts, for pictures that are taken apart. Frames of the loop have none.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +13,10 @@
 namespace hilcam {
 
 struct TileParts {
-    PixelBox box;                   // the tile's place
-    std::span<Spectrum> sums;       // by part, then by pixel; of kImageParts
-    PixelRecord* record = nullptr;  // record of some pixels, which may lie elsewhere; null: none
-    float share = 1;                // factor on sums that makes them radiance
+    PixelBox box;                   // the tile
+    std::span<Spectrum> sums;       // by part (kImageParts), then by pixel
+    PixelRecord* record = nullptr;  // record of some pixels, possibly outside this tile; null: none
+    float share = 1;                // factor that turns sums into radiance
 
     std::size_t pixels() const { return sums.size() / kImageParts; }
     std::span<Spectrum> of(LightPart part) const {

@@ -1,6 +1,6 @@
 #pragma once
-// The light that ground and clouds send up again into the air, by place: f = A / (1 - A S) for albedo A under air that sends the
-// share S of it back (air_by_place.h).
+// The light that ground and clouds send back into the air, by place: f = A / (1 - A S) for albedo A, where
+// the air returns the share S of it (air_by_place.h).
 
 #include <string>
 #include <vector>
@@ -17,9 +17,9 @@ class AirLift {
 
     bool varies() const { return lifts_.size() > 1; }
     const Spectrum& first() const { return lifts_.front(); }
-    // Bilinear between the middles of cells; u from 180 W, v from 90 N. Loop, any thread.
+    // Returns f, bilinear between the middles of cells; u from 180 W, v from 90 N. Loop, any thread.
     Spectrum at(float u, float v) const;
-    // "over albedo 0.25", for `hilcam check`.
+    // Returns, for example, "over albedo 0.25", for `hilcam check`.
     std::string describe() const;
 
   private:

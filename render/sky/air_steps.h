@@ -1,5 +1,5 @@
 #pragma once
-// The pieces of a ray's way through a ball of air, and what one piece adds to the light that comes along it.
+// Divides a ray through a ball of air into pieces, and computes what one piece adds to the light along it.
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,16 @@
 
 namespace hilcam {
 
-// A piece of a ray: its middle, and its length.
+// A piece of a ray: its middle and its length.
 struct AirStep {
     double distance_m, length_m;
 };
 
-// Calls step(AirStep) from the beginning to the end; pieces crowd at the lowest point, cubically. low_m: distance of the ray's lowest
-// point, which may lie outside. count: pairs of pieces on either side of it.
+// Calls step(AirStep) from begin to end; pieces are denser towards the lowest point, cubically. low_m:
+// distance to the ray's lowest point, which may be outside. count: pairs of pieces on each side of it.
 template <class Action>
 void for_each_air_step(double low_m, double from_m, double end_m, int count, const Action& action) {
-    // Two points of Gauss and Legendre in each pair, half of it each.
+    // Each pair has two points of Gauss-Legendre quadrature, half of it each.
     constexpr double kGauss = 0.57735026918962576;
     const double low = std::clamp(low_m, from_m, end_m);
     const double before = low - from_m, after = end_m - low;
@@ -43,8 +43,8 @@ inline Spectrum exp_of_minus(const Spectrum& depth) {
     return out;
 }
 
-// A piece of a ray with even sources: what it lets through, and over what length a source in it counts; the extinction inside it is not
-// left out, (1 - e^-x) / x.
+// A piece of a ray with uniform sources: its transmittance, and the effective length of its sources, which
+// takes extinction inside the piece into account, (1 - e^-x) / x.
 struct AirPiece {
     Spectrum passed, length_m;
     AirPiece(const Spectrum& extinction, double piece_m) {

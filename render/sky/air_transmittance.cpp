@@ -11,8 +11,8 @@ namespace {
 constexpr double kGround_m = AirBall::kGround_m, kAirTop_m = AirBall::kTop_m;
 constexpr double kSunAngularRadius_rad = kSunRadius_m / kAstronomicalUnit_m;
 
-// Directions that leave to space, by the distance to the top between its least and greatest value
-// (Bruneton & Neyret, EGSR 2008): smooth at the horizon.
+// Directions to space are gridded by the distance to the top, between its least and greatest value (Bruneton
+// & Neyret, EGSR 2008): smooth at the horizon.
 double direction_coordinate(double r, double mu) {
     const double nearest = kAirTop_m - r, rho = std::sqrt(std::max(0.0, r * r - kGround_m * kGround_m));
     const double farthest = rho + std::sqrt(kAirTop_m * kAirTop_m - kGround_m * kGround_m);
@@ -64,7 +64,7 @@ Spectrum AirTransmittance::to_space(double r, double mu) const {
 }
 Spectrum AirTransmittance::to_sun(double r, double mu_s) const {
     if (r > kAirTop_m) {
-        // From outside: where the ray enters, if it does.
+        // From outside: where the ray enters the air, if it does.
         const double inside = r * r * (mu_s * mu_s - 1) + kAirTop_m * kAirTop_m;
         Spectrum clear;
         clear.bin.fill(1);
@@ -76,7 +76,7 @@ Spectrum AirTransmittance::to_sun(double r, double mu_s) const {
     const double horizon = std::max(r, kGround_m);
     const double sine_h = kGround_m / horizon;
     const double cos_h = -std::sqrt(std::max(0.0, 1 - sine_h * sine_h));
-    // mu - mu_horizon is about sin of the angle above the horizon times sine_h.
+    // mu - mu_horizon is about the sine of the angle above the horizon, times sine_h.
     const double above = (mu_s - cos_h) / (std::max(1e-3, sine_h) * kSunAngularRadius_rad);
     if (above <= -1) return {};
     const double x = std::clamp(0.5 * (above + 1), 0.0, 1.0);

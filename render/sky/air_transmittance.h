@@ -1,9 +1,10 @@
 #pragma once
-// The light that a ball of air lets through: a table of transmittances to space by height and direction, made from atmosphere_physics.h, and with
-// it the Sun's beam. Also the coordinates of tables by height and by the Sun's cosine.
+// The transmittance of a ball of air: a table of transmittances to space by height and direction, from
+// atmosphere_physics.h, and the Sun's beam from it. Also the coordinates of tables by height and by the Sun's
+// cosine.
 //
-// Radii [m] are those of a ball of the Earth's equatorial radius, mu and mu_s cosines of the angle between the outward vertical and a
-// ray or the Sun. const functions: loop, any thread.
+// Radii [m] are those of a ball with the Earth's equatorial radius; mu and mu_s are cosines between the
+// outward vertical and a ray or the Sun. const functions: loop, any thread.
 
 #include "render/sky/atmosphere_physics.h"
 #include "render/sky/spectrum_table.h"
@@ -22,10 +23,10 @@ struct AirBall {
     }
     static double to_ground(double r, double mu);
 
-    // The square root crowds the lowest kilometres.
+    // The square root makes the lowest kilometres denser.
     static double height_coordinate(double r);
     static double height_at(double v) { return kGround_m + v * v * AirPhysics::kTop_m; }
-    // The Sun's cosine, crowded about the horizon.
+    // The Sun's cosine, denser near the horizon.
     static double sun_coordinate(double mu_s);
     static double sun_at(double u);
 };
@@ -36,11 +37,11 @@ class AirTransmittance {
     void fill(const AirPhysics& air);
     SpectrumTable& table() { return table_; }
 
-    // From a point to the Sun; zero below the horizon, softened by the Sun's disk.
+    // Returns the transmittance from a point to the Sun; zero below the horizon, softened by the Sun's disk.
     Spectrum to_sun(double r, double mu_s) const;
 
   private:
-    SpectrumTable table_;  // [direction, height]
+    SpectrumTable table_;  // by direction, then height
 
     Spectrum to_space(double r, double mu) const;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The program's own atmospheres (see atmosphere.h).
+// The program's own atmospheres (atmosphere.h).
 
 #include <memory>
 
@@ -7,7 +7,7 @@
 
 namespace hilcam {
 
-// Throws InputError when a parameter or a table does not fit.
+// Throws InputError if a parameter or a table is not valid.
 std::unique_ptr<Atmosphere> make_precomputed_atmosphere(const AtmosphereRequest& request);
 std::unique_ptr<Atmosphere> make_table_atmosphere(const AtmosphereRequest& request);
 

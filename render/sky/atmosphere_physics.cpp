@@ -21,7 +21,8 @@ constexpr auto kOzone_m2 = std::to_array<double>(
      2.451e-26, 2.801e-26, 2.534e-26, 1.624e-26, 1.465e-26, 2.078e-26, 1.383e-26, 7.105e-27});
 // One Dobson unit: 0.01 mm of gas at 0 deg C and 101325 Pa (Loschmidt's constant, CODATA 2018).
 constexpr double kDobson_m2 = 2.686780111e20;
-// Steps of the table by height. Linear between them, the density errs by (step / scale height)^2 / 8, 4e-5 at most.
+// Steps of the table by height. With linear interpolation the density is off by (step / scale height)^2 / 8,
+// 4e-5 at most.
 constexpr double kHeightStep_m = 100;
 constexpr int kHeightSteps = static_cast<int>(AirPhysics::kTop_m / kHeightStep_m);
 
@@ -33,7 +34,7 @@ double ozone_m2(double wavelength_um) {
     return kOzone_m2[i] + (x - static_cast<double>(i)) * (kOzone_m2[i + 1] - kOzone_m2[i]);
 }
 
-// Mean over a bin, 16 midpoints.
+// Returns the mean over a bin, by 16 midpoints.
 template <class Function>
 Spectrum bin_mean(const SpectralGrid& grid, const Function& function) {
     Spectrum out;
@@ -89,7 +90,7 @@ void validate(const AtmosphereConfig& c) {
 
 AirPhysics::AirPhysics(const AtmosphereConfig& c, const SpectralGrid& grid)
     : aerosol_height_m_(c.aerosol_scale_height_m), asymmetry_(static_cast<float>(c.aerosol_asymmetry)) {
-    // Columns of what the table says between its steps, so that optical depths come out whatever the steps are.
+    // Columns of the interpolated table, so that optical depths do not depend on the steps.
     double air_m = 0, ozone_m = 0;
     for (int i = 0; i <= kHeightSteps; ++i) {
         const double share_m = i == 0 || i == kHeightSteps ? 0.5 * kHeightStep_m : kHeightStep_m;
@@ -103,7 +104,7 @@ AirPhysics::AirPhysics(const AtmosphereConfig& c, const SpectralGrid& grid)
     rayleigh_ =
         bin_mean(grid, [&](double um) { return rayleigh_optical_depth(um) * c.pressure_pa / 101325; });
     ozone_ = bin_mean(grid, [&](double um) { return ozone_m2(um) * c.ozone_du * kDobson_m2; });
-    // The exponential is cut at the top: the column has to come out all the same.
+    // The exponential is cut off at the top; the column is corrected for that.
     const double aerosol_m = aerosol_height_m_ * (1 - std::exp(-kTop_m / aerosol_height_m_));
     aerosol_extinction_ = bin_mean(grid, [&](double um) {
         return c.aerosol_optical_depth * std::pow(um / 0.55, -c.angstrom_exponent) / aerosol_m;

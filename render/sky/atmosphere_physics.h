@@ -1,14 +1,16 @@
 #pragma once
-// The optical properties of air, per spectral bin, as functions of height.
+// The optical properties of air per spectral bin, as functions of height.
 //
-//   molecules  optical depth of Bodhaine et al., J. Atmos. Oceanic Technol. 16 (1999), eq. 30 (1013.25 hPa, 360 ppm CO2),
-//              times pressure; by height as dense as the U.S. Standard Atmosphere 1976 (standard_air.h); phase
-//              3/16pi (1 + cos^2)
-//   aerosol    Angstrom's law, exponential; Cornette & Shanks' phase function (Applied Optics 31, 1992)
-//   ozone      absorption only: cross sections of Serdyuchenko et al., Atmos. Meas. Tech. 7 (2014), at 233 K, 0.36 to 0.83 um
-//              (held below, none above); by height as in the same standard, scaled to its column
-// Coefficients are means over a bin, so transmittances of wide bins err where they vary much inside one.
-// Not modelled: water vapour and oxygen bands, refraction, polarisation, clouds, seasons.
+//     molecules  optical depth of Bodhaine et al., J. Atmos. Oceanic Technol. 16 (1999), eq. 30 (1013.25 hPa,
+//                360 ppm CO2), times pressure; density by height of the U.S. Standard Atmosphere 1976
+//                (standard_air.h); phase 3/16pi (1 + cos^2)
+//     aerosol    Angstrom's law, exponential in height; Cornette & Shanks' phase function (Applied Optics 31,
+//                1992)
+//     ozone      absorption only: cross sections of Serdyuchenko et al., Atmos. Meas. Tech. 7 (2014), at
+//                233 K, 0.36 to 0.83 um (constant below, none above); by height as in the same standard,
+//                scaled to its column
+// Coefficients are means over a bin, so transmittances of wide bins are wrong if the coefficients vary much
+// inside one. Not modelled: water vapour and oxygen bands, refraction, polarisation, clouds, seasons.
 
 #include <vector>
 
@@ -17,7 +19,7 @@
 
 namespace hilcam {
 
-// Vertical optical depth of the molecules at 1013.25 hPa; 0.25-4 um.
+// Returns the vertical optical depth of the molecules at 1013.25 hPa; 0.25-4 um.
 double rayleigh_optical_depth(double wavelength_um);
 
 struct AirAt {
@@ -38,7 +40,7 @@ class AirPhysics {
     float aerosol_phase(float cosine) const;
 
   private:
-    // Shares of the columns of molecules and ozone per metre, at even steps of height.
+    // Shares of the columns of molecules and ozone per metre, at equal steps of height.
     struct Shares {
         float air_m, ozone_m;
     };

@@ -1,13 +1,15 @@
 // `precomputed`: a spherical, layered atmosphere with all orders of scattering.
 //
-// Tables made at start-up from atmosphere_physics.h and kept on disk: transmittance to space T(height, direction); the light of second
-// and higher orders at a point, taken as coming from all sides alike, psi(height, Sun), order by order; the sky's irradiance on the
-// ground. A ray adds up single scattering and psi along itself with steps that crowd where it is lowest.
+// Tables are made at start-up from atmosphere_physics.h and kept on disk: transmittance to space T(height,
+// direction); the light of second and higher orders at a point, treated as isotropic, psi(height, Sun), order
+// by order; and the sky's irradiance on the ground. A ray integrates single scattering and psi with steps
+// that are denser towards its lowest point.
 //
-// psi and the sky are kept in the two parts of air_by_place.h, over black ground and of what is sent up. The light is taken to go up and
-// down where it is.
+// psi and the sky are stored in the two parts of air_by_place.h: over black ground, and of light from below.
+// Light from below is treated as going up and down in place.
 //
-// Against a Monte Carlo of an atmosphere of its own: tests/closed_form/atmosphere_test.cpp, within 5 %.
+// tests/closed_form/atmosphere_test.cpp compares it with a Monte Carlo of an independent atmosphere: within 5
+// %.
 
 #include <tbb/parallel_for.h>
 
@@ -103,7 +105,8 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
   private:
     AirPhysics air_;
     AirLift ground_;
-    // Over black ground, what one unit of lift adds, and what is looked at: the first alone where the lift differs by place, else all.
+    // Over black ground; per unit of lift; and the table that lookups use: the first alone if the lift
+    // differs by place, otherwise the total.
     struct Tables {
         SpectrumTable over_black, per_lift, shown;
         Tables(int width, int height)
@@ -123,7 +126,7 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
     static constexpr double kFar_m = 1e12;
 
     // --- along a ray
-    // in_parts: false leaves per_lift_sr alone.
+    // in_parts: false leaves per_lift_sr out.
     Parts parts_along(Vec3d origin_m, Vec3d dir, double distance_m, Vec3d sun_dir, bool in_parts) const {
         Parts out;
         out.over_black.transmittance.bin.fill(1);
@@ -167,7 +170,8 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
         });
     }
 
-    // Sunlight scattered once [sr^-1 m^-1]; and with it all that is scattered more often over black ground.
+    // Sunlight scattered once [sr^-1 m^-1]; and the same plus everything scattered more often over black
+    // ground.
     Spectrum source_of_sun(double radius, double mu_s, float cosine, const AirAt& here) const {
         return (air_.rayleigh_phase(cosine) * here.rayleigh + air_.aerosol_phase(cosine) * here.aerosol) *
                transmittance_.to_sun(radius, mu_s);
@@ -178,11 +182,12 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
                    multiple_.over_black(sun_coordinate(mu_s), height_coordinate(radius));
     }
 
-    // Light of one order, or of several: its mean over all directions at a point, and its irradiance on the ground.
+    // Light of one or several orders: its mean over all directions at a point, and its irradiance on the
+    // ground.
     struct Orders {
-        SpectrumTable mean, ground;  // ground: height 2, both the same
+        SpectrumTable mean, ground;  // ground: height 2, both equal
     };
-    // psi in its two parts, each order by order.
+    // Fills the two parts of psi, order by order.
     void fill_multiple() {
         const Orders black = all_orders(
             next_order([&](double radius, double mu_s, float cosine,
@@ -201,7 +206,8 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
             for (int b = 0; b < kMaxBins; ++b) cell[b] = down[b] > 0 ? again[b] / down[b] : 0;
     }
 
-    // The first order and all that it sends on over black ground, until an order adds a thousandth.
+    // Returns the first order and all that it produces over black ground, until an order adds less than a
+    // thousandth.
     Orders all_orders(Orders last) const {
         constexpr int kMaxOrders = 30;
         Orders total = last;
@@ -227,12 +233,12 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
         return total;
     }
 
-    // The way of a ray from within the air to its end, as all of one height and inclination have it.
+    // A ray from inside the air to its end, the same for all of one height and inclination.
     struct Way {
         struct Piece {
             double distance_m, radius_m;
             AirAt air;
-            Spectrum seen_m;  // length, as dim as what is before it makes it
+            Spectrum seen_m;  // length, dimmed by everything in front of it
         };
         std::vector<Piece> pieces;
         Spectrum passed;
@@ -254,8 +260,8 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
         return out;
     }
 
-    // Light that arrives everywhere from sources in the air, source(radius, Sun's cosine, cosine between ray and Sun, air)
-    // [sr^-1 m^-1], and on the ground, ground_sr(Sun's cosine) [sr^-1].
+    // Returns the light that arrives from sources in the air, source(radius, Sun's cosine, cosine between ray
+    // and Sun, air) [sr^-1 m^-1], and on the ground, ground_sr(Sun's cosine) [sr^-1].
     template <class Source, class Ground>
     Orders next_order(const Source& source, const Ground& ground_sr) const {
         constexpr int kRings = 12, kSpokes = 6, kSteps = 10;
@@ -292,7 +298,7 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
         return mu * mu_s + std::sqrt(std::max(0.0, (1 - mu * mu) * (1 - mu_s * mu_s))) * std::cos(phi);
     }
 
-    // r, mu_s: where the way begins.
+    // r, mu_s: at the start of the ray.
     template <class Source, class Ground>
     static Spectrum arriving(const Way& way, double r, double mu_s, double cosine, const Source& source,
                              const Ground& ground_sr) {
@@ -305,7 +311,7 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
         return light;
     }
 
-    // The sky's light on the ground, and on the level at other heights, in its two parts.
+    // Fills the sky's light on the ground, and on horizontal surfaces at other heights, in its two parts.
     void fill_sky() {
         constexpr int kRings = 16, kSpokes = 16, kSteps = 14;
         const int suns = sky_.over_black.width(), heights = sky_.over_black.height();
@@ -314,7 +320,7 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
         tbb::parallel_for(0, heights, [&](int y) {
             const double r = std::min(height_at(static_cast<double>(y) / (heights - 1)), kTop_m - 1);
             for (int i = 0; i < kRings; ++i) {
-                // Equal shares of the cosine-weighted half sphere.
+                // Equal shares of the cosine-weighted hemisphere.
                 const double mu = std::sqrt(1 - (i + 0.5) / kRings);
                 const Way way = way_of(r, mu, kSteps);
                 for (int x = 0; x < suns; ++x)
@@ -359,7 +365,7 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
                 out.insert(out.end(), cell.bin.begin(), cell.bin.end());
         return out;
     }
-    // False where the store has none, or what it has is no light.
+    // Returns false if the store has none, or if its values are not light.
     bool find(const AtmosphereStore& store, std::span<const double> key) {
         std::vector<float> kept = values();
         if (!store.find(key, kept) ||

@@ -11,7 +11,8 @@
 namespace hilcam {
 namespace {
 
-constexpr double kAbove_m = 100e3;  // where the last height ends to be the viewer's own
+// From this height on, viewers count as being at the table's largest height.
+constexpr double kAbove_m = 100e3;
 
 using Geometry = std::array<double, AtmosphereTable::kAxes>;
 constexpr std::array<const char*, AtmosphereTable::kAxes> kNames = {
@@ -32,7 +33,7 @@ class TableAtmosphere final : public Atmosphere {
   public:
     explicit TableAtmosphere(const AtmosphereTable& table) : table_(table) {}
 
-    // From the air's edge on, one height is as good as another.
+    // Outside the air the height does not matter.
     double height_m(Vec3d origin_m) const {
         const double height = length(origin_m) - kEarthEquatorialRadius_m;
         return height >= kAbove_m ? std::max(height, table_.axes[AtmosphereTable::kHeight].back()) : height;
@@ -45,7 +46,7 @@ class TableAtmosphere final : public Atmosphere {
         out.transmittance.bin.fill(1);
         if (!std::isfinite(distance_m)) return out;
         const Vec3d ground = origin_m + distance_m * dir;
-        // Something before the ground: the table is of the whole way to it.
+        // An object in front of the ground: the table covers only the whole path.
         if (length(ground) > kEarthEquatorialRadius_m + 1000) return out;
         const AtmosphereTable::Cell cell = at(geometry_of(ground, -dir, sun_dir, height_m(origin_m)));
         out.transmittance = cell.tau_2;
@@ -92,7 +93,7 @@ class TableAtmosphere final : public Atmosphere {
     AtmosphereTable table_;
     mutable std::atomic<std::uint64_t> outside_{0};
 
-    // tau_1 and the sky do not depend on the viewer: as for one straight above, at the greatest height.
+    // tau_1 and the sky do not depend on the viewer: values for a vertical view from the largest height.
     Geometry straight_down(Vec3d point_m, Vec3d sun_dir) const {
         return {angle_rad_between(normalized(point_m), sun_dir),
                 table_.axes[AtmosphereTable::kViewZenith].front(),

@@ -41,7 +41,7 @@ Rotation moon_rotation(double t, double d) {
                 0.0019 * sin(e12) - 0.0044 * sin(e13)};
 }
 
-// Archinal et al. 2018, table 1; periodic terms below 0.1 deg are left out, Neptune's are not.
+// Archinal et al. 2018, table 1; periodic terms below 0.1 deg are left out, except Neptune's.
 Rotation planet_rotation(BodyId id, double t, double d) {
     const double n = (357.85 + 52.316 * t) * kDegree_rad;
     switch (id) {
@@ -261,7 +261,7 @@ void validate(const OriginConfig& c) {
 
 namespace {
 
-// Returns the state of a place that turns with a body, about its centre: by difference over a minute, good to
+// Returns the state of a place on a rotating body, about its centre: by a difference over a minute, good to
 // mm/s; aberration needs m/s.
 StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     if (!origin.turns()) return {};
@@ -272,7 +272,8 @@ StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     return {at(time), (at(time + kStep_ns) - at(time + -kStep_ns)) / (2 * kStep_ns * kSecondsPerNs)};
 }
 
-// The velocity over that of light, below 1: one that outruns light sees what one sees who nearly does.
+// Returns the velocity over that of light, limited below 1: a faster observer sees what one nearly as fast as
+// light sees.
 Vec3d beta_of(Vec3d velocity_m_s) {
     constexpr double kMax = 1 - 1e-6;
     const Vec3d beta = velocity_m_s / kSpeedOfLight_m_s;
@@ -288,7 +289,8 @@ Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
     double v[3] = {beta.x, beta.y, beta.z};
     const double inverse_lorentz = std::sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     double proper[3];
-    // The distance to the Sun only feeds the Sun's light bending (4 mas at most here): as if infinite.
+    // The distance to the Sun only serves light bending by the Sun (4 mas at most here), so it is set to
+    // infinity.
     eraAb(natural, v, 1e9, inverse_lorentz, proper);
     return {proper[0], proper[1], proper[2]};
 }
@@ -305,7 +307,7 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
     Bodies out;
     out.origin_from_barycenter = sun + home + place;
 
-    // As the home body's centre, or the place in free space, sees it, then from the origin.
+    // As seen from the home body's centre or the place in free space, then from the origin.
     const auto apparent = [&](Vec3d from_home_m) {
         return seen_in_motion(from_home_m, 0, out.origin_from_barycenter.velocity_m_s) - place.position_m;
     };
@@ -317,8 +319,8 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
             out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time, origin), -place.velocity_m_s};
             continue;
         }
-        // One step of light time: the planet moves less than 1e-4 of the way meanwhile. Its velocity is that
-        // about the barycentre, as the observer's is.
+        // One step of light time: the planet moves less than 1e-4 of the distance meanwhile. Its velocity is
+        // relative to the barycentre, like the observer's.
         StateVector there = known_heliocentric(id, time, origin, earth);
         const double light_s = length(there.position_m - home.position_m) / kSpeedOfLight_m_s;
         there.position_m = there.position_m - light_s * (there.velocity_m_s + sun.velocity_m_s);

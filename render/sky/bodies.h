@@ -1,9 +1,9 @@
 #pragma once
-// The Sun, the Moon and the planets: where they are, how they are turned, how large they are.
+// The Sun, the Moon and the planets: positions, attitudes and sizes.
 //
-// Positions in the world are those that an observer at rest at its origin sees: light time and stellar
-// aberration by the origin's own velocity are in them, except for the body that the origin belongs to. A
-// camera that moves in the world sees them shifted once more (seen_in_motion).
+// Positions in the world are those that an observer at rest at its origin sees: they include light time and
+// stellar aberration by the origin's own velocity, except for the body that the origin belongs to. A camera
+// that moves in the world sees them shifted once more (seen_in_motion).
 
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@
 
 namespace hilcam {
 
-// Index in Bodies and Scene::bodies.
+// An index into Bodies and Scene::bodies.
 enum class BodyId : std::uint8_t {
     kMercury,
     kVenus,
@@ -37,7 +37,7 @@ enum class BodyId : std::uint8_t {
 inline constexpr std::size_t kBodyCount = 9;
 inline constexpr std::array<std::string_view, kBodyCount> kBodyNames = {
     "mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune"};
-// Bodies of the scenario's own (own_bodies.h) come after these.
+// The scenario's own bodies (own_bodies.h) follow these.
 inline constexpr std::size_t kMaxOwnBodies = 8;
 inline constexpr std::size_t kMaxBodies = kBodyCount + kMaxOwnBodies;
 inline constexpr BodyId kNoBody{kMaxBodies};
@@ -61,27 +61,27 @@ inline constexpr std::array<Figure, kBodyCount> kFigures = {{
     {24764e3, 24341e3},
 }};
 
-// Geocentric geometric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00
-// (VSOP2000 fit, good to 14 km from 1900 to 2100).
+// Returns the geocentric geometric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's
+// eraEpv00 (VSOP2000 fit, good to 14 km from 1900 to 2100).
 Vec3d sun_from_earth_m(TimeTai time);
-// Heliocentric geometric position and velocity [m, m/s], ICRF axes. Earth: eraEpv00. Moon: that plus
+// Heliocentric geometric position and velocity [m, m/s], ICRF axes. Earth: eraEpv00. Moon: the same plus
 // eraMoon98 (Meeus' series; 10 arcsec, 50 km). Planets: planet_by_series() (planet_series.h).
 struct StateVector {
     Vec3d position_m, velocity_m_s;
 };
 StateVector heliocentric(BodyId id, TimeTai time);
 
-// The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
-// angle (ERFA eraC2t00b), with the pole and UT1 as measured.
+// Returns the rotation from ICRF to ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation angle
+// (ERFA eraC2t00b), with the measured pole and UT1.
 Mat3d earth_fixed_from_icrf(TimeTai time, const EarthOrientation& measured);
-// Returns the rotation into the Earth's axes about the celestial intermediate pole, without the pole's
-// motion.
+// Returns the rotation to the Earth's axes about the celestial intermediate pole, without polar motion.
 Mat3d earth_rotated_from_icrf(TimeTai time, const EarthOrientation& measured);
-// Returns the rotation into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by
+// Returns the rotation to a body's own axes (z: north pole, x: prime meridian). Earth as above; others by
 // Archinal et al. 2018 (the Moon's mean-Earth frame by its series, 0.01 deg).
 Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const EarthOrientation& measured);
 
-// A place on a body: angles in rad, height above its ellipsoid in m; latitude is geodetic (of the normal).
+// A place on a body: angles in rad, height above its ellipsoid in m. Latitude is geodetic (that of the
+// normal).
 struct Geodetic {
     double longitude_rad = 0;
     double latitude_rad = 0;
@@ -89,11 +89,12 @@ struct Geodetic {
 };
 Vec3d earth_fixed_position_m(const Geodetic& place);
 Vec3d body_fixed_position_m(BodyId id, const Geodetic& place);
-// The local axes of a place - x east, y north, z up along the ellipsoid's normal - into its body's own.
+// Returns the rotation from the local axes of a place (x east, y north, z up along the ellipsoid's normal) to
+// the body's.
 Mat3d body_fixed_from_local(const Geodetic& place);
 
-// The scenario's world origin: a body's centre, a place that rides with a rotating body, a place in free space that is at
-// rest against the Sun, or a thing of the kernels.
+// The origin of the scenario's world: a body's centre, a place on a rotating body, a place in free space at
+// rest relative to the Sun, or an object of SPICE kernels.
 struct OwnBodies;
 class BodySource;
 struct OriginConfig {
@@ -106,17 +107,17 @@ struct OriginConfig {
         kSpice
     } kind = Kind::kEarthCenter;
     BodyId body = BodyId::kEarth;
-    // Place of the fixed kinds of origin: a geostationary longitude with height 35 786 km, say.
+    // The place for the fixed kinds of origin, for example a geostationary longitude with height 35 786 km.
     Geodetic place;
-    EarthOrientation earth;  // no key of this section either: `earth_orientation` of the scenario
-    Vec3d sun_m;  // position of the Sun with kFree; no key of this section (emulator/scenario/free_space.h)
+    EarthOrientation earth;  // not a key of this section: `earth_orientation` of the scenario
+    Vec3d sun_m;  // position of the Sun for kFree; not a key of this section (emulator/scenario/free_space.h)
     std::shared_ptr<const OwnBodies> own;      // `bodies` of the scenario; null: none
-    std::string object;                        // thing of the kernels, of kind kSpice
-    std::shared_ptr<const BodySource> source;  // the scenario's kernels; null: the program's own series
+    std::string object;                        // object of the kernels, for kSpice
+    std::shared_ptr<const BodySource> source;  // kernels of the scenario; null: the program's own series
     bool has_object = false, has_body = false, has_longitude = false, has_latitude = false,
          has_height = false;
 
-    // The body that the origin belongs to; none: free space, or a thing of the kernels.
+    // Returns the body that the origin belongs to; none for free space and objects of kernels.
     std::optional<BodyId> center() const {
         if (kind == Kind::kFree || kind == Kind::kSpice) return std::nullopt;
         return kind == Kind::kBodyCenter || kind == Kind::kBodyFixed ? body : BodyId::kEarth;
@@ -124,22 +125,24 @@ struct OriginConfig {
     bool turns() const { return kind == Kind::kEarthFixed || kind == Kind::kBodyFixed; }
 };
 Fields fields(OriginConfig& config);
-// Throws KeyError for a key that the kind does not read.
+// Throws KeyError for a key that this kind does not use.
 void validate(const OriginConfig& config);
 
-// The same as above, by the origin's source where that knows. Loop.
+// The same as above, from the origin's source if that has the data. Loop.
 StateVector heliocentric(BodyId id, TimeTai time, const OriginConfig& origin);
 Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const OriginConfig& origin);
-// The state of what the origin belongs to: its body's centre, the place in free space, the thing of the kernels.
+// Returns the state of what the origin belongs to: the body's centre, the place in free space, the object of
+// the kernels.
 StateVector origin_from_sun(TimeTai time, const OriginConfig& origin);
 
 // The state of a body in the world at an instant.
 struct BodyState {
     Vec3d world_m;
     Mat3d fixed_from_world;
-    // Its motion in the world that world_m does not show yet as light time: where the origin turns with it.
+    // Its motion in the world if the origin rotates with it; world_m does not include the light time of this
+    // motion.
     Vec3d velocity_m_s;
-    Figure figure{};  // figure of a body of the scenario's own; the others have kFigures
+    Figure figure{};  // for bodies of the scenario; others use kFigures
 };
 struct Bodies {
     Vec3d sun_world_m;
@@ -153,39 +156,38 @@ struct Bodies {
     }
     const BodyState& earth() const { return (*this)[BodyId::kEarth]; }
 };
-// Loop: some hundred microseconds, no allocation.
+// Takes some hundred microseconds. Loop, no allocation.
 Bodies bodies_at(TimeTai time, const OriginConfig& origin);
 
-// A direction as an observer with this velocity sees it (ERFA eraAb, relativistic, the Sun's own light
-// bending left out).
+// Returns a direction as an observer with this velocity sees it (ERFA eraAb, relativistic, without light
+// bending by the Sun).
 Vec3d aberrated(Vec3d dir, Vec3d observer_velocity_m_s);
-// Returns where an observer who moves sees the middle of the disk of a body that is at `to_body_m` from him:
-// the outline of a sphere in motion is a circle (Penrose, Proc. Camb. Phil. Soc. 55, 1959, 137), and this
-// sphere of the same radius has that very outline. Exact: the cone of the limb's directions is the 4-vector
-// of the length of its tangent and the place of its middle, and is boosted as such. A radius of 0 is
-// aberration.
+// Returns where a moving observer sees the middle of the disk of a body at `to_body_m`. The outline of a
+// moving sphere is a circle (Penrose, Proc. Camb. Phil. Soc. 55, 1959, 137), and a sphere of the same radius
+// at the returned place has that outline. Exact: the cone of the limb's directions is the 4-vector of the
+// tangent's length and the middle's position, and is boosted as such. A radius of 0 gives aberration.
 Vec3d seen_in_motion(Vec3d to_body_m, double radius_m, Vec3d observer_velocity_m_s);
 
 // Body axes with z stretched so that the ellipsoid is a sphere.
 inline Vec3d stretched(const Figure& figure, Vec3d v) {
     return {v.x, v.y, v.z * figure.equatorial_radius_m / figure.polar_radius_m};
 }
-// The cosine of half the angle of a ball at a distance; 0 inside it.
+// Returns the cosine of half the angle of a ball at a distance; 0 inside it.
 inline double cone_cosine_of(double radius_m, double distance_m) {
     const double sine = radius_m < distance_m ? radius_m / distance_m : 1.0;
     return std::sqrt(1 - sine * sine);
 }
-// True when a disk of one half angle can touch another whose middle is at an angle; all by their cosines.
+// True when a disk of one half angle can touch another disk at an angle from it; all given by cosines.
 inline bool can_cover(double cosine_between, double one_cosine, double other_cosine) {
     const auto angle = [](double cosine) { return std::acos(std::fmin(1.0, std::fmax(-1.0, cosine))); };
     return angle(cosine_between) < angle(one_cosine) + angle(other_cosine);
 }
 
-// The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres
-// from its centre. Closed form in double. Distance in lengths of the direction, or a negative value: no hit.
+// Returns the nearer intersection of a ray from outside with an ellipsoid, in lengths of the direction;
+// negative: none. Origin and direction in its axes, metres from its centre. Closed form in double.
 inline double intersect_ellipsoid(const Figure& figure, Vec3d origin_m, Vec3d dir) {
-    // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the
-    // quadratic, which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
+    // Scaling z by a/b makes the ellipsoid a sphere of radius a. Then the closest-approach form of the
+    // quadratic keeps its digits for distant origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
     const double a = figure.equatorial_radius_m;
     const double stretch = a / figure.polar_radius_m;
     const Vec3d o{origin_m.x, origin_m.y, origin_m.z * stretch};
@@ -193,7 +195,7 @@ inline double intersect_ellipsoid(const Figure& figure, Vec3d origin_m, Vec3d di
     const double d_squared = dot(d, d);
     const double to_closest = -dot(o, d) / d_squared;
     const Vec3d closest = o + to_closest * d;
-    // a^2 - c^2 as a product: both are of the same size near the limb.
+    // a^2 - c^2 as a product, because the two are similar near the limb.
     const double distance = length(closest);
     const double rest = (a - distance) * (a + distance);
     if (rest < 0 || to_closest < 0) return -1;
@@ -203,10 +205,11 @@ inline double intersect_earth(Vec3d origin_m, Vec3d dir) {
     return intersect_ellipsoid(kFigures[index_of(BodyId::kEarth)], origin_m, dir);
 }
 
-// Returns the angle [rad], in [0, pi/2], from an axis that meets an ellipsoid to where rays in a plane through it
-// just touch; pi/2 where none do. Origin in its axes, metres from its centre; axis and way unit, at right angles,
-// way in the plane. A line along d meets a sphere of radius a where a^2 d.d - (o x d).(o x d) >= 0: a quadratic in
-// the tangent of the angle, whose terms keep their digits for far origins.
+// Returns the angle [rad], in [0, pi/2], from an axis that meets an ellipsoid to the tangent rays in a plane
+// through the axis; pi/2 if there are none. Origin in its axes, metres from its centre; axis and way are unit
+// vectors at right angles, way in the plane. A line along d meets a sphere of radius a if a^2 d.d - (o x
+// d).(o x d) >= 0: a quadratic in the tangent of the angle, whose terms keep their digits for distant
+// origins.
 inline double limb_angle_rad(const Figure& figure, Vec3d origin_m, Vec3d axis, Vec3d way) {
     const double a = figure.equatorial_radius_m, stretch = a / figure.polar_radius_m;
     const auto stretched = [stretch](Vec3d v) { return Vec3d{v.x, v.y, v.z * stretch}; };
@@ -216,15 +219,15 @@ inline double limb_angle_rad(const Figure& figure, Vec3d origin_m, Vec3d axis, V
     const double c1 = a * a * dot(along, across) - dot(u, v);
     const double c2 = a * a * dot(across, across) - dot(v, v);
     if (c0 <= 0) return 0;
-    // The least root above zero of c2 t^2 + 2 c1 t + c0.
+    // The smallest positive root of c2 t^2 + 2 c1 t + c0.
     const double rest = c1 * c1 - c2 * c0;
     const double below = rest >= 0 ? std::sqrt(rest) - c1 : 0;
     return below > 0 ? std::atan2(c0, below) : 0.5 * kPi;
 }
 
-// The outward unit normal of an ellipsoid at a point on it.
+// Returns the outward unit normal of an ellipsoid at a point on it.
 inline Vec3d ellipsoid_normal(const Figure& figure, Vec3d point_m) {
-    // Gradient of x^2/a^2 + y^2/a^2 + z^2/b^2.
+    // The gradient of x^2/a^2 + y^2/a^2 + z^2/b^2.
     const double ratio = figure.polar_radius_m / figure.equatorial_radius_m;
     return normalized(Vec3d{point_m.x, point_m.y, point_m.z / (ratio * ratio)});
 }

@@ -22,7 +22,7 @@ Curve moon_scattering() {
         {}};
 }
 
-// The brightness of a thin crescent against a sphere's is not known; it is held from this phase on.
+// The brightness of a thin crescent relative to a sphere's is not known; it is constant from this phase on.
 constexpr double kMaxPhase_deg = 165;
 
 double disk_phase(SurfaceLaw law, double phase_rad) {
@@ -43,8 +43,9 @@ Curve color_of(BodyId id) {
             {}};
 }
 
-// ROLO's disk reflectance at 30 deg of phase, waxing and waning meaned, over that of its bands at 544 to 554 nm: Kieffer &
-// Stone, Astron. J. 129, 2887, 2005, eq. 10 and table 4 at the mean libration, neighbouring bands as one.
+// ROLO's disk reflectance at 30 deg of phase, mean of waxing and waning, relative to its bands at 544 to 554
+// nm: Kieffer & Stone, Astron. J. 129, 2887, 2005, eq. 10 and table 4 at the mean libration, neighbouring
+// bands combined.
 Curve moon_color() {
     return {{0.353, 0.411, 0.442, 0.476, 0.549, 0.687, 0.761, 0.873, 0.937, 1.06, 1.243, 1.586, 1.982, 2.254},
             {0.558, 0.762, 0.791, 0.851, 1, 1.262, 1.351, 1.474, 1.429, 1.669, 1.823, 2.219, 2.489, 2.986},
@@ -114,7 +115,7 @@ BodyConfig default_body(BodyId id) {
         return config;
     }
     config.measured_magnitude = true;
-    // Airless, dark surfaces against clouds (and Mars, bright and dusty).
+    // Airless, dark surfaces versus clouds (and Mars, bright and dusty).
     const bool airless = id == BodyId::kMercury || id == BodyId::kMoon;
     config.law = airless ? SurfaceLaw::kLommelSeeliger : SurfaceLaw::kLambert;
     config.rings = id == BodyId::kSaturn;
@@ -223,7 +224,7 @@ BodyLook::BodyLook(BodyId id, const BodyConfig& config, const SpectralGrid& grid
             continue;
         }
         const double g = std::min(static_cast<double>(i), kMaxPhase_deg) * kDegree_rad;
-        // Geometric albedo times phase function: the disk over the ellipse that is seen from the equator.
+        // Geometric albedo times phase function: the disk over the ellipse seen from the equator.
         const Figure& figure = kFigures[index_of(id)];
         const double disk = disk_m2_of_magnitude(magnitude_v_1au(id, g)) /
                             (figure.equatorial_radius_m * figure.polar_radius_m);
@@ -238,8 +239,8 @@ float BodyLook::coefficient(double phase_rad) const {
     return by_degree_[i] + share * (by_degree_[i + 1] - by_degree_[i]);
 }
 
-// The visible lit part of a unit sphere, seen along z: by its chords along y, which the phase does not shorten, and
-// along each of them.
+// Integrates the visible lit part of a unit sphere, seen along z: over chords along y, which the phase does
+// not shorten, and along each of them.
 void BodyLook::integrate_disk() {
     constexpr int kRows = 24, kColumns = 64;
     for (int degree = 0; degree <= 181; ++degree) {
@@ -248,7 +249,7 @@ void BodyLook::integrate_disk() {
         for (int j = 0; j < kRows; ++j) {
             const double y = std::sin(0.5 * kPi * (j + 0.5) / kRows);
             const double half = std::sqrt(1 - y * y), strip = 0.5 * kPi / kRows * half;
-            // From the terminator to the bright limb, longitudes along the chord.
+            // From the terminator to the bright limb, by longitude along the chord.
             const double least = g - 0.5 * kPi, most = 0.5 * kPi;
             for (int i = 0; i < kColumns; ++i) {
                 const double lon = least + (most - least) * (i + 0.5) / kColumns;

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// East and north of a place; anywhere at the poles.
+// East and north at a place; arbitrary at the poles.
 struct LocalAxes {
     Vec3d east, north;
 };
@@ -18,7 +18,7 @@ LocalAxes local_axes(Vec3d up) {
     return {east, cross(up, east)};
 }
 
-// No horizon of a round body's mountains is higher.
+// No horizon of a round body's mountains is higher than this.
 constexpr double kSteepest_rad = 35 * kDegree_rad;
 
 }  // namespace
@@ -86,11 +86,11 @@ Vec3d BodyRelief::normal(Vec3d dir, double footprint_m) const {
     double to_east, to_north;
     const double across = std::sqrt(dir.x * dir.x + dir.y * dir.y);
     if (across > 4 * turn) {
-        // On the grid's own axes, away from the poles.
+        // Along the grid's own axes, except near the poles.
         const double u = std::atan2(dir.y, dir.x) / (2 * kPi) + 0.5;
         const double v = 0.5 - std::asin(std::clamp(dir.z, -1.0, 1.0)) / kPi;
         const double du = turn / (2 * kPi * across), dv = turn / kPi;
-        // Linear between two levels, as heights are.
+        // Linear between two levels, like heights.
         const double where =
             std::clamp(std::log2(footprint_m / spacing_m_), 0.0, static_cast<double>(levels_.size() - 1));
         const auto i = static_cast<std::size_t>(where);
@@ -117,13 +117,13 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
     const double to_closest = -dot(origin_m, dir);
     const Vec3d closest = origin_m + to_closest * dir;
     const double miss_m = length(closest);
-    // A metre more on both sides, so that the ground is in between however even it is.
+    // One metre more on both sides, so that the ground is always in between.
     const double outer_m = radius_m_ + highest_m_ + 1, inner_m = radius_m_ + lowest_m_ - 1;
     if (miss_m >= outer_m) return -1;
     const auto half_chord = [&](double radius_m) {
         return std::sqrt((radius_m - miss_m) * (radius_m + miss_m));
     };
-    // From the closest point, which keeps the digits of far origins.
+    // Relative to the closest point, which keeps the digits of distant origins.
     const double begin = std::max(-half_chord(outer_m), -to_closest);
     const double end = miss_m < inner_m ? -half_chord(inner_m) : half_chord(outer_m);
     if (end <= begin) return -1;
@@ -132,7 +132,7 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
         const double r = length(p);
         return r - radius_m_ - height_m(p / r);
     };
-    // Steeply from above there is one place: the height above the ground over the descent leads to it.
+    // A steep view has one intersection: height above the ground over the descent leads to it.
     constexpr double kSteep = 0.6, kNear_m = 1;
     if (begin > -to_closest && -begin > kSteep * outer_m) {
         double s = begin;
@@ -153,7 +153,7 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
             before = after, height_before = height_after;
             continue;
         }
-        // The crossing, by secants inside the bracket.
+        // Finds the crossing by secants inside the bracket.
         for (int i = 0; i < 8 && after - before > 1e-3; ++i) {
             const double s =
                 before +
@@ -172,8 +172,8 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
 
 namespace {
 
-// Returns how high the ground stands towards a direction, where that is between two angles: what is below the least does not
-// matter, and above the most no more is asked.
+// Returns how high the ground rises in a direction, between two angles: lower ground does not matter, and
+// above the upper angle the search ends.
 double horizon_between(const BodyRelief& relief, double radius_m, Vec3d place_m, Vec3d towards,
                        double min_rad, double max_rad) {
     const double r = length(place_m);
@@ -187,7 +187,7 @@ double horizon_between(const BodyRelief& relief, double radius_m, Vec3d place_m,
     for (double s = 0.75 * relief.spacing_m();; s += 0.5 * relief.spacing_m() + 0.04 * s) {
         const Vec3d p = place_m + s * way;
         const double level_m = length(p);
-        // Even the highest ground there is hides no more than what was found.
+        // Even the highest ground would hide no more than what was found.
         if (std::atan2(max_m - level_m, s) < highest) break;
         if (s > radius_m) break;
         const Vec3d dir = p / level_m;

@@ -10,14 +10,15 @@
 namespace hilcam {
 namespace {
 
-// The range of the law of Saturn with its rings (Mallama & Hilton 2018, eq. 10); beyond the third nothing of it is left.
+// The range of the law for Saturn with its rings (Mallama & Hilton 2018, eq. 10); from the third on it is not
+// applied.
 constexpr double kLawPhase_deg = 6.5, kLawTilt_deg = 27, kFadedPhase_deg = 15;
 
 const Figure& saturn() { return kFigures[index_of(BodyId::kSaturn)]; }
 
-// Normals of an ellipsoid are a sphere's directions n with z the other way stretched: N = (x/a, y/a, z/b), and dA = a^2 b |N|
-// do, so that the integral goes over the lune of n that is lit and seen: along meridians whose poles both halves share.
-// share(point): what of the light there counts.
+// The normals of an ellipsoid are a sphere's directions n with z stretched inversely: N = (x/a, y/a, z/b),
+// and dA = a^2 b |N| do. So the integral goes over the lune of n that is lit and visible, along meridians
+// with common poles. share(point): weight of the light there.
 template <class Share>
 double over_lune_m2(const Figure& figure, SurfaceLaw law, const DiskView& view, int rows, int columns,
                     const Share& share) {
@@ -50,7 +51,7 @@ double over_lune_m2(const Figure& figure, SurfaceLaw law, const DiskView& view, 
     return sum;
 }
 
-// The globe between its rings.
+// Returns the globe's light between its rings.
 double ringed_globe_m2(SurfaceLaw law, const DiskView& view) {
     return over_lune_m2(saturn(), law, view, 32, 48, [&](Vec3d point_m) {
         return SaturnRings::transmittance(point_m, view.to_viewer) *
@@ -58,7 +59,7 @@ double ringed_globe_m2(SurfaceLaw law, const DiskView& view) {
     });
 }
 
-// The rings that the globe neither hides nor shades.
+// Returns the light of the rings that the globe neither hides nor shadows.
 double rings_m2(const DiskView& view) {
     constexpr int kRadii = 64, kSpokes = 48;
     constexpr double kWidth_m = (SaturnRings::kOuter_m - SaturnRings::kInner_m) / kRadii;
@@ -78,11 +79,11 @@ double rings_m2(const DiskView& view) {
     return sum * std::abs(view.to_viewer.z);
 }
 
-// Places of the factor's table; it is steep where the rings' surge is.
+// The grid of the factor's table; it is denser at the rings' surge.
 constexpr std::array kPhases_deg{0.0, 0.1, 0.25, 0.5, 1.0, 1.7, 3.0, 4.7, 6.5};
 constexpr std::array kTilts_deg{0.0, 1.0, 2.0, 4.0, 7.0, 11.0, 15.0, 19.0, 23.0, 27.0};
 
-// Sun and viewer at one latitude, a phase apart or, near the poles, as far as that goes.
+// Sun and viewer at one latitude, separated by the phase, or near the poles by as much as possible.
 DiskView level_view(double tilt_rad, double phase_rad) {
     const double cosine = std::cos(tilt_rad), half = std::min(1.0, std::sin(0.5 * phase_rad) / cosine);
     const double longitude = 2 * std::asin(half);
@@ -90,7 +91,7 @@ DiskView level_view(double tilt_rad, double phase_rad) {
             {cosine * std::cos(longitude), cosine * std::sin(longitude), std::sin(tilt_rad)}};
 }
 
-// The sine of the law's ring tilt.
+// Returns the sine of the law's ring tilt.
 double tilt_sine(const DiskView& view) {
     return std::sqrt(std::clamp(view.to_viewer.z * view.to_sun.z, 0.0, 1.0));
 }
@@ -126,7 +127,7 @@ double shape_factor(const Figure& figure, SurfaceLaw law, const DiskView& view) 
     if (a == figure.polar_radius_m) return 1;
     const double lit_m2 = lit_disk_m2(figure, law, view);
     if (!(lit_m2 > 1e-5 * a * a)) return 1;
-    // Of a narrow crescent it matters more which way it lies: the factor is not for that.
+    // For a narrow crescent its orientation matters more, and the factor does not apply.
     return std::clamp(outline_disk_m2(figure, law, view) / lit_m2, 0.8, 1.25);
 }
 
@@ -176,7 +177,8 @@ double SaturnLight::law_factor(const DiskView& view, const Drawn& here) const {
     const double* at = factors_.data() + i * kTilts_deg.size() + j;
     const double* next = at + kTilts_deg.size();
     const double level = (1 - u) * ((1 - v) * at[0] + v * at[1]) + u * ((1 - v) * next[0] + v * next[1]);
-    // Where the law holds it holds for this very view; there is no step to where it does not.
+    // Inside the law's range the factor is exact for this very view; there is no step at the end of the
+    // range.
     constexpr double kBlend_deg = 0.2;
     const double holds = share(phase_deg, kLawPhase_deg, kLawPhase_deg - kBlend_deg) *
                          share(tilt_deg, kLawTilt_deg + kBlend_deg, kLawTilt_deg);

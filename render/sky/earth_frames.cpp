@@ -34,7 +34,7 @@ EarthOfDate1976 earth_of_date_1976(double et_s) {
 
 namespace {
 
-// TT stands for TDB: 2 ms of precession.
+// TT is used for TDB: 2 ms of precession.
 EarthOfDate1976 earth_at(TimeTai time) {
     const JulianDate tt = julian_tt(time);
     return earth_of_date_1976(86400 * ((tt.day - 2451545.0) + tt.fraction));

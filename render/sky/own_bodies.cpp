@@ -34,7 +34,7 @@ void place_own_bodies(TimeTai time, const OwnBodies& own, std::optional<BodyId> 
     for (std::size_t k = 0; k < own.list.size(); ++k) {
         const OwnBody& body = own.list[k];
         const Vec3d center_m = body.center ? out[*body.center].world_m : out.sun_world_m;
-        // Light of the home's own neighbours takes no time here, as that of the home.
+        // Light of the home's own satellites takes no time here, like that of the home.
         const bool at_home = body.center && body.center == home;
         const double light_s = at_home ? 0 : length(center_m) / kSpeedOfLight_m_s;
         const TimeTai then = time + -static_cast<std::int64_t>(light_s * 1e9);

@@ -7,8 +7,8 @@
 namespace hilcam {
 namespace {
 
-// t^power (cosine cos(rate t) + sine sin(rate t)) of each coordinate, t in Julian millennia of TDB since
-// J2000.
+// Terms t^power (cosine cos(rate t) + sine sin(rate t)) of each coordinate, t in Julian millennia of TDB
+// since J2000.
 struct Term {
     int power;
     double rate_rad;
@@ -74,8 +74,8 @@ SphericalSums sum_of(std::span<const Term> terms, double t) {
     return sums;
 }
 
-// Rotates from VSOP87's ecliptic and equinox (dynamical, J2000) to the FK5's axes, which are the ICRF's but
-// for 0.02 arcsec. Bretagnon & Francou, vsop87.doc (CDS VI/81), "Reference system".
+// Rotates from VSOP87's ecliptic and equinox (dynamical, J2000) to the FK5's axes, which equal the ICRF's to
+// 0.02 arcsec. Bretagnon & Francou, vsop87.doc (CDS VI/81), "Reference system".
 constexpr Mat3d kEquatorialFromEcliptic{{1, 0.000000440360, -0.000000190919},
                                         {-0.000000479966, 0.917482137087, -0.397776982902},
                                         {0, 0.397776982902, 0.917482137087}};

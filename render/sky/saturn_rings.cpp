@@ -9,8 +9,8 @@
 namespace hilcam {
 namespace {
 
-// C from 74 658, B from 92 000, Cassini's division from 117 580, A from 122 170 to 136 775 km; Encke's division is
-// 325 km wide about 133 589 km.
+// C from 74 658, B from 92 000, Cassini's division from 117 580, A from 122 170 to 136 775 km; Encke's
+// division is 325 km wide around 133 589 km.
 const Table& depths() {
     static const Table table{
         {74658,  74700,  80000,  87000,  91990,  92000,  99000,  104000, 110000, 117500, 117580, 117950,
@@ -37,7 +37,7 @@ double SaturnRings::albedo(double radius_m) {
 
 double SaturnRings::phase_function(double phase_rad) {
     constexpr double kPower = 3.09;
-    // The integral of (pi - a)^n sin a / 2 over 0..pi, by the midpoint rule, once.
+    // The integral of (pi - a)^n sin a / 2 over 0..pi, by the midpoint rule, computed once.
     static const double whole = [] {
         constexpr int kSteps = 20000;
         double sum = 0;
@@ -88,7 +88,7 @@ double SaturnRings::radiance_sr(double radius_m, Vec3d to_viewer, Vec3d to_sun) 
 SaturnRings::Look SaturnRings::look(Vec3d point_m, double footprint_m, Vec3d to_viewer, Vec3d to_sun) const {
     const double mu = std::max(1e-6, std::abs(to_viewer.z));
     const double radius_m = std::hypot(point_m.x, point_m.y);
-    // The part of the footprint that lies on the rings: their light is theirs however wide it is.
+    // The part of the footprint on the rings: they have their own light, whatever its width.
     const double from_m = std::clamp(radius_m - 0.5 * footprint_m, kInner_m, radius_m),
                  to_m = std::clamp(radius_m + 0.5 * footprint_m, radius_m, kOuter_m);
     constexpr int kParts = 5;

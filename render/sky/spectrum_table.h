@@ -1,5 +1,5 @@
 #pragma once
-// Spectra on a grid over the unit square, bilinear between them.
+// Spectra on a grid over the unit square, bilinear in between.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,7 +17,7 @@ class SpectrumTable {
     int width() const { return width_; }
     int height() const { return height_; }
     Spectrum& at(int x, int y) { return cells_[static_cast<std::size_t>(y * width_ + x)]; }
-    // u, v: held within 0..1, where the outermost cells lie. Loop, any thread.
+    // u, v: clamped to 0..1, where the outermost cells are. Loop, any thread.
     Spectrum operator()(double u, double v) const {
         const double x = std::clamp(u, 0.0, 1.0) * (width_ - 1), y = std::clamp(v, 0.0, 1.0) * (height_ - 1);
         const int x0 = std::min(static_cast<int>(x), width_ - 2),

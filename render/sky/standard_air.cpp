@@ -8,7 +8,8 @@
 namespace hilcam {
 namespace {
 
-// The standard's constants: radius for geopotential height, gravity, mean molar mass, gas constant; and sea level.
+// The standard's constants: radius for geopotential height, gravity, mean molar mass, gas constant; and sea
+// level.
 constexpr double kStandardRadius_m = 6356766, kGravity_m_s2 = 9.80665, kMolarMass_kg = 0.0289644,
                  kGasConstant_j_k = 8.31432, kSeaLevel_k = 288.15;
 constexpr double kKelvinPerMetre = kGravity_m_s2 * kMolarMass_kg / kGasConstant_j_k;

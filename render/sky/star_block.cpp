@@ -15,7 +15,7 @@ struct StarPlaces {
     double* z;
 };
 
-// Makes them unit vectors. count: a multiple of kStarsTogether, here and below.
+// Normalises vectors. count: a multiple of kStarsTogether, here and below.
 [[gnu::always_inline]] inline void normalize(double& x, double& y, double& z) {
     const double length = std::sqrt(x * x + y * y + z * z);
     x /= length, y /= length, z /= length;

@@ -1,6 +1,6 @@
 #pragma once
-// Some stars whose apparent directions are worked out together, in vectors: StarObserver::apparent_dir() of
-// each, to the last bit. Inside a frame nothing is allocated.
+// A block of stars whose apparent directions are computed together, in vectors, with the same result as
+// StarObserver::apparent_dir() to the last bit. No allocation in a frame.
 
 #include <array>
 #include <cstddef>
@@ -14,10 +14,10 @@ class StarBlock {
     static constexpr std::size_t kMax = 64;
 
     bool full() const { return count_ == kMax; }
-    // There is room for it. The star outlives the block.
+    // Adds a star; the block must not be full, and the star must outlive it.
     void add(const Star& star) { stars_[count_++] = &star; }
 
-    // Calls use(star, apparent direction) for each, in the order of adding, and is empty then. Loop.
+    // Calls use(star, apparent direction) for each star in the order of adding, and empties the block. Loop.
     template <class Use>
     void use_all(const StarObserver& observer, const Use& use) {
         find_dirs(observer);
@@ -28,7 +28,7 @@ class StarBlock {
   private:
     std::size_t count_ = 0;
     std::array<const Star*, kMax> stars_;
-    alignas(64) std::array<double, kMax> x_, y_, z_;  // apparent directions; unit, ICRF
+    alignas(64) std::array<double, kMax> x_, y_, z_;  // apparent directions, unit, ICRF
 
     void find_dirs(const StarObserver& observer);
 };

@@ -1,5 +1,6 @@
 #pragma once
-// Stars as a catalogue gives them. Places and motions are ICRS, seen from the barycentre of the Solar System.
+// Stars as a catalogue gives them. Positions and motions are ICRS, seen from the barycentre of the Solar
+// System.
 
 #include <optional>
 #include <vector>
@@ -11,13 +12,13 @@ struct CatalogueStar {
     int hd = 0;                       // Henry Draper number, 0: none
     double right_ascension_rad = 0;   // at the epoch
     double declination_rad = 0;       //
-    double epoch_year = 1991.25;      // Julian year of the place (Hipparcos: J1991.25)
+    double epoch_year = 1991.25;      // Julian year of the position (Hipparcos: J1991.25)
     double pm_ra_cosdec_rad_yr = 0;   // proper motion, mu_alpha cos(delta)
     double pm_dec_rad_yr = 0;         //
-    double parallax_rad = 0;          // annual; 0: not known, or too far away
+    double parallax_rad = 0;          // annual; 0: unknown, or too far away
     double magnitude_v = 0;           // Johnson V
     double color_b_v = 0;             // Johnson B-V
-    std::optional<double> color_v_i;  // V-I with Cousins' I; none: not known
+    std::optional<double> color_v_i;  // V-I with Cousins' I; none: unknown
 };
 
 struct StarCatalogue {

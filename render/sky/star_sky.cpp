@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kMaxPerCell = 128;
 
-// Puts stars that stand near each other side by side: halves them about the middle of the axis along which they
-// are spread most, until a cell holds a part. Calls use(from, to) for each cell.
+// Groups neighbouring stars: divides them at the middle of the axis along which they extend most, until a
+// cell is small enough. Calls use(from, to) for each cell.
 template <class Use>
 void split(const std::vector<Star>& stars, std::span<std::uint32_t> order, std::size_t first,
            const Use& use) {
@@ -43,7 +43,7 @@ StarSky::StarSky(std::vector<Star> stars, TimeTai time) : time_(time) {
     std::iota(order.begin(), order.end(), std::uint32_t{0});
     std::vector<std::size_t> begins;
     split(stars, order, 0, [&](std::size_t from, std::size_t to) {
-        // A cell's stars stay in the catalogue's order.
+        // A cell's stars keep the catalogue's order.
         std::sort(order.begin() + static_cast<std::ptrdiff_t>(from),
                   order.begin() + static_cast<std::ptrdiff_t>(to));
         begins.push_back(from);
@@ -66,21 +66,21 @@ StarSky::Cone StarSky::cone_of(std::size_t begin, std::size_t end) const {
     double angle_rad = 0;
     for (std::size_t i = begin; i < end; ++i)
         angle_rad = std::max(angle_rad, angle_between_rad(stars_[i].world_dir, axis_dir));
-    // Rounding leaves none outside.
+    // With a margin for rounding.
     return {axis_dir, angle_rad + 1e-9};
 }
 
-// Returns how far proper motion, parallax and aberration move any star. Aberration, with w the angle to the
-// velocity: sin(seen) = sin(w) / (gamma (1 + beta cos w)), which is asin(beta) from w at most (Rindler,
-// Relativity, 2006, 4.3).
+// Returns how far proper motion, parallax and aberration can move any star. Aberration, with w the angle to
+// the velocity, gives sin(seen) = sin(w) / (gamma (1 + beta cos w)), which differs from w by at most
+// asin(beta) (Rindler, Relativity, 2006, 4.3).
 double StarSky::farthest_shift_rad(const StarObserver& observer) const {
-    // A unit vector that is displaced by less than its length turns by the arc sine of that at most.
+    // A unit vector that is displaced by less than its length turns by at most the arc sine of that.
     const double displaced =
         std::abs(observer.years()) * fastest_rad_yr_ + length(observer.position_au()) * max_parallax_rad_;
     return (displaced < 1 ? std::asin(displaced) : kPi) + std::asin(length(observer.beta()));
 }
 
-// A grid of axes over the sky: any other axis is within half a diagonal of its cell's.
+// A grid of axes over the sky: any other axis is within half a diagonal of its cell.
 std::size_t StarSky::max_within(double angle_rad) const {
     constexpr int kAcross = 16;
     const double half_diagonal_rad = std::sqrt(0.5) * (kPi / 2) / kAcross;

@@ -1,9 +1,8 @@
 #pragma once
-// The stars sorted by where they stand in the sky, so that a frame looks at those of its field and at no
-// others.
+// The stars, sorted by their position in the sky, so that a frame processes only those in its field.
 //
-// Cells are parts of the sky that hold about as many stars each, however crowded it is there, and come in an order
-// in which neighbours mostly follow each other: what a frame draws of them after each other lies close together.
+// Cells are regions of the sky with about the same number of stars each, in an order in which neighbours
+// mostly follow each other, so that a frame's stars are close together in memory.
 
 #include <algorithm>
 #include <cmath>
@@ -18,17 +17,17 @@ namespace hilcam {
 class StarSky {
   public:
     StarSky() = default;
-    // time: of the stars' places.
+    // time: the epoch of the stars' positions.
     StarSky(std::vector<Star> stars, TimeTai time);
 
     std::size_t size() const { return stars_.size(); }
     bool empty() const { return stars_.empty(); }
     TimeTai time() const { return time_; }
-    // Returns the greatest number of stars in a cone of this half angle, wherever it points. Slow.
+    // Returns the largest number of stars in a cone of this half angle, anywhere in the sky. Slow.
     std::size_t max_within(double angle_rad) const;
 
-    // Calls use(star, apparent direction) for each star that the observer may see within a cone, and for some
-    // just outside. In the order of the cells. Loop, any thread.
+    // Calls use(star, apparent direction) for each star that the observer may see in a cone, and for some
+    // just outside it, in the order of the cells. Loop, any thread.
     template <class Use>
     void each_within(const StarObserver& observer, Vec3d axis_dir, double angle_rad, const Use& use) const {
         const Cone field(axis_dir, angle_rad + farthest_shift_rad(observer));
@@ -45,7 +44,7 @@ class StarSky {
     }
 
   private:
-    // Directions no farther than its half angle from its axis.
+    // All directions within half angle of its axis.
     struct Cone {
         Vec3d axis_dir;
         double angle_rad, cosine, sine;
@@ -62,7 +61,7 @@ class StarSky {
         }
     };
     struct Cell {
-        Cone cone;  // that holds its stars
+        Cone cone;  // a cone around its stars
         std::size_t begin, end;
     };
 

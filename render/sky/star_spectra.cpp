@@ -20,11 +20,12 @@ struct LibraryStar {
 
 static_assert(kWavelengths_um.size() == kWavelengths);
 
-// Irradiance at 0.545 um of a star of V = 0 (Bessell, Castelli & Plez, Astron. Astrophys. 333, 231, 1998, table A2).
+// Irradiance at 0.545 um of a star of V = 0 (Bessell, Castelli & Plez, Astron. Astrophys. 333, 231, 1998,
+// table A2).
 constexpr double kZeroMagnitude_w_m2_um = 3.631e-8;
 
-// 0 at V, 1 at B and below. A tilt of a magnitude reddens B-V by kTiltInBv and dims V by kTiltInV: of Bessell's passbands, within
-// 0.02 for the library's spectra.
+// 0 at V, 1 at B and below. A tilt of a magnitude reddens B-V by kTiltInBv and dims V by kTiltInV: for
+// Bessell's passbands, within 0.02 for the library's spectra.
 constexpr double kTiltInBv = 0.735, kTiltInV = 0.054;
 double blue_tilt(double wavelength_um) { return std::clamp((0.53 - wavelength_um) / 0.09, 0.0, 1.0); }
 
@@ -57,10 +58,10 @@ StarSpectra::StarSpectra(const SpectralGrid& grid) : grid_(grid) {
 
 namespace {
 
-// A place between two stars of the library.
+// A position between two stars of the library.
 struct Between {
-    std::size_t star;  // the bluer
-    double share;      // share of the redder
+    std::size_t star;  // the bluer one
+    double share;      // weight of the redder one
 
     explicit Between(double v_i) {
         const auto* const after =
@@ -68,7 +69,7 @@ struct Between {
                              [](double value, const LibraryStar& s) { return value < s.v_i; });
         star = static_cast<std::size_t>(
             std::clamp<std::ptrdiff_t>(after - kLibrary.begin(), 1, std::ssize(kLibrary) - 1) - 1);
-        // A little beyond the first and the last.
+        // Slightly beyond the first and the last.
         share =
             std::clamp((v_i - kLibrary[star].v_i) / (kLibrary[star + 1].v_i - kLibrary[star].v_i), -0.5, 1.5);
     }
@@ -79,7 +80,7 @@ struct Between {
 
 Spectrum StarSpectra::irradiance_w_m2_um(double magnitude_v, const Colors& colors) const {
     const double v_i = colors.v_i.value_or(v_i_of_b_v(colors.b_v));
-    // The tilt makes V fainter, which the scale and the star's place in the library make up.
+    // The tilt makes V fainter; the scale and the position in the library compensate for that.
     const double tilt_mag = std::clamp((colors.b_v - Between(v_i).b_v()) / kTiltInBv, -1.5, 1.5);
     const Between place(v_i - kTiltInV * tilt_mag);
     const double scale = kZeroMagnitude_w_m2_um * std::pow(10.0, -0.4 * (magnitude_v - kTiltInV * tilt_mag));

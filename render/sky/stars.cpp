@@ -21,7 +21,7 @@ std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double 
         if (star.magnitude_v > faintest_magnitude) continue;
         // Julian epoch to Julian date: J2000.0 is JD 2451545.0 TT, a Julian year has 365.25 days.
         const double epoch_days = (star.epoch_year - 2000.0) * 365.25;
-        // ERFA wants dRA/dt itself; at the poles the cosine is limited so that it stays finite.
+        // ERFA needs dRA/dt itself; near the poles the cosine is limited, so that it stays finite.
         const double ra_rate = star.pm_ra_cosdec_rad_yr / std::max(1e-9, std::cos(star.declination_rad));
         double ra, dec, pm_ra, pm_dec, parallax, velocity;
         eraPmsafe(star.right_ascension_rad, star.declination_rad, ra_rate, star.pm_dec_rad_yr,

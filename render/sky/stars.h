@@ -1,11 +1,11 @@
 #pragma once
-// The stars of a run: where they stand and how much light they send.
+// The stars of a run: their positions and light.
 //
-// Place: the catalogue's with its proper motion, from its epoch to the run's start by ERFA's eraPmsafe
-// without a radial velocity, and from there on along the same straight line. Each frame sees it from where
-// the camera is (annual parallax) and as fast as the camera moves (stellar aberration). Not modelled: the
-// Sun's bending of light (4 mas at 90 degrees, 0.05 arcsec at 9), variability, orbits of double stars. Light: by
-// V and colours (star_spectra.h).
+// Position: the catalogue's with proper motion from its epoch to the run's start, by ERFA's eraPmsafe without
+// radial velocity, and from then on along the same straight line. Each frame sees it from the camera's
+// position (annual parallax) and with the camera's velocity (stellar aberration). Not modelled: light bending
+// by the Sun (4 mas at 90 degrees, 0.05 arcsec at 9), variability, orbits of double stars. Light: from V and
+// colours (star_spectra.h).
 
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,7 @@
 
 namespace hilcam {
 
-// Its aligned member comes first and saves a quarter of its size: there may be a hundred thousand.
+// The aligned member comes first, which saves a quarter of the size: there may be a hundred thousand stars.
 struct Star {
     Spectrum irradiance_w_m2_um;  // at the aperture, mean over each bin
     Vec3d world_dir;              // unit, ICRF, from the barycentre at the run's start
@@ -30,22 +30,22 @@ struct Star {
 };
 static_assert(sizeof(Star) == 96);
 
-// The place and velocity from which the stars are looked at: about the barycentre of the Solar System, ICRF
-// axes.
+// The position and velocity from which the stars are seen: relative to the barycentre of the Solar System,
+// ICRF axes.
 class StarObserver {
   public:
     StarObserver() = default;
-    // years: Julian, since the instant of the stars' places.
+    // years: Julian, since the epoch of the stars' positions.
     StarObserver(double years, Vec3d position_m, Vec3d velocity_m_s);
 
-    // Unit, ICRF. Stellar aberration is that of aberrated(), ERFA's eraAb, without the call: a hundred
-    // thousand stars may be looked at in a frame. Loop, any thread.
+    // Returns the apparent direction, unit, ICRF. Stellar aberration is that of aberrated(), ERFA's eraAb,
+    // without the call: a frame may look at a hundred thousand stars. Loop, any thread.
     Vec3d apparent_dir(const Star& star) const {
         const Vec3d from_here = normalized(displaced(star));
         const double along = dot(from_here, beta_);
         return normalized(inverse_lorentz_ * from_here + (1 + along / (1 + inverse_lorentz_)) * beta_);
     }
-    // Returns where motion and parallax have moved its direction; not a unit vector any more. Loop, any thread.
+    // Returns its direction after motion and parallax, which is not a unit vector. Loop, any thread.
     Vec3d displaced(const Star& star) const {
         return star.world_dir + years_ * to_double(star.motion_rad_yr) -
                static_cast<double>(star.parallax_rad) * position_au_;
@@ -61,7 +61,8 @@ class StarObserver {
     double inverse_lorentz_ = 1;
 };
 
-// Stars not fainter than `faintest_magnitude`, in the catalogue's order, with their places at an instant.
+// Returns the stars not fainter than `faintest_magnitude`, in the catalogue's order, with positions at an
+// instant.
 std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double faintest_magnitude,
                            const SpectralGrid& grid);
 }  // namespace hilcam

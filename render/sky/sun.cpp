@@ -91,7 +91,7 @@ Spectrum solar_irradiance_1au_w_m2_um(const SpectralGrid& grid) {
                          std::to_string(grid.from_um(0)) + "; give sun.spectrum for shorter ones");
     Spectrum out;
     for (int b = 0; b < grid.size(); ++b) {
-        // The overlap of the bin with each of the table's.
+        // The overlap of the bin with each bin of the table.
         double sum = 0;
         for (std::size_t i = 0; i < kSun_w_m2_um.size(); ++i) {
             const bool fine = i < kFineCount;

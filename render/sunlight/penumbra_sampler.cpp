@@ -34,9 +34,9 @@ void PenumbraSampler::ask_once(Tile& tile, Vec3f sun_dir) {
         if (a.like) a.lit = a.like->lit;
 }
 
-// The shading point before one whose first ray is this one's as well: that of a coverage map's layer in the same pixel, which the
-// same samples see in the same plane. What hides the Sun stands before all layers but for what they do to each other, which
-// ShadingPoint::sunlit has.
+// Returns the earlier shading point whose first ray also decides for this one: a layer of the same coverage
+// map in the same pixel, seen by the same samples in the same plane. Things that hide the Sun are in front of
+// all layers, except for what layers do to each other, which is in ShadingPoint::sunlit.
 const PenumbraSampler::Asked* PenumbraSampler::layer_below(const Asked& a) const {
     if (count_ < 2) return nullptr;
     const Asked& before = asked_[count_ - 2];
@@ -70,19 +70,19 @@ void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
             ask(kMax, tile, sun, a, rays);
 }
 
-// Sends so many rays for a shading point, each for as much of its light, from places that its samples see (of clusters by
-// systematic sampling: the ray's place in the sum of their light).
+// Sends several rays for a shading point, each with an equal share of its light, from places that its samples
+// see. With clusters, systematic sampling over the sum of their light chooses the cluster of each ray.
 template <class Rays>
 void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays) {
     const ShadingPoint& at = *a.at;
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
-    // The four pixels of a square ask for other places of the disk.
+    // The four pixels of a square use different places of the disk.
     const std::uint32_t in_square = at.pixel % width % 2 + 2 * (at.pixel / width % 2);
     const SampleOffsets way(tile, at);
-    std::array<SampleMask, ClusterLight::kStarts> left{};  // samples that no ray has begun from
+    std::array<SampleMask, ClusterLight::kStarts> left{};  // samples that no ray has started from
     const float light = std::accumulate(a.shares.begin(), a.shares.end(), 0.0f);
     std::size_t k = 0;
-    float until = a.shares[0];  // sum of shares with the cluster's
+    float until = a.shares[0];  // sum of shares up to this cluster
     a.lit = 0, a.of = count, a.moments = {};
     for (std::uint32_t i = 0; static_cast<float>(i) < count; ++i) {
         while ((static_cast<float>(i) + 0.5f) * light > until * count && k + 1 < a.shares.size())
@@ -101,7 +101,8 @@ void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, 
     }
 }
 
-// An object's surface on one of its six sides, as one of kKinds.
+// Returns the kind of a shading point: an object's surface and one of six facing directions, as one of
+// kKinds.
 std::uint8_t PenumbraSampler::kind_of(const ShadingPoint& at) {
     const Vec3f size{std::abs(at.normal.x), std::abs(at.normal.y), std::abs(at.normal.z)};
     std::uint32_t side = at.normal.z > 0 ? 0 : 1;
@@ -113,16 +114,16 @@ std::uint8_t PenumbraSampler::kind_of(const ShadingPoint& at) {
         mixed(std::uint64_t{at.object} << 32 | std::uint64_t{at.surface_number} << 3 | side) % kKinds);
 }
 
-// The answers that lie within reach of each pixel.
+// Finds the answers within reach of each pixel.
 PenumbraSampler::Answers PenumbraSampler::within_reach(std::uint32_t width) {
     Answers near;
-    std::uint32_t lit = 0, dark = 0;  // kinds that are somewhere, a bit each
+    std::uint32_t lit = 0, dark = 0;  // kinds that are lit, or dark, somewhere; a bit each
     for (Asked& a : std::span(asked_).first(count_)) {
         a.kind = kind_of(*a.at);
         (a.lit > 0 ? near.lit : near.dark)[a.kind][a.at->pixel / width] |= 1u << (a.at->pixel % width);
         (a.lit > 0 ? lit : dark) |= 1u << a.kind;
     }
-    // The others differ nowhere.
+    // The others do not differ anywhere.
     for (std::uint32_t rest = lit & dark; rest != 0; rest &= rest - 1) {
         const auto kind = static_cast<std::size_t>(std::countr_zero(rest));
         near.lit[kind] = widened(near.lit[kind]), near.dark[kind] = widened(near.dark[kind]);
@@ -130,7 +131,7 @@ PenumbraSampler::Answers PenumbraSampler::within_reach(std::uint32_t width) {
     return near;
 }
 
-// Pixels that have one of these within reach.
+// Returns the pixels with one of these within reach.
 PenumbraSampler::Rows PenumbraSampler::widened(const Rows& rows) {
     Rows out{};
     for (int y = 0; y < kMaxRows; ++y) {

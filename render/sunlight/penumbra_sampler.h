@@ -1,13 +1,16 @@
 #pragma once
-// Shadows' edges on what the camera sees by the visibility buffer, as wide as the Sun's disk makes them.
+// Finds the edges of shadows and renders them as wide as the Sun's disk makes them. It serves what the camera
+// sees through the visibility buffer. See docs/rendering.md, "The Sun and its penumbrae".
 //
-// One ray to the middle of the Sun tells which shading points are lit, and one for all layers of a coverage map in a pixel. Where
-// shading points of one kind that differ lie in pixels within kReach_px of each other, an edge passes: each of them asks again by
-// four rays, and by sixteen where these differ, from places that its samples see to places of the disk. Of a shading point with
-// clusters each ray stands for as much of its light, and begins at what its samples see of the cluster. A kind is a surface of an
-// object, or more than one, where it faces the same way by and large: what lies in shadow behind an edge of the body is no edge
-// of a shadow on what stands before it. The approximation: a shading point further off has its one ray, so penumbras wider than
-// twice the reach keep a hard edge inside; and what fills no more than a 64th of a pixel has one, a 16th four.
+// One ray to the middle of the Sun tests each shading point; all layers of a coverage map in a pixel share
+// one. If points of one kind within kReach_px disagree, an edge is near: each of them sends four rays, and
+// sixteen if those disagree, from its own samples to places on the disk. For a point with clusters, each ray
+// represents an equal share of its light and starts at the samples of a cluster. A kind is one or several
+// surfaces of an object that face roughly the same way, so that a shadow on something behind the edge of a
+// body is not taken for an edge on that body.
+//
+// Approximation: points farther from an edge have one ray, so penumbrae wider than twice the reach keep a
+// hard step inside. Points of at most a 64th of a pixel have one ray, those of at most a 16th have four.
 
 #include <array>
 #include <cstdint>
@@ -22,7 +25,7 @@ class SunSampler;
 // Memory for the shading points of a tile. One thread at a time.
 class PenumbraSampler {
   public:
-    // light: what the shading point sends to the viewer, to its pixel, if all of it is in the Sun. At most
+    // Adds a shading point. light: what it sends to its pixel if all of it is in the Sun. At most
     // PathModel::kMaxShadingPoints. Loop, any thread.
     void add(const ShadingPoint& at, const Spectrum& light) {
         Asked& asked = next(at, light);
@@ -30,48 +33,48 @@ class PenumbraSampler {
         asked.moments_of_all = at.moments;
         asked.first_m = at.start();
     }
-    // The same of a shading point with clusters: its rays begin at these.
+    // Adds a shading point with clusters, at which its rays start.
     void add(const ShadingPoint& at, const Spectrum& light, const ClusterLight& clusters) {
         Asked& asked = next(at, light);
         asked.clusters = clusters.brightest, asked.shares = clusters.share;
         asked.moments_of_all = clusters.moments;
         asked.first_m = clusters.brightest[0]->start_m;
     }
-    // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
-    // thread.
+    // Adds the sunlit share of their light to their pixels, and forgets the points. Loop, any thread.
     void add_light(Tile& tile, const SunSampler& sun);
 
   private:
     static constexpr int kReach_px = 1, kMaxRows = 32;
     static constexpr std::size_t kKinds = 16;
-    // Rays of who asks again, and of those whose rays differ.
+    // Numbers of rays: of points near an edge, and of those whose rays disagree.
     static constexpr float kAgain = 4, kMax = 16;
-    // Less of a pixel [samples of sixteen] has no more rays: half of it at most is in the wrong light, a 128th of the pixel, which
-    // is a noise of a full well of 15,000 electrons; of small objects with many parts most shading points are such.
+    // Smaller points [samples, 16 per pixel] get no more rays. At most half of their light is wrong: a 128th
+    // of the pixel, equal to the noise of a full well of 15,000 electrons. In small objects with many parts
+    // most shading points are such.
     static constexpr float kMinAgain = 0.25f, kMinMost = 1;
     struct Asked {
         const ShadingPoint* at;
-        const Asked* like;  // the one whose first ray tells for it, too; null: it has its own
+        const Asked* like;  // the point whose first ray decides for this one, too; null: it has its own
         Spectrum light;
         Vec3f first_m;  // start of the first ray
-        // Those that have the most of the light, and how much; null: it has none.
+        // The clusters that have most of the light, and how much; null: it has none.
         std::array<const NormalCluster*, ClusterLight::kStarts> clusters;
         std::array<float, ClusterLight::kStarts> shares;
-        float lit, of;                   // rays that have got through, and that were asked
-        SubpixelMoments moments_of_all;  // the light is there if no ray is held up
-        SubpixelMoments moments;         // sum of those that have got through, one by one
+        float lit, of;                   // rays that got through, and rays that were sent
+        SubpixelMoments moments_of_all;  // where the light is if no ray is blocked
+        SubpixelMoments moments;         // summed over the rays that got through
         std::uint8_t kind;               // below kKinds
     };
     using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
-    // Pixels with a shading point of a kind that is lit, or dark.
+    // Pixels with a lit, or dark, shading point of a kind.
     struct Answers {
         std::array<Rows, kKinds> lit{}, dark{};
     };
     std::array<Asked, PathModel::kMaxShadingPoints> asked_;
     std::size_t count_ = 0;
 
-    // Begins with a shading point; where its rays begin is the caller's. Member by member: what is made first and copied then
-    // waits for its own stores.
+    // Starts a new entry; the caller sets where its rays start. Set member by member: a temporary that is
+    // copied would have to wait for its own stores.
     Asked& next(const ShadingPoint& at, const Spectrum& light) {
         Asked& a = asked_[count_++];
         a.at = &at, a.light = light, a.like = layer_below(a);
@@ -81,10 +84,10 @@ class PenumbraSampler {
     const Asked* layer_below(const Asked& a) const;
     void ask_once(Tile& tile, Vec3f sun_dir);
     void ask_again(Tile& tile, const SunSampler& sun);
-    // Is told of a ray that gets through.
+    // Receives a ray that got through.
     struct Use {
         Asked* asked;
-        SubpixelMoments moments;  // where in the pixel it begins
+        SubpixelMoments moments;  // where in the pixel it started
     };
     template <class Rays>
     static void ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays);

@@ -13,7 +13,7 @@ namespace hilcam {
 namespace {
 
 // The Sun's disk widens a highlight: its angular radius of 4.65 mrad turns facets by half of that, and slopes
-// of independent causes add by their squares.
+// of independent causes add in quadrature.
 float sun_widened(float alpha) { return std::min(1.0f, std::sqrt(alpha * alpha + 0.00233f * 0.00233f)); }
 
 bool in_cone(const PlanetshineSource& lamp, Vec3f dir) {
@@ -25,13 +25,13 @@ float cone_density(const PlanetshineSource& lamp) {
     return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine));
 }
 
-// The path's own next direction may meet the lamp as well.
+// True when the path's own next direction may meet the light as well.
 bool is_weighed(const FrameContext& frame, const ShadingPoint& at) {
     return frame.paths_sample_lobes && !frame.is_cached[at.object] && at.depth < frame.max_depth;
 }
 
-// True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
-// stands over the surface's horizon.
+// True when the whole body could add what the threshold asks for, relative to white paint in the Sun, and is
+// above the surface's horizon.
 bool body_light_counts(const FrameContext& frame, const ShadingPoint& at, const PlanetshineSource& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
     if (at.importance(at.throughput) * max_component(lamp.max_over_sun) * solid_angle <
@@ -46,7 +46,7 @@ Vec3f in_cone_at(const Frame& axis, float one_minus_cosine, float u1, float u2) 
     return axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
-// Density of the directions that are drawn to all bodies but one [sr^-1].
+// Returns the density of the directions that are drawn to all bodies except one [sr^-1].
 float density_of_others(const FrameContext& frame, const ShadingPoint& at, Vec3f dir,
                         const PlanetshineSource* one) {
     float density = 0;
@@ -62,7 +62,7 @@ struct SunlitBy {
     Vec3f dir;
 };
 
-// The light of shading points with normal clusters among some, in their order.
+// The light of those shading points that have normal clusters, in order.
 class ClusterLights {
   public:
     static constexpr std::size_t kMax = SunlitPoint::kMaxTogether;
@@ -112,7 +112,7 @@ void add_sunlight(Tile& tile, std::span<const ShadingPoint> points) {
         float share = at.sunlit;
         const float ni = dot(at.normal, dir);
         const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
-        // Narrow lobes are better found by their own samples (Veach & Guibas, SIGGRAPH 95, balance
+        // Narrow lobes are better sampled by their own directions (Veach & Guibas, SIGGRAPH 95, balance
         // heuristic).
         if (frame.sun_is_disk && is_weighed(frame, at))
             share *= sun.disk_density() / (sun.disk_density() + brdf_density(at.surface, c));
@@ -165,7 +165,7 @@ void add_body_light(Tile& tile, std::span<const ShadingPoint> points) {
             const float ni = dot(at.normal, dir);
             if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
             const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
-            // Rounding may put what is drawn at a cone's edge outside of it.
+            // Rounding may move a direction at a cone's edge out of the cone.
             const float density = cone_density(lamp) + density_of_others(frame, at, dir, &lamp) +
                                   (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
             const Spectrum weight = (ni / density) * (at.throughput * brdf_value(at.surface, c));

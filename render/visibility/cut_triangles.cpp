@@ -40,22 +40,22 @@ bool bounds_of_cut(const CornersInCamera& corners_m, const ImageGeometry& geomet
 
 namespace {
 
-// A function of the place in a tile, a x + b y + c, and its value in the tile's middle.
+// A linear function of the place in a tile, a x + b y + c, and its value in the tile's middle.
 Vec3d on_tile(Vec3d plane, const LensTiles::View& view) {
     return {dot(plane, view.right), dot(plane, view.down), dot(plane, view.corner)};
 }
 double in_middle(Vec3d function) { return 0.5 * kVisibilityTile_px * (function.x + function.y) + function.z; }
 
-// The planes of a triangle's edges, over a volume. Over its volume with the camera they are the shares of the corners, times a ray's
-// depth.
+// The planes of a triangle's edges, divided by a volume. With the volume of triangle and camera they give the
+// barycentric coordinates, times a ray's depth.
 std::array<Vec3d, 3> edges_of(const CornersInCamera& p, double volume) {
     return {cross(p[1], p[2]) / volume, cross(p[2], p[0]) / volume, cross(p[0], p[1]) / volume};
 }
 Vec3d sum_of(const std::array<Vec3d, 3>& edges) { return Vec3d{} + edges[0] + edges[1] + edges[2]; }
 double volume_of(const CornersInCamera& p) { return dot(p[0], cross(p[1], p[2])); }
 
-// The function at the middle's instant, which changes from row to row as its value in the tile's middle does. Both are exactly the
-// function where there is one instant.
+// Returns the function at the middle's instant, changing from row to row like its value in the tile's middle.
+// With one instant both are exactly the function.
 Vec3d between(Vec3d upper, Vec3d lower) {
     const double per_row = (in_middle(lower) - in_middle(upper)) / kVisibilityTile_px;
     Vec3d out = 0.5 * (upper + lower);
@@ -67,7 +67,7 @@ Vec3d between(Vec3d upper, Vec3d lower) {
 
 void set_up_cut(const CutTriangle& triangle, const LensTiles::View& view, TriangleSetup& setup) {
     const double upper_volume = volume_of(triangle.upper_m), lower_volume = volume_of(triangle.lower_m);
-    // Seen from its edge, or turned over within the tile: nothing is seen of it.
+    // Seen edge-on, or turned over within the tile: not visible.
     const bool flat = !(upper_volume * lower_volume > 0);
     setup.count = 1;
     setup.x0[0] = setup.y0[0] = 0;
@@ -76,7 +76,8 @@ void set_up_cut(const CutTriangle& triangle, const LensTiles::View& view, Triang
     setup.min_depth[0] = -1, setup.max_depth[0] = 1e30f;
     setup.id[0] = triangle.id;
     if (flat) return;
-    // Two triangles have an edge's planes at both instants in the same ratio: so each takes one volume for both.
+    // Triangles with a common edge have its planes in the same ratio at both instants, so each uses one
+    // volume for both.
     const double volume = 0.5 * (upper_volume + lower_volume);
     const std::array<Vec3d, 3> upper = edges_of(triangle.upper_m, volume),
                                lower = edges_of(triangle.lower_m, volume);

@@ -1,7 +1,8 @@
 #pragma once
-// Triangles through the camera's plane, or far beside the picture, for the visibility buffer: where they may be seen, and what makes
-// them ready for a tile. Their edges are planes through the camera, so that no corner is ever divided by its depth (Olano & Greer,
-// Graphics Hardware 1997). Corners are in camera axes, from the camera. Loop, any thread.
+// Triangles that cross the camera's plane or extend far beyond the picture, for the visibility buffer: which
+// tiles may show them, and their set-up for a tile. Their edges are planes through the camera, so no corner
+// is ever divided by its depth (Olano & Greer, Graphics Hardware 1997). Corners are in camera axes, relative
+// to the camera. Loop, any thread.
 
 #include <array>
 
@@ -12,11 +13,12 @@ namespace hilcam {
 
 using CornersInCamera = std::array<Vec3d, 3>;
 
-// Finds the tiles that may see what of a triangle is before the camera. False: it is behind it, or beside the picture.
+// Finds the tiles that may show the part of a triangle in front of the camera. Returns false if it is behind
+// the camera or outside the picture.
 bool bounds_of_cut(const CornersInCamera& corners_m, const ImageGeometry& geometry, const LensTiles& lens,
                    TileRange& range);
 
-// A triangle at the instants of a tile's upper and lower edge: the same for a camera of one instant.
+// A triangle at the instants of a tile's upper and lower edge; both are the same for a camera of one instant.
 struct CutTriangle {
     CornersInCamera upper_m, lower_m;
     std::uint32_t id;

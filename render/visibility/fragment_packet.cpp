@@ -28,10 +28,10 @@ HWY_INLINE void store(const Vector& a, FragmentPacket::Vectors& to, std::size_t 
         hn::Store(a.z, d, to.z.data() + k);
 }
 
-// unpack_normal() (packed_normal.h).
+// The lanes' version of unpack_normal() (packed_normal.h).
 HWY_INLINE Vector unpacked(I packed) { return unit(unpacked_long(packed)); }
 
-// The greatest distance between two of three, squared.
+// Returns the largest squared distance between two of three.
 HWY_INLINE V turn_of(const Vector (&normals)[3]) {
     const auto squared = [&](std::size_t i, std::size_t j) {
         const Vector way = minus(normals[i], normals[j]);
@@ -67,7 +67,7 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
 
         const Meeting m = meeting_of(at, origin, dir);
         const V u = m.u, v = m.v;
-        // What stands for a group is met wherever its plane is.
+        // A triangle that represents a group is hit anywhere in its plane.
         const auto is_group = hn::RebindMask(d, hn::Ne(hn::ShiftRight<24>(kind), hn::Zero(di)));
         const V along = hn::IfThenElse(is_group, m.plane_u, u),
                 across = hn::IfThenElse(is_group, m.plane_v, v);
@@ -75,7 +75,7 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
         hn::Store(hn::Div(dotted(meets, dir), dotted(dir, dir)), d, p.distance.data() + k);
         hn::Store(u, d, p.u.data() + k), hn::Store(v, d, p.v.data() + k);
 
-        // The normals, and the viewer's side of them.
+        // The normals, turned to the viewer's side.
         const Vector raw = crossed(m.e1, m.e2);
         store(raw, p.body_normal, k);
         const Vector third = minus(m.e1, m.e2);
@@ -96,7 +96,7 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
         const auto back = hn::Lt(dotted(geometric, view), number(0));
         geometric = chosen(back, times(number(-1), geometric), geometric);
         normal = chosen(hn::Lt(dotted(normal, geometric), number(0)), times(number(-1), normal), normal);
-        // A smoothed normal that leans away from the viewer would make the surface vanish.
+        // A smoothed normal that faces away from the viewer would make the surface vanish.
         normal = chosen(hn::Le(dotted(normal, view), number(1e-4f)), geometric, normal);
         store(geometric, p.geometric, k), store(normal, p.normal, k), store(view, p.view_dir, k);
         hn::Store(hn::IfThenElseZero(hn::RebindMask(di, back), hn::Set(di, 1)), di,

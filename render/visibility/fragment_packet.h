@@ -1,7 +1,7 @@
 #pragma once
-// Finds where rays through sixteen fragments of one object meet their triangles, and how the surface lies
-// there: that which find_surface_frame() and a ray's hit tell of one, for all at once and to the same precision.
-// Compiled for several widths of vectors that give the same results. Loop, any thread.
+// Finds where rays through sixteen fragments of one object meet their triangles, and the surface frames
+// there. It gives the same as find_surface_frame() and a traced ray, to the same precision, for sixteen at
+// once. Compiled for several vector widths, which give the same results. Loop, any thread.
 
 #include <array>
 #include <cstdint>
@@ -19,19 +19,19 @@ struct alignas(64) FragmentPacket {
         Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
         void set(std::size_t i, Vec3f v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
     };
-    // These are the inputs; those beyond count are worked on, too, and must hold triangles.
+    // Inputs. Entries beyond count are processed too and must hold triangles.
     std::array<std::uint32_t, kSize> triangle{};
     Vectors dir;     // world axes, of any length
     Vectors origin;  // world axes, from the body's origin [m]
-    // Out.
-    Floats distance, u, v;                // those of a HitPacket
-    Vectors body_normal;                  // geometric, body axes, not unit
-    Vectors geometric, normal, view_dir;  // those of a vertex: world axes, unit, towards the viewer
-    Floats turn;                          // greatest distance of two corners' normals, squared; 0: it is flat
-    Floats height;                        // the triangle's least, squared [m^2]
-    std::array<std::uint32_t, kSize> back;  // nonzero: seen from behind, as the triangle's own normal has it
+    // Outputs.
+    Floats distance, u, v;                  // those of a HitPacket
+    Vectors body_normal;                    // geometric, body axes, not unit
+    Vectors geometric, normal, view_dir;    // those of a shading point: world axes, unit, towards the viewer
+    Floats turn;                            // largest squared distance between two corners' normals; 0: flat
+    Floats height;                          // smallest height of the triangle, squared [m^2]
+    std::array<std::uint32_t, kSize> back;  // nonzero: seen from behind, by the triangle's own normal
 
-    std::size_t count = 0;  // last: everything else fills whole cache lines
+    std::size_t count = 0;  // last, so that everything else fills whole cache lines
 };
 
 struct FragmentMesh {

@@ -1,5 +1,5 @@
-// Vectors in space of sixteen lanes' numbers, and where rays meet triangles, for code that is compiled for several widths. Included once for
-// each width, as Highway's own headers are.
+// Spatial vectors of sixteen lanes, and intersections of rays and triangles, for code that is compiled for
+// several vector widths. Included once per width, like Highway's own headers.
 
 #if defined(HILCAM_LANE_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HILCAM_LANE_VECTORS_INL_H
@@ -37,7 +37,7 @@ HWY_INLINE Vector crossed(const Vector& a, const Vector& b) {
     return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
             hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
-// Zero where it has no length, or one beyond single precision.
+// Zero if the vector has no length, or one beyond single precision.
 HWY_INLINE Vector unit(const Vector& a) {
     const V squared = dotted(a, a);
     const auto good = hn::And(hn::Gt(squared, number(1e-30f)), hn::Lt(squared, number(1e30f)));
@@ -49,7 +49,7 @@ HWY_INLINE Vector chosen(Mask mask, const Vector& yes, const Vector& no) {
             hn::IfThenElse(mask, yes.z, no.z)};
 }
 
-// unpack_long_normal() (packed_normal.h).
+// The lanes' version of unpack_long_normal() (packed_normal.h).
 HWY_INLINE Vector unpacked_long(I packed) {
     const Floats d;
     const V scale = number(1.0f / 32767.0f);
@@ -62,14 +62,14 @@ HWY_INLINE Vector unpacked_long(I packed) {
     return {x, y, z};
 }
 
-// A meeting is where rays meet the planes of triangles.
+// Intersections of rays with the planes of triangles.
 struct Meeting {
-    Vector e1, e2, from_corner;  // edges, and the way from the first corner to the rays' origin
-    V u, v;                      // barycentric, kept to the triangle
-    V plane_u, plane_v;          // where in its plane, kept to kCoplanarReach
+    Vector e1, e2, from_corner;  // edges, and vector from the first corner to the rays' origin
+    V u, v;                      // barycentric, clamped to the triangle
+    V plane_u, plane_v;          // coordinates in its plane, clamped to kCoplanarReach
 };
-// Moeller & Trumbore (J. Graphics Tools 2(1), 1997), kept to the triangle: a sample's place may lie beside it by a
-// rounding, and a triangle seen from its edge has no place of its own.
+// Moeller & Trumbore (J. Graphics Tools 2(1), 1997), clamped to the triangle: rounding may put a sample
+// beside it, and a triangle that is seen edge-on has no intersection of its own.
 HWY_INLINE Meeting meeting_of(const Vector (&corners)[3], const Vector& origin, const Vector& dir) {
     Meeting m;
     m.e1 = minus(corners[1], corners[0]), m.e2 = minus(corners[2], corners[0]);

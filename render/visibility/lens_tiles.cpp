@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kSide_px = kVisibilityTile_px;
 constexpr double kMaxError_px = 0.05;
-constexpr int kGridSteps = 32;  // steps of the grid on which the lens's derivatives are looked at
-// The factor by which the lens may be curved more between the grid's places.
+constexpr int kGridSteps = 32;  // steps of the grid on which the lens's derivatives are sampled
+// A margin for larger curvature between the grid's places.
 constexpr double kSafety = 1.3;
 
-// The middle of the picture, padded px.
+// Returns the middle of the picture, padded px.
 Vec2d center_of(const ImageGeometry& g) {
     return {g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
 }
@@ -33,7 +33,7 @@ struct TileBox {
     }
 };
 
-// Whole tiles, also where they reach beyond the picture. A lens takes the border to the border.
+// Returns the box of whole tiles, including parts beyond the picture. A lens maps the border to the border.
 TileBox ideal_box(const ImageGeometry& g) {
     const auto whole = [](int size) { return std::ceil(size / kSide_px) * kSide_px; };
     const double width = whole(g.padded_width()), height = whole(g.padded_height());
@@ -44,8 +44,8 @@ TileBox ideal_box(const ImageGeometry& g) {
     return box;
 }
 
-// The greatest second derivative, over the whole box, of the place on the screen by the ideal one, along any
-// line [1/px].
+// Returns the largest second derivative, over the whole box, of the place on the screen by the ideal one,
+// along any line [1/px].
 struct LensCurvature {
     double bend_per_px = 0;
     bool folds = false;
@@ -73,16 +73,16 @@ LensCurvature curvature_in(const ImageGeometry& g, const TileBox& box) {
                 std::hypot(second(diagonal.x, at.x, other.x), second(diagonal.y, at.y, other.y));
             out.bend_per_px = std::max({out.bend_per_px, along_x / f, along_y / f, across / (2 * f)});
         }
-    // The greatest along any line is no more than the sum of those along the axes and half the mixed one.
+    // The largest along any line is at most the sum of those along the axes plus half the mixed one.
     out.bend_per_px *= 2 * kSafety;
     return out;
 }
 
-// A tile of the screen as an affine map, and how far the lens is from that.
+// A tile of the screen as an affine map, and the lens's largest deviation from it.
 struct Fit {
-    Vec2d middle, right, down;  // ideal places: of the tile's middle, by a pixel to the right, and down
-    TileBox ideal;              // the box of the whole tile
-    double error_px = 0;        // on the screen, at most
+    Vec2d middle, right, down;  // ideal places: the tile's middle, and steps of a pixel to the right and down
+    TileBox ideal;              // box of the whole tile
+    double error_px = 0;        // largest error on the screen
 };
 Fit fit(const ImageGeometry& g, int tile_x, int tile_y) {
     constexpr double kHalf = 0.5 * kSide_px;
@@ -98,7 +98,7 @@ Fit fit(const ImageGeometry& g, int tile_x, int tile_y) {
         return Vec2d{(to.x - from.x) / kSide_px, (to.y - from.y) / kSide_px};
     };
     out.right = step(at[1][0], at[1][2]), out.down = step(at[0][1], at[2][1]);
-    // Halfway between the middle and the corners' mean: what the lens bends lies on both sides then.
+    // Halfway between the middle and the corners' mean, so that the lens's curvature is on both sides.
     const auto halfway = [&](double Vec2d::*c) {
         return 0.5 * (at[1][1].*c + 0.25 * (at[0][0].*c + at[0][2].*c + at[2][0].*c + at[2][2].*c));
     };
@@ -118,7 +118,7 @@ Fit fit(const ImageGeometry& g, int tile_x, int tile_y) {
 
 int tiles_in(int size_px) { return (size_px + kVisibilityTile_px - 1) / kVisibilityTile_px; }
 
-// Returns the greatest error of every fourth tile and the last ones: lenses change slowly.
+// Returns the largest error over every fourth tile and the last ones: lenses vary slowly.
 double tile_error_px(const ImageGeometry& g) {
     double max_px = 0;
     const int across = tiles_in(g.padded_width()), down = tiles_in(g.padded_height());
@@ -159,7 +159,8 @@ LensTiles::LensTiles(const ImageGeometry& geometry)
     const LensDistortion& d = geometry.distortion;
     screen_ = {single(center.x), single(center.y), single(f), single(d.k1), single(d.k2), single(d.k3),
                single(d.p1), single(d.p2), single(box.x0), single(box.x1), single(box.y0), single(box.y1),
-               // An edge as long as the diagonal of its box leaves its chord by an eighth of that squared.
+               // An edge as long as the diagonal of its box deviates from its chord by an eighth of that
+               // squared.
                single(0.25 * curvature.bend_per_px), single(tile_error_px(geometry))};
     const auto tiles = static_cast<std::size_t>(across_ * down_);
     forward_.resize(tiles), inverse_.resize(tiles);
@@ -208,7 +209,7 @@ void LensTiles::tiles_of(double x0, double x1, double y0, double y1, TileRange& 
         range.y0 = tile(y0 - 1, down_), range.y1 = tile(y1 + 1, down_);
         return;
     }
-    // Columns and rows follow each other, and overlap.
+    // Columns and rows are ordered, and overlap.
     const auto first = [](const std::vector<Vec2d>& all, double least) {
         const auto at = std::find_if(all.begin(), all.end(), [&](Vec2d part) { return part.y >= least - 1; });
         return static_cast<std::int16_t>(std::min(at, all.end() - 1) - all.begin());

@@ -6,7 +6,8 @@
 namespace hilcam {
 namespace {
 
-// Where samples lie on a grid, by how many of them have each digit of the column and the row.
+// The positions of samples on a grid, summed from the number of samples with each digit of the column and the
+// row.
 struct Lines {
     int columns, rows;  // sums
 };
@@ -27,7 +28,7 @@ Vec2f mean_of(SampleMask samples, int across) {
     return {mean(lines.columns), mean(lines.rows)};
 }
 
-// Returns the place of the sample of some that is nearest to a place.
+// Returns the place of the sample nearest to a place.
 Vec2f nearest_to(const PixelSamples& grid, SampleMask samples, Vec2f place) {
     float least = 4;
     Vec2f nearest{};
@@ -39,7 +40,7 @@ Vec2f nearest_to(const PixelSamples& grid, SampleMask samples, Vec2f place) {
     return nearest;
 }
 
-// For each set of sixteen samples the one next to their middle: by itself, as it is asked for each fragment.
+// For each set of sixteen samples, the one nearest to their middle; tabulated because each fragment needs it.
 const std::vector<std::uint8_t> kNearestOfSixteen = [] {
     const PixelSamples grid(kVisibilitySamplesAcross);
     std::vector<std::uint8_t> out(0x10000u);
@@ -58,14 +59,14 @@ Vec2f PixelSamples::middle(SampleMask samples) const {
     if (samples == all()) return {0.5f, 0.5f};
     if (quarters_ == 1) return place(kNearestOfSixteen[samples]);
     const Vec2f middle = mean_of(samples, across());
-    // Mostly the sample about the middle is one of them.
+    // Usually the sample nearest to the middle is one of them.
     const int column = static_cast<int>(8 * middle.x), row = static_cast<int>(8 * middle.y);
     const int about = kVisibilitySamples * (2 * (row / 4) + column / 4) + 4 * (row % 4) + column % 4;
     return samples >> about & 1u ? place(about) : nearest_to(*this, samples, middle);
 }
 
 SubpixelMoments PixelSamples::moments(SampleMask samples) const {
-    // The crossed difference has the upper left and the lower right.
+    // The crossed difference counts the upper left and the lower right.
     constexpr SampleMask kRight = 0xCCCC, kLower = 0xFF00, kCrossed = 0xCC33;
     constexpr SampleMask kRightFine = 0xFFFF0000FFFF0000, kLowerFine = 0xFFFFFFFF00000000,
                          kCrossedFine = 0xFFFF00000000FFFF;
@@ -82,7 +83,8 @@ namespace {
 
 using PlaceOrder = std::array<std::uint8_t, kVisibilitySamples>;  // Places of a 4 x 4 grid, by rows.
 
-// in_turns: another one of the samples about each place, or all would lie at the same side of theirs.
+// in_turns: takes the samples around each place in turn; otherwise all would be on the same side of their
+// places.
 int next_in(const PlaceOrder& order, bool in_turns, const PixelSamples& grid, SampleMask& rest,
             SampleMask all) {
     if (rest == 0) rest = all;
@@ -99,7 +101,7 @@ int next_in(const PlaceOrder& order, bool in_turns, const PixelSamples& grid, Sa
 }  // namespace
 
 int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all) {
-    // The first four are a square's corners.
+    // The first four are the corners of a square.
     constexpr PlaceOrder kOrder{0, 10, 2, 8, 5, 15, 7, 13, 1, 11, 3, 9, 4, 14, 6, 12};
     return next_in(kOrder, false, grid, rest, all);
 }

@@ -18,14 +18,15 @@
 namespace hilcam {
 namespace {
 
-// Cells of 11 degrees, as narrower ones have hardly fewer triangles; pictures from nine directions in each, 5.6 degrees apart, with
-// four times as many samples each way as those that the sets are for. Of the generated satellite's samples one in 10,000 meets what
-// its set lacks.
+// Cells of 11 degrees, because narrower ones have hardly fewer triangles. Each has pictures from nine
+// directions, 5.6 degrees apart, with four times as many samples in each direction as those that the sets
+// serve. On the generated satellite one sample in 10,000 meets a triangle that its set lacks.
 constexpr int kFaceCells = 8;   // cells along a face of a cube
-constexpr int kStepsOfRow = 2;  // from one of a cell's directions to the last of a row
+constexpr int kStepsOfRow = 2;  // steps between a cell's directions in a row
 constexpr int kPicture_px = 512;
 constexpr double kFinerPictures = 4;
-// The pictures' camera is so far away that directions are one; from a fortieth of it they differ by 1.4 degrees.
+// The pictures' camera is so far away that directions are parallel; at a fortieth of its distance they differ
+// by 1.4 degrees.
 constexpr double kFrom_radii = 1000, kMin_radii = 40;
 constexpr int kViewCells = kCubeFaces * kFaceCells * kFaceCells;
 // A byte for each triangle.
@@ -50,20 +51,21 @@ Cell cell_at(std::size_t number) {
     return {n / (kFaceCells * kFaceCells), n % kFaceCells, n / kFaceCells % kFaceCells};
 }
 
-// Takes pictures of a mesh from afar.
+// Takes pictures of a mesh from far away.
 class Pictures {
   public:
     Pictures(const MeshView& mesh, double radius_m, std::span<const std::uint32_t> coplanar_groups)
         : shown_{0, {}, radius_m, mesh, {}, coplanar_groups},
           buffer_(geometry(), {1, mesh.vertices_m.size(), mesh.triangles.size()}) {}
 
-    // Marks what is seen from a direction, unit.
+    // Marks what is visible from a direction, unit.
     void mark_seen(Vec3d from, Marks& marks) {
-        // Not along the body's axes: thin parts along a row of samples would be met by all of them, or by none.
+        // Not along the body's axes: thin parts along a row of samples would be hit by all samples or by
+        // none.
         const Vec3d up = std::abs(from.x) < 0.5 ? Vec3d{0.8, 0.5, 0.3} : Vec3d{0.3, 0.8, 0.5};
         if (!buffer_.place({kFrom_radii * shown_.radius_m * from, look_along(-1.0 * from, up)},
                            {&shown_, 1})) {
-            // No room: a mesh of many large triangles. All of it may be seen.
+            // No room: a mesh of many large triangles, all of which count as visible.
             std::fill(marks.begin(), marks.end(), std::uint8_t{1});
             return;
         }
@@ -79,7 +81,7 @@ class Pictures {
     VisibilityBuffer buffer_;
     VisibilityTile tile_;
 
-    // The mesh' sphere fills it.
+    // The mesh's sphere fills the picture.
     static ImageGeometry geometry() {
         ImageGeometry out;
         out.width_px = out.height_px = kPicture_px;
@@ -88,10 +90,11 @@ class Pictures {
     }
 };
 
-// By cell, what is seen from one of its directions. Cells side by side have those between them in common.
+// Returns, for each cell, what is visible from any of its directions. Neighbouring cells share the directions
+// on their border.
 std::vector<Marks> seen_by_cell(const MeshView& mesh, double radius_m,
                                 std::span<const std::uint32_t> coplanar_groups) {
-    // Each triangle by itself, but for what is not shown.
+    // Each triangle by itself, except those that are not shown.
     std::vector<std::uint32_t> own(mesh.triangles.size());
     for (std::uint32_t i = 0; i < own.size(); ++i)
         own[i] = !coplanar_groups.empty() && coplanar_groups[i] == kNotShown ? kNotShown : i;

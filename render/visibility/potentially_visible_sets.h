@@ -1,11 +1,13 @@
 #pragma once
-// The triangles of a mesh that a camera far from it may see, by the direction in which it stands: potentially visible sets (Airey,
-// Rohlf & Brooks, Symposium on Interactive 3D Graphics 1990), of cells of directions.
+// The triangles of a mesh that a distant camera may see, by direction: potentially visible sets (Airey, Rohlf
+// & Brooks, Symposium on Interactive 3D Graphics 1990) for cells of directions.
 //
-// A cell's set is what pictures of the mesh show from several directions in the cell and on its border. The approximation: what is
-// seen from between these alone, or between the pictures' samples, is not in it, and a sample that meets it sees what lies behind.
+// The set of a cell contains what pictures of the mesh show from several directions inside the cell and on
+// its border. Approximation: what is visible only between these directions, or between the pictures' samples,
+// is missing, and a sample that should see it sees what is behind it.
 //
-// Not modelled: cameras so near that the directions to the parts of the mesh differ, and pictures almost as fine as those (serves()).
+// Not for cameras so near that directions to parts of the mesh differ, nor for pictures almost as fine as
+// those that made the sets (serves()).
 
 #include <cstddef>
 #include <cstdint>
@@ -18,23 +20,24 @@
 
 namespace hilcam {
 
-// The triangles of a mesh that may be seen, as a mesh of its own.
+// The triangles that may be visible, as a mesh of its own.
 struct PotentiallyVisibleSet {
     std::vector<Vec3f> vertices_m;
     std::vector<TriangleCorners> triangles;
-    std::vector<std::uint32_t> ids;  // by triangle the one of the whole mesh that it stands for
+    std::vector<std::uint32_t> ids;  // for each triangle, its number in the whole mesh
 };
 
 class PotentiallyVisibleSets {
   public:
-    // groups: ObjectSurfaces::coplanar_groups, or none. Neither they nor the mesh are needed afterwards. The same for any number
-    // of threads. Owner thread; some seconds of the processor for 5000 triangles.
+    // groups: ObjectSurfaces::coplanar_groups, or empty. Neither they nor the mesh are needed afterwards. The
+    // result does not depend on the number of threads. Owner thread; takes some processor seconds for 5000
+    // triangles.
     PotentiallyVisibleSets(const MeshView& mesh, double radius_m,
                            std::span<const std::uint32_t> coplanar_groups);
 
-    // True where they hold for a camera at this distance whose samples are so far apart. Loop.
+    // True when the sets are valid for a camera at this distance with this angle between samples. Loop.
     bool serves(double distance_m, double sample_rad) const;
-    // Returns what may be seen from this direction; body axes, of any length. Loop.
+    // Returns the set for a direction towards the camera; body axes, any length. Loop.
     const PotentiallyVisibleSet& from(Vec3d dir) const;
 
   private:

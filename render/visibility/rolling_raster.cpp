@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 HWY_INLINE V value(float v) { return hn::Set(Floats(), v); }
 
-// A coordinate by instant: a + u (b + u c).
+// A coordinate as a function of the instant: a + u (b + u c).
 struct Track {
     V a, b, c;
     V at(V u) const { return times_plus(u, times_plus(u, c, b), a); }
@@ -29,19 +29,19 @@ HWY_INLINE Track track_of(const RollingProjection& p, Vec3f Mat3f::*row, float V
     return {of(0), of(1), of(2)};
 }
 
-// Vertices' way over the screen while its rows are read.
+// The paths of vertices across the screen while its rows are read.
 struct Ways {
     const RollingProjection& p;
     const ScreenLens* lens;
     Track x, y, z;
 
-    // Their places as a pinhole shows them.
+    // Finds their ideal places.
     HWY_INLINE void place(V u, V& at_x, V& at_y) const {
         const V scale = hn::Div(value(p.focal_px), z.at(u));
         at_x = times_plus(x.at(u), scale, value(p.center_x)),
         at_y = times_plus(y.at(u), scale, value(p.center_y));
     }
-    // The instant of the row in which they are then.
+    // Returns the instant of the row in which they are at an instant.
     HWY_INLINE V row(V u) const {
         V at_x, at_y;
         place(u, at_x, at_y);
@@ -50,8 +50,8 @@ struct Ways {
         const V out = hn::Mul(hn::Sub(at_y, half), value(2 / p.height_px));
         return hn::Min(hn::Max(out, value(-1)), value(1));
     }
-    // The instant that is that of its row: two steps, and one by the secant of both, after which a vertex that moves by a quarter of a
-    // row in a row is right to some 1e-4 of its whole way.
+    // Returns the instant that equals that of its row: two steps, and the secant of both. A vertex that moves
+    // by a quarter of a row per row is then right to about 1e-4 of its whole path.
     HWY_INLINE V instant() const {
         const V first = row(hn::Zero(Floats())), second = row(first), third = row(second);
         const V change = hn::Sub(hn::Sub(third, second), hn::Sub(second, first));
@@ -59,7 +59,7 @@ struct Ways {
         const auto usable = hn::And(hn::Gt(hn::Abs(change), value(1e-9f)), hn::Lt(hn::Abs(step), value(1)));
         return row(hn::IfThenElse(usable, hn::Sub(second, step), third));
     }
-    // How far they move in a row, at most.
+    // Returns the largest motion per row.
     HWY_INLINE V speed() const {
         V x_of[3], y_of[3];
         for (int i = 0; i < 3; ++i) place(value(static_cast<float>(i - 1)), x_of[i], y_of[i]);
@@ -72,7 +72,7 @@ struct Ways {
 
 float roll(std::span<const Vec3f> vertices_m, const RollingProjection& p, const ScreenLens* lens,
            ScreenVertex* out) {
-    // Depth is rounded, and is to be no less than a tile's own.
+    // Rounded up, because depth must not be less than a tile's own.
     constexpr float kNearer = 1 + 1e-5f;
     V fastest = hn::Zero(Floats());
     std::size_t left = vertices_m.size();
@@ -99,8 +99,9 @@ float roll(std::span<const Vec3f> vertices_m, const RollingProjection& p, const 
     return hn::GetLane(hn::MaxOfLanes(Floats(), fastest));
 }
 
-// An edge between two vertices that appear at instants dt apart leaves the line between their places by a quarter of dt times the
-// difference of their speeds, at most: half of dt times the greater. A lens may widen it by half.
+// An edge between two vertices that appear at instants dt apart deviates from the line between their places
+// by at most a quarter of dt times the difference of their speeds, so by half of dt times the larger speed. A
+// lens may increase that by half.
 constexpr float kBowed = 0.75f;
 
 std::size_t tiles_of_rolling(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,

@@ -1,8 +1,9 @@
 #pragma once
-// The poses of a camera whose rows are of several instants, for the visibility buffer: that of each row of the picture, and those at
-// the edges of the buffer's rows of tiles, between which a tile takes the world to move evenly.
+// The camera's poses for the visibility buffer when rows have different instants: at each row of the picture,
+// and at the edges of the buffer's rows of tiles, between which a tile interpolates linearly.
 //
-// All are given as axes, and as the way from the camera's place at the frame's time. place() is for the loop, the rest for any thread.
+// Poses are given as axes and as the displacement from the camera's position at the frame's time. place() is
+// for the loop, the rest for any thread.
 
 #include <cstddef>
 #include <vector>
@@ -20,24 +21,24 @@ class RowPoses {
         Vec3d moved_m;
     };
 
-    // Has room for the rows of a buffer of so many pixels down.
+    // Allocates for a buffer with this many rows of pixels.
     explicit RowPoses(int height_px);
 
-    // buffer: its geometry. buffer_px: pixels of the buffer to one of the picture. False: the camera turns by more than kMaxHalfTurn_rad
-    // from the picture's middle to its upper or lower edge.
+    // buffer: its geometry. buffer_px: pixels of the buffer per pixel of the picture. Returns false if the
+    // camera turns by more than kMaxHalfTurn_rad from the picture's middle to its upper or lower edge.
     bool place(const RowMotion& motion, const ImageGeometry& buffer, int buffer_px);
 
-    // y_px: of the buffer.
+    // y_px: row of the buffer.
     const At& of_row(int y_px) const { return rows_[static_cast<std::size_t>(y_px / buffer_px_)]; }
-    // Those at the upper and lower edge of the tiles that begin at y_px.
+    // Poses at the upper and lower edge of the tiles that start at y_px.
     const At& upper_edge(int y_px) const {
         return edges_[static_cast<std::size_t>(y_px / kVisibilityTile_px)];
     }
     const At& lower_edge(int y_px) const { return (&upper_edge(y_px))[1]; }
-    // Those at the upper and lower edge of the picture.
+    // Poses at the upper and lower edge of the picture.
     const At& first() const { return first_; }
     const At& last() const { return last_; }
-    // The camera turns, and moves, by so much from the picture's middle to its edge.
+    // The camera's rotation and displacement from the picture's middle to its edge.
     double half_turn_rad() const { return half_turn_rad_; }
     double half_way_m() const { return half_way_m_; }
 

@@ -8,13 +8,13 @@
 namespace hilcam {
 namespace {
 
-// Grows with directions; turns into pixels at the end.
+// A box that grows with directions and becomes pixels at the end.
 class Bounds {
   public:
     explicit Bounds(const ImageGeometry& geometry) : geometry_(geometry) {}
 
     void add(Vec3d direction_camera) {
-        // At or behind the image's plane at infinity there is no projection.
+        // At or behind the camera's plane there is no projection.
         if (!(direction_camera.z > 1e-9 * length(direction_camera))) {
             unbounded_ = true;
             return;
@@ -45,12 +45,13 @@ class Bounds {
 
 double angle_between(Vec3d a_dir, Vec3d b_dir) { return std::acos(std::clamp(dot(a_dir, b_dir), -1.0, 1.0)); }
 
-// Returns bounds of what a cone may cover of the picture where parts of the cone are not before the camera: those of the cells
-// of the picture that it can reach.
+// Returns bounds of a cone that is partly not in front of the camera: those of all cells of the picture that
+// it can reach.
 PixelBox bounds_by_cells(const ImageGeometry& geometry, Vec3d axis_camera, double cosine) {
     constexpr int kCells = 8;  // along each side
-    // By a pinhole no direction in a cell is farther from its middle than its corners are, as its sides are great circles. A
-    // lens bends these; none that cells are for by as much as a tenth (the test has barrels and a fisheye).
+    // Without distortion no direction in a cell is farther from its middle than its corners are, because its
+    // sides are great circles. A lens bends the sides; for supported lenses by less than a tenth (the test
+    // has barrels and a fisheye).
     constexpr double kCurved = 1.1;
     const auto direction = [&](double x_px, double y_px) {
         return normalized(geometry.direction_camera(x_px - geometry.guard_px, y_px - geometry.guard_px));
@@ -82,8 +83,8 @@ PixelBox screen_bounds_of_cone(const ImageGeometry& geometry, const Pose& camera
     const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
     const Vec3d axis = camera_from_world * axis_world;
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    // The whole cone behind the camera: nothing to see. Its nearest direction to +z is `angle(axis, z) - half
-    // angle`.
+    // The whole cone is behind the camera, so nothing is visible. Its direction nearest to +z is at
+    // `angle(axis, z) - half angle`.
     if (axis.z < 0 && -axis.z > sine) return {};
     const Vec3d across =
         normalized(std::abs(axis.x) < 0.7 ? cross(axis, Vec3d{1, 0, 0}) : cross(axis, Vec3d{0, 1, 0}));
@@ -95,8 +96,8 @@ PixelBox screen_bounds_of_cone(const ImageGeometry& geometry, const Pose& camera
         bounds.add(cosine * axis + sine * (std::cos(a) * across + std::sin(a) * up));
     }
     if (bounds.unbounded()) return bounds_by_cells(geometry, axis, cosine);
-    // A chord of the 64-gon leaves the curve by 1 - cos(pi/64) = 0.0012 of the radius; the cone's image is a
-    // conic.
+    // A chord of the 64-gon deviates from the curve by 1 - cos(pi/64) = 0.0012 of the radius; the cone's
+    // image is a conic.
     return bounds.box(1 + 0.003 * bounds.extent_px());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Bounds the pixels that a body in the sky can cover by a conservative box in padded pixels.
+// A conservative box, in padded pixels, around the pixels that a body in the sky may cover.
 
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_box.h"

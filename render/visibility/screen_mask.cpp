@@ -33,7 +33,7 @@ void ScreenMask::fill() { std::fill(blocks_.begin(), blocks_.end(), std::uint8_t
 bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m) {
     const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
     const Mat3d camera_from_body = camera_from_world * to_matrix(object.world_from_body);
-    const Mat3d axes = transposed(camera_from_body);  // rows: the body's axes in the camera's
+    const Mat3d axes = transposed(camera_from_body);  // rows: the body's axes in camera axes
     const Vec3d offset_m = camera_from_world * (object.position_world_m - camera.position_world_m);
     bool any_marked = false;
     for (const auto& [min_m, max_m] : boxes_m) {
@@ -54,7 +54,7 @@ bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std
             min_y = std::min(min_y, y), max_y = std::max(max_y, y);
         }
         if (in_front == 0) continue;
-        // A box that reaches through the camera's plane has no outline.
+        // A box that crosses the camera's plane has no outline.
         if (in_front < 8) {
             fill();
             return true;
@@ -64,7 +64,7 @@ bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std
     return any_marked;
 }
 
-// least, most: of the box's outline on the plane at distance 1.
+// least, most: corners of the box's outline on the plane at distance 1.
 bool ScreenMask::mark(Vec2d least, Vec2d most) {
     double min_x = 1e300, min_y = 1e300, max_x = -1e300, max_y = -1e300;
     const auto grow = [&](double x, double y) {
@@ -72,7 +72,7 @@ bool ScreenMask::mark(Vec2d least, Vec2d most) {
         min_x = std::min(min_x, px.x), max_x = std::max(max_x, px.x);
         min_y = std::min(min_y, px.y), max_y = std::max(max_y, px.y);
     };
-    // A lens bends the outline: its sides are followed in steps, and what is between them gets a margin.
+    // A lens bends the outline: its sides are sampled in steps, with a margin for the curve between them.
     const int steps = geometry_.distortion.none() ? 1 : 8;
     for (int i = 0; i <= steps; ++i) {
         const double u = static_cast<double>(i) / steps;

@@ -1,7 +1,7 @@
 #pragma once
-// Marks the small blocks of pixels that an object can cover: an object's triangles are boxed in clusters, and
-// the boxes' outlines marked. Empty sky inside the object's own bounds then costs no rays. Conservative: a
-// block that is not marked cannot meet a triangle.
+// Marks the blocks of pixels that objects may cover: the outlines of boxes around clusters of an object's
+// triangles. Rays then skip empty sky inside an object's bounds. Conservative: no triangle is visible in an
+// unmarked block.
 
 #include <array>
 #include <cstdint>
@@ -18,18 +18,18 @@ class ScreenMask {
   public:
     explicit ScreenMask(const ImageGeometry& geometry);
 
-    // Takes the mask over to another picture, which has no more blocks than the first; nothing of it is marked. Loop; no
+    // Reuses the mask for another picture with at most as many blocks; nothing is marked. Loop; no
     // allocation.
     void place(const ImageGeometry& geometry);
     void clear();
-    // Everything.
+    // Marks everything.
     void fill();
     int width() const { return geometry_.width_px; }
-    // Marks what the boxes [least corner, greatest corner; body axes, m] of an object can cover. Gives
-    // whether there was anything. Loop; no allocation.
+    // Marks what the boxes [least corner, greatest corner; body axes, m] of an object may cover. Returns
+    // whether anything was marked. Loop; no allocation.
     bool add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m);
 
-    // The block that holds a pixel (padded px).
+    // Returns the mark of the block that holds a pixel (padded px).
     bool at(int x, int y) const {
         return blocks_[static_cast<std::size_t>(y / kBlock_px * across_ + x / kBlock_px)] != 0;
     }

@@ -11,7 +11,7 @@ Vec2d center_of_padded(const ImageGeometry& g) {
     return {g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
 }
 
-// The polynomial of second degree in u that has these values at -1, 0 and 1, by powers of u.
+// Returns the polynomial of second degree in u with these values at -1, 0 and 1, by powers of u.
 std::array<Vec3f, 3> through(Vec3d first, Vec3d middle, Vec3d last) {
     return {to_float(middle), to_float(0.5 * (last - first)), to_float(0.5 * (first + last) - middle)};
 }
@@ -29,7 +29,7 @@ ScreenProjection screen_projection(const ImageGeometry& g, const InCamera& at, d
     p.focal_px = single(g.focal_length_px);
     const Vec2d center = center_of_padded(g);
     if (origin_m.z > 2 * radius_m) {
-        // From where the body's origin is seen: what is left is small, and keeps its digits.
+        // Relative to where the body's origin is seen: the rest is small and keeps its digits.
         const double lean_x = origin_m.x / origin_m.z, lean_y = origin_m.y / origin_m.z;
         p.offset_x = single(center.x + g.focal_length_px * lean_x), p.lean_x = single(-lean_x);
         p.offset_y = single(center.y + g.focal_length_px * lean_y), p.lean_y = single(-lean_y);

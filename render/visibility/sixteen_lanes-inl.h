@@ -1,5 +1,5 @@
-// Sixteen numbers in as many vectors as they take, for code that is compiled for several widths. Included once for each width, as
-// Highway's own headers are.
+// Sixteen numbers in as many vectors as needed, for code that is compiled for several vector widths. Included
+// once per width, like Highway's own headers.
 
 #if defined(HILCAM_SIXTEEN_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HILCAM_SIXTEEN_LANES_INL_H
@@ -24,11 +24,11 @@ using Ints = hn::RebindToSigned<Floats>;
 using V = hn::Vec<Floats>;
 using I = hn::Vec<Ints>;
 
-// One sum and one product after the other, never fused: every width must round alike.
+// A sum after a product, never fused: every width must round in the same way.
 HWY_INLINE V times_plus(V a, V b, V c) { return hn::Add(hn::Mul(a, b), c); }
 
-// Four numbers in each block of four lanes: of places first, first + 4 and so on. They are put together in registers:
-// memory would be slow to give back what was written to it in parts.
+// Loads four numbers into each block of four lanes, from places first, first + 4 and so on. They are combined
+// in registers, because reading back memory that was written in parts is slow.
 template <class Tag, class PlaceOf>
 HWY_INLINE hn::Vec<Tag> blocks_of(Tag d, const PlaceOf& place_of, std::size_t first) {
     if constexpr (hn::MaxLanes(Tag()) == 4) {
@@ -39,7 +39,7 @@ HWY_INLINE hn::Vec<Tag> blocks_of(Tag d, const PlaceOf& place_of, std::size_t fi
         return hn::Combine(d, blocks_of(half, place_of, first + kHalf), blocks_of(half, place_of, first));
     }
 }
-// The first three of four numbers at a place for each lane.
+// Loads the first three of four numbers at a place for each lane.
 template <class PlaceOf>
 HWY_INLINE void three_of_four(const PlaceOf& place_of, V& first, V& second, V& third) {
     const Floats d;
@@ -54,7 +54,7 @@ HWY_INLINE void three_of_four(const PlaceOf& place_of, V& first, V& second, V& t
                                                pairs(hn::InterleaveUpper(d, e, f))));
 }
 
-// A bit for each lane of a mask. The whole of it is written at once, so that it stays in a register.
+// Returns a bit for each lane of a mask, written as a whole so that it stays in a register.
 template <class Tag>
 HWY_INLINE unsigned bits_of(Tag d, hn::Mask<Tag> mask) {
     static_assert(hn::MaxLanes(Tag()) <= 16);

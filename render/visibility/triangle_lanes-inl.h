@@ -1,5 +1,5 @@
-// Some triangles on the screen, a lane each, for code that is compiled for several widths: which tiles may see them, and what makes
-// them ready for a tile. Included once for each width, as Highway's own headers are.
+// Several triangles on the screen, one per lane, for code that is compiled for several vector widths: which
+// tiles may show them, and their set-up for a tile. Included once per width, like Highway's own headers.
 
 #if defined(HILCAM_TRIANGLE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HILCAM_TRIANGLE_LANES_INL_H
@@ -24,14 +24,14 @@ namespace HWY_NAMESPACE {
 
 static_assert(kTrianglesAtOnce == 16);
 constexpr int kSide_px = kVisibilityTile_px;
-constexpr float kPlace_px = 1e-3f;      // ten times what corners are rounded by
-constexpr float kEdge_px = 0.01f;       // ten times what edges are rounded by
-constexpr float kFarBeside_px = 16384;  // where floats still tell a thousandth of a pixel
+constexpr float kPlace_px = 1e-3f;      // ten times the rounding of corners
+constexpr float kEdge_px = 0.01f;       // ten times the rounding of edges
+constexpr float kFarBeside_px = 16384;  // floats still resolve a thousandth of a pixel here
 
 // Vertices on the screen.
 struct Projected {
     V x, y, depth;
-    V z_m;  // along the camera's axis; not above zero: they are not on the screen
+    V z_m;  // along the camera's axis; zero or less: not on the screen
 };
 HWY_INLINE Projected projected(const ScreenProjection& p, V x, V y, V z) {
     const auto number = [](float value) { return hn::Set(Floats(), value); };
@@ -49,7 +49,7 @@ HWY_INLINE Projected projected(const ScreenProjection& p, V x, V y, V z) {
     return {place(across, p.lean_x, p.start_x, p.offset_x), place(down, p.lean_y, p.start_y, p.offset_y),
             hn::Neg(hn::Mul(hn::Add(ahead, number(p.beyond_origin)), inverse)), z_m};
 }
-// Writes vertices; x is NaN where they are not on the screen, or far beside the picture.
+// Writes vertices; x is NaN for a vertex that is not on the screen or is far outside the picture.
 HWY_INLINE void write_vertices(const Projected& at, V speed, float* to) {
     const Floats d;
     const auto number = [&](float value) { return hn::Set(d, value); };
@@ -59,7 +59,7 @@ HWY_INLINE void write_vertices(const Projected& at, V speed, float* to) {
     hn::StoreInterleaved4(hn::IfThenElse(shown, at.x, number(std::numeric_limits<float>::quiet_NaN())), at.y,
                           at.depth, speed, d, to);
 }
-// Calls some(x, y, z, out) for the vertices, a lane each; it writes to out.
+// Calls some(x, y, z, out) for the vertices, one per lane; it writes to out.
 template <class Some>
 HWY_INLINE void for_vertices(std::span<const Vec3f> vertices_m, ScreenVertex* out, const Some& some) {
     const Floats d;
@@ -80,11 +80,11 @@ HWY_INLINE void for_vertices(std::span<const Vec3f> vertices_m, ScreenVertex* ou
     std::copy_n(results, vertices_m.size() - i, out + i);
 }
 
-// The corners of some triangles.
+// The corners of triangles.
 struct Corners {
     V x[3], y[3], depth[3];
 };
-// number_of(k): of triangle k.
+// number_of(k): number of triangle k.
 template <class NumberOf>
 HWY_INLINE Corners corners_of(const ScreenVertex* vertices, const TriangleCorners* triangles,
                               const NumberOf& number_of) {
@@ -97,7 +97,7 @@ HWY_INLINE Corners corners_of(const ScreenVertex* vertices, const TriangleCorner
 HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); }
 HWY_INLINE V most(const V* of) { return hn::Max(hn::Max(of[0], of[1]), of[2]); }
 
-// True when a place is beside a triangle, and not by rounding.
+// True when a place is outside a triangle by more than rounding.
 HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y, V place_px) {
     V side[3];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -130,7 +130,7 @@ HWY_INLINE void distort(const ScreenLens& lens, V& place_x, V& place_y) {
         times_plus(add_tangential(y, lens.p2, yy, lens.p1), number(lens.focal_px), number(lens.center_y));
 }
 
-// The triangles as they are on the screen of a bent lens.
+// Triangles on the screen of a lens with distortion.
 struct Bent {
     hn::Mask<Floats> unknown, beside_picture;
     V margin_px;
@@ -146,15 +146,16 @@ HWY_INLINE Bent bend(const ScreenLens& lens, Corners& c) {
                                hn::Or(hn::Lt(y0, number(lens.min_y)), hn::Gt(y1, number(lens.max_y))));
     const V extent = hn::Max(hn::Sub(x1, x0), hn::Sub(y1, y0));
     for (std::size_t i = 0; i < 3; ++i) distort(lens, c.x[i], c.y[i]);
-    // The polynomial may fold back beside the picture: such corners have no place.
+    // The polynomial may fold over outside the picture; such corners have no place.
     return {hn::Or(hn::Not(known), leaves), hn::And(known, beside),
             times_plus(hn::Mul(extent, extent), number(lens.bend_per_px),
                        number(lens.tile_error_px + kPlace_px))};
 }
 
-// Triangles are where their corners are, and straight.
+// The default: triangles are straight and exactly where their corners are.
 struct NoMargin {};
-// margin_of(t, corners): how far triangles from t on may reach beyond their corners [px]; NoMargin: not at all.
+// margin_of(t, corners): how far triangles from t on may extend beyond their corners [px]; NoMargin: not at
+// all.
 template <bool kBent, class MarginOf>
 std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                        std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
@@ -171,7 +172,7 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
             corners_of(vertices, triangles.data(), [&](std::size_t k) { return std::min(t + k, last); });
         const V sum = hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2]);
         auto unknown = hn::IsNaN(sum);
-        auto outside = unknown;  // used with a bent lens only
+        auto outside = unknown;  // used only with a lens that has distortion
         V place_px = hn::Set(d, kPlace_px);
         if constexpr (kBent) {
             const Bent bent = bend(*lens, c);
@@ -183,13 +184,13 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
             x0 = hn::Sub(x0, place_px), x1 = hn::Add(x1, place_px);
             y0 = hn::Sub(y0, place_px), y1 = hn::Add(y1, place_px);
         }
-        // No sample between least and greatest, in one of the axes: seen by none.
+        // A triangle with no sample between its least and greatest coordinate, on either axis, is not seen.
         const V four = hn::Set(d, 4), half = hn::Set(d, 0.5f);
         const auto from = [&](V at) { return hn::Ceil(hn::Sub(hn::Mul(four, at), half)); };
         const auto to = [&](V at) { return hn::Floor(hn::Sub(hn::Mul(four, at), half)); };
         const V from_x = from(x0), to_x = to(x1), from_y = from(y0), to_y = to(y1);
         const auto none = hn::Or(hn::Gt(from_x, to_x), hn::Gt(from_y, to_y));
-        // Most triangles of crumpled things, and of small ones, have one there or two each way, and beside them.
+        // Most small or crumpled triangles have one or two samples in each direction, and miss those.
         const auto next_to = [&](V sample) { return hn::Add(sample, hn::Set(d, 1)); };
         const auto few = hn::And(hn::Ge(next_to(from_x), to_x), hn::Ge(next_to(from_y), to_y));
         const auto place_of = [&](V at) { return hn::Div(hn::Add(at, half), four); };
@@ -229,7 +230,7 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
     return count;
 }
 
-// Bends corners in a tile, counted from its corner.
+// Applies a tile's lens to corners, relative to the tile's corner.
 HWY_INLINE void bend_in_tile(const TileLens& lens, Corners& c) {
     const auto number = [](float value) { return hn::Set(Floats(), value); };
     const V half = number(0.5f * kSide_px);
@@ -240,7 +241,7 @@ HWY_INLINE void bend_in_tile(const TileLens& lens, Corners& c) {
     }
 }
 
-// Moves corners from ideal places to those from a tile's corner.
+// Moves corners from ideal places to places relative to a tile's corner.
 HWY_INLINE void move_into_tile(int tile_x_px, int tile_y_px, const TileLens* lens, Corners& c) {
     if (lens) return bend_in_tile(*lens, c);
     const Floats d;
@@ -248,7 +249,7 @@ HWY_INLINE void move_into_tile(int tile_x_px, int tile_y_px, const TileLens* len
     for (int i = 0; i < 3; ++i) c.x[i] = hn::Sub(c.x[i], left), c.y[i] = hn::Sub(c.y[i], top);
 }
 
-// The depth of triangles changes on the screen by so much for each pixel to the right and down.
+// Changes of the depth of triangles per pixel to the right and down.
 struct DepthSlopes {
     V right, down;
 };
@@ -265,24 +266,24 @@ HWY_INLINE V area_of(const Corners& c) {
     return hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
 }
 
-// An edge's function a x + b y + c is zero on the line from p to q.
+// An edge function a x + b y + c, zero on the line from p to q.
 struct Line {
     V a, b, c;
 };
 HWY_INLINE Line line_of(V px, V py, V qx, V qy) {
     const V a = hn::Sub(py, qy), b = hn::Sub(qx, px);
-    // 0 -: never minus zero, so that sums with it are not, either.
+    // 0 - x is never minus zero, so neither are sums with it.
     return {a, b, hn::Sub(hn::Zero(Floats()), times_plus(a, px, hn::Mul(b, py)))};
 }
 
-// Triangles of a tile whose rows are one instant.
+// Triangles of a tile in which all rows have one instant.
 struct OneInstant {};
-// Corners of triangles, from a tile's corner, at the instants of the tile's upper and lower edge.
+// Corners of triangles, relative to a tile's corner, at the instants of the tile's upper and lower edge.
 struct TwoInstants {
     Corners upper, lower;
 };
 
-// Adds what a function that is linear on the screen changes from row to row, beside its slope, as its value in the tile's middle does.
+// Adds, to a function that is linear on the screen, its change from row to row, as in the tile's middle.
 HWY_INLINE void add_change(V upper, V lower, V& slope_down, V& at_corner) {
     const Floats d;
     const V per_row = hn::Mul(hn::Sub(lower, upper), hn::Set(d, 1.0f / kSide_px));
@@ -293,7 +294,8 @@ HWY_INLINE V in_the_middle(V a, V b, V c) {
     return times_plus(hn::Add(a, b), hn::Set(Floats(), 0.5f * kSide_px), c);
 }
 
-// Makes triangles from k on ready for a tile. c: their corners, from the tile's corner; rows: how they move from row to row.
+// Sets up triangles from k on for a tile. c: corners relative to the tile's corner; rows: their motion from
+// row to row.
 template <class Rows>
 HWY_INLINE void set_up_lanes(const ScreenMesh& mesh, const std::uint32_t* numbers, const Corners& c,
                              const Rows& rows, std::size_t k, TriangleSetup& s) {
@@ -307,7 +309,7 @@ HWY_INLINE void set_up_lanes(const ScreenMesh& mesh, const std::uint32_t* number
     const auto left_turn = hn::Gt(area, zero);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
-        // Both triangles of an edge take it in one order: the same numbers, to the last bit.
+        // Both triangles of an edge use it in the same order, and so get the same numbers to the last bit.
         const auto swap =
             hn::Or(hn::Lt(c.x[j], c.x[i]), hn::And(hn::Eq(c.x[j], c.x[i]), hn::Lt(c.y[j], c.y[i])));
         const auto line = [&](const Corners& at) {
@@ -349,7 +351,7 @@ HWY_INLINE void set_up_lanes(const ScreenMesh& mesh, const std::uint32_t* number
     hn::Store(slopes.down, d, s.depth_y.data() + k);
     hn::Store(depth, d, s.depth.data() + k);
     hn::Store(farthest, d, s.min_depth.data() + k), hn::Store(nearest, d, s.max_depth.data() + k);
-    // Pixels whose samples lie between least and greatest, a little wider for what edges are rounded by.
+    // Pixels with samples between least and greatest, enlarged by the rounding of edges.
     const V last = hn::Set(d, kSide_px - 1), beside = hn::Set(d, sample_x(0) - kEdge_px);
     const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
     const auto flat = hn::RebindMask(di, hn::Eq(area, zero));

@@ -16,10 +16,10 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kRun =
-    kClusterTriangles;                        // triangles that are looked at between two visits of the tiles
-constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
-constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
-constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are put in order together
+    kClusterTriangles;                        // triangles that are processed between two visits of the tiles
+constexpr std::size_t kVertexRun = 1 << 14;   // vertices per task
+constexpr std::uint32_t kBlocksAtOnce = 32;   // blocks that a group reserves at once
+constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are sorted together
 
 }  // namespace
 
@@ -33,8 +33,8 @@ VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Capacity
     placed_.reserve(capacity.objects);
     vertices_.resize(capacity.vertices);
     first_.resize(tiles * kGroups);
-    // Most triangles are met by one tile or none; of a block's sixteen places half are taken.
-    constexpr std::size_t kMin = 1 << 16;  // for few that fill the screen many times
+    // Most triangles are in one tile or none; on average half of a block's sixteen entries are used.
+    constexpr std::size_t kMin = 1 << 16;  // for few triangles that fill the screen many times
     const std::size_t blocks = capacity.triangles / 4 + 32 * tiles + kMin;
     blocks_.resize(blocks);
     heads_.resize(blocks);
@@ -94,8 +94,8 @@ float VisibilityBuffer::roll(const Placed& placed, std::span<const Vec3f> vertic
     return roll_vertices(vertices_m, rolling_projection(geometry_, at, depth_origin_m_), lens_.screen(), out);
 }
 
-// All vertices in runs, whatever object they are of: many small ones take as many threads as a large one. False: what is in the picture
-// moves too fast from row to row.
+// Projects all vertices in runs, regardless of object, so that many small objects use as many threads as a
+// large one. Returns false if visible ones move too fast from row to row.
 bool VisibilityBuffer::project() {
     std::atomic<bool> slow = true;
     const auto project_part = [&](std::size_t begin, std::size_t end) {
@@ -121,12 +121,12 @@ bool VisibilityBuffer::project() {
     return slow;
 }
 
-// Puts one group of triangles into the tiles that may see them.
+// Puts one group of triangles into the tiles that may show them.
 class VisibilityBuffer::Sorter {
   public:
     Sorter(VisibilityBuffer& buffer, std::size_t group) : my_(buffer), group_(group) {}
 
-    // Triangles from begin to end, as all objects' are counted. False: out of room.
+    // Sorts triangles begin to end, numbered over all objects. Returns false if it runs out of room.
     bool sort(std::size_t begin, std::size_t end) {
         auto object =
             std::upper_bound(my_.placed_.begin(), my_.placed_.end(), begin,
@@ -150,7 +150,7 @@ class VisibilityBuffer::Sorter {
   private:
     VisibilityBuffer& my_;
     std::size_t group_;
-    std::uint32_t next_ = 0, end_ = 0;  // blocks of its own
+    std::uint32_t next_ = 0, end_ = 0;  // blocks that it has reserved
     std::array<TileRange, kRun> ranges_;
 
     bool sort_run(const Placed& object, std::size_t first, std::size_t count) {
@@ -181,7 +181,7 @@ class VisibilityBuffer::Sorter {
         return true;
     }
 
-    // A triangle without an outline on the screen, which each row of tiles looks for at its own instants.
+    // Adds a triangle without an outline on the screen, which each row of tiles sets up at its own instants.
     bool add_cut(const Placed& object, std::uint32_t placed, TileRange range) {
         const auto bounds = [&](const InCamera& at, TileRange& out) {
             return bounds_of_cut(corners_m(object, at, range.triangle), my_.geometry_, my_.lens_, out);
@@ -240,7 +240,7 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown, c
         const std::size_t end = drawn_count_ * (group + 1) / kGroups;
         if (begin < end && !Sorter(*this, group).sort(begin, end)) room = false;
     });
-    // Whether there is room must not depend on chance, as what groups have taken and not used does.
+    // The result must not depend on timing, but the blocks that groups reserve without using them do.
     return room && used_ + kGroups * kBlocksAtOnce <= heads_.size();
 }
 
@@ -255,8 +255,8 @@ std::array<VisibilityBuffer::Placed::Plane, 5> VisibilityBuffer::planes_of(const
             plane({0, -1, s.bottom})};
 }
 
-// False: all of the box is beyond one of the planes, also while the rows are read. Corners on the screen are good to 1e-7 of the way to
-// them.
+// Returns false if all of the box is beyond one of the planes, for all rows. Positions on the screen are good
+// to 1e-7 of their distance.
 bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const {
     const Vec3d least = to_double(box_m[0]), most = to_double(box_m[1]);
     const Vec3d middle = 0.5 * (least + most), half = 0.5 * (most - least);
@@ -315,7 +315,7 @@ void VisibilityBuffer::prefetch_shading_points(std::uint32_t block) const {
             __builtin_prefetch(&vertices_[placed.first_vertex + corner]);
 }
 
-// Makes a block's triangles ready for a tile.
+// Sets up a block's triangles for a tile.
 void VisibilityBuffer::set_up(std::uint32_t block, int x_px, int y_px, TriangleSetup& setup) const {
     const BlockHead& head = heads_[block];
     const Placed& placed = placed_[head.placed];
@@ -338,13 +338,13 @@ void VisibilityBuffer::set_up(std::uint32_t block, int x_px, int y_px, TriangleS
         triangles, head.count, x_px, y_px, lens, setup);
 }
 
-// Fills blocks from near to far, so that what is hidden is found to be so before it is looked at.
+// Fills blocks from near to far, so that hidden ones are found early.
 void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px,
                                    VisibilityTile& tile) const {
     std::sort(blocks.begin(), blocks.end(), [](const NearBlock& a, const NearBlock& b) {
         return a.nearest != b.nearest ? a.nearest > b.nearest : a.order < b.order;
     });
-    // Most tiles have a few blocks only: the first ones are asked for, too.
+    // Most tiles have only a few blocks, so the first ones are prefetched, too.
     constexpr std::size_t kCornersAhead = 4, kVerticesAhead = 2;
     const auto ask_for_corners = [&](std::size_t i) {
         if (i < blocks.size()) prefetch_corners(blocks[i].block);
@@ -354,7 +354,7 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
     };
     for (std::size_t i = 0; i < kCornersAhead; ++i) ask_for_corners(i);
     for (std::size_t i = 0; i < kVerticesAhead; ++i) ask_for_vertices(i);
-    constexpr std::size_t kTriangles = 64;  // between two looks at what is hidden
+    constexpr std::size_t kTriangles = 64;  // triangles between two updates of what is hidden
     TriangleSetup setup;
     std::size_t filled = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {

@@ -1,17 +1,19 @@
 #pragma once
-// Finds which triangle each of sixteen samples in every pixel sees, for a pinhole camera at one instant: the
-// one that rays would find, for less than one ray a pixel costs. Lenses that bend straight lines are affine
-// in each tile (lens_tiles.h). Triangles are projected and sorted into tiles of the screen once a frame;
-// tiles are filled one by one, when they are shaded.
+// Finds which triangle each of sixteen samples in every pixel sees, for less than the cost of one ray per
+// pixel and with the same result. Triangles are projected and sorted into tiles of the screen once per frame;
+// tiles are filled when they are shaded. Lenses with distortion are affine in each tile (lens_tiles.h). See
+// docs/rendering.md, "Visibility".
 //
-// The rows of a rolling shutter each see the world from the camera's pose at their own instant (row_poses.h, rolling_raster.h).
+// All pixels have one instant, or each row of a rolling shutter has its own (row_poses.h, rolling_raster.h).
 //
-// Not modelled: line scanners, fisheyes, lenses that bend much within a tile (takes()). Such frames are for rays, and so is a frame
-// that shows more triangles than there is memory for, or whose rows see what moves fast: place() says no.
+// Not supported: line scanners, fisheyes, lenses that bend much within a tile (takes()). place() returns
+// false for frames with more triangles than fit into memory, and for those whose rows see fast motion; rays
+// render these.
 //
-// Precision: places on the screen are good to a thousandth of a pixel, also of objects that are far against
-// their size; depth to a few 1e-7 of the distance, or of the object where that is smaller. A triangle through
-// the camera's plane is cut by exact homogeneous edges (Olano & Greer, Graphics Hardware 1997).
+// Precision: places on the screen are good to a thousandth of a pixel, also for objects that are far away
+// compared with their size; depth to a few 1e-7 of the distance, or of the object's size if that is smaller.
+// A triangle that crosses the camera's plane is cut by exact homogeneous edges (Olano & Greer, Graphics
+// Hardware 1997).
 
 #include <array>
 #include <atomic>
@@ -38,47 +40,49 @@ struct PotentiallyVisibleSet;
 
 class VisibilityBuffer {
   public:
-    // The most that a frame may show.
+    // The most that a frame may contain.
     struct Capacity {
         std::size_t objects = 0, vertices = 0, triangles = 0;
-        bool rows = false;  // its rows may be of several instants
+        bool rows = false;  // rows may have different instants
     };
-    // A frame whose rows are of several instants shows nothing that moves by more from one row to the next: what it sees at the upper and
-    // lower border of a row of pixels is off by half of that [px].
+    // The largest motion from one row to the next, if rows have different instants: at the upper and lower
+    // border of a row of pixels places are off by half of that [px].
     static constexpr float kMaxRowSpeed_px = 0.25f;
     static bool takes(const ImageGeometry& geometry) { return LensTiles::takes(geometry); }
-    // Owner thread. The geometry is one that it takes.
+    // geometry: one for which takes() is true. Owner thread.
     VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity);
 
-    // Looks through another lens, that leaves straight lines straight, from the next place() on. Loop.
+    // Changes the focal length of a lens without distortion, from the next place() on. Loop.
     void set_focal_length(double focal_length_px) {
         geometry_.focal_length_px = focal_length_px;
         lens_ = LensTiles(geometry_);
     }
 
-    // An object as a frame shows it.
+    // An object as a frame shows it; what it points to must outlive the frame.
     struct Shown {
         std::uint32_t object;
         Pose pose;
         double radius_m;
         MeshView mesh;  // outlives the frame
-        // Boxes of its clusters (ObjectSurfaces), likewise: those beside the picture are left out. Empty: all triangles are looked at.
+        // Boxes of its clusters (ObjectSurfaces); clusters outside the picture are skipped. Empty: all
+        // triangles are processed.
         std::span<const std::array<Vec3f, 2>> cluster_bounds_m{};
-        // They say for each triangle which one's id stands for it, or that it is left out (coplanar_groups.h), likewise. Empty:
-        // each has its own.
+        // For each triangle, the one whose id represents it, or that it is not shown (coplanar_groups.h).
+        // Empty: each has its own.
         std::span<const std::uint32_t> coplanar_groups{};
-        // All that may be seen of it (potentially_visible_sets.h), likewise: the rest is not looked at. Null: all of it may be.
+        // The part that may be visible (potentially_visible_sets.h); the rest is skipped. Null: all of it.
         const PotentiallyVisibleSet* visible = nullptr;
     };
-    // Sorts the triangles of a frame. rows: how the camera moves between rows, each of which is rows_px of the buffer's; null: all
-    // are one instant. False: there is no room for the triangles, or they move too fast. Loop.
+    // Sorts the triangles of a frame. rows: the camera's motion between rows, each of which is rows_px rows
+    // of the buffer; null: all rows have one instant. Returns false if there is no room for the triangles or
+    // they move too fast. Loop.
     bool place(const Pose& camera, std::span<const Shown> shown, const RowMotion* rows = nullptr,
                int rows_px = 1);
 
-    // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. False:
-    // nothing. Loop, any thread.
+    // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. Returns
+    // false if they see nothing. Loop, any thread.
     bool fill(int x_px, int y_px, VisibilityTile& tile) const;
-    // Does so for all tiles, one after the other; use(x_px, y_px) is called for each that sees something. Any thread.
+    // Does so for all tiles in order; calls use(x_px, y_px) for each that sees something. Any thread.
     template <class Use>
     void fill_all(VisibilityTile& tile, const Use& use) const {
         for (int y = 0; y < geometry_.padded_height(); y += kVisibilityTile_px)
@@ -86,12 +90,12 @@ class VisibilityBuffer {
                 if (fill(x, y, tile)) use(x, y);
     }
 
-    // Returns the direction through a place in a pixel, as its tile has it; world axes, of any length.
+    // Returns the direction through a place in a pixel, as its tile has it; world axes, any length.
     Vec3d direction(int x_px, int y_px, Vec2f within_px) const;
-    // Returns the way of the camera, from its place at the frame's time to where it is when a row is read.
+    // Returns the camera's displacement, from its position at the frame's time to that when a row is read.
     Vec3d moved_m(int y_px) const { return rolling_ ? rows_->of_row(y_px).moved_m : Vec3d{}; }
 
-    // The triangle for which an id of a tile stands.
+    // The triangle that an id in a tile represents.
     struct Seen {
         const Shown* shown;
         std::uint32_t triangle;
@@ -99,10 +103,10 @@ class VisibilityBuffer {
     Seen seen(std::uint32_t id) const;
 
   private:
-    static constexpr std::size_t kGroups = 64;  // groups of triangles, sorted side by side
+    static constexpr std::size_t kGroups = 64;  // groups of triangles that are sorted in parallel
     static constexpr std::uint32_t kNoBlock = 0;
 
-    // Up to sixteen triangles of an object that a tile may see.
+    // Up to sixteen triangles of an object that a tile may show.
     struct alignas(64) Block {
         std::array<std::uint32_t, kTrianglesAtOnce> triangles;
     };
@@ -110,26 +114,28 @@ class VisibilityBuffer {
         std::uint32_t next = kNoBlock;
         std::uint32_t placed = 0;  // index of the object
         std::uint16_t count = 0;
-        bool cut = false;   // one triangle, not wholly on the screen
-        float nearest = 0;  // the greatest depth of all
+        bool cut = false;   // a single triangle that is not wholly on the screen
+        float nearest = 0;  // greatest depth of all
     };
-    // A block to be filled into a tile. The order is that of the groups: blocks' numbers depend on chance.
+    // A block to be filled into a tile. `order` is that of the groups, because the numbers of blocks vary
+    // from run to run.
     struct NearBlock {
         float nearest;
         std::uint32_t order, block;
     };
     struct Placed {
         Shown shown;
-        // The triangles that are drawn of it, and whose ids stand for its triangles; none: each has its own.
+        // The triangles that are drawn, and for each the id of the one it represents; empty: its own.
         MeshView drawn;
         std::span<const std::uint32_t> ids;
         std::size_t first_vertex, first_drawn;
-        std::size_t first_triangle;  // id of the whole mesh' first
+        std::size_t first_triangle;  // id of the whole mesh's first triangle
         Mat3d world_from_body;
         Vec3d offset_m;      // from the camera, world axes
         InCamera in_camera;  // at the frame's time
         ScreenProjection projection;
-        // The picture's edges and the camera's plane, body axes: a place is within where along * place + offset_m is not below zero.
+        // The picture's edges and the camera's plane in body axes: a place is inside if along * place +
+        // offset_m >= 0.
         struct Plane {
             Vec3d along;
             double offset_m;

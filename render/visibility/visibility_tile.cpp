@@ -29,8 +29,8 @@ struct SamplePlaces {
 };
 constexpr SamplePlaces kPlaces;
 
-// Bounds of what sixteen triangles are in a pixel, for lanes that are pixels: an edge's function and the depth are
-// no greater at any of its samples than a * column + b * row + c.
+// Bounds of sixteen triangles in a pixel, with pixels as lanes: at any sample of the pixel an edge function,
+// or the depth, is at most a * column + b * row + c.
 struct PixelBounds {
     struct Plane {
         HWY_ALIGN float a[kTrianglesAtOnce];
@@ -43,7 +43,7 @@ struct PixelBounds {
 HWY_INLINE void bound(V a, V b, V c, std::size_t k, PixelBounds::Plane& out) {
     const Floats d;
     constexpr float kFirst = sample_x(0), kLast = sample_x(kVisibilitySamples - 1);
-    // Sixteen times what the sums at samples are rounded by.
+    // Sixteen times the rounding of the sums at samples.
     constexpr float kRounding = 0x1p-20f;
     const V first = hn::Set(d, kFirst), last = hn::Set(d, kLast);
     const auto greatest = [&](V slope) { return hn::Max(hn::Mul(slope, first), hn::Mul(slope, last)); };
@@ -59,7 +59,7 @@ void bound_pixels(const TriangleSetup& s, PixelBounds& out) {
     const I sign = hn::Set(di, std::numeric_limits<std::int32_t>::min());
     for (std::size_t k = 0; k < s.count; k += lanes) {
         for (std::size_t i = 0; i < 3; ++i) {
-            // Inside is where the function is above zero.
+            // Inside is where the function is positive.
             const I flip = hn::Load(di, reinterpret_cast<const std::int32_t*>(s.flip[i].data()) + k);
             const V turn = hn::BitCast(d, hn::Xor(flip, sign));
             const auto turned = [&](const auto& of) { return hn::Xor(hn::Load(d, of[i].data() + k), turn); };
@@ -70,7 +70,7 @@ void bound_pixels(const TriangleSetup& s, PixelBounds& out) {
     }
 }
 
-// True when everything that a triangle may cover is nearer.
+// True when everything that a triangle may cover is already nearer.
 bool is_hidden(const TriangleSetup& s, std::size_t k, const VisibilityTile& tile) {
     constexpr int kHalf = kSide_px / 2;
     const float nearest = s.max_depth[k];
@@ -80,7 +80,7 @@ bool is_hidden(const TriangleSetup& s, std::size_t k, const VisibilityTile& tile
     return true;
 }
 
-// The least of each of four pixels' samples, one after the other.
+// Finds the least depth of the samples of each of four consecutive pixels.
 HWY_INLINE void least_of_four(const float* depth, float* out) {
     const Floats d;
     const hn::Full128<float> four;
@@ -88,7 +88,7 @@ HWY_INLINE void least_of_four(const float* depth, float* out) {
     using Pairs = hn::Repartition<double, Floats>;
     auto least = hn::Set(four, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < kVisibilitySamples; i += lanes) {
-        // In each block of four samples the least of each pixel.
+        // Takes the least of each block of four samples, for each pixel.
         const auto of = [&](std::size_t pixel) {
             return hn::Load(d, depth + pixel * kVisibilitySamples + i);
         };
@@ -122,12 +122,12 @@ void farthest(VisibilityTile& tile) {
     }
 }
 
-// Pixels that are looked at together: a square of 4 x 4.
+// Pixels are tested in squares of 4 x 4.
 constexpr int kSquare_px = 4;
 struct SquarePlaces {
     HWY_ALIGN float column[kSquare_px * kSquare_px];
     HWY_ALIGN float row[kSquare_px * kSquare_px];
-    HWY_ALIGN std::int32_t pixel[kSquare_px * kSquare_px];  // in the tile, from the square's first
+    HWY_ALIGN std::int32_t pixel[kSquare_px * kSquare_px];  // in the tile, relative to the square's first
     constexpr SquarePlaces() : column(), row(), pixel() {
         for (int i = 0; i < kSquare_px * kSquare_px; ++i) {
             const int x = i % kSquare_px, y = i / kSquare_px;
@@ -137,7 +137,7 @@ struct SquarePlaces {
 };
 constexpr SquarePlaces kSquare;
 
-// A triangle in a tile.
+// Fills a triangle into a tile.
 class Filler {
   public:
     HWY_INLINE Filler(const TriangleSetup& s, const PixelBounds& bounds, std::size_t k, VisibilityTile& tile)
@@ -161,8 +161,8 @@ class Filler {
     int x1_, y1_;
     V a_[3], b_[3], c_[3], gx_, gy_, g_, near_most_, far_most_;
     I flip_[3], id_;
-    // The pixels in which a sample may see the triangle, listed before any is filled: a loop over those of each square would end at a
-    // number that no processor foresees.
+    // The pixels with a sample that may see the triangle. They are listed before any is filled, because a
+    // loop over those of each square would have an unpredictable length.
     std::size_t count_ = 0;
     HWY_ALIGN std::int32_t candidates_[VisibilityTile::kPixels + hn::MaxLanes(Ints())];
 
@@ -211,8 +211,8 @@ class Filler {
             float* depth = &tile_.depth[first + sample];
             const V before = hn::Load(d, depth);
             const auto seen = hn::And(hn::RebindMask(d, hn::Lt(all, hn::Zero(di))), hn::Gt(z, before));
-            // All of it, as a load that follows soon does not wait for such a store; and stores by a mask are slow on
-            // processors without AVX-512.
+            // Stores all lanes: a load that follows soon does not have to wait, and masked stores are slow
+            // without AVX-512.
             hn::Store(hn::IfThenElse(seen, z, before), d, depth);
             auto* const id = reinterpret_cast<std::int32_t*>(&tile_.id[first + sample]);
             hn::Store(hn::IfThenElse(hn::RebindMask(di, seen), id_, hn::Load(di, id)), di, id);
@@ -227,7 +227,7 @@ void fill(const TriangleSetup& s, VisibilityTile& tile) {
         if (s.x1[k] >= s.x0[k] && !is_hidden(s, k, tile)) Filler(s, bounds, k, tile);
 }
 
-// A bit for each of sixteen ids that is the wanted one.
+// Returns a bit for each of sixteen ids that equals the wanted one.
 HWY_INLINE SampleMask equal_of_sixteen(const std::uint32_t* ids, std::uint32_t wanted) {
     const hn::CappedTag<std::uint32_t, kVisibilitySamples> d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
@@ -237,7 +237,7 @@ HWY_INLINE SampleMask equal_of_sixteen(const std::uint32_t* ids, std::uint32_t w
     return same;
 }
 
-// A pixel of so many of the tile's pixels each way; sample 16 q + i is sample i of quarter q.
+// Lists a pixel of kAcross x kAcross tile pixels; sample 16 q + i is sample i of quarter q.
 template <int kAcross>
 void list_pixel(const std::uint32_t* ids, PixelFragments& out) {
     constexpr int kQuarters = kAcross * kAcross;
@@ -245,7 +245,8 @@ void list_pixel(const std::uint32_t* ids, PixelFragments& out) {
     const auto of_quarter = [&](int q) {
         return ids + (q / kAcross * kSide_px + q % kAcross) * kVisibilitySamples;
     };
-    // All quarters, also those before the first that has it: a loop from there would end at a number that no processor foresees.
+    // All quarters, also those before the first that has it: a loop from there would have an unpredictable
+    // length.
     const auto equal = [&](std::uint32_t id) {
         SampleMask same = 0;
         for (int q = 0; q < kQuarters; ++q)

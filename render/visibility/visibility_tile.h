@@ -1,6 +1,6 @@
 #pragma once
-// A tile of the visibility buffer: which triangle each of its samples sees, and how near it is. Its loops are compiled for
-// several widths of vectors that give the same results, bit by bit. Loop, any thread.
+// A tile of the visibility buffer: the triangle that each of its samples sees, and its depth. Its loops are
+// compiled for several vector widths, which give the same results, bit by bit. Loop, any thread.
 
 #include <array>
 #include <cstddef>
@@ -20,8 +20,8 @@ struct alignas(64) VisibilityTile {
     static constexpr float kBehindAll = -2;
     std::array<float, kSize> depth;
     std::array<std::uint32_t, kSize> id;
-    // The least depth in each pixel, and in each quarter, when find_farthest() looked last: what is behind that is hidden.
-    // Squares of 4 x 4 pixels may reach beyond.
+    // The least depth in each pixel and each quarter at the last find_farthest(): whatever is behind that is
+    // hidden. Padded, because squares of 4 x 4 pixels may extend beyond the tile.
     static constexpr std::size_t kPixels = std::size_t{kVisibilityTile_px} * kVisibilityTile_px;
     std::array<float, kPixels + 4 * kVisibilityTile_px> farthest_of;
     std::array<float, 4> farthest;
@@ -39,20 +39,20 @@ struct alignas(64) VisibilityTile {
 void fill_tile(const TriangleSetup& setup, VisibilityTile& tile);
 void find_farthest(VisibilityTile& tile);
 
-// This is what the samples of a pixel of the picture see: each id once, first the one that most of them see; of two with
-// as many the one whose mask is less.
+// The ids that the samples of a pixel of the picture see, each once, in falling order of the number of
+// samples; for equal numbers, the smaller mask first.
 struct PixelFragments {
     struct Fragment {
         std::uint32_t id;
-        std::uint32_t others;  // number of samples that see something else
-        SampleMask samples;    // a bit each, as PixelSamples has them
+        std::uint32_t others;  // samples that see something else
+        SampleMask samples;    // one bit each, as in PixelSamples
     };
     std::array<Fragment, kMaxVisibilitySamples> fragments;
     std::size_t count = 0;
-    SampleMask nothing = 0;  // samples that see nothing, a bit each
+    SampleMask nothing = 0;  // samples that see nothing, one bit each
 };
-// ids: of its upper left pixel in the tile (VisibilityTile::ids()). across: how many of the tile's pixels it is wide and
-// high, 1 or 2.
+// ids: of the pixel's upper left buffer pixel (VisibilityTile::ids()). across: width and height of the pixel
+// in buffer pixels, 1 or 2.
 void list_fragments(const std::uint32_t* ids, int across, PixelFragments& out);
 
 }  // namespace hilcam

@@ -23,9 +23,10 @@ void AheadThread::stop() {
 
 void AheadThread::run(Rank rank) {
     pthread_setname_np(pthread_self(), "ahead");
-    // Frames come first; and one core of those that they leave is enough.
-    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
-    // Linux: the process's number is that of its first thread. Who has started this one may be nicer (light_maker.h).
+    // Frames come first; this work may use one core of those that they leave.
+    constexpr int kNicer = 10;  // added to the program's own niceness
+    // On Linux the process id is that of its first thread. The thread that started this one may be nicer
+    // (light_maker.h).
     if (rank == Rank::kNice)
         setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, static_cast<id_t>(getpid())) + kNicer);
     tbb::task_arena alone(1, 1);

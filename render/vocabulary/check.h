@@ -1,18 +1,19 @@
 #pragma once
-// Our own bugs end the program with a message; bad input never comes here (it is an InputError or a status).
+// Checks for bugs of our own, which end the program with a message. Bad input is an InputError or a status
+// instead.
 
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
-// Always on: for conditions whose failure would give wrong frames.
+// Always checked: conditions whose failure would give wrong frames.
 #define HILCAM_CHECK(condition)                                                   \
     do {                                                                          \
         if (!(condition)) ::hilcam::check_failed(#condition, __FILE__, __LINE__); \
     } while (false)
 
-// Debug builds only: for conditions tested per ray or per pixel.
+// Checked in debug builds only: conditions tested per ray or per pixel.
 #ifdef NDEBUG
 #define HILCAM_DCHECK(condition) \
     do {                         \

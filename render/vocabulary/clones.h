@@ -1,6 +1,6 @@
 #pragma once
-// Hot loops compiled for three levels of x86-64 and chosen at load time; with contraction off (see the build)
-// every version gives the same bits. Sanitizers cannot follow the choice, so they get one version.
+// Compiles a hot loop for three levels of x86-64; the loader picks one. Contraction is off (see the build),
+// so every version gives the same bits. Sanitizers cannot follow the choice and get one version.
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(__clang__)
 #define HILCAM_CLONES

@@ -1,6 +1,6 @@
 #pragma once
-// One list per configuration struct says all about its keys: name with unit, meaning, range, where the value
-// goes. Parsing, range check, unknown-key check, --set and the manual's tables all come from it.
+// Each configuration struct has one list of its keys: name with unit, meaning, range, where the value goes.
+// Parsing, range check, unknown-key check, --set and the manual's tables all come from that list.
 //
 //     struct PinholeConfig { double focal_length_m = 0.05; };
 //     Fields fields(PinholeConfig& c) {
@@ -39,12 +39,13 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
 };
 
-// A number, or the one word that may stand in its place: the value is `word_value` then, which no number of the range is.
+// A number, or one word in its place ("auto"). The word stores `word_value`, which is outside the range of
+// numbers.
 struct NumberField {
     double* value;
     double si_per_unit;
     Range range;
-    std::string word{};  // empty: there is none
+    std::string word{};  // empty: no word is accepted
     double word_value = 0;
 
     bool holds_word() const { return !word.empty() && *value <= word_value && *value >= word_value; }
@@ -59,17 +60,17 @@ struct FlagField {
 struct TextField {
     std::string* value;
 };
-// A list of texts, in brackets; one text alone is a list of one.
+// A list of texts in brackets, or a single text, which is a list of one.
 struct TextsField {
     std::vector<std::string>* value;
 };
-// A path; relative ones are taken from the folder of the file that names it. `where`, if asked for, gets the
-// place of the key, "bench.yaml:7:11: objects.0.mesh", for messages about what the path leads to.
+// A path. A relative path starts at the folder of the file that names it. `where`, if given, gets the place
+// of the key ("bench.yaml:7:11: objects.0.mesh"), for messages about the file that the path names.
 struct PathField {
     std::filesystem::path* value;
     std::string* where = nullptr;
 };
-// One of a fixed list of words; `set` gets its index, `get` gives the present one.
+// One of a fixed list of words. `set` stores the word's index, `get` returns the present one.
 struct ChoiceField {
     std::vector<std::string> words;
     std::function<void(std::size_t)> set;
@@ -103,8 +104,8 @@ struct TableField {
     std::string x_name, y_name;
     Range x_range, y_range;
 };
-// A section's `validate` objects to one of its keys, "up", or to one further down, "objects.0.name": the
-// reader says where that stands.
+// An objection of a section's `validate` to one of its keys ("up") or to a key further down
+// ("objects.0.name"). The reader adds where in the file that key is.
 class KeyError : public InputError {
   public:
     KeyError(std::string key, std::string reason)
@@ -116,12 +117,12 @@ class KeyError : public InputError {
     std::string key_, reason_;
 };
 
-// The same as refused() (check.h), of a key.
+// As refused() (check.h), but for a key.
 inline KeyError refused_key(const std::string& key, const std::string& found, const std::string& accepted) {
     return KeyError(key, "found " + found + "; accepted: " + accepted);
 }
 
-// Turns what an InputError of check() says into an objection to that key.
+// Runs check() and turns its InputError into an objection to that key.
 template <class Check>
 void at_key(const std::string& key, const Check& check) {
     try {
@@ -131,26 +132,26 @@ void at_key(const std::string& key, const Check& check) {
     }
 }
 
-// A nested mapping, or the path of a file that holds the mapping. `validate` runs after it is read and throws
-// KeyError, or InputError with a message that names the keys it is about; the reader adds file and line.
+// A nested mapping, or the path of a file that holds it. `validate` runs after reading and throws KeyError,
+// or InputError with a message that names its keys; the reader adds file and line.
 struct SectionField {
     Fields fields;
     std::function<void()> validate;
 };
-// A nested mapping that may be left out, and is then not there at all. `open` gives it, made with its defaults
-// where it is not there yet.
+// A nested mapping that is absent when it is left out. `open` returns the section and creates it with its
+// defaults if needed.
 struct OptionalSectionField {
     std::function<SectionField()> open;
     std::function<bool()> given;
 };
-// A list of mappings. `append` adds one default element to the owner and gives its section; references into
-// earlier elements need not stay valid, because each element is read before the next is appended.
+// A list of mappings. `append` adds one default element to the owner and returns its section. References into
+// earlier elements need not stay valid: each element is read before the next one is appended.
 struct SectionsField {
     std::function<SectionField()> append;
-    // The elements that there are, to list them.
+    // Give the elements that the list has, so that they can be listed.
     std::function<std::size_t()> count{};
     std::function<SectionField(std::size_t)> at{};
-    // A word that may stand in the list's place, and what is set then; empty: there is none.
+    // A word that is accepted in place of the list, and the flag that it sets. Empty: no word is accepted.
     std::string word{};
     bool* holds_word = nullptr;
 };
@@ -159,18 +160,18 @@ using FieldTarget = std::variant<NumberField, IntegerField, FlagField, TextField
                                  ChoiceField, NumbersField, Vec3Field, QuatField, CurveField, TableField,
                                  SectionField, OptionalSectionField, SectionsField>;
 
-// Constructors and makers are in config_field.cpp: inline, they took a fifth of the time of compiling a source of
-// sections.
+// Constructors and makers are in config_field.cpp: inline, they took a fifth of the compile time of each
+// source that has sections.
 struct Field {
     std::string key;
     std::string meaning;  // one line, with the unit where the key has none
     FieldTarget target;
     bool required = false;
     bool* present = nullptr;     // set when the key is given
-    bool changes_frames = true;  // false: frames do not depend on it, so that a replay may have another value
-    bool per_frame = false;      // true: it may have another value from one frame to the next (loop.levels)
-    // Says why the key, where it is given, has no effect beside the section's other keys, which are all read by then;
-    // empty: it has one. Null: it always has.
+    bool changes_frames = true;  // false: frames do not depend on it, so a replay may use another value
+    bool per_frame = false;      // true: each frame may have another value (loop.levels)
+    // Returns why a key that is given has no effect beside the section's other keys, which have all been read
+    // by then; empty when it has one. Null: the key always has an effect.
     std::function<std::string()> why_idle{};
 
     Field(std::string_view key_, std::string_view meaning_, FieldTarget target_);
@@ -185,7 +186,7 @@ inline bool holds_section(const Field& field) {
     return std::holds_alternative<SectionField>(field.target) ||
            std::holds_alternative<OptionalSectionField>(field.target);
 }
-// Returns the section that stands at a key, opened where it is not there yet; nothing where the key is of another kind.
+// Returns the section at a key, and creates an absent one. Returns nothing if the key is of another kind.
 std::optional<SectionField> section_in(const Field& field);
 
 // --- makers, so that a list reads as a table ---
@@ -221,7 +222,7 @@ Field table(std::string_view key, Table& value, std::array<std::string_view, 2> 
 Field section_field(std::string_view key, SectionField section, std::string_view meaning);
 Field optional_section_field(std::string_view key, OptionalSectionField section, std::string_view meaning);
 Field sections_field(std::string_view key, SectionsField sections, std::string_view meaning);
-// T has `Fields fields(T&)` and, when its keys depend on each other, `void validate(const T&)`.
+// T needs `Fields fields(T&)` and, if its keys depend on each other, `void validate(const T&)`.
 template <class T>
 SectionField section_of(T& value) {
     SectionField section{fields(value), {}};
@@ -247,15 +248,16 @@ Field sections(std::string_view key, std::vector<T>& value, std::string_view mea
          [&value](std::size_t i) { return section_of(value[i]); }},
         meaning);
 }
-// The word may stand in place of the number, as "auto" does; `word_value` (SI) is out of the number's range.
+// Accepts the word, such as "auto", in place of the number; `word_value` (SI) is outside the number's range.
 Field or_word(Field field, std::string_view word, double word_value);
-// The word may stand in place of the list of mappings; `holds_word` is set then.
+// Accepts the word in place of the list of mappings, and sets `holds_word`.
 Field or_word(Field field, std::string_view word, bool& holds_word);
 Field required(Field field, bool* present = nullptr);
 Field optional(Field field, bool& present);
-// A key, with all below it, that a replay may have otherwise than the recording (docs/recording.md).
+// Marks a key, and all below it, as one that a replay may set otherwise than the recording
+// (docs/recording.md).
 Field beside_frames(Field field);
-// A key that may have another value from one frame to the next.
+// Marks a key that may have another value in each frame.
 Field per_frame(Field field);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// FNV-1a of 64 bits (Fowler, Noll & Vo, 1991), by which kept files are named and answers are found again.
+// The 64-bit FNV-1a hash (Fowler, Noll & Vo, 1991), used to name cache files and to find earlier results.
 // Equal hashes do not prove equal contents.
 
 #include <cstdint>
@@ -9,10 +9,11 @@ namespace hilcam {
 class Fnv1a {
   public:
     Fnv1a() = default;
-    // Goes on from a hash.
+    // Continues from an earlier hash.
     explicit Fnv1a(std::uint64_t value) : value_(value) {}
 
-    // Takes a byte, as published, or a longer word at once, which is another hash.
+    // Adds a byte, as published. A longer word may be added at once, but gives another hash than its bytes
+    // would.
     void take(std::uint64_t word) { value_ = (value_ ^ word) * 1099511628211u; }
     template <class Bytes>
     void take_bytes(const Bytes& bytes) {

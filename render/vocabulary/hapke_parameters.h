@@ -1,6 +1,6 @@
 #pragma once
-// The parameters of Hapke's law beside the single-scattering albedo (render/brdf/hapke.h): a material has them, or a
-// place of the ground by maps.
+// The parameters of Hapke's law except the single-scattering albedo (render/brdf/hapke.h). They come from a
+// material, or, for ground, from maps.
 
 namespace hilcam {
 
@@ -13,14 +13,14 @@ struct HapkeParameters {
     friend bool operator==(const HapkeParameters&, const HapkeParameters&) = default;
 };
 
-// The least and the greatest value of a parameter that its law takes.
+// The range that the law accepts for a parameter.
 struct ParameterLimits {
     double least, most;
 };
 inline constexpr ParameterLimits kLobeWidthLimits{0, 0.95}, kLobeBackwardLimits{-1, 1},
     kSurgeAmplitudeLimits{0, 10}, kSurgeWidthLimits{1e-4, 1}, kSlopeLimits_deg{0, 60};
 
-// Returns the mean of three by their shares.
+// Returns the weighted mean of three sets.
 inline HapkeParameters blend(const HapkeParameters& p, float p_share, const HapkeParameters& q, float q_share,
                              const HapkeParameters& r, float r_share) {
     const auto mean = [&](float HapkeParameters::*of) {

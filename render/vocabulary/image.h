@@ -1,6 +1,6 @@
 #pragma once
-// Images, one type per physical quantity, so that a stage cannot be fed the wrong one.
-// Rows run downwards (+y), columns to the right (+x); the centre of pixel (0, 0) is at (0.5, 0.5).
+// Images. Each physical quantity has its own type, so a stage cannot be given the wrong one. Rows run
+// downwards (+y), columns to the right (+x); the centre of pixel (0, 0) is at (0.5, 0.5).
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace hilcam {
 
-// A stack of `planes` images of one size in one 64-byte-aligned block; rows are contiguous.
+// A stack of `planes` images of one size in one block of memory, aligned to 64 bytes. Rows are contiguous.
 template <class T, class Quantity>
 class Image {
   public:
@@ -31,7 +31,8 @@ class Image {
         for (T& value : all()) value = T{};
     }
 
-    // Another shape in the same memory, in which it must fit; its pixels are then anything. Loop.
+    // Changes the shape within the same memory, which must be large enough. Pixel values are undefined
+    // afterwards. Loop.
     void reshape(int width, int height) {
         HILCAM_CHECK(width > 0 && height > 0 &&
                      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) <= capacity_);

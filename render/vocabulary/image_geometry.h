@@ -1,18 +1,18 @@
 #pragma once
-// Maps pixels to directions and back by a pinhole with the lens's distortion.
+// Maps pixels to directions and back: a pinhole with the lens's distortion.
 //
 // Camera axes: +x right, +y down, +z along the boresight, which meets the image at its middle (width/2,
 // height/2) plus principal_offset_px. The centre of pixel (0, 0) is at (0.5, 0.5) px. The guard band
-// continues the image on all four sides: pixel (-1, 0) is seen too, so that light from outside the frame can
+// continues the image on all four sides, so there is a pixel (-1, 0): light from just outside the frame can
 // spread in.
 //
-// Rectilinear lenses: distortion after Brown, Photogrammetric Engineering 32 (1966), as OpenCV has it. With
-// x, y = X/Z, Y/Z and r^2 = x^2 + y^2
-//   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 changed
-//   over.
-// What else such a lens does is a polynomial of x and y that is added (lens_polynomial.h).
-// Fisheye lenses, as OpenCV's: with theta = atan r
-//   x' = x / r theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8), y' likewise.
+// Rectilinear lenses have distortion after Brown, Photogrammetric Engineering 32 (1966), in OpenCV's form.
+// With x, y = X/Z, Y/Z and r^2 = x^2 + y^2
+//     x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
+//     y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p2 x y + p1 (r^2 + 2 y^2)
+// A polynomial of x and y can be added for what these terms cannot express (lens_polynomial.h). Fisheye
+// lenses have OpenCV's model: with theta = atan r
+//     x' = x / r theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8), and the same for y'
 
 #include <cmath>
 
@@ -41,7 +41,7 @@ struct LensDistortion {
         const Vec2d by = polynomial.shift(p).by;
         return {moved.x + by.x, moved.y + by.y};
     }
-    // Inverts the distortion by Newton's method with the matrix of derivatives; 1e-12 after some steps where
+    // Inverts the distortion by Newton's method with its Jacobian. Converges to 1e-12 within 12 steps where
     // the lens does not fold over.
     Vec2d undistorted(Vec2d q) const {
         if (projection == Projection::kFisheye) return from_fisheye(q);
@@ -80,7 +80,7 @@ struct LensDistortion {
         const double scale = fisheye_radius(std::atan(r)) / r;
         return {p.x * scale, p.y * scale};
     }
-    // The plane z = 1 has no place for directions at 90 degrees or more: 89.99 degrees stand for it.
+    // The plane z = 1 cannot show directions at 90 degrees or more; they become 89.99 degrees.
     Vec2d from_fisheye(Vec2d q) const {
         const double radius = std::sqrt(q.x * q.x + q.y * q.y);
         if (radius < 1e-12) return q;
@@ -103,30 +103,30 @@ struct ImageGeometry {
     int guard_px = 0;            // on each side
     double focal_length_px = 0;  // focal length / pixel pitch
     LensDistortion distortion;
-    Vec2d principal_offset_px{};  // offset of the boresight's place from the image's middle
+    Vec2d principal_offset_px{};  // from the image's middle to the place where the boresight meets it
 
     Vec2d center_px() const {
         return {0.5 * width_px + principal_offset_px.x, 0.5 * height_px + principal_offset_px.y};
     }
     int padded_width() const { return width_px + 2 * guard_px; }
     int padded_height() const { return height_px + 2 * guard_px; }
-    // Returns a direction that is not normalised: z = 1, so the same plane carries interpolation and
-    // projection. x, y in px of the sensor frame.
+    // Returns the direction of a place [px of the sensor frame], not normalised: z is 1, so that
+    // interpolation and projection use the same plane.
     Vec3d direction_camera(double x_px, double y_px) const {
         const Vec2d center = center_px();
         Vec2d p{(x_px - center.x) / focal_length_px, (y_px - center.y) / focal_length_px};
         if (!distortion.none()) p = distortion.undistorted(p);
         return {p.x, p.y, 1.0};
     }
-    // Returns the place where a direction with z > 0 meets the image [px of the sensor frame].
+    // Returns where a direction with z > 0 meets the image [px of the sensor frame].
     Vec2d project_px(Vec3d direction_camera) const {
         Vec2d p{direction_camera.x / direction_camera.z, direction_camera.y / direction_camera.z};
         if (!distortion.none()) p = distortion.distorted(p);
         const Vec2d center = center_px();
         return {center.x + focal_length_px * p.x, center.y + focal_length_px * p.y};
     }
-    // True when the lens has that direction, z > 0, at the place that project_px() gives. Far beside the
-    // field a polynomial of distortion folds back, into the picture even.
+    // True when the lens really shows the direction (z > 0) at the place that project_px() gives. Far outside
+    // the field a distortion polynomial folds over and may even return a place inside the picture.
     bool shows(Vec3d dir, Vec2d place_px) const {
         if (distortion.none()) return true;
         constexpr double kSame_rad = 1e-6;
@@ -135,7 +135,7 @@ struct ImageGeometry {
     }
 };
 
-// Returns the geometry of so many times the pixels, each way.
+// Returns the geometry with `times` as many pixels in each direction.
 inline ImageGeometry scaled(const ImageGeometry& geometry, int times) {
     ImageGeometry out = geometry;
     out.width_px *= times, out.height_px *= times, out.guard_px *= times, out.focal_length_px *= times;

@@ -1,6 +1,7 @@
 #pragma once
-// Adds the lanes of a vector in one order, whatever width of vectors the processor has: halves are added to
-// each other. Inline: compiled into loops that have several versions (clones.h).
+// Adds the lanes of a vector in an order that does not depend on the processor's vector width: one half is
+// added to the other until one lane remains. Always inline, because loops with several versions use it
+// (clones.h).
 
 #include <array>
 #include <cstddef>
@@ -8,8 +9,8 @@
 
 namespace hilcam {
 
-// Four lanes together are a vector of every processor. They are written out, as GCC 12 makes a loop through memory of halves,
-// whose parts wait for each other.
+// Every processor has vectors of four lanes. They are written out because GCC 12 compiles a loop over halves
+// through memory, where each step waits for the last.
 template <std::size_t kLanes>
 [[gnu::always_inline]] inline float lane_sum(const std::array<float, kLanes>& lanes) {
     static_assert((kLanes & (kLanes - 1)) == 0 && kLanes >= 4);

@@ -1,8 +1,8 @@
 #pragma once
-// The newest value from one thread to another without a lock: a triple buffer. The writer always has a slot
-// of its own, the reader always has a complete value, a slow reader skips values, a slow writer never blocks
-// it. One writer thread, one reader thread (several writers: guard them with a mutex of their own). T is
-// copied whole.
+// Hands the newest value from one thread to another without a lock: a triple buffer. The writer always has a
+// free slot and the reader always has a complete value. A slow reader skips values; a slow writer never
+// blocks the reader. One writer thread (several need a mutex of their own), one reader thread. T is copied
+// whole.
 
 #include <array>
 #include <atomic>

@@ -1,10 +1,11 @@
 #pragma once
-// Moves places in the picture's plane by a polynomial in both of their coordinates: what a lens does whose
-// distortion is no sum of Brown's terms, as that of an off-axis telescope, or a table of places from a lens
-// design program. With x, y = X/Z, Y/Z of the camera's axes, the place moves by
-//   dx = x_0 + x_1 x + x_2 y + x_3 x^2 + x_4 x y + x_5 y^2 + x_6 x^3 ..., dy likewise,
-// terms by order, within one by falling powers of x, up to the fifth order. Like SIP of FITS headers (Shupe et
-// al., ADASS XIV, 491, 2005), with the constant and linear terms, which SIP leaves to the rest of the header.
+// Distortion as a polynomial in both coordinates of the image plane, for lenses that Brown's terms cannot
+// describe: an off-axis telescope, or a table of places from a lens design program. With x, y = X/Z, Y/Z in
+// camera axes, the place moves by
+//     dx = x_0 + x_1 x + x_2 y + x_3 x^2 + x_4 x y + x_5 y^2 + x_6 x^3 ..., and the same for dy.
+// Terms are sorted by order and, within an order, by falling powers of x, up to the fifth order. It resembles
+// SIP of FITS headers (Shupe et al., ADASS XIV, 491, 2005), but includes the constant and linear terms, which
+// SIP leaves to the rest of the header.
 
 #include <algorithm>
 #include <array>
@@ -20,14 +21,14 @@ struct LensPolynomial {
     static constexpr std::size_t kMaxTerms = (kMaxOrder + 1) * (kMaxOrder + 2) / 2;
 
     std::array<double, kMaxTerms> x{}, y{};
-    int order = -1;  // the order of the highest term that is used; -1: nothing moves
+    int order = -1;  // highest order that is used; -1: no distortion
 
     bool none() const { return order < 0; }
-    // The terms up to the order that is used.
+    // The terms up to `order`.
     std::span<const double> terms_x() const { return {x.data(), terms_of(order)}; }
     std::span<const double> terms_y() const { return {y.data(), terms_of(order)}; }
 
-    // By how much a place moves, and how much that grows along x and along y.
+    // The shift of a place, and the derivatives of that shift by x and by y.
     struct Shift {
         Vec2d by, along_x, along_y;
     };
@@ -53,8 +54,8 @@ struct LensPolynomial {
     static std::size_t terms_of(int order) { return static_cast<std::size_t>((order + 1) * (order + 2) / 2); }
 };
 
-// Returns the polynomial whose terms are given for places and shifts in millimetres of the picture's plane.
-// There are up to LensPolynomial::kMaxTerms of each; terms that are left out are zero.
+// Returns the polynomial whose terms are given for places and shifts in millimetres on the image plane. At
+// most LensPolynomial::kMaxTerms of each; missing terms are zero.
 inline LensPolynomial lens_polynomial(std::span<const double> x_mm, std::span<const double> y_mm,
                                       double focal_length_mm) {
     LensPolynomial out;

@@ -1,6 +1,6 @@
 #pragma once
-// The parts of the light in a pixel, by the way it came: a picture can be taken apart into them (docs/pictures.md). Light that a ray
-// finds behind the first surface belongs to the part of that ray, whatever lights what it meets.
+// The parts of the light in a pixel, by the way it came. A picture can be taken apart into them
+// (docs/pictures.md). All light that a ray finds behind the first surface counts as that ray's part.
 
 #include <array>
 #include <cstddef>
@@ -12,25 +12,26 @@ namespace hilcam {
 
 enum class LightPart : std::uint8_t {
     kEmission,      // surfaces that glow
-    kSun,           // the Sun on what the camera sees
-    kLamps,         // lamps on it
-    kPlanetshine,   // Earth, Moon and planets on it, without a detour
+    kSun,           // the Sun, on surfaces that the camera sees
+    kLamps,         // lamps, on the same surfaces
+    kPlanetshine,   // Earth, Moon and planets, directly on the same surfaces
     kMirroredSun,   // the Sun by way of flat mirrors
-    kDiffuse,       // light by way of other surfaces, from the cache, to all sides
-    kGlossy,        // the same by facets
-    kGlossyRays,    // light that rays along a glossy lobe meet
-    kMirrorRays,    // light that a mirror shows
-    kTransmission,  // light that is seen through glass
-    kPath,          // light that random paths, or the directions of a hemisphere, find
-    kBackground,    // bodies and the Sun's disk, where no object stands before them
-    kAir,           // air between the camera and what it sees
-    kPoints,  // stars, lamps and small things that are drawn as points: the sensor adds them to the picture
+    kDiffuse,       // light from other surfaces, from the cache, scattered diffusely
+    kGlossy,        // the same, scattered by facet lobes
+    kGlossyRays,    // light found by rays along a glossy lobe
+    kMirrorRays,    // light found by mirror rays
+    kTransmission,  // light seen through glass
+    kPath,          // light found by random paths, or along the directions of a hemisphere
+    kBackground,    // bodies and the Sun's disk where no object covers them
+    kAir,           // air between the camera and the surface
+    kPoints,        // stars, lamps and small things drawn as points, which the sensor adds to the picture
 };
 inline constexpr std::size_t kLightParts = 14;
-// Parts that are in the radiance image: all but points.
+// The parts that are in the radiance image: all but points.
 inline constexpr std::size_t kImageParts = kLightParts - 1;
 
-// Names of layers as renderers have them: `direct.` is light from its source, `indirect.` has met another surface.
+// The layers' names, as renderers have them: `direct.` comes straight from its source, `indirect.` by way of
+// another surface.
 inline constexpr std::array<std::string_view, kLightParts> kLightPartNames = {"emission",
                                                                               "direct.sun",
                                                                               "direct.lamps",

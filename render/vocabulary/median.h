@@ -1,5 +1,5 @@
 #pragma once
-// The median of measured values.
+// Median of measured values.
 
 #include <algorithm>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace hilcam {
 
-// Returns the middle value, or the mean of the two in the middle; 0 where there are none.
+// Returns the middle value, or the mean of the two in the middle; 0 if there are no values.
 inline double median(std::vector<double> values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

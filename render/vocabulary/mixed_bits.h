@@ -1,11 +1,12 @@
 #pragma once
-// Mixes the bits of a word so that words that differ in one bit differ in half of their bits: for hash tables and choices by chance.
+// Mixes the bits of a word: words that differ in one bit get results that differ in half of theirs. For hash
+// tables and random choices.
 
 #include <cstdint>
 
 namespace hilcam {
 
-// Finalizer of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
+// The finalizer of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
 inline std::uint64_t mixed(std::uint64_t x) {
     x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
     x = (x ^ x >> 27) * 0x94D049BB133111EBu;

@@ -1,7 +1,7 @@
 #pragma once
-// The polynomial through samples of N functions of time, and through their rates as well (Hermite): Newton's
-// divided differences with repeated nodes (Stoer & Bulirsch, Introduction to Numerical Analysis, 1980,
-// section 2.1). No allocation.
+// Interpolation of N functions of time by the polynomial through their samples, and through their rates as
+// well if they are known (Hermite): Newton's divided differences with repeated nodes (Stoer & Bulirsch,
+// Introduction to Numerical Analysis, 1980, section 2.1). No allocation.
 
 #include <algorithm>
 #include <array>
@@ -24,10 +24,10 @@ struct ValueAndRate {
 
 inline constexpr std::size_t kMaxNodes = 32;
 
-// Interpolates through the values, and through the rates if `with_rates`, of nodes at different t; at most
-// kMaxNodes of them (half with rates). Exact, but for rounding, for polynomials of degree nodes - 1, or 2
-// nodes - 1 with rates. Nodes are taken in the order of their distance from t: the terms then shrink as they
-// are added up.
+// Interpolates through the values of nodes at different t, and through their rates if `with_rates`; at most
+// kMaxNodes nodes, or half of that with rates. Up to rounding it is exact for polynomials of degree nodes -
+// 1, or 2 nodes - 1 with rates. Nodes are used in order of their distance from t, so that the terms of the
+// sum shrink.
 template <std::size_t N>
 ValueAndRate<N> polynomial_at(std::span<const Node<N>> nodes, bool with_rates, double t) {
     std::array<std::size_t, kMaxNodes> order{};
@@ -42,7 +42,7 @@ ValueAndRate<N> polynomial_at(std::span<const Node<N>> nodes, bool with_rates, d
     for (std::size_t i = 0; i < count; ++i) z[i] = node(i).t, c[i] = node(i).value;
     for (std::size_t step = 1; step < count; ++step)
         for (std::size_t i = count - 1; i >= step; --i) {
-            // Two of one node: its value and its rate.
+            // The second copy of a node: its difference is the node's rate.
             const bool twice = with_rates && step == 1 && i % 2 == 1;
             for (std::size_t k = 0; k < N; ++k)
                 c[i][k] = twice ? node(i).rate[k] : (c[i][k] - c[i - 1][k]) / (z[i] - z[i - step]);
@@ -57,8 +57,8 @@ ValueAndRate<N> polynomial_at(std::span<const Node<N>> nodes, bool with_rates, d
     return out;
 }
 
-// The first of `count` of `size` samples that surround the interval before `after` (the first sample later
-// than the instant) as evenly as they can.
+// Returns the first of `count` consecutive samples out of `size`, chosen so that the interval before sample
+// `after` (the first one later than the instant) is as near to their middle as possible.
 inline std::size_t window_start(std::size_t after, std::size_t count, std::size_t size) {
     const std::size_t half = count / 2;
     const std::size_t start = after > half ? after - half : 0;

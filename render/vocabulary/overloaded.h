@@ -1,8 +1,8 @@
 #pragma once
-// Lambdas as one visitor: std::visit(Overloaded{[](A) {...}, [](B) {...}}, variant).
+// Combines lambdas to one visitor: std::visit(Overloaded{[](A) {...}, [](B) {...}}, variant).
 //
-// A last lambda of `auto` would take alternatives that are added later without anybody having thought of
-// them. OneOf names those that need nothing: [](const OneOf<C, D> auto&) {}, and a new one does not compile.
+// End it with OneOf instead of a plain `auto`: [](const OneOf<C, D> auto&) {} names the alternatives that
+// need nothing, so an alternative that is added later does not compile until somebody decides about it.
 
 #include <concepts>
 

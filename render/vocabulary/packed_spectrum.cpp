@@ -6,7 +6,7 @@
 
 namespace hilcam {
 
-// The sums' loops, which are compiled for several widths of vectors; each adds in the same order.
+// The loops of the sums, compiled for several vector widths; all of them add in the same order.
 struct PackedSums {
     using Bins [[gnu::vector_size(kMaxBins * sizeof(float))]] = float;
     using Wholes [[gnu::vector_size(kMaxBins * sizeof(std::int32_t))]] = std::int32_t;

@@ -1,6 +1,6 @@
 #pragma once
-// A spectrum in little more than half the memory: sixteen bits a bin, as shares of the largest. Not for
-// negative values. Largest error: 8e-6 of the largest bin.
+// A spectrum in little more than half the memory: 16 bits a bin, relative to the largest bin. Largest error:
+// 8e-6 of the largest bin. Not for negative values.
 
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@ class PackedSpectrum {
         for (std::size_t i = 0; i < share_.size(); ++i)
             share_[i] = static_cast<std::uint16_t>(s.bin[i] * inverse + 0.5f);
     }
-    // Returns the greatest of its bins.
+    // Returns the largest bin.
     float greatest() const { return kMax * scale_; }
     Spectrum unpacked() const {
         Spectrum s;
@@ -26,8 +26,8 @@ class PackedSpectrum {
         return s;
     }
 
-    // Returns the sum of each one's weight times it, in vectors: of those at first[index[i] * stride], or of those one
-    // behind the other. Weights and spectra: count of them.
+    // Returns the weighted sum of `count` spectra, computed in vectors. The first form takes the spectra at
+    // first[index[i] * stride], the second takes consecutive ones.
     static Spectrum weighted_sum(const PackedSpectrum* first, std::size_t stride, const std::uint32_t* index,
                                  const float* weight, std::size_t count);
     static Spectrum weighted_sum(const PackedSpectrum* first, const float* weight, std::size_t count);

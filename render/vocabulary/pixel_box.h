@@ -3,7 +3,7 @@
 
 namespace hilcam {
 
-// x1, y1 excluded; in padded pixels (the guard band's corner is 0, 0).
+// x1 and y1 are excluded. Padded pixels: (0, 0) is the corner of the guard band.
 struct PixelBox {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 

@@ -1,5 +1,5 @@
 #pragma once
-// A number as messages and the manual show it: ten digits, so that a unit's conversion leaves no tail.
+// A number as messages and the manual show it: ten digits, so that unit conversion leaves no rounding tail.
 
 #include <sstream>
 #include <string>

@@ -14,8 +14,8 @@ constexpr std::size_t kLeafPoints = 16;
 
 double component(Vec3d p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-// A binary tree over points that are sorted in place: a node's points lie side by side, halved at the middle of
-// the longest side of their box.
+// A binary tree over points that are sorted in place. A node's points are contiguous, and are split at the
+// middle of the longest side of their box.
 class PointTree {
   public:
     explicit PointTree(std::span<const Vec3d> points) : points_(points.begin(), points.end()) {
@@ -65,7 +65,7 @@ class PointTree {
         build(middle, last);
     }
 
-    // The farthest that a point of one node can be from one of the other.
+    // Returns an upper bound of the distance between a point of one node and a point of the other, squared.
     double bound_squared(std::size_t a, std::size_t b) const {
         const Node &m = nodes_[a], &n = nodes_[b];
         const Vec3d far{std::max(m.most.x - n.least.x, n.most.x - m.least.x),
@@ -84,7 +84,7 @@ class PointTree {
                         std::max(best_squared_, dot(points_[i] - points_[j], points_[i] - points_[j]));
             return;
         }
-        // The larger of two boxes is taken apart, both of one with itself; the farthest pair comes first.
+        // Splits the larger of two boxes (both, if they are the same); the farthest pair comes first.
         std::array<std::array<std::size_t, 2>, 3> pairs{};
         std::size_t count = 0;
         if (a == b) {
@@ -97,7 +97,7 @@ class PointTree {
         const auto nearer = [this](const auto& p, const auto& q) {
             return bound_squared(p[0], p[1]) < bound_squared(q[0], q[1]);
         };
-        // Few enough to be chosen one by one; of std::sort GCC 14 believes that it leaves the array.
+        // A selection sort suffices for so few pairs. GCC 14 warns wrongly that std::sort leaves the array.
         const auto last = pairs.begin() + static_cast<std::ptrdiff_t>(count);
         for (auto next = pairs.begin(); next != last; ++next) {
             std::iter_swap(next, std::max_element(next, last, nearer));

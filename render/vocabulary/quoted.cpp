@@ -55,7 +55,7 @@ std::string harmless(std::string_view text) {
 std::string shortened(std::string_view text) {
     if (text.size() <= kMaxShown_bytes) return harmless(text);
     std::size_t end = kMaxShown_bytes - 3;
-    // Back to where a character begins; not further than one is long.
+    // Back to the start of a character, by at most one character's length.
     for (int i = 0; i < 3 && (static_cast<std::uint8_t>(text[end]) & 0xC0) == 0x80; ++i) --end;
     return harmless(text.substr(0, end)) + "...";
 }

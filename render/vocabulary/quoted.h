@@ -1,21 +1,21 @@
 #pragma once
-// Text from outside (a file, the wire, the command line) as a message can show it: one line that says what
-// was found and makes no terminal do anything.
+// Makes text from outside (a file, the wire, the command line) safe to print: one line that shows what was
+// found and cannot control a terminal.
 //
-// A blank takes the place of every control character (C0, DELETE, C1: among them what begins a terminal's
-// escape sequences), of the characters that turn the direction of what follows, and of every byte that is no
-// UTF-8. Any thread.
+// A blank replaces each control character (C0, DELETE, C1, so also the start of a terminal's escape
+// sequence), each character that changes the direction of text, and each byte that is not valid UTF-8. Any
+// thread.
 
 #include <string>
 #include <string_view>
 
 namespace hilcam {
 
-// Returns all of it.
+// Returns the whole text.
 std::string harmless(std::string_view text);
-// Returns at most 60 bytes of it, whole characters; "..." at the end says that there was more.
+// Returns at most 60 bytes, cut between characters; "..." at the end marks a cut.
 std::string shortened(std::string_view text);
-// Returns that between single quotes.
+// Returns shortened(text) in single quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace hilcam

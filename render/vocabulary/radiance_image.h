@@ -1,5 +1,5 @@
 #pragma once
-// The picture before the lens: what rays have found.
+// The picture before the lens, as rays have found it.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace hilcam {
 
-// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin; or, for a
-// detector alone, what its channels make of it on the axis [e- s^-1], a plane per channel. Most of a
-// picture of space is nothing: who writes an image may mark blocks in which every plane is zero, and who
-// reads it may skip them. A new image has no marks.
+// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin. Or, for one
+// given detector, the charge rate of its channels on the axis [e- s^-1], a plane per channel. Most of a
+// picture of space is black: the writer may mark blocks in which every plane is zero, and readers may skip
+// those. A new image has no marks.
 class RadianceImage : public Image<float, struct RadianceQuantity> {
   public:
     static constexpr int kBlock_px = 32;
@@ -30,7 +30,8 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
                     static_cast<std::size_t>((height + kBlock_px - 1) / kBlock_px),
                 0) {}
 
-    // An image of charge rates. responses: of the channels [e- s^-1 per W m^-2 sr^-1 um^-1], at least one.
+    // Makes an image of charge rates. responses: of the channels [e- s^-1 per W m^-2 sr^-1 um^-1], at least
+    // one.
     RadianceImage(int width, int height, std::vector<Spectrum> responses)
         : RadianceImage(width, height, static_cast<int>(responses.size())) {
         responses_ = std::move(responses);
@@ -38,16 +39,17 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
     // Empty: the image holds radiance.
     std::span<const Spectrum> responses() const { return responses_; }
 
-    // Returns the flag of the block that holds pixel (x, y).
+    // True when the block that holds pixel (x, y) is marked as dark.
     bool dark(int x, int y) const { return dark_[block(x, y)] != 0; }
     void mark_dark(int x, int y, bool dark) { dark_[block(x, y)] = dark ? 1 : 0; }
     void clear_marks() { std::fill(dark_.begin(), dark_.end(), std::uint8_t{0}); }
 
-    // Gives the image room for where in its pixels light falls, for channels of these responses (subpixel_light.h).
+    // Adds memory for the sub-pixel moments of each pixel, for channels with these responses
+    // (subpixel_light.h).
     void keep_moments(std::vector<Spectrum> responses) {
         moments_.emplace(width(), height(), kBlock_px, std::move(responses));
     }
-    // Null: there is no room.
+    // Null when moments are not kept.
     SubpixelLight* moments() { return moments_ ? &*moments_ : nullptr; }
     const SubpixelLight* moments() const { return moments_ ? &*moments_ : nullptr; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of rays that a picture took, by purpose.
+// Counts of the rays that a picture took, by purpose.
 
 #include <cstdint>
 
@@ -7,10 +7,10 @@ namespace hilcam {
 
 struct RayCounts {
     std::uint64_t primary_rays = 0;        // from the camera
-    std::uint64_t shadow_rays = 0;         // to the Sun, from what the camera sees
-    std::uint64_t bounce_shadow_rays = 0;  // to the Sun, from what is seen behind a bounce
+    std::uint64_t shadow_rays = 0;         // to the Sun, from surfaces that the camera sees
+    std::uint64_t bounce_shadow_rays = 0;  // to the Sun, from surfaces behind a bounce
     std::uint64_t lamp_rays = 0;           // to lamps, the Earth, the Moon, the planets
-    std::uint64_t secondary_rays = 0;      // that continue paths
+    std::uint64_t secondary_rays = 0;      // the rays that continue paths
 
     RayCounts& operator+=(const RayCounts& other) {
         primary_rays += other.primary_rays;

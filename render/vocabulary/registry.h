@@ -1,6 +1,6 @@
 #pragma once
-// Models by name. Each kind of model has one registry (modules.h); the program's own models are in it from
-// the start, a plug-in adds more (plugin.h). Owner thread.
+// Models by name. Each kind of model has one registry (modules.h). It starts with the program's own models,
+// and plug-ins add more (plugin.h). Owner thread.
 
 #include <functional>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-// Arguments: what every factory of this kind is given.
+// Arguments: what each factory of this kind gets.
 template <class Model, class... Arguments>
 class Registry {
   public:
@@ -20,12 +20,12 @@ class Registry {
 
     explicit Registry(std::string kind) : kind_(std::move(kind)) {}
 
-    // Throws InputError when the name is taken.
+    // Throws InputError if the name is taken.
     void add(const std::string& name, Factory factory) {
         if (!factories_.emplace(name, std::move(factory)).second)
             throw InputError("there are two models '" + name + "' of kind " + kind_);
     }
-    // Throws InputError that lists the names when there is none of this name.
+    // Throws InputError with the list of names if there is no model of this name.
     std::unique_ptr<Model> make(const std::string& name, Arguments... arguments) const {
         const auto found = factories_.find(name);
         if (found == factories_.end())

@@ -1,7 +1,7 @@
 #pragma once
-// The newest value from one thread to any number of others without a lock (latest.h has one reader). A writer
-// never waits, a reader repeats its copy only if kSlots values have been written while it made it. One writer
-// at a time: several guard themselves with a mutex. T is copied whole, in words.
+// Hands the newest value from one thread to any number of others without a lock (latest.h has one reader).
+// The writer never waits; a reader repeats its copy only if kSlots values were written during it. One writer
+// at a time: several need a mutex. T is copied whole, in words.
 
 #include <array>
 #include <atomic>
@@ -33,8 +33,8 @@ class SharedLatest {
             const Slot& slot = slots_[turn % kSlots];
             Words words;
             for (std::size_t i = 0; i < words.size(); ++i) words[i] = slot[i].load(std::memory_order_acquire);
-            // A reader of any word of the slot's next value sees here the number of the one written before
-            // that.
+            // If a word above is from the slot's next value, the number read here is at least that of the
+            // value before it.
             if (newest_.load(std::memory_order_relaxed) - turn < kSlots - 1) return std::bit_cast<T>(words);
         }
     }

@@ -10,7 +10,7 @@
 
 namespace hilcam {
 
-// This many bins fit half a cache line of floats; loops over all of them are two vector instructions.
+// Eight floats are half a cache line; a loop over all of them is two vector instructions.
 inline constexpr int kMaxBins = 8;
 
 // A value per bin; entries past the grid's size are zero.
@@ -47,23 +47,23 @@ inline float max_component(const Spectrum& s) {
     return most;
 }
 
-// A function of wavelength by samples, linear between them. Wavelengths [um] strictly increase. Outside its
-// range a curve is constant at its end values (`reflectance: 0.3` is one sample).
+// A function of wavelength, given by samples and linear between them. Wavelengths [um] strictly increase.
+// Outside its range a curve keeps its end value, so `reflectance: 0.3` is one sample.
 struct Curve {
     std::vector<double> wavelength_um;
     std::vector<double> value;
-    std::string where;  // the file and line that gave it, for messages
+    std::string where;  // file and line that gave it, for messages
 
     static Curve constant(double value) { return {{0.55}, {value}, {}}; }
     double at(double wavelength_um) const;
-    // The exact mean of this curve over [from, to] [um].
+    // Returns the exact mean of this curve over [from, to] [um].
     double mean(double from_um, double to_um) const;
 };
 
 // The bins of a run: [edge_0, edge_1), [edge_1, edge_2), ... in um.
 class SpectralGrid {
   public:
-    // 2 to kMaxBins + 1 strictly increasing edges within 0.2-2.5 um; InputError otherwise.
+    // edges_um: 2 to kMaxBins + 1 strictly increasing values within 0.2-2.5 um; InputError otherwise.
     explicit SpectralGrid(std::vector<double> edges_um);
 
     int size() const { return static_cast<int>(edges_um_.size()) - 1; }
@@ -72,15 +72,15 @@ class SpectralGrid {
     double center_um(int bin) const { return 0.5 * (from_um(bin) + to_um(bin)); }
     double width_um(int bin) const { return to_um(bin) - from_um(bin); }
     std::span<const double> edges_um() const { return edges_um_; }
-    // Bin averages of a curve.
+    // Returns the averages of a curve over the bins.
     Spectrum average(const Curve& curve) const;
 
   private:
     std::vector<double> edges_um_;
 };
 
-// Refuses a curve of two knots or more that does not reach from the first to the last bin: nothing is
-// extrapolated in silence. A constant covers all. `what` begins the message. InputError.
+// Throws InputError if a curve of two samples or more does not reach from the first to the last bin: nothing
+// is extrapolated silently. A constant covers all bins. `what` begins the message.
 void require_cover(const Curve& curve, const SpectralGrid& grid, const std::string& what);
 
 // Planck's law: spectral radiance of a black body [W m^-2 sr^-1 um^-1] (Planck 1901; CODATA 2018 constants).

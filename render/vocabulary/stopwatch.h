@@ -6,10 +6,10 @@
 
 namespace hilcam {
 
-// Measures by the machine's clock that never goes back.
+// Measures by the machine's monotonic clock.
 class Stopwatch {
   public:
-    // Since it was made.
+    // Time since the stopwatch was made.
     double seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
     double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - begun_).count(); }
 
@@ -18,7 +18,7 @@ class Stopwatch {
     Clock::time_point begun_ = Clock::now();
 };
 
-// Measures the processor time of the thread that made it, which others that share the machine hardly change.
+// Measures the processor time of the thread that made it, which other load on the machine hardly changes.
 class ThreadStopwatch {
   public:
     double ms() const { return now_ms() - begun_ms_; }

@@ -1,12 +1,13 @@
 #pragma once
-// Where in its pixel light falls, as far as the moments of a 2 x 2 Haar transform tell: three differences of light for each
-// pixel, beside the sum that a radiance image has. A lens that blurs by less than a pixel shows an edge elsewhere for light from
-// a pixel's left than for light from its right; the sum alone says "from all of it".
+// The distribution of light within each pixel: three differences beside the sum that a radiance image has,
+// the moments of a 2 x 2 Haar transform. A lens that blurs by less than a pixel shows an edge at one place
+// for light from a pixel's left half and at another for light from its right half; the sum alone cannot tell
+// these apart.
 //
-// The differences are weighed by the response of each of the detector's channels, so they are charge rates on
-// the axis [e- s^-1]. They are known where many samples have told what a pixel sees; elsewhere one sample has told of
-// light that changes smoothly from pixel to pixel. Blocks may be marked in which they are known of no pixel; their memory
-// holds anything.
+// The differences are weighted by the response of each channel of the detector, so they are charge rates on
+// the axis [e- s^-1]. They are known in pixels that many samples have seen. Other pixels were seen by one
+// sample, as their light changes smoothly. Blocks may be marked as unknown in all their pixels; their memory
+// is then undefined.
 
 #include <array>
 #include <cstddef>
@@ -20,8 +21,8 @@
 
 namespace hilcam {
 
-// Which parts of a pixel have more of some light, from -1 to 1 each: the right half less the left, the lower
-// less the upper, and the quarters at the upper left and the lower right less the other two.
+// Three differences, from -1 to 1 each: right half less left half, lower half less upper half, and the upper
+// left and lower right quarters less the other two.
 struct SubpixelMoments {
     float across = 0, down = 0, crossed = 0;
 
@@ -33,26 +34,26 @@ struct SubpixelMoments {
 inline SubpixelMoments operator*(float factor, const SubpixelMoments& of) {
     return {factor * of.across, factor * of.down, factor * of.crossed};
 }
-// Returns those of light at a place in its pixel, from the pixel's corner [px].
+// Returns the moments of light at one place in its pixel, measured from the pixel's corner [px].
 constexpr SubpixelMoments subpixel_moments_at(float x_px, float y_px) {
     const auto half = [](float at) { return at > 0.5f ? 1.0f : (at < 0.5f ? -1.0f : 0.0f); };
     const float across = half(x_px), down = half(y_px);
     return {across, down, across * down};
 }
 
-// A pixel's differences are known in one of these ways.
+// The way in which a pixel's differences are known.
 enum class SubpixelKind : std::uint8_t {
-    kSmooth,      // one sample has told of all of it
-    kBackground,  // many have, and none sees an object
-    kObject,      // one of many sees an object
+    kSmooth,      // by one sample, which stands for the whole pixel
+    kBackground,  // by many samples, none of which sees an object
+    kObject,      // by many samples, of which at least one sees an object
 };
 
 class SubpixelLight {
   public:
     static constexpr int kDifferences = 3;  // in the order of SubpixelMoments
 
-    // responses: charge rate of each channel by radiance [e- s^-1 per W m^-2 sr^-1 um^-1], at least one. Blocks
-    // are squares of block_px.
+    // responses: charge rate of each channel by radiance [e- s^-1 per W m^-2 sr^-1 um^-1], at least one.
+    // Blocks are squares of block_px.
     SubpixelLight(int width, int height, int block_px, std::vector<Spectrum> responses)
         : responses_(std::move(responses)),
           differences_(width, height, kDifferences * static_cast<int>(responses_.size())),
@@ -64,7 +65,7 @@ class SubpixelLight {
     int width() const { return differences_.width(); }
     int height() const { return differences_.height(); }
     std::span<const Spectrum> responses() const { return responses_; }
-    // True when the frame that is in it was made with differences. Who makes a frame says so.
+    // True when the present frame was made with differences. The maker of the frame sets it.
     bool used() const { return used_; }
     void set_used(bool used) { used_ = used; }
 
@@ -76,7 +77,7 @@ class SubpixelLight {
     }
     std::span<SubpixelKind> kinds(int y) { return kinds_.row(y); }
     std::span<const SubpixelKind> kinds(int y) const { return kinds_.row(y); }
-    // Returns the mark of the block that holds pixel (x, y).
+    // True when the block that holds pixel (x, y) is marked as unknown.
     bool unknown(int x, int y) const { return unknown_[block(x, y)] != 0; }
     void mark_unknown(int x, int y, bool unknown) { unknown_[block(x, y)] = unknown ? 1 : 0; }
 

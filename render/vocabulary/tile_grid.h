@@ -1,5 +1,5 @@
 #pragma once
-// The square tiles of a picture, from its corner on; the last of a row or column may be narrower.
+// Divides a picture into square tiles, from its corner on. The last tile of a row or column may be narrower.
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ class TileGrid {
 
     int edge_px() const { return edge_px_; }
     int size() const { return across_ * down_; }
-    // Two rows side by side, so that four neighbours come after each other.
+    // Tiles are numbered in pairs of rows, so that four neighbours follow each other.
     PixelBox operator[](int index) const {
         const int first_row = index / (2 * across_) * 2, within = index % (2 * across_);
         const int rows = std::min(2, down_ - first_row);

@@ -15,7 +15,8 @@
 namespace hilcam {
 namespace {
 
-// A zone as ISO 8601 and YAML have it: Z, or +hh:mm, +hhmm or +hh, with - for zones in the west; blanks may stand before it.
+// Reads a zone as in ISO 8601 and YAML: Z, or +hh:mm, +hhmm or +hh, with - for zones in the west, after
+// optional blanks.
 bool scan_zone(const char* rest, int& ahead_min) {
     while (*rest == ' ') ++rest;
     if (*rest == '\0') return true;
@@ -36,7 +37,7 @@ bool scan_zone(const char* rest, int& ahead_min) {
     return hours < 24 && minutes < 60;
 }
 
-// Sets the clock back to UTC. Leap seconds come at the same instant in all zones, at the end of a minute.
+// Converts local time to UTC. Leap seconds happen at the same instant in all zones, at the end of a minute.
 bool set_back(CalendarTime& t, int ahead_min) {
     if (ahead_min == 0) return true;
     double day0 = 0, day = 0, fraction = 0;
@@ -59,7 +60,7 @@ bool scan(std::string_view text, CalendarTime& t) {
         used == 0 || (t_or_space != 'T' && t_or_space != ' '))
         return false;
     const char* rest = copy.c_str() + used;
-    // strtod would also take "nan", "inf" and hexadecimals.
+    // strtod would also accept "nan", "inf" and hexadecimals.
     if (*rest < '0' || *rest > '9' || copy.find_first_of("xXeEnN") != std::string::npos) return false;
     char* end = nullptr;
     t.second = std::strtod(rest, &end);

@@ -1,5 +1,5 @@
 #pragma once
-// Instants: TAI nanoseconds inside, UTC text at the edges.
+// Instants: TAI nanoseconds inside the program, UTC text at its edges.
 
 #include <cmath>
 #include <cstdint>
@@ -25,14 +25,15 @@ inline constexpr double kEpochJulianDay = 2440587.5;  // 1970-01-01T00:00:00
 // Rounds to the nearest nanosecond.
 inline std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
-// Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC; the T may be a blank, and the Z a zone ("+01:00"). Throws InputError when it is not
-// such a text, or the date lies outside 1950-2200. Leap seconds come from ERFA's table (eraDat); years past its end use its last
-// value. Before 1960 there was no UTC: UT stands for it, and TAI - UT for 0, right to 3.2 s since 1950 (TT -
-// UT was 29.07 s then: Morrison & Stephenson, J. Hist. Astron. 35, 2004).
+// Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC; a blank may replace the T, and a zone ("+01:00") the Z.
+// Throws InputError if the text has another form or the date is outside 1950-2200. Leap seconds come from
+// ERFA's table (eraDat); its last value holds for later years. Before 1960 there was no UTC: UT replaces it
+// and TAI - UT counts as 0, which is right to 3.2 s since 1950 (TT - UT was 29.07 s then: Morrison &
+// Stephenson, J. Hist. Astron. 35, 2004).
 TimeTai parse_utc(std::string_view text);
-// "2026-03-20T06:00:00.000Z"
+// Writes "2026-03-20T06:00:00.000Z".
 std::string format_utc(TimeTai time);
-// The same rounded to so many decimals of a second, from 1 to 9.
+// Writes the same with 1 to 9 decimals of a second.
 std::string format_utc(TimeTai time, int decimals);
 
 // Two-part Julian dates as ERFA takes them.
@@ -41,8 +42,7 @@ struct JulianDate {
     double fraction = 0;
 };
 JulianDate julian_tt(TimeTai time);
-// UT1 - UTC is measured (earth_orientation.h); 0 in its place is wrong by 14 arcsec of Earth rotation at
-// most.
+// UT1 - UTC is measured (earth_orientation.h). Using 0 instead turns the Earth by 14 arcsec at most.
 JulianDate julian_ut1(TimeTai time, double ut1_minus_utc_s);
 
 }  // namespace hilcam

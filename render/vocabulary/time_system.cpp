@@ -37,7 +37,7 @@ std::optional<TimeTai> from_calendar(const CalendarTime& t, TimeSystem system) {
     if (eraCal2jd(t.year, t.month, t.day, &day, &mjd) != 0) return {};
     if (t.hour < 0 || t.hour > 23 || t.minute < 0 || t.minute > 59 || t.second < 0 || t.second >= 60)
         return {};
-    // Nanoseconds in integers: a day in double counts to 15 ns.
+    // Nanoseconds in integers: a day in double precision resolves only 15 ns.
     const std::int64_t minutes_ns = (t.hour * 60 + t.minute) * 60'000'000'000LL;
     const TimeTai same{std::llround(day + mjd - kEpochJulianDay) * kDay_ns + minutes_ns + to_ns(t.second)};
     constexpr std::int64_t kTtMinusTai_ns = 32'184'000'000, kTaiMinusGps_ns = 19'000'000'000;
@@ -50,7 +50,7 @@ std::optional<TimeTai> from_calendar(const CalendarTime& t, TimeSystem system) {
         case TimeSystem::kGps:
             return same + kTaiMinusGps_ns;
         case TimeSystem::kTdb: {
-            // TDB - TT changes by 3e-10 a second: taken at the date as if it were TT it is right to 1 ps.
+            // TDB - TT changes by 3e-10 per second, so using the date as if it were TT is right to 1 ps.
             const TimeTai tt = same + -kTtMinusTai_ns;
             return tt + -to_ns(tdb_minus_tt_s(tt));
         }
@@ -76,8 +76,7 @@ void use_leap_seconds(std::span<const LeapSecond> table) {
     static std::vector<eraLEAPSECOND> kept;
     eraSetLeapSeconds(nullptr, 0);
     if (table.empty()) return;
-    // ERFA knows the years before the table by itself: the years to 1972, when seconds were of varying
-    // length.
+    // ERFA handles the years before the table itself: those to 1972, when the length of seconds varied.
     eraLEAPSECOND* own = nullptr;
     const int own_count = eraGetLeapSeconds(&own);
     kept.clear();
@@ -92,7 +91,7 @@ std::vector<LeapSecond> leap_seconds_in_use() {
     std::vector<LeapSecond> out;
     eraLEAPSECOND* table = nullptr;
     const int count = eraGetLeapSeconds(&table);
-    // Before 1972 seconds were of varying length.
+    // Before 1972 the length of seconds varied.
     for (int i = 0; i < count; ++i)
         if (table[i].iyear >= 1972) out.push_back({table[i].iyear, table[i].month, table[i].delat});
     return out;

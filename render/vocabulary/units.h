@@ -1,5 +1,5 @@
 #pragma once
-// Constants of nature and unit factors; each with its source.
+// Constants of nature and unit factors, each with its source.
 
 namespace hilcam {
 
@@ -25,7 +25,7 @@ inline constexpr double kSunEffectiveTemperature_k = 5772.0;
 inline constexpr double kEarthEquatorialRadius_m = 6378137.0;
 inline constexpr double kEarthFlattening = 1.0 / 298.257223563;
 
-// Energy of one photon [J] of a wavelength [um].
+// Energy of one photon [J] at a wavelength [um].
 inline constexpr double photon_energy_j(double wavelength_um) {
     return kPlanck_j_s * kSpeedOfLight_m_s / (wavelength_um * 1e-6);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Three-vectors, 3x3 matrices and unit quaternions: as much linear algebra as the program needs.
+// Three-vectors, 3x3 matrices and unit quaternions: the linear algebra that the program needs.
 
 #include <array>
 #include <cmath>
@@ -41,15 +41,16 @@ template <class T>
 T length(Vec3<T> a) {
     return std::sqrt(dot(a, a));
 }
-// Returns the angle between two vectors, 0 to pi; it is exact for small angles, too, where an arc cosine is not.
+// Returns the angle between two vectors, 0 to pi. Exact for small angles too, where an arc cosine is not.
 inline double angle_between_rad(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-// A unit vector along a; a zero or non-finite vector gives NaN, so callers check what comes from outside.
-// Always inline: a call would cost more than its root.
+// Returns the unit vector along a. A zero or non-finite vector gives NaN, so callers check input from
+// outside. Always inline: a call would cost more than the square root.
 template <class T>
 [[gnu::always_inline]] inline Vec3<T> normalized(Vec3<T> a) {
     return a / length(a);
 }
-// The one place where the world's doubles become single precision: after the camera was subtracted.
+// The one place where the world's doubles become single precision, after the camera's position was
+// subtracted.
 inline Vec3f to_float(Vec3d a) {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
