@@ -47,7 +47,6 @@ class FaultBoard {
     // strike. A "once" kind strikes once per order. frame: FrameRecord::id; 0 for what belongs to no frame.
     // Any thread: no lock, no allocation.
     std::optional<double> strikes(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0);
-    // The same without counting.
     // Returns the same and does not count.
     std::optional<double> would_strike(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0) const;
     // True when an order is in force for this frame, whatever its rate.
