@@ -83,7 +83,8 @@ class KernelFrames {
     void require_structure(const FrameDefinition& frame, const std::string& key);
     bool turn(int code, double et_s, FrameTurn& out, int depth) const;
     bool turn_in(int reference, double et_s, const FrameTurn& inner, FrameTurn& out, int depth) const;
-    // Gets a dynamic frame's rotation relative to J2000, before freezing and before its rate is ignored.
+    // Both get a dynamic frame's rotation relative to J2000. moving_turn() computes it with its rate;
+    // dynamic_turn() then freezes it, or ignores the rate, as the frame's definition says.
     bool dynamic_turn(const FrameDefinition& frame, double et_s, FrameTurn& out, int depth) const;
     bool moving_turn(const FrameDefinition& frame, double et_s, FrameTurn& out, int depth) const;
     bool vector_axes(const DynamicFrame& frame, double et_s, Mat3d& out, int depth) const;
