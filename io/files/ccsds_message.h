@@ -3,7 +3,7 @@
 // (2023) section 7 and 504.0-B-2 (2024) section 6; earlier issues differ in keywords that their readers name.
 //
 // A message is KVN (keyword = value notation) or XML, which ndm_xml.h turns into lines of KVN. For values
-// that are words of the standard, the reader ignores case and takes an underscore for a blank (502.0-B-3,
+// that are words of the standard, the reader ignores case and treats an underscore as a blank (502.0-B-3,
 // 7.5): STK writes "Lagrange" and "Earth". Keywords that it does not use are noted and skipped.
 
 #include <algorithm>

@@ -26,7 +26,7 @@ class GigeRegisterFile {
         Read read{};    // reads a number; empty: `text`
         Write write{};  // empty: read only
         When when = When::kAlways;
-        bool open = false;  // readable whoever has control
+        bool open = false;  // readable also under exclusive control
         std::string text{};
         bool text_writable = false;
     };
