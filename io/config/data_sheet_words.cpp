@@ -9,7 +9,7 @@ namespace hilcam {
 namespace {
 
 struct SheetRow {
-    std::string_view words;  // words of one meaning, each between two spaces
+    std::string_view words;  // words with one meaning, each between two spaces
     DataSheetWord is;
 };
 
@@ -123,7 +123,7 @@ bool has_word(std::string_view list, std::string_view word) {
     return list.find(" " + std::string(word) + " ") != std::string_view::npos;
 }
 
-// "full_well_capacity" of "Full-Well Capacity".
+// Returns "full_well_capacity" for "Full-Well Capacity".
 std::string key_of_sheet(std::string_view text) {
     std::string out;
     for (const char c : text) {
