@@ -13,8 +13,8 @@ struct SheetRow {
     DataSheetWord is;
 };
 
-// Conversions: 1 pA is 6.2415e6 e-/s, and 1 cm^2 is 1e8 um^2; quantum efficiency from A/W is h c / (e lambda),
-// 1.23984 um (CODATA 2018). Gains and noises in the words of EMVA 1288, release 4.0.
+// Conversions: 1 pA is 6.2415e6 e-/s, and 1 cm^2 is 1e8 um^2; quantum efficiency from A/W is h c / (e
+// lambda), 1.23984 um (CODATA 2018). Gains and noises in the words of EMVA 1288, release 4.0.
 constexpr std::array kSheetRows = {
     SheetRow{
         " conversion_gain cg charge_conversion_factor charge_to_voltage conversion_factor "

@@ -29,8 +29,8 @@ struct FrameName {
     CcsdsFrame frame;
     Epoch epoch = Epoch::kNone;
 };
-// The SANA registries "Celestial Body Reference Frames", "Orbit-Relative Reference Frames" and "Spacecraft Body Reference
-// Frames", and the names of the standards' earlier annexes.
+// The SANA registries "Celestial Body Reference Frames", "Orbit-Relative Reference Frames" and "Spacecraft
+// Body Reference Frames", and the names of the standards' earlier annexes.
 constexpr std::array<FrameName, 56> kFrameNames = {{
     {"ICRF", CcsdsFrame::kIcrf},
     {"GCRF", CcsdsFrame::kIcrf},

@@ -170,7 +170,8 @@ MapLabel read_map_label(const std::string& text) {
 
 std::optional<double> metres_of_unit(std::string_view unit) {
     const std::string word = small_letters(first_word(unit));
-    // The international foot, and the United States' survey foot of 1200/3937 m (NIST SP 811, 2008, appendix B.6).
+    // The international foot, and the United States' survey foot of 1200/3937 m (NIST SP 811, 2008, appendix
+    // B.6).
     constexpr double kFoot_m = 0.3048, kSurveyFoot_m = 1200.0 / 3937.0;
     constexpr std::array<std::pair<std::string_view, double>, 20> kUnits = {
         {{"m", 1},

@@ -27,7 +27,8 @@ namespace {
 // First code of the frames IAU_<body>, in a range that NAIF does not use. The Sun, planets and their moons
 // have NAIF's own codes, from 10010 on.
 constexpr int kIauBase = 1'200'000'000;
-// Bodies of the frames 10010 to 10080: the Sun, the planets, the Moon, then moons in the order of their codes.
+// Returns the body of the frames 10010 to 10080: the Sun, the planets, the Moon, then moons in the order of
+// their codes.
 std::optional<int> iau_body(int frame) {
     constexpr std::array kFirst = {10, 199, 299, 399, 499, 599, 699, 799, 899, 999, 301};
     constexpr std::array<std::pair<int, int>, 6> kMoons = {
@@ -95,7 +96,8 @@ std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     if (is("B1950", 2)) return made(2, "B1950", b1950);
     if (is("FK4", 3)) return made(3, "FK4", fk4);
     if (is("DE-118", 4)) return made(4, "DE-118", turned_axes(3, 0.53155 * kArcsecond_rad) * b1950);
-    // Mars's mean equator of J2000 and its node on the Earth's (pole: Davies et al., Celest. Mech. 46, 1989, 187).
+    // Mars's mean equator of J2000 and its node on the Earth's (pole: Davies et al., Celest. Mech. 46, 1989,
+    // 187).
     if (is("MARSIAU", 16))
         return made(
             16, "MARSIAU",
