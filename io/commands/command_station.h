@@ -39,14 +39,14 @@ class CommandStation {
     PacketStream make_stream(std::size_t read_bytes = PacketStream::kReadBytes) const;
     // Takes all complete packets of the stream.
     void take(PacketStream& stream, std::int64_t arrival_monotonic_ns, Sender& sender, const Answer& answer);
-    // Takes the same at the end of the bytes: of a datagram, of a connection.
+    // Takes all packets when no more bytes come: at the end of a datagram or a connection.
     void take_all(PacketStream& stream, std::int64_t arrival_monotonic_ns, Sender& sender,
                   const Answer& answer);
     // Refuses an empty datagram, which cannot be put into a stream.
     void refuse_empty(Sender& sender, const Answer& answer);
     // Sends to every sender that subscribed to this kind.
     void notify(const Telemetry& telemetry, const Notify& notify);
-    // Subscribes a sender without its asking.
+    // Subscribes a sender that has not asked.
     void subscribe(Sender& sender, SubscribeCommand subscription);
     void count_stranger();
     void count_cut_off();

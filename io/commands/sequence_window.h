@@ -6,9 +6,9 @@
 
 namespace hilcam {
 
-// Remembers the 64 numbers up to the newest. bits: of a number in a packet; it wraps after that. A number
-// further back, a 0 out of turn, or one so far ahead that no link loses that many, means that the sender has
-// restarted; nothing is then lost.
+// Remembers the 64 numbers up to the newest. bits: length of a sequence number in a packet, after which it
+// wraps. A number further back, a 0 out of turn, or one so far ahead that no link loses that many, means that
+// the sender has restarted; nothing is then lost.
 class SequenceWindow {
   public:
     explicit SequenceWindow(int bits = 32) : mask_(bits >= 32 ? 0xFFFFFFFFu : (1u << bits) - 1) {}

@@ -32,7 +32,7 @@ struct FrameRecord {
     std::uint64_t faults = 0;
     std::uint32_t quality_level = 0;  // 0: as configured
     bool reverse_x = false, reverse_y = false;
-    bool has_truth = false;  // a line of truth is written for it (docs/truth.md)
+    bool has_truth = false;  // its truth is sent out (docs/truth.md)
     // Pose of the camera at mid-exposure, with pointing jitter; nothing when the shutter stayed closed.
     std::optional<Pose> camera;
     // Arrival of the command of pose_sequence; 0 when no new one came since the previous frame.

@@ -6,11 +6,11 @@
 // publish() is one atomic load. The server's threads clip and reduce the copy with a lower priority than the
 // loop's.
 //
-// Clients are limited. kWorkers connections are served at a time and as many wait, with one request each;
-// connection_limiter.h ends those that last or send too long. A request that names a host other than this
-// machine is refused (DNS rebinding), and so is a request that changes something and does not come from the
-// page itself. There are no passwords: on addresses other than loopback, a list says which clients may
-// connect.
+// Clients are limited. kWorkers connections are served at a time and kMaxConnectionsWaiting wait, with one
+// request each; connection_limiter.h ends those that last or send too long. A request that names a host other
+// than this machine is refused (DNS rebinding), and so is a request that changes something and does not come
+// from the page itself. There are no passwords: on addresses other than loopback, a list says which clients
+// may connect.
 
 #include <functional>
 #include <memory>
