@@ -16,7 +16,7 @@ std::string file_name_of(std::span<const double> key) {
 
 }  // namespace
 
-// The whole key stands at the head of the file: a hash that collides is no hit.
+// The file begins with the whole key, so a hash collision is no hit.
 bool AtmosphereCache::find(std::span<const double> key, std::span<float> values) const {
     return cache_.read(file_name_of(key), [&](CacheReader& in) {
         std::vector<double> head(key.size());

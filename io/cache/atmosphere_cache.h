@@ -1,5 +1,5 @@
 #pragma once
-// Tables of an atmosphere kept on disk: making them takes seconds.
+// Keeps tables of an atmosphere on disk, because making them takes seconds.
 
 #include "io/cache/cache.h"
 #include "render/sky/atmosphere.h"

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::uint64_t kMegabyte = 1'000'000;
 
-// A new file beside its place, under a name that nobody can foresee; it goes unless it takes its place.
+// A new file in the same folder, under an unpredictable name. It is removed unless it takes the final file's
+// place.
 class FileBeside {
   public:
     // Throws DeviceError.
@@ -29,7 +30,7 @@ class FileBeside {
         : place_(file), name_(file.string() + kUnfinished + "XXXXXX" + ending) {
         fd_ = Fd(mkostemps(name_.data(), static_cast<int>(ending.size()), O_CLOEXEC));
         if (!fd_) throw DeviceError(file.string() + " cannot be written: " + std::strerror(errno));
-        // Others may read it where the folder lets them.
+        // Others may read it if the folder lets them.
         fchmod(fd_.get(), 0644);
     }
     ~FileBeside() {
@@ -58,7 +59,7 @@ std::filesystem::path made_own_folder() {
     return name;
 }
 
-// False when somebody has removed it since it was opened.
+// Returns false when the file was removed after it was opened.
 bool is_in_place(int fd, const std::filesystem::path& file) {
     struct stat opened {
     }, there{};
@@ -118,7 +119,7 @@ void Cache::require_trust() const {
     if (const std::string why = mistrust_of(settings_.folder); !why.empty()) throw InputError(why);
 }
 
-// Only the last folder is the cache's own.
+// Only the last folder belongs to the cache.
 void Cache::make_folder() const {
     std::error_code error;
     std::filesystem::create_directories(settings_.folder.parent_path(), error);
@@ -166,7 +167,7 @@ HeldFile Cache::glb(const std::string& name,
     const std::filesystem::path file = settings_.folder / name;
     if (!settings_.folder.empty()) {
         require_trust();
-        // Held first: what is looked at is what will be used.
+        // Locked before it is checked, so that the file checked is the file used.
         Fd there(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
         if (there) {
             flock(there.get(), LOCK_SH);

@@ -15,10 +15,10 @@
 namespace hilcam {
 namespace {
 
-// The end of a file. No holes between the members.
+// The end of a file. The struct has no padding.
 struct FileEnd {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'C', 'K'};
-    std::uint64_t bytes = 0;  // before it
+    std::uint64_t bytes = 0;  // bytes before it
     std::uint32_t crc = 0, unused = 0;
     bool operator==(const FileEnd&) const = default;
 };

@@ -1,7 +1,7 @@
 #pragma once
-// Files that keep on disk what takes long to make: numbers and lists of them as they lie in memory, for this
-// machine alone, and at their end how many bytes there are and their checksum (CRC-32). Whoever reads one
-// checks that it is what he wrote; a file that is not is made anew (cache.h).
+// Files that keep on disk what takes long to make: numbers and lists in the memory layout of this machine,
+// then their size in bytes and their checksum (CRC-32). A reader checks these; a file that fails is made anew
+// (cache.h).
 
 #include <cstdint>
 #include <cstdio>
@@ -16,7 +16,7 @@ namespace hilcam {
 
 class CacheWriter {
   public:
-    // fd: of a new file, which outlives this.
+    // fd: of a new file, which must stay open as long as this exists.
     explicit CacheWriter(int fd) : fd_(fd) {}
     template <class T>
     void operator()(const T& v) {
@@ -34,10 +34,10 @@ class CacheWriter {
         static_assert(std::is_trivially_copyable_v<T>);
         put(values, count * sizeof(T));
     }
-    // Writes the end and brings all to the disk; false when something could not be written.
+    // Writes the end and syncs the file to the disk; false when something could not be written.
     bool finish();
-    int error() const { return error_; }            // errno of what could not be written; 0: all could
-    std::uint64_t bytes() const { return bytes_; }  // so far
+    int error() const { return error_; }            // errno of a failed write; 0: none failed
+    std::uint64_t bytes() const { return bytes_; }  // written so far
 
   private:
     int fd_;
@@ -51,7 +51,7 @@ class CacheWriter {
     void flush();
 };
 
-// Reads values; after the first that is not there whole, nothing is read any more.
+// Reads values. After the first that is incomplete, nothing more is read.
 class CacheReader {
   public:
     explicit CacheReader(const std::filesystem::path& file);
@@ -63,7 +63,7 @@ class CacheReader {
     void operator()(std::vector<T>& values) {
         std::uint64_t size = 0;
         (*this)(size);
-        // No more is allocated than the file can hold.
+        // Allocates no more than the file can hold.
         if (size > left_ / sizeof(T)) {
             left_ = 0, good_ = false;
             return;
@@ -76,13 +76,13 @@ class CacheReader {
         static_assert(std::is_trivially_copyable_v<T>);
         take(values, count * sizeof(T));
     }
-    // There is a regular file that can be read.
+    // True when the file is a regular one and can be read.
     bool is_there() const { return file_ != nullptr; }
     bool good() const { return good_; }
-    std::uint64_t left() const { return left_; }  // bytes that are not read yet
-    // All was read, and the checksum is that of what was read.
+    std::uint64_t left() const { return left_; }  // bytes not read yet
+    // True when everything was read and the checksum is right.
     bool holds();
-    // Says that the file was used now.
+    // Marks the file as used just now.
     void mark_used();
 
   private:
@@ -98,9 +98,9 @@ class CacheReader {
     void take(void* data, std::size_t size);
 };
 
-// FNV-1a (fnv.h) over words, of all that a mesh is made of but its looks.
+// Returns the FNV-1a hash (fnv.h), over words, of a mesh without its materials and textures.
 std::uint64_t hash_of(const Mesh& mesh);
-// Goes on from a hash.
+// Continues a hash.
 std::uint64_t hash_of(std::uint64_t hash, const void* data, std::size_t size);
 
 }  // namespace hilcam

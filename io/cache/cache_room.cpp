@@ -26,8 +26,8 @@ struct Entry {
     bool is_unfinished() const { return file.filename().string().find(kUnfinished) != std::string::npos; }
 };
 
-// Names that caches give their files: "levels_123.bin", "hilcam-make-spacecraft_seed_1.glb"; and what is left
-// of one that was being written: "levels_123.bin.part-Ab3dE6", of older versions "levels_123.bin.4711".
+// Recognizes the names that caches give their files, "levels_123.bin", "hilcam-make-spacecraft_seed_1.glb",
+// and their unfinished files, "levels_123.bin.part-Ab3dE6", in older versions "levels_123.bin.4711".
 std::vector<Entry> entries_of(const fs::path& folder, const std::string& prefix) {
     static const std::regex own(
         R"((atmosphere|levels|reference|transfer)_\d+.*\.bin(\.\d+|\.part-\w{6})?|hilcam-[\w-]+_.*\.glb)");
@@ -46,7 +46,7 @@ std::vector<Entry> entries_of(const fs::path& folder, const std::string& prefix)
     return entries;
 }
 
-// False: somebody holds it (HeldFile).
+// Returns false when another program holds the file (HeldFile).
 bool removed(const fs::path& file) {
     const Fd fd(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
     if (fd && flock(fd.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
@@ -73,7 +73,7 @@ CacheSize clear_cache(const fs::path& folder) {
 
 void make_room(const fs::path& folder, std::uint64_t bound_bytes, const std::string& keep) {
     using namespace std::chrono_literals;
-    constexpr auto kAbandoned = 24h;  // no table takes so long to write
+    constexpr auto kAbandoned = 24h;  // writing a table never takes that long
     std::vector<Entry> entries = entries_of(folder, "");
     std::uintmax_t bytes = 0;
     for (const Entry& entry : entries) bytes += entry.bytes;

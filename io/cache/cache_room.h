@@ -1,5 +1,5 @@
 #pragma once
-// The files in a cache folder: their names, their size, and which go when there are too many.
+// The files in a cache folder: their names and sizes, and which are removed when there are too many.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// Begins the ending of a file that is being written: "levels_123.bin.part-Ab3dE6".
+// The beginning of the suffix of a file that is being written: "levels_123.bin.part-Ab3dE6".
 inline constexpr const char* kUnfinished = ".part-";
 
 struct CacheSize {
@@ -18,23 +18,23 @@ struct CacheSize {
 };
 
 struct CacheKind {
-    const char* meaning;  // for people
-    const char* prefix;   // names of its files begin with it
+    const char* meaning;  // for users
+    const char* prefix;   // common beginning of the names of its files
 };
 inline constexpr std::array kCacheKinds = {
     CacheKind{"tables of light", "transfer_"}, CacheKind{"levels of detail", "levels_"},
     CacheKind{"tables of air", "atmosphere_"}, CacheKind{"references", "reference_"},
     CacheKind{"generated meshes", "hilcam-"}};
 
-// Returns the size of what hilcam has put into a cache folder: files of the names that it gives them, however old;
-// prefix: only of that kind. Other files are somebody else's: they are neither counted nor removed.
+// Returns the number and size of hilcam's files in a cache folder, of all ages, recognized by their names.
+// Other files are neither counted nor removed. prefix: only files of that kind.
 CacheSize cache_size(const std::filesystem::path& folder, const std::string& prefix = "");
-// Removes them but for meshes that somebody loads at the moment, and says what went. Whoever reads a table
-// keeps what he has open. Throws InputError for a folder that cannot be trusted, DeviceError when a file
-// cannot be removed.
+// Removes these files, except meshes that some program is loading, and returns what was removed. A program
+// that reads a table keeps it open. Throws InputError for a folder that cannot be trusted, DeviceError when a
+// file cannot be removed.
 CacheSize clear_cache(const std::filesystem::path& folder);
-// Removes what was used longest ago until the folder has no more than `bound_bytes`, never the file `keep`; and what
-// killed programs have left unfinished. Several programs may do this at once.
+// Removes the files that were not used for longest until at most `bound_bytes` remain, but never the file
+// `keep`; also removes unfinished files of killed programs. Several programs may do this at once.
 void make_room(const std::filesystem::path& folder, std::uint64_t bound_bytes, const std::string& keep);
 
 }  // namespace hilcam

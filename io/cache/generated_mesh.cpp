@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// Raised when a generator makes another mesh of the same arguments.
+// Raise this when a generator makes another mesh for the same arguments.
 constexpr int kMeshVersion = 2;
 
 int run(const std::filesystem::path& program, std::vector<std::string> words) {

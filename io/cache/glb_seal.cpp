@@ -68,7 +68,7 @@ std::optional<std::uint64_t> size_of(int fd) {
     return static_cast<std::uint64_t>(about.st_size);
 }
 
-// The seal that belongs at the end of these bytes; none when they cannot be read.
+// Returns the seal for the end of these bytes; nothing when they cannot be read.
 std::optional<Seal> seal_of(int fd, std::uint64_t bytes) {
     Seal seal = kEmptySeal;
     std::optional<std::uint32_t> crc = checksum(fd, bytes);

@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-// Raised when coarser_levels() makes other levels of the same mesh.
+// Raise this when coarser_levels() makes other levels of the same mesh.
 constexpr std::uint32_t kLevelsVersion = 9;
 
 struct LevelsHeader {

@@ -1,5 +1,5 @@
 #pragma once
-// Levels of detail kept on disk: making them takes seconds per million triangles.
+// Keeps levels of detail on disk, because making them takes seconds per million triangles.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace hilcam {
 
-// The mesh's levels from the cache, made and written there if need be. A file that is damaged, or not this
-// mesh's, is made anew; a folder that cannot be written is no failure.
+// Returns the mesh's levels from the cache; makes and keeps them when they are missing, damaged, or another
+// mesh's. A folder that cannot be written is no error.
 std::vector<MeshLevel> cached_levels(const Mesh& mesh, const Cache& cache);
 
 }  // namespace hilcam

@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-// Raised when TransferTable makes another table of the same mesh.
+// Raise this when TransferTable makes another table of the same mesh.
 constexpr std::uint32_t kTableVersion = 19;
 
 struct TableHeader {
@@ -19,7 +19,7 @@ struct TableHeader {
     bool operator==(const TableHeader&) const = default;
 };
 
-// Probes have the colours of textures.
+// Probes have colours from textures, so these are part of the key.
 std::uint64_t hash_of_looks(std::uint64_t hash, const Mesh& mesh) {
     if (mesh.textures.empty()) return hash;
     for (const MeshSurface& surface : mesh.surfaces)

@@ -1,5 +1,5 @@
 #pragma once
-// Tables of directions kept on disk beside the levels of detail: making them takes seconds.
+// Keeps transfer tables on disk beside the levels of detail, because making them takes seconds.
 
 #include <memory>
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace hilcam {
 
-// A mesh as its file has it, and what a table is made of beside it. A size of the object is no part of it: one table
-// serves a mesh in all sizes.
+// A mesh as in its file, with everything else that its table depends on. One table serves all sizes of an
+// object, so the scale is not part of the key.
 struct TableSource {
     const Mesh& mesh;
     std::span<const std::uint8_t> glass;  // by surface of the mesh
     TransferSettings settings;
-    float scale = 1;  // the object is so many times as large as the mesh
+    float scale = 1;  // size of the object relative to the mesh
 };
 
-// Returns the object's table from the cache, made and written there if need be. A file that is damaged, or of
-// another mesh or other settings, is made anew; a folder that cannot be written is no failure.
+// Returns the object's table from the cache; makes and keeps it when it is missing, damaged, or for another
+// mesh or other settings. A folder that cannot be written is no error.
 std::shared_ptr<const TransferTable> cached_transfer(const TableSource& source, const Cache& cache,
                                                      const WorkWatcher& watcher = {});
-// Returns the table that the cache has, for the object's size; null where it has none.
+// Returns the cached table, scaled to the object's size; null when there is none.
 std::shared_ptr<const TransferTable> find_transfer(const TableSource& source, const Cache& cache);
 
 }  // namespace hilcam

@@ -76,7 +76,7 @@ bool decode_acknowledgement(std::span<const std::uint8_t> packet, Acknowledgemen
 }
 
 std::string_view name_of(CommandStatus status) {
-    // In the order of their numbers.
+    // The names, by number.
     constexpr std::array<std::string_view, 12> kNames = {
         "accepted",         "bad length",    "bad header",     "unknown APID",      "bad checksum",
         "unknown function", "bad argument",  "unknown object", "time out of range", "busy",

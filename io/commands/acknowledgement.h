@@ -1,6 +1,6 @@
 #pragma once
-// Acknowledgements: what every command packet is answered with. The body is the same in all dialects; the
-// Space Packet around it here is hilcam's own. Pure functions over bytes.
+// Acknowledgements, the answers to command packets. Their body is the same in all dialects; the Space Packet
+// around it here is hilcam's own. Pure functions over bytes.
 
 #include <cstdint>
 #include <optional>
@@ -22,30 +22,30 @@ struct Acknowledgement {
     std::uint32_t sequence = 0;
     std::uint64_t token = 0;  // token of a ping; sender_ns of a clock command
     TimeTai simulated_time;
-    std::string reason;  // up to 96 bytes of it travel
-    // Clock reading, with an accepted clock command. simulated_time and `departure` are one: both travel as
-    // the former.
+    std::string reason;  // at most 96 bytes of it are sent
+    // Clock reading, for an accepted clock command. simulated_time equals `departure`; the packet has it
+    // once, as simulated_time.
     std::optional<ClockReading> clock{};
 };
 
-// Gives the number of bytes written. `count` is the primary header's 14-bit counter.
+// Returns the number of bytes written. count: the primary header's 14-bit counter.
 std::size_t encode_acknowledgement(const Acknowledgement& acknowledgement, std::uint16_t count,
                                    std::span<std::uint8_t> bytes);
-// False when the bytes are no acknowledgement.
+// Returns false when the bytes are no acknowledgement.
 bool decode_acknowledgement(std::span<const std::uint8_t> packet, Acknowledgement& acknowledgement);
 
-// Writes everything from the protocol version on, without the check at the end.
+// Writes everything from the protocol version on, except the check at the end.
 void write_acknowledgement_body(const Acknowledgement& acknowledgement, ByteWriter& out);
 bool read_acknowledgement_body(std::span<const std::uint8_t> body, Acknowledgement& acknowledgement);
 
-// "accepted", "bad checksum", ...
+// Returns "accepted", "bad checksum", ...
 std::string_view name_of(CommandStatus status);
-// Returns the name of its status and, behind a colon, its reason as a terminal can show it: whoever answers
-// writes that.
+// Returns the name of the status and, after a colon, the reason, made safe for a terminal because the peer
+// wrote it.
 std::string text_of(const Acknowledgement& a);
-// Why, in a line: what refusals give as their reason where the command itself is well formed.
+// Returns a line that explains the status: the reason given when a well-formed command is refused.
 std::string_view meaning_of(CommandStatus status);
-// The same of a command, with what helps.
+// Returns the same for a certain command, with what helps.
 std::string_view meaning_of(CommandStatus status, const Command& command);
 
 }  // namespace hilcam

@@ -21,20 +21,20 @@ struct SpacePacketHeader {
     std::size_t total_bytes() const { return kBytes + std::size_t{data_length} + 1; }
 };
 
-// `bytes` holds at least kBytes.
+// bytes: at least kBytes.
 SpacePacketHeader read_packet_header(std::span<const std::uint8_t> bytes);
 void write_packet_header(const SpacePacketHeader& header, std::span<std::uint8_t> bytes);
 
-// The version of hilcam's own secondary headers, their first byte.
+// Version of hilcam's own secondary headers, their first byte.
 inline constexpr std::uint8_t kProtocolVersion = 1;
 inline constexpr std::size_t kCrcBytes = 2;
 
 // CRC-16/CCITT-FALSE: polynomial 0x1021, initial 0xFFFF, not reflected (CCSDS 132.0-B-3, 4.1.6.2).
-// "123456789" gives 0x29B1. Over a packet that ends in its own CRC the result is 0.
+// "123456789" gives 0x29B1. The CRC of a packet that ends with its own CRC is 0.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
-// Header and CRC around a body of `body_bytes` that already stands behind the header's place; data_length is
-// filled in. Gives the packet's length.
+// Puts header and CRC around a body of `body_bytes`, which is already behind the header's place, and sets
+// data_length. Returns the packet's length.
 std::size_t seal_packet(SpacePacketHeader header, std::size_t body_bytes, std::span<std::uint8_t> bytes);
 
 }  // namespace hilcam

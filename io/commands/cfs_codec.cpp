@@ -39,7 +39,7 @@ std::size_t encode_answer(std::uint16_t apid, TimeTai time, std::uint16_t count,
     return size;
 }
 
-// The body of an answer with this APID; empty when it is none.
+// Returns the body of an answer with this APID; empty when it is none.
 std::span<const std::uint8_t> body_of(std::span<const std::uint8_t> packet, std::uint16_t& apid) {
     if (packet.size() <= kTelemetryHeaderBytes) return {};
     const SpacePacketHeader header = read_packet_header(packet);

@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-// Clocks of any epoch, from the wire: what overflows wraps.
+// Clocks from the wire may have any epoch; an overflow wraps.
 std::int64_t difference(std::int64_t a, std::int64_t b) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
 }

@@ -1,17 +1,17 @@
 #pragma once
-// A sender's estimate of the simulated time, from exchanges of clock readings (ClockCommand and its answer).
+// Estimates simulated time at a sender, from exchanges of clock readings (ClockCommand and its answer).
 //
-// Four instants of an exchange, as in NTP: t1 the command leaves and t4 the answer comes, by the sender's
-// clock; t2 the command comes and t3 the answer leaves, by the machine's CLOCK_MONOTONIC. RFC 5905 (2010),
-// section 8:
-//     offset = ((t2 - t1) + (t3 - t4)) / 2      machine's clock - sender's
-//     delay  = (t4 - t1) - (t3 - t2)
-// The true offset lies within delay / 2 of that, however unequal the two ways are. Of the last kSamples the
-// one with the least error counts (section 10, the clock filter); its error grows by 15 ppm of its age, what
-// two undisciplined quartz clocks may drift apart (section 7.2, PHI).
+// An exchange has four instants, as in NTP: the command leaves at t1 and the answer comes at t4, on the
+// sender's clock; the command comes at t2 and the answer leaves at t3, on the machine's CLOCK_MONOTONIC. RFC
+// 5905 (2010), section 8:
+//    offset = ((t2 - t1) + (t3 - t4)) / 2      machine's clock - sender's
+//    delay  = (t4 - t1) - (t3 - t2)
+// The true offset is within delay / 2 of this, however asymmetric the path. Of the last kSamples exchanges,
+// the one with the least error is used (section 10, the clock filter). Its error grows by 15 ppm of its age,
+// the drift between two undisciplined quartz clocks (section 7.2, PHI).
 //
-// The offset is to the machine's clock and not to simulated time, because no scale and no pause touches it:
-// how simulated time goes on from there is in each answer. It is known until somebody changes the clock.
+// The offset refers to the machine's clock, not to simulated time, so that scale and pauses do not disturb
+// it. Each answer says how simulated time continues; that holds until somebody changes the clock.
 //
 // Pure, no allocation. Owner thread.
 
@@ -35,17 +35,19 @@ class ClockFilter {
     static constexpr std::size_t kSamples = 8;  // RFC 5905's NSTAGE
     static constexpr double kDrift = 15e-6;
 
-    // False, and nothing is changed, for one that cannot be: an answer before its question.
+    // Takes an exchange. Returns false, and changes nothing, for an impossible one: an answer before its
+    // question.
     bool take(const ClockExchange& exchange);
 
     struct Estimate {
         std::int64_t offset_ns = 0;  // machine's clock - sender's
         std::int64_t delay_ns = 0;   // there and back
-        double error_ns = 0;         // at the most
+        double error_ns = 0;         // upper bound
     };
-    // Estimates at an instant of the sender's clock; there is no estimate before the first exchange.
+    // Returns the estimate at an instant of the sender's clock; nothing before the first exchange.
     std::optional<Estimate> estimate(std::int64_t sender_ns) const;
-    // The simulated time then, by the newest answer's way of going; it errs by `scale` times error_ns.
+    // Returns simulated time at that instant, extrapolated from the newest answer. Its error is `scale` times
+    // error_ns.
     std::optional<TimeTai> simulated_at(std::int64_t sender_ns) const;
 
   private:
@@ -53,11 +55,11 @@ class ClockFilter {
         std::int64_t offset_ns, delay_ns, received_ns;
     };
     std::array<Sample, kSamples> samples_{};
-    std::size_t count_ = 0;  // ever taken
+    std::size_t count_ = 0;  // total of exchanges taken
     ClockReading newest_;
 };
 
-// simulated = min(departure + scale (monotonic - departure_monotonic), stands_at)
+// Returns simulated = min(departure + scale (monotonic - departure_monotonic), stands_at).
 TimeTai simulated_at(const ClockReading& reading, std::int64_t monotonic_ns);
 
 }  // namespace hilcam

@@ -15,7 +15,7 @@ constexpr std::array<std::uint16_t, 3> kAnswerKinds = {
     kTelemetry | kAcknowledgeApid, kTelemetry | kFrameReportApid, kTelemetry | kHousekeepingApid};
 
 bool has_crc(std::span<const std::uint8_t> packet) { return crc16(packet) == 0; }
-// Eight bits of checksum are few, or not looked at: the payload must be as long as its function's, too.
+// Eight bits of checksum are few, and may be ignored: the payload must also have the length of its function.
 bool has_cfs_shape(std::span<const std::uint8_t> packet) {
     const std::optional<std::size_t> payload = payload_bytes(packet[6] & 0x7F);
     return payload && packet.size() == 8 + *payload;

@@ -1,6 +1,6 @@
 #pragma once
 // A dialect is the headers and checks around commands, acknowledgements and telemetry: hilcam's own, or those
-// of NASA's core Flight System. Their contents are the same. Pure functions over bytes.
+// of NASA's core Flight System. The contents are the same. Pure functions over bytes.
 
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@ enum class ChecksumRule : std::uint8_t { kRequired, kOptional };
 
 struct DialectConfig {
     Dialect dialect = Dialect::kHilcam;
-    ChecksumRule checksum = ChecksumRule::kRequired;  // cFS alone
+    ChecksumRule checksum = ChecksumRule::kRequired;  // cFS only
 };
 // Adds the dialect's keys to a transport's own.
 void add_fields(DialectConfig& dialect, Fields& fields);
@@ -38,10 +38,10 @@ std::size_t encode_telemetry(const Telemetry& telemetry, std::uint16_t count, co
 bool decode_telemetry(std::span<const std::uint8_t> packet, const DialectConfig& dialect,
                       Telemetry& telemetry);
 
-// Packets from senders, and packets to them.
+// Return the rules for packets from senders, and for packets to them.
 PacketRule command_rule(const DialectConfig& dialect);
 PacketRule answer_rule(const DialectConfig& dialect);
-// Bits of a sequence number that travel.
+// Returns the number of bits of a sequence number in a packet.
 int sequence_bits(const DialectConfig& dialect);
 
 }  // namespace hilcam

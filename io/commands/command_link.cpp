@@ -22,7 +22,7 @@ class SocketLink : public CommandLink {
         while (!packet.empty()) {
             const ssize_t sent = ::send(socket_.get(), packet.data(), packet.size(), MSG_NOSIGNAL);
             if (sent < 0 && errno == EINTR) continue;
-            // Over UDP that is the answer to an earlier datagram: nobody listens, at least not yet.
+            // Over UDP, ECONNREFUSED is the answer to an earlier datagram: there is no listener, or none yet.
             if (sent < 0) return datagrams_ && errno == ECONNREFUSED;
             packet = packet.subspan(static_cast<std::size_t>(sent));
         }

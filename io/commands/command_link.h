@@ -1,5 +1,5 @@
 #pragma once
-// The sending side's way to an emulator: packets out, pieces of the stream of answers in.
+// The sender's link to an emulator: it takes packets, and returns pieces of the stream of answers.
 
 #include <cstdint>
 #include <memory>
@@ -11,9 +11,9 @@ namespace hilcam {
 class CommandLink {
   public:
     virtual ~CommandLink() = default;
-    // One whole packet. False when it cannot be sent.
+    // Sends one whole packet. False when it cannot be sent.
     virtual bool send(std::span<const std::uint8_t> packet) = 0;
-    // Waits for bytes; 0 when none came in time. `broken` when none can come any more.
+    // The result of waiting for bytes: 0 bytes when none came in time, `broken` when none can come any more.
     struct Received {
         std::size_t bytes = 0;
         bool broken = false;
@@ -21,10 +21,10 @@ class CommandLink {
     virtual Received receive(std::span<std::uint8_t> room, int timeout_ms) = 0;
 };
 
-// "udp:ADDRESS:PORT" or "ADDRESS:PORT", "tcp:ADDRESS:PORT", "unix:PATH" (either type of socket),
-// "usb:VENDOR:PRODUCT[:SERIAL]". Throws InputError, DeviceError.
+// Opens "udp:ADDRESS:PORT" or "ADDRESS:PORT", "tcp:ADDRESS:PORT", "unix:PATH" (either type of socket),
+// "usb:VENDOR:PRODUCT[:SERIAL]". Throws InputError and DeviceError.
 std::unique_ptr<CommandLink> open_command_link(const std::string& endpoint);
-// The last of these; `id` without "usb:".
+// Opens the last of these; id: without "usb:".
 std::unique_ptr<CommandLink> open_usb_link(const std::string& id);
 
 }  // namespace hilcam

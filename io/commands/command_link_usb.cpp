@@ -31,8 +31,8 @@ class UsbLink : public CommandLink {
         return true;
     }
 
-    // A transfer that timed out may have brought a part: `done` counts, whatever the error. The buffer is a
-    // multiple of every packet size, else a packet may not fit.
+    // A transfer that timed out may have brought a part, so `done` counts whatever the error. The buffer is a
+    // multiple of every packet size, because a packet must fit.
     Received receive(std::span<std::uint8_t> room, int timeout_ms) override {
         int done = 0;
         const std::size_t size = room.size() / 1024 * 1024;

@@ -31,7 +31,7 @@ static_assert(std::variant_size_v<Command> == kLayouts.size());
 static_assert(std::is_same_v<std::variant_alternative_t<6, Command>, FaultCommand>);
 static_assert(std::is_same_v<std::variant_alternative_t<9, Command>, SubscribeCommand>);
 static_assert(std::is_same_v<std::variant_alternative_t<kClockFunction - 1, Command>, ClockCommand>);
-// Bits for the settings that a settings command carries, and for what a subscription asks for.
+// Bits for the settings in a settings command, and for the kinds in a subscription.
 constexpr std::uint32_t kExposureBit = 1, kGainBit = 2, kFrameRateBit = 4;
 constexpr std::uint8_t kFrameReportsBit = 1, kHousekeepingBit = 2;
 
@@ -117,7 +117,7 @@ void write(ByteWriter& out, const JointCommand& joint) {
     out.f64(joint.angle_rad).f64(joint.rate_rad_s);
 }
 
-// Kind 0 takes back all faults.
+// Kind 0 clears all faults.
 Refusal read(ByteReader& in, FaultCommand& fault) {
     const std::uint8_t kind = in.u8();
     in.skip(3);
@@ -210,7 +210,7 @@ void write(ByteWriter& out, const LampCommand& lamp) {
     out.u16(lamp.lamp).u16(0).u64(static_cast<std::uint64_t>(lamp.time.ns)).f64(lamp.level);
 }
 
-// The alternative of a function code, made and read.
+// Constructs and reads the alternative for a function code.
 template <std::size_t... I>
 Refusal read_alternative(ByteReader& in, std::size_t index, Command& command, std::index_sequence<I...>) {
     Refusal refusal;

@@ -11,20 +11,20 @@
 
 namespace hilcam {
 
-// Why bytes are no command, or kAccepted. `reason` is static text.
+// The reason why bytes are no command, or kAccepted. reason: static text.
 struct Refusal {
     CommandStatus status = CommandStatus::kAccepted;
     std::string_view reason{};
 };
 
-// 1 to 12, in the order of Command's alternatives.
+// Returns the function code, 1 to 12, in the order of Command's alternatives.
 std::uint8_t function_of(const Command& command);
-// "pose", "settings", ...; empty for a function that does not exist.
+// Returns "pose", "settings", ...; empty for an unknown function.
 std::string_view name_of_function(std::uint8_t function);
-// Bytes of the payload; none for a function that does not exist.
+// Returns the payload's length; nothing for an unknown function.
 std::optional<std::size_t> payload_bytes(std::uint8_t function);
 
-// Exactly payload_bytes(function) are read.
+// Reads exactly payload_bytes(function) bytes.
 Refusal read_payload(ByteReader& in, std::uint8_t function, Command& command);
 void write_payload(const Command& command, ByteWriter& out);
 

@@ -45,14 +45,14 @@ bool CommandSender::next_packet(std::span<const std::uint8_t>& packet, std::int6
 
 Acknowledgement CommandSender::send(const Command& command, int timeout_ms) {
     std::array<std::uint8_t, kMaxPacketBytes> bytes;
-    // An answer has that part of a sequence number which travels.
+    // An answer has only the bits of the sequence number that are sent.
     const std::uint32_t sequence = dialect_.dialect == Dialect::kCfs ? sequence_ & 0x3FFF : sequence_;
     ++sequence_;
     const std::size_t size = encode_command(command, sequence, dialect_, bytes, camera_);
     if (!link_->send(std::span(bytes).first(size))) throw silent(timeout_ms);
     const std::int64_t deadline_ns = deadline_after(timeout_ms);
     std::span<const std::uint8_t> packet;
-    // Acknowledgements of earlier, given-up commands may still come in: skip them.
+    // Skips acknowledgements of earlier commands that were given up.
     while (next_packet(packet, deadline_ns)) {
         Acknowledgement acknowledgement;
         Telemetry telemetry;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kRetryTime_ns = 1'000'000'000;
 
-// True for a command that does more when it is done twice: frames, strikes and steps of the clock add up.
+// True for a command with an effect that adds up when it is repeated: frames, strikes and clock steps.
 bool adds_up(const Command& command) {
     return std::visit(
         Overloaded{
@@ -28,7 +28,7 @@ class CommandStation::Sender {
   public:
     Sender(std::string name, int sequence_bits) : window(sequence_bits) { report.name = std::move(name); }
 
-    // The packet done before, when it is one that must not be done twice.
+    // True when the packet repeats the last one that must not be carried out twice.
     bool repeats(std::span<const std::uint8_t> packet, std::int64_t arrival_ns) const {
         return once_bytes > 0 && arrival_ns - once_arrival_ns <= kRetryTime_ns &&
                std::equal(packet.begin(), packet.end(), once.begin(),
@@ -43,7 +43,7 @@ class CommandStation::Sender {
 
     SenderReport report;
     SequenceWindow window;
-    std::uint16_t acknowledgements = 0, frame_reports = 0, housekeepings = 0;  // packet counts
+    std::uint16_t acknowledgements = 0, frame_reports = 0, housekeepings = 0;  // packet counters
     std::array<std::uint8_t, kMaxPacketBytes> once{};
     std::size_t once_bytes = 0;
     std::int64_t once_arrival_ns = 0;
@@ -141,7 +141,7 @@ CommandStatus CommandStation::perform(const DecodedCommand& decoded, std::span<c
     return status;
 }
 
-// True for a number that came before.
+// Returns true for a sequence number that had come before.
 bool CommandStation::count(std::uint32_t sequence, Sender& sender) {
     const SequenceWindow::Finding finding = sender.window.take(sequence);
     switch (finding.kind) {

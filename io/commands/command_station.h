@@ -1,11 +1,10 @@
 #pragma once
-// Takes the commands of all transports: packets of a sender come in, acknowledgements to it go out. The
-// transports that bring the bytes (commands_udp.h, stream_server.h, commands_usb.h, ...) know nothing of
-// commands.
+// Takes the commands of all transports: packets from senders in, acknowledgements out. The transports that
+// bring the bytes (commands_udp.h, stream_server.h, commands_usb.h, ...) know nothing about commands.
 //
-// Commands take effect in the order they arrive, whatever their sequence numbers. An `expose`, a `fault` or a
-// clock's step that repeats an earlier packet of its sender byte by byte within a second is a retry, or the
-// network's doing: it is answered as the first was, and not done again.
+// Commands take effect in order of arrival, whatever their sequence numbers. An `expose`, a `fault` or a
+// clock step that repeats an earlier packet of the same sender byte by byte within a second is a
+// retransmission: it gets the same answer and is not carried out again.
 
 #include <array>
 #include <cstdint>
@@ -25,7 +24,7 @@ namespace hilcam {
 class CommandStation {
   public:
     class Sender;
-    // Gets one whole packet for the sender.
+    // Sends one whole packet to the sender.
     using Answer = std::function<void(std::span<const std::uint8_t> packet)>;
     using Notify = std::function<void(Sender& sender, std::span<const std::uint8_t> packet)>;
 
@@ -33,20 +32,21 @@ class CommandStation {
     ~CommandStation();
 
     // --- the transport's thread ---
-    // A reference that stays until close().
+    //
+    // Returns a reference that is valid until close().
     Sender& open(std::string name);
     void close(Sender& sender);
     PacketStream make_stream(std::size_t read_bytes = PacketStream::kReadBytes) const;
-    // All packets that are whole by now.
+    // Takes all complete packets of the stream.
     void take(PacketStream& stream, std::int64_t arrival_monotonic_ns, Sender& sender, const Answer& answer);
-    // The same, and the bytes end here: at the end of a datagram, of a connection.
+    // Takes all packets when no more bytes come: at the end of a datagram or a connection.
     void take_all(PacketStream& stream, std::int64_t arrival_monotonic_ns, Sender& sender,
                   const Answer& answer);
-    // Refuses what cannot even be given to a stream: an empty datagram.
+    // Refuses an empty datagram, which cannot be put into a stream.
     void refuse_empty(Sender& sender, const Answer& answer);
     // Sends to every sender that subscribed to this kind.
     void notify(const Telemetry& telemetry, const Notify& notify);
-    // Frame reports and housekeeping from now on, unasked.
+    // Subscribes a sender that has not asked.
     void subscribe(Sender& sender, SubscribeCommand subscription);
     void count_stranger();
     void count_cut_off();

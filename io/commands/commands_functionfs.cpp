@@ -40,7 +40,7 @@ void write_all(const Fd& fd, const std::vector<std::uint8_t>& bytes, const std::
         throw trouble_with("FunctionFS does not take the " + what);
 }
 
-// One thread waits for ep0's events and for the ends of transfers, takes commands and sends answers.
+// One thread waits for ep0's events and the ends of transfers, takes commands and sends answers.
 class FunctionFsReceiver : public CommandReceiver {
   public:
     FunctionFsReceiver(const FunctionFsConfig& config, CommandHandler& handler, FaultBoard& faults)
@@ -92,13 +92,13 @@ class FunctionFsReceiver : public CommandReceiver {
     std::atomic<bool> stopping_{false};
     std::thread thread_;
 
-    // The thread's own.
+    // Owned by the thread.
     std::array<Read, kReads> reads_;
     std::vector<std::uint8_t> output_;
-    std::size_t output_bytes_ = 0;  // that wait to be sent, or are
+    std::size_t output_bytes_ = 0;  // waiting to be sent, or being sent
     iocb output_request_{};
     bool output_in_flight_ = false, enabled_ = false, detached_ = false;
-    CommandStation::Sender* sender_ = nullptr;  // while a host has us configured
+    CommandStation::Sender* sender_ = nullptr;  // while a host has configured us
     std::uint64_t detachments_ = 0;
 };
 
@@ -106,7 +106,8 @@ void FunctionFsReceiver::start() {
     control_ = open_file(config_.mount / "ep0", O_RDWR | O_NONBLOCK);
     write_all(control_, functionfs_descriptors(), "descriptors");
     write_all(control_, functionfs_strings("hilcam commands"), "strings");
-    // They exist once the descriptors are written. An endpoint that no host has enabled must not block us.
+    // The endpoints exist once the descriptors are written. O_NONBLOCK: one that no host has enabled must not
+    // block us.
     out_ = open_file(config_.mount / "ep1", O_RDWR | O_NONBLOCK);
     in_ = open_file(config_.mount / "ep2", O_RDWR | O_NONBLOCK);
     if (!aio_.open(kReads + 1)) throw trouble_with("no asynchronous input and output");
@@ -173,7 +174,7 @@ void FunctionFsReceiver::take_events() {
     for (std::size_t i = 0; i < static_cast<std::size_t>(size) / sizeof events[0]; ++i) {
         switch (events[i].type) {
             case FUNCTIONFS_ENABLE:
-                disable();  // a host may configure us again without a word
+                disable();  // a host may configure us again without disabling first
                 enable();
                 break;
             case FUNCTIONFS_DISABLE:
@@ -181,7 +182,7 @@ void FunctionFsReceiver::take_events() {
                 disable();
                 break;
             case FUNCTIONFS_SETUP:
-                // We have no requests of our own: input or output in the wrong direction stalls.
+                // We handle no control requests: input or output in the wrong direction stalls.
                 if (events[i].u.setup.bRequestType & USB_DIR_IN) [[maybe_unused]]
                     const auto got = ::read(control_.get(), nullptr, 0);
                 else [[maybe_unused]]
@@ -213,7 +214,7 @@ void FunctionFsReceiver::disable() {
 void FunctionFsReceiver::submit_reads() {
     for (std::size_t i = 0; i < kReads; ++i) {
         Read& r = reads_[i];
-        // A read that is refused now is tried again at the next tick.
+        // A read that is refused is tried again at the next tick.
         if (!r.in_flight) r.in_flight = aio_.submit(r.request, out_.get(), false, r.bytes, ended_.get(), i);
     }
 }
@@ -239,7 +240,7 @@ void FunctionFsReceiver::take_ended() {
 
 void FunctionFsReceiver::send_answers() {
     if (output_in_flight_) return;
-    // One that is refused now is tried again at the next tick.
+    // A write that is refused is tried again at the next tick.
     if (output_bytes_ == 0) output_bytes_ = answers_.next(output_);
     if (output_bytes_ > 0)
         output_in_flight_ = aio_.submit(output_request_, in_.get(), true,
@@ -266,7 +267,7 @@ void FunctionFsReceiver::follow_detach_fault() {
     try {
         bind_gadget();
     } catch (const DeviceError&) {
-        detached_ = true;  // the controller is taken: try again at the next tick
+        detached_ = true;  // the controller is in use: try again at the next tick
     }
 }
 

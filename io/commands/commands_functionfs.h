@@ -1,11 +1,11 @@
 #pragma once
-// Commands as a USB device: this machine has a USB device controller, the bench (an on-board computer, a
-// dynamics simulator) is the host. Packets come in on the bulk OUT endpoint of a FunctionFS function, answers
-// and telemetry go out on its bulk IN endpoint.
+// Commands over USB with this machine as the device (it has a USB device controller) and the bench, an
+// on-board computer or a dynamics simulator, as the host. Packets come in on the bulk OUT endpoint of a
+// FunctionFS function; answers and telemetry go out on its bulk IN endpoint.
 //
-// The gadget itself (ids, serial number, other functions beside this one) is made by the user through
-// configfs; docs/protocol.md has the lines. With `gadget` given, hilcam binds it to a controller when its
-// descriptors are in place, and unbinds it at the end.
+// The user creates the gadget (ids, serial number, other functions) through configfs; docs/protocol.md has
+// the commands. With `gadget`, hilcam binds it to a controller once the descriptors are written, and unbinds
+// it at the end.
 
 #include <filesystem>
 #include <memory>
@@ -21,7 +21,7 @@ namespace hilcam {
 struct FunctionFsConfig {
     std::filesystem::path mount = "/dev/ffs-hilcam";
     std::filesystem::path gadget;  // empty: the user binds it
-    std::string controller;        // empty: the first there is
+    std::string controller;        // empty: the first one
     DialectConfig dialect{};
 };
 Fields fields(FunctionFsConfig& config);

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// Nobody asks it anything: the clients of a read-only port are not listened to.
+// A handler that is never called, because clients of a read-only port send no commands.
 class NobodysHandler : public CommandHandler {
   public:
     CommandStatus handle(const Command&, const CommandSource&) override { return CommandStatus::kNotNow; }

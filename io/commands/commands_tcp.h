@@ -1,5 +1,5 @@
 #pragma once
-// Commands over TCP: several clients, each a stream of packets, answers on the same connection.
+// Commands over TCP: several clients, each with a stream of packets; answers go back on the same connection.
 
 #include <memory>
 
@@ -20,7 +20,7 @@ Fields fields(TcpCommandConfig& config);
 void validate(const TcpCommandConfig& config);
 
 std::unique_ptr<CommandReceiver> make_tcp_receiver(const TcpCommandConfig& config, CommandHandler& handler);
-// The read-only telemetry port: clients get all telemetry, and are not listened to.
+// Makes the read-only telemetry port: clients get all telemetry, and what they send is ignored.
 std::unique_ptr<CommandReceiver> make_telemetry_port(const TcpCommandConfig& config, const std::string& key);
 
 }  // namespace hilcam

@@ -16,7 +16,8 @@ constexpr std::size_t kMaxPeers = 16;
 constexpr std::int64_t kSilence_ns = 60'000'000'000;
 constexpr std::size_t kMaxDatagramBytes = 65536;
 
-// The kernel stamps datagrams with CLOCK_REALTIME; the age moves it to CLOCK_MONOTONIC. Without a stamp: now.
+// Returns the arrival on CLOCK_MONOTONIC. The kernel stamps datagrams with CLOCK_REALTIME; the stamp's age
+// converts it. Without a stamp, it is the present time.
 std::int64_t arrival_of(msghdr& message) {
     const std::int64_t now_ns = monotonic_ns();
     for (cmsghdr* c = CMSG_FIRSTHDR(&message); c; c = CMSG_NXTHDR(&message, c)) {
@@ -26,8 +27,8 @@ std::int64_t arrival_of(msghdr& message) {
         clock_gettime(CLOCK_REALTIME, &wall);
         const std::int64_t age_ns =
             (std::int64_t{wall.tv_sec} - stamp.tv_sec) * 1'000'000'000 + wall.tv_nsec - stamp.tv_nsec;
-        // A step of the wall clock between the two readings must not move the arrival by more than it can be
-        // old.
+        // The age is limited to a second, so that a step of the wall clock between the two readings shifts
+        // the arrival by no more.
         return now_ns - std::clamp<std::int64_t>(age_ns, 0, 1'000'000'000);
     }
     return now_ns;
@@ -117,7 +118,7 @@ void UdpCommandReceiver::receive() {
     station_.take_all(stream_, arrival_ns, *peer.sender, answer);
 }
 
-// The sender at an address; the one heard longest ago makes room for a new one.
+// Returns the sender at an address. A new one replaces the one that was silent for longest.
 UdpCommandReceiver::Peer& UdpCommandReceiver::peer_of(const sockaddr_in& address, std::int64_t now_ns) {
     forget_silent(now_ns);
     const auto known = std::find_if(peers_.begin(), peers_.end(), [&](const Peer& p) {

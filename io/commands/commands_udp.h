@@ -1,5 +1,5 @@
 #pragma once
-// Commands over UDP: a thread of its own receives datagrams, hands them to the station and sends the answers.
+// Commands over UDP: a thread receives datagrams, gives them to the station and sends the answers.
 
 #include <list>
 #include <string>
@@ -22,10 +22,10 @@ struct UdpCommandConfig {
 Fields fields(UdpCommandConfig& config);
 void validate(const UdpCommandConfig& config);
 
-// A datagram holds one or more packets back to back; each is acknowledged to the sender's address and port,
-// one datagram each. What cannot be cut into packets is refused once. Arrival is the kernel's receive time
-// stamp, on CLOCK_MONOTONIC. The sixteen senders heard last are remembered, for a minute; a subscription to
-// telemetry ends with that.
+// A datagram holds one or more packets back to back; each is acknowledged to the sender's address and port in
+// a datagram of its own. Bytes that cannot be divided into packets are refused once. The arrival time is the
+// kernel's receive time stamp, converted to CLOCK_MONOTONIC. The last sixteen senders are remembered for a
+// minute each, and so are their subscriptions to telemetry.
 class UdpCommandReceiver : public CommandReceiver {
   public:
     UdpCommandReceiver(const UdpCommandConfig& config, CommandHandler& handler);
@@ -60,7 +60,7 @@ class UdpCommandReceiver : public CommandReceiver {
     Fd socket_, wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false};
     std::thread thread_;
-    std::list<Peer> peers_;  // heard last: last
+    std::list<Peer> peers_;  // most recently heard last
 };
 
 }  // namespace hilcam

@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// Device and inode: is the file still ours?
+// Device and inode, to test whether the file is still ours.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;
@@ -25,7 +25,7 @@ struct FileIdentity {
     friend bool operator==(const FileIdentity&, const FileIdentity&) = default;
 };
 
-// A socket file without a listener.
+// True for a socket file without a listener.
 bool is_stale(const std::string& path, int type) {
     struct stat s {};
     if (lstat(path.c_str(), &s) != 0 || !S_ISSOCK(s.st_mode)) return false;

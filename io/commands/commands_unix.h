@@ -1,6 +1,5 @@
 #pragma once
-// Commands over a Unix socket: several clients of this machine, with the file's owner and group to keep
-// others out.
+// Commands over a Unix socket: several clients on this machine. The file's owner and group restrict access.
 
 #include <filesystem>
 #include <memory>
@@ -23,8 +22,8 @@ struct UnixCommandConfig {
 Fields fields(UnixCommandConfig& config);
 void validate(const UnixCommandConfig& config);
 
-// A socket file that nobody listens at any more (its program was killed) is replaced; start() throws
-// DeviceError when somebody does, or when the path is some other kind of file. The file goes with stop().
+// start() replaces a socket file without a listener, as a killed program leaves. It throws DeviceError when
+// there is a listener, or when the path is another kind of file. stop() removes the file.
 std::unique_ptr<CommandReceiver> make_unix_receiver(const UnixCommandConfig& config, CommandHandler& handler);
 
 }  // namespace hilcam

@@ -18,11 +18,12 @@
 namespace hilcam {
 namespace {
 
-// Whole packets of every speed's bulk endpoints (64, 512, 1024): a device cannot overrun a transfer.
+// A multiple of every speed's bulk packet size (64, 512, 1024): a device cannot overrun a transfer.
 constexpr std::size_t kTransferBytes = 16384;
-constexpr std::size_t kTransfersIn = 4;  // in flight, so that the bus never waits for a command's work
+// In flight, so that the bus never waits while a command is carried out.
+constexpr std::size_t kTransfersIn = 4;
 constexpr std::int64_t kTryAgain_ns = 500'000'000;
-constexpr int kMaxErrors = 16;  // one after the other; then the device is opened anew
+constexpr int kMaxErrors = 16;  // in a row; then the device is opened anew
 
 // One thread opens the device, runs libusb's events and so all callbacks, takes commands and sends answers.
 class UsbCommandReceiver : public CommandReceiver {
@@ -79,14 +80,14 @@ class UsbCommandReceiver : public CommandReceiver {
     PacketStream stream_;
     UsbAnswers answers_;
     TelemetryQueue telemetry_;
-    std::mutex context_mutex_;  // guards the context's coming and going
+    std::mutex context_mutex_;  // guards creation and destruction of the context
     UsbContext context_;
     std::atomic<bool> stopping_{false};
     std::thread thread_;
     mutable std::mutex trouble_mutex_;
     std::string trouble_;
 
-    // The thread's own.
+    // Owned by the thread.
     UsbDevice device_;
     CommandStation::Sender* sender_ = nullptr;  // while the device is open
     std::array<Transfer, kTransfersIn> inputs_;
@@ -106,8 +107,8 @@ void UsbCommandReceiver::start() {
     thread_ = std::thread([this] { run(); });
 }
 
-// libusb hears of new devices through udev; where no udev daemon runs (a small bench machine, a container)
-// only a new context sees them.
+// libusb learns of new devices through udev. Without a udev daemon (a small bench machine, a container), only
+// a new context sees them.
 void UsbCommandReceiver::renew_context() {
     UsbContext context = make_usb_context();
     if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG))
@@ -131,8 +132,8 @@ void UsbCommandReceiver::stop() noexcept {
     context_.reset();
 }
 
-// libusb may announce a device twice, and removals of devices never announced: only flags are set here, and
-// the work is done outside of the callback.
+// libusb may announce a device twice, and report the removal of devices never announced. So the callback only
+// sets flags, and the work is done outside it.
 int UsbCommandReceiver::on_hotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event,
                                    void* owner) {
     auto& self = *static_cast<UsbCommandReceiver*>(owner);
@@ -162,7 +163,7 @@ void UsbCommandReceiver::run() {
         }
         send_telemetry();
         send_answers();
-        // The wait ends early with any transfer, hot-plug event or telemetry.
+        // The wait ends early on any transfer, hot-plug event or telemetry.
         handle_events(50);
     }
     if (device_) close_device();
@@ -201,8 +202,8 @@ void UsbCommandReceiver::look_for_device() {
     if (found) open_device(std::move(found));
 }
 
-// A transfer keeps hold of the device it was last submitted to, and that device of its context: so new ones
-// for every device.
+// A transfer keeps a reference to the device it was last submitted to, and the device one to its context. So
+// every device gets new transfers.
 void UsbCommandReceiver::open_device(UsbDevice device) {
     device_ = std::move(device);
     for (Transfer& t : inputs_) t.usb = libusb_alloc_transfer(0);
@@ -212,7 +213,7 @@ void UsbCommandReceiver::open_device(UsbDevice device) {
     sender_ = &station_.open("USB device " + to_string(id_));
 }
 
-// Waits until libusb has given back every transfer: only then may the device be closed.
+// Waits until libusb has returned every transfer; only then may the device be closed.
 void UsbCommandReceiver::close_device() {
     const auto busy = [&] {
         bool any = output_.in_flight;
@@ -251,7 +252,7 @@ void UsbCommandReceiver::on_input(libusb_transfer* usb) {
     t.owner->received(t);
 }
 
-// Whatever the transfer ended with, what it brought counts.
+// Takes the bytes that came, however the transfer ended.
 void UsbCommandReceiver::received(Transfer& t) {
     const std::int64_t arrival_ns = monotonic_ns();
     if (t.usb->actual_length > 0 && sender_) {

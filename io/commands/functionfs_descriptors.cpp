@@ -35,7 +35,7 @@ void add_endpoint(LittleEndian& out, unsigned address, unsigned packet_bytes, bo
     if (super_speed) out.u8(USB_DT_SS_EP_COMP_SIZE).u8(USB_DT_SS_ENDPOINT_COMP).u8(0).u8(0).u16(0);
 }
 
-// The controller gives the endpoints numbers of its own.
+// The controller assigns its own endpoint numbers.
 void add_interface(LittleEndian& out, unsigned packet_bytes, bool super_speed = false) {
     out.u8(USB_DT_INTERFACE_SIZE).u8(USB_DT_INTERFACE).u8(0).u8(0).u8(2);
     out.u8(USB_CLASS_VENDOR_SPEC).u8(0).u8(0).u8(1);  // the name is string 1

@@ -1,6 +1,6 @@
 #pragma once
-// Reads and writes of files that the kernel carries out while we do other things (io_submit(2)): the one way
-// to wait for several FunctionFS endpoints at a time, which cannot be polled.
+// Asynchronous reads and writes by the kernel (io_submit(2)). FunctionFS endpoints cannot be polled; this is
+// the only way to wait for several at once.
 
 #include <linux/aio_abi.h>
 #include <sys/syscall.h>
@@ -20,12 +20,13 @@ class LinuxAio {
     LinuxAio& operator=(const LinuxAio&) = delete;
 
     bool open(unsigned requests) { return syscall(SYS_io_setup, requests, &context_) == 0; }
-    // Cancels what is in flight and waits for its end.
+    // Cancels what is in flight and waits until it has ended.
     void close() {
         if (context_ != 0) syscall(SYS_io_destroy, context_);
         context_ = 0;
     }
-    // `event` is an eventfd that is written to at the end. The bytes stay in place until then.
+    // Submits a read or write. event: an eventfd that is written at its end; the bytes must stay in place
+    // until then.
     bool submit(iocb& request, int file, bool write, std::span<std::uint8_t> bytes, int event,
                 std::uint64_t tag) {
         request = {};
@@ -39,8 +40,8 @@ class LinuxAio {
         iocb* list = &request;
         return syscall(SYS_io_submit, context_, 1, &list) == 1;
     }
-    // Returns the events that have ended: event.data is the tag, event.res the bytes or -errno. Does not
-    // wait.
+    // Returns the requests that have ended, without waiting: io_event.data is the tag, io_event.res the bytes
+    // or -errno.
     std::span<const io_event> ended() {
         timespec none{};
         const long count = syscall(SYS_io_getevents, context_, 0, events_.size(), events_.data(), &none);

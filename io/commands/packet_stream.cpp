@@ -33,8 +33,8 @@ void PacketStream::filled(std::size_t bytes) {
     end_ += bytes;
 }
 
-// The packet that begins at `at`, if one does. In step any APID will do: a whole packet of a foreign one is
-// the receiver's to refuse. Hunting, only the known kinds count.
+// Judges the packet that begins at `at`, if there is one. While in step any APID is accepted, and the
+// receiver refuses foreign ones; while hunting, only known kinds are.
 PacketStream::Verdict PacketStream::judge(std::size_t at, bool known_kind_only, std::size_t& size) const {
     const std::span<const std::uint8_t> bytes(buffer_.data() + at, end_ - at);
     if (bytes.size() < SpacePacketHeader::kBytes) return Verdict::kIncomplete;
@@ -57,7 +57,7 @@ std::size_t PacketStream::find_intact(std::size_t from) const {
     return end_;
 }
 
-// False when the bytes may be the beginning of a marker whose rest has not come.
+// Returns false when the bytes may be the beginning of a marker with the rest still to come.
 bool PacketStream::skip_marker() {
     while (true) {
         const std::size_t there = std::min(end_ - begin_, kSyncMarker.size());
@@ -70,7 +70,7 @@ bool PacketStream::skip_marker() {
     }
 }
 
-// Gives out, once, what broke the step.
+// Returns, once, what broke the step.
 PacketStream::Item PacketStream::break_step(std::size_t shown_bytes, std::size_t skip_bytes) {
     const Item item{Item::Kind::kBroken, {buffer_.data() + begin_, shown_bytes}};
     hunting_ = true;

@@ -1,12 +1,12 @@
 #pragma once
-// Cuts a stream of bytes into Space Packets, whatever pieces it comes in: TCP, Unix sockets, USB bulk pipes,
-// datagrams. Pure: bytes in, packets out.
+// Splits a stream of bytes into Space Packets, in whatever pieces it arrives: TCP, Unix sockets, USB bulk
+// pipes, datagrams. Pure: bytes in, packets out.
 //
-// In step, a packet begins where the one before ended, perhaps behind the four bytes of a CCSDS attached sync
-// marker (0x1ACFFC1D, CCSDS 131.0-B); its header says how long it is. What cannot be a packet, or fails its
-// check, is given out once as broken, and the stream hunts: byte by byte for the next header of a known kind
-// whose whole packet passes its check. A wrong length field cannot hold the stream up: while a packet is
-// incomplete, an intact one further on ends the wait for it.
+// While in step, a packet begins where the previous one ended, optionally after the four bytes of a CCSDS
+// attached sync marker (0x1ACFFC1D, CCSDS 131.0-B), and its header gives its length. Bytes that cannot be a
+// packet, or that fail their check, are given out once as broken. Then the stream hunts, byte by byte, for
+// the next header of a known kind with a whole packet that passes its check. A wrong length field cannot
+// stall the stream: an intact packet further on ends the wait for an incomplete one.
 //
 // Memory is bounded: one buffer, allocated at construction. One thread.
 
@@ -16,23 +16,23 @@
 
 namespace hilcam {
 
-// The look of packets in a stream.
+// The form of packets in a stream.
 struct PacketRule {
-    std::span<const std::uint16_t> identifications;  // a packet's first two bytes, when hunting
+    std::span<const std::uint16_t> identifications;  // first two bytes of a packet, for hunting
     std::size_t min_bytes = 7;
     std::size_t max_bytes = 65542;
-    // Does a whole packet pass its check?
+    // True when a whole packet passes its check.
     bool (*intact)(std::span<const std::uint8_t> packet) = nullptr;
 };
 
 class PacketStream {
   public:
     static constexpr std::size_t kReadBytes = 16384;
-    // `read_bytes`: the most that one read brings.
+    // read_bytes: the most that one read brings.
     explicit PacketStream(const PacketRule& rule, std::size_t read_bytes = kReadBytes);
 
-    // Returns the place for the bytes of the next read, at least `read_bytes` when next() has just given
-    // nothing; then filled() says how many came. Items given out before are gone.
+    // Returns the room for the bytes of the next read, at least `read_bytes` if next() has just returned
+    // nothing; filled() then says how many came. Invalidates the items given out before.
     std::span<std::uint8_t> room();
     void filled(std::size_t bytes);
 
@@ -40,13 +40,13 @@ class PacketStream {
         enum class Kind : std::uint8_t { kNothing, kPacket, kBroken } kind = Kind::kNothing;
         std::span<const std::uint8_t> bytes{};
     };
-    // The next whole packet, or what broke the step; nothing: more bytes are needed.
+    // Returns the next whole packet, or what broke the step; nothing when more bytes are needed.
     Item next();
-    // No more bytes come (a datagram's end, a hang-up): next() first, until it gives nothing. What is left,
-    // as broken; in step again.
+    // Ends the input, of a datagram or a connection, after next() has returned nothing. Returns the rest as
+    // broken; the stream is in step again.
     Item end();
 
-    // Bytes so far that belonged to no packet, sync markers apart.
+    // Returns how many bytes belonged to no packet, without sync markers.
     std::uint64_t skipped_bytes() const { return skipped_; }
 
   private:

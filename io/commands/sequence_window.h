@@ -1,14 +1,14 @@
 #pragma once
-// Tells from a sender's sequence numbers which packets were lost, doubled or late. Pure.
+// Finds lost, duplicate and late packets from a sender's sequence numbers. Pure.
 
 #include <algorithm>
 #include <cstdint>
 
 namespace hilcam {
 
-// Remembers the 64 numbers up to the newest. `bits`: how many of a number travel; it wraps after that. A
-// number further back than that, 0 out of turn, or one so far ahead that no line loses as many, is a sender
-// that begins anew, from which nothing is lost.
+// Remembers the 64 numbers up to the newest. bits: length of a sequence number in a packet, after which it
+// wraps. A number further back, a 0 out of turn, or one so far ahead that no link loses that many, means that
+// the sender has restarted; nothing is then lost.
 class SequenceWindow {
   public:
     explicit SequenceWindow(int bits = 32) : mask_(bits >= 32 ? 0xFFFFFFFFu : (1u << bits) - 1) {}
@@ -17,7 +17,7 @@ class SequenceWindow {
         enum class Kind : std::uint8_t {
             kNext,       // the expected number, or the first of all
             kGap,        // `lost` numbers are missing before it
-            kLate,       // one that was counted as lost has come after all
+            kLate,       // counted as lost, and has come after all
             kDuplicate,  // seen before
         } kind = Kind::kNext;
         std::uint32_t lost = 0;
@@ -42,8 +42,8 @@ inline SequenceWindow::Finding SequenceWindow::take(std::uint32_t sequence) {
         seen_ |= bit;
         return {known ? Kind::kDuplicate : Kind::kLate};
     }
-    // Half of all numbers lie ahead; the rest are too old to be late. What begins by the clock lands
-    // anywhere.
+    // Half of all numbers are ahead; the rest are too old to be late. A sender that starts from its clock can
+    // begin anywhere.
     constexpr std::uint32_t kMaxLost = 1u << 20;
     if (seen_ != 0 && !anew && ahead <= std::min(mask_ / 2, kMaxLost)) {
         newest_ = sequence;

@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kMaxQueuedBytes = 256 * 1024;
-// Telemetry may fill half of the queue: answers have the rest.
+// Telemetry may fill half of the queue; the rest is for answers.
 constexpr std::size_t kMaxTelemetryQueuedBytes = kMaxQueuedBytes / 2;
 
 }  // namespace
@@ -47,7 +47,7 @@ void StreamServer::run() {
                 {client.socket.get(), static_cast<short>(POLLIN | (client.output.empty() ? 0 : POLLOUT)), 0});
         if (poll(watched.data(), watched.size(), -1) < 0) continue;
         if (stopping_) break;
-        // Clients that are accepted below come behind those that were watched.
+        // Clients accepted below come after those that were watched.
         auto at = watched.begin() + 2;
         for (Client& client : clients_) {
             const short what = (at++)->revents;
@@ -68,7 +68,7 @@ void StreamServer::run() {
 void StreamServer::accept_client() {
     Fd socket(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!socket) {
-        // Out of descriptors: the caller would be back at once.
+        // Without a free descriptor, accept() would fail again at once: pause.
         if (errno != EAGAIN && errno != ECONNABORTED) poll(nullptr, 0, 10);
         return;
     }

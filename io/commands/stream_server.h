@@ -1,7 +1,7 @@
 #pragma once
-// Clients of a listening stream socket, TCP or Unix: packets in, answers and telemetry out. One thread serves
-// them all and never waits for one: what a client does not read is queued up to 256 KiB; then telemetry for
-// it is dropped, and a client whose answers do not fit either is disconnected.
+// Serves the clients of a listening stream socket, TCP or Unix: packets in, answers and telemetry out. One
+// thread serves them all without waiting for any. What a client does not read is queued up to 256 KiB; then
+// its telemetry is dropped, and the client is disconnected when its answers do not fit either.
 
 #include <atomic>
 #include <functional>
@@ -20,14 +20,14 @@ namespace hilcam {
 
 struct StreamServerSetup {
     std::string name;  // name of the receiver
-    // A non-blocking listening socket. Throws InputError, DeviceError.
+    // Returns a non-blocking listening socket. Throws InputError and DeviceError.
     std::function<Fd()> listen;
-    // True when a client that has connected may stay; gives its name and prepares the socket.
+    // True when a connected client may stay; sets its name and prepares the socket.
     std::function<bool(int socket, std::string& peer)> admit;
-    std::function<void()> closed = [] {};  // the listening socket is no more
+    std::function<void()> closed = [] {};  // called after the listening socket is closed
     std::size_t max_clients = 8;
     bool whole_packets = false;  // SOCK_SEQPACKET: a message is one or more whole packets
-    bool read_only = false;      // clients get all telemetry; what they send is thrown away
+    bool read_only = false;      // clients get all telemetry; what they send is discarded
 };
 
 class StreamServer : public CommandReceiver {

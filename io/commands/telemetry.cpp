@@ -26,7 +26,7 @@ void validate(const TelemetryConfig& c) {
     for (const std::string& to : c.udp_to) parse_endpoint(to);
 }
 
-// A camera's reports on their way from its loop to the sender's thread.
+// Passes a camera's reports from its loop to the sender's thread.
 class TelemetrySender::Sink : public FrameSink {
   public:
     Sink(TelemetrySender& sender, std::uint8_t camera) : sender_(sender), camera_(camera) {}
@@ -36,7 +36,7 @@ class TelemetrySender::Sink : public FrameSink {
     void stop() noexcept override {}
     SinkReport report() const override;
 
-    // The sender's thread. False: there is none.
+    // Takes a report; false when there is none. Sender's thread.
     bool take(FrameReport& report) noexcept;
 
   private:
@@ -127,12 +127,12 @@ void TelemetrySender::run() {
         if (asked) send_reports();
         if (monotonic_ns() < next_housekeeping_ns) continue;
         send(figures_());
-        // Late: the missed ones are left out.
+        // When late, the missed ones are left out.
         while (next_housekeeping_ns <= monotonic_ns()) next_housekeeping_ns += kPeriod_ns;
     }
 }
 
-// One of each camera's, so that none waits for another's.
+// Sends one report per camera in turn, so that no camera waits for another.
 void TelemetrySender::send_reports() {
     FrameReport report;
     for (Sink* sink : sinks_)

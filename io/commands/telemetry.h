@@ -1,7 +1,7 @@
 #pragma once
-// Telemetry: a report of every camera's every frame and housekeeping once a second, to the senders of
-// commands that subscribed, to clients of a read-only port, and to fixed UDP addresses. One thread sends it
-// all; each camera's loop has a way of its own to it, a sink that takes the frames' records alone.
+// Telemetry: a report of every frame of every camera, and housekeeping once a second. It goes to senders of
+// commands that subscribed, to clients of a read-only port, and to fixed UDP addresses. One thread sends
+// everything; each camera's loop reaches it through a sink of its own, which takes the frames' records only.
 
 #include <array>
 #include <atomic>
@@ -20,7 +20,7 @@
 
 namespace hilcam {
 
-// The read-only port and the fixed addresses. Senders of commands subscribe without it.
+// The read-only port and the fixed addresses. Subscriptions need neither.
 struct TelemetryConfig {
     TcpCommandConfig port{.port = 5011};  // port 0: none
     std::vector<std::string> udp_to;
@@ -30,15 +30,15 @@ void validate(const TelemetryConfig& config);
 
 class TelemetrySender {
   public:
-    // `figures` is asked once a second, by the sender's thread.
+    // figures: called once a second on the sender's thread.
     TelemetrySender(const TelemetryConfig& config, std::function<HousekeepingFigures()> figures);
     ~TelemetrySender() { stop(); }
 
-    // Receivers whose senders may subscribe; they outlive the sink's start() to stop(). Owner thread, before
-    // start().
+    // Sets the receivers with senders that may subscribe; they must exist from start() to stop(). Owner
+    // thread, before start().
     void serve(std::vector<CommandReceiver*> receivers) { receivers_ = std::move(receivers); }
-    // The output of a camera that is to be reported; both are used only while the other lives. Owner thread,
-    // before start().
+    // Returns the output of a camera that is to be reported. Both objects are used only while the other
+    // exists. Owner thread, before start().
     std::unique_ptr<FrameSink> sink(std::uint8_t camera);
 
     void start();
@@ -54,7 +54,7 @@ class TelemetrySender {
     void send(const Telemetry& telemetry);
 
     std::vector<Sink*> sinks_;
-    TimedSemaphore ready_;  // counts the reports that wait in all of them
+    TimedSemaphore ready_;  // counts the reports that wait in all sinks
 
     TelemetryConfig config_;
     std::function<HousekeepingFigures()> figures_;
@@ -62,7 +62,7 @@ class TelemetrySender {
     std::unique_ptr<CommandReceiver> port_;
     Fd udp_;
     std::vector<sockaddr_in> destinations_;
-    std::uint16_t report_count_ = 0, housekeeping_count_ = 0;  // packet counts of the UDP addresses
+    std::uint16_t report_count_ = 0, housekeeping_count_ = 0;  // packet counts for the UDP addresses
     std::atomic<bool> stopping_{false};
     std::thread thread_;
 };

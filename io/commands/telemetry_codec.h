@@ -1,5 +1,5 @@
 #pragma once
-// The bytes of telemetry (telemetry_records.h), as docs/protocol.md has them. Pure functions over bytes.
+// The bytes of telemetry (telemetry_records.h), as in docs/protocol.md. Pure functions over bytes.
 
 #include <cstdint>
 #include <span>
@@ -14,15 +14,15 @@ inline constexpr std::uint16_t kFrameReportApid = 0x102;
 inline constexpr std::uint16_t kHousekeepingApid = 0x103;
 
 std::uint16_t apid_of(const Telemetry& telemetry);
-// The simulated time that it is about.
+// Returns the simulated time of its contents.
 TimeTai time_of(const Telemetry& telemetry);
 
-// Gives the number of bytes written. `count` is the primary header's 14-bit counter, one for each APID.
+// Returns the number of bytes written. count: the primary header's 14-bit counter, one for each APID.
 std::size_t encode_telemetry(const Telemetry& telemetry, std::uint16_t count, std::span<std::uint8_t> bytes);
-// False when the bytes are no telemetry packet.
+// Returns false when the bytes are no telemetry packet.
 bool decode_telemetry(std::span<const std::uint8_t> packet, Telemetry& telemetry);
 
-// Writes everything from the protocol version on, without the check at the end.
+// Writes everything from the protocol version on, except the check at the end.
 void write_telemetry_body(const Telemetry& telemetry, ByteWriter& out);
 bool read_telemetry_body(std::span<const std::uint8_t> body, Telemetry& telemetry);
 

@@ -5,7 +5,7 @@
 namespace hilcam {
 namespace {
 
-// Least size of a bulk endpoint at full speed; the others are multiples.
+// Smallest packet size of a bulk endpoint at full speed; the others are multiples.
 constexpr std::size_t kMinPacketSize = 64;
 
 }  // namespace

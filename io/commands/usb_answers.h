@@ -1,6 +1,6 @@
 #pragma once
-// Answers and telemetry on their way into USB bulk transfers, and the faults that strike them. Pure but for
-// the fault board.
+// Queues answers and telemetry for USB bulk transfers, and applies faults to them. Pure except for the fault
+// board.
 
 #include <cstdint>
 #include <span>
@@ -15,11 +15,12 @@ class UsbAnswers {
     explicit UsbAnswers(FaultBoard& faults, std::size_t max_bytes = 256 * 1024)
         : faults_(faults), max_bytes_(max_bytes) {}
 
-    // A whole packet; false, and it is dropped, when the queue is full. Telemetry may fill half of it.
+    // Queues a whole packet; false when the queue is full and the packet is dropped. Telemetry may fill half
+    // of it.
     bool put(std::span<const std::uint8_t> packet, bool telemetry);
-    // The bytes of the next transfer; 0 when there is nothing to send, or a fault withholds it. Never a
-    // multiple of 64 bytes, and so of no bulk endpoint's packet size: every transfer ends in a short packet,
-    // and needs no empty one to say so.
+    // Gets the bytes of the next transfer; 0 when there is nothing to send or a fault withholds it. The
+    // length is never a multiple of 64 bytes, and so of no bulk endpoint's packet size: every transfer ends
+    // with a short packet and needs no empty one.
     std::size_t next(std::span<std::uint8_t> transfer);
     void clear();
     std::size_t bytes() const { return bytes_.size() - begin_; }

@@ -1,5 +1,5 @@
 #pragma once
-// A USB device with a bulk pair, found and claimed through libusb.
+// A USB device with a pair of bulk endpoints, found and claimed through libusb.
 
 #include <cstdint>
 #include <memory>
@@ -15,7 +15,7 @@ struct UsbId {
     std::uint16_t vendor = 0, product = 0;
     std::string serial;  // empty: any
 };
-// "1209:0001" or "1209:0001:SERIAL", hexadecimal as lsusb prints them. Throws InputError.
+// Parses "1209:0001" or "1209:0001:SERIAL", hexadecimal as lsusb prints them. Throws InputError.
 UsbId parse_usb_id(const std::string& text);
 std::string to_string(const UsbId& id);
 
@@ -31,8 +31,8 @@ struct UsbHandleDeleter {
     void operator()(libusb_device_handle* handle) const;
 };
 
-// Opened, one interface claimed. Endpoint addresses are those of the active configuration: controllers
-// renumber them.
+// An open device with one claimed interface. Endpoint addresses are those of the active configuration,
+// because controllers renumber them.
 struct UsbDevice {
     std::unique_ptr<libusb_device_handle, UsbHandleDeleter> handle;
     std::uint8_t in = 0, out = 0;
@@ -40,8 +40,9 @@ struct UsbDevice {
     explicit operator bool() const { return handle != nullptr; }
 };
 
-// The first vendor-specific interface with a bulk endpoint each way, of the first device with that id; none
-// when it is absent or cannot be used: then `why` says why, unless it is absent.
+// Opens the first usable device with that id, at its first vendor-specific interface with bulk endpoints in
+// both directions. Returns an empty device when there is none (`why` stays empty) or it cannot be used (`why`
+// has the reason).
 UsbDevice open_usb(libusb_context* context, const UsbId& id, std::string& why);
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-// The name of a USB device and the keys about it: the same with libusb and without.
+// Identifies a USB device, with the keys for it; the same with libusb and without.
 
 #include <charconv>
 #include <cstdio>

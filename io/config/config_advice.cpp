@@ -49,7 +49,8 @@ std::string joined(const std::vector<std::string>& words) {
     return out;
 }
 
-// "camera.exposure_ms" of "exposure_ms" or "exposure_us": the places that are least deep.
+// Returns where "exposure_ms" or "exposure_us" could belong, such as "camera.exposure_ms": the least nested
+// places.
 std::vector<std::string> places_of(std::string_view key, const Fields& root) {
     std::vector<std::string> out;
     std::ptrdiff_t least_deep = 0;
@@ -68,8 +69,8 @@ bool has_key(const Fields& known, std::string_view key) {
     return std::any_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; });
 }
 
-// Says what a word of a data sheet is here; empty: it is none, it is a key of ours elsewhere, or this is no
-// place of a camera's keys.
+// Returns the key for a word of a data sheet. Empty when it is no such word, when it is a key of ours
+// elsewhere, or when this place does not hold a camera's keys.
 std::string sheet_advice(std::string_view key, const Fields& known, const Fields& root) {
     const DataSheetWord* const word = data_sheet_word(key);
     const bool inside = has_key(known, "full_well_e"), outside = has_key(known, "camera");
@@ -108,14 +109,14 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
     if (std::string of_sheet = sheet_advice(key, known, root); !of_sheet.empty()) return of_sheet;
     const std::string nearest = nearest_of(key, keys);
     if (!nearest.empty()) return "; nearest known key: " + nearest + "; known keys:" + list;
-    // A section with commands: their options are words of theirs.
+    // In a section with commands, the options are the commands' own words.
     if (std::find(keys.begin(), keys.end(), "do") != keys.end())
         return "; an option of a command stands in its words, as do: 'joint --object 1 --joint 1 --angle-deg "
                "30'; known "
                "keys:" +
                list;
     const std::vector<std::string> places = places_of(key, root);
-    // A word like `name` stands in many places, which helps nobody.
+    // A word like `name` occurs in too many places to help.
     if (places.empty() || places.size() > kMaxPlaces) return "; known keys:" + list;
     return "; there is " + joined(places) + "; known keys here:" + list;
 }
@@ -123,7 +124,7 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
 std::string key_advice(std::string_view whole_key, const Fields& root) {
     const std::size_t last = whole_key.rfind('.') + 1;
     const std::vector<std::string> keys = config_keys(root);
-    // The whole key of another one in the same section; empty: the section has none such.
+    // Returns the whole key of another word in the same section; empty when the section has no such key.
     const auto beside = [&](std::string_view word) {
         std::string whole = std::string(whole_key.substr(0, last)).append(word);
         return std::find(keys.begin(), keys.end(), whole) != keys.end() ? whole : std::string();
@@ -153,7 +154,7 @@ std::string unit_advice(std::string_view name, double found, const Range& range)
     };
     for (const Slip& slip : kSlips) {
         const double meant = found * slip.per_found;
-        // Shares alone are told in percent.
+        // Only shares are given in percent.
         const bool fits =
             slip.ending.empty() ? range.least == 0 && range.most <= 1 : name.ends_with(slip.ending);
         if (fits && meant >= range.least && meant <= range.most && meant != 0)

@@ -1,5 +1,5 @@
 #pragma once
-// All keys of a configuration by their whole names, "camera.shutter.kind"; an element of a list is N:
+// All keys of a configuration by their full names, "camera.shutter.kind". N stands for an element of a list:
 // "objects.N.mesh". Sections and lists have keys of their own, before those below them.
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace hilcam {
 
-// Appends an element to each list of the owner to see its keys: the owner is of no other use afterwards.
+// Returns the keys. Appends an element to each list of the owner to find them, so the owner must not be used
+// afterwards.
 std::vector<std::string> config_keys(const Fields& root);
 
 }  // namespace hilcam

@@ -95,9 +95,9 @@ const char* kind_of(const Field& field) {
                       field.target);
 }
 
-// A key with all below it.
+// A key with all keys below it.
 struct SectionEntry {
-    std::string key;   // whole, "camera.shutter.kind"
+    std::string key;   // full name, "camera.shutter.kind"
     std::string word;  // its last part
     std::string kind, accepted, usual, meaning;
     bool required = false;
@@ -118,7 +118,7 @@ std::vector<SectionEntry> entries_of(const SectionField& section, const std::str
     return out;
 }
 
-// Returns what two sections have in common that are described alike: all but their defaults.
+// Returns a text that is equal for two sections with the same description, except for defaults.
 std::string shape_of(const SectionEntry& section) {
     std::string out;
     for (const SectionEntry& e : section.below)
@@ -127,7 +127,8 @@ std::string shape_of(const SectionEntry& section) {
     return out;
 }
 
-// "albedo 0.3, visible false": what `section` has otherwise than `other` of the same shape.
+// Appends the defaults in which `section` differs from `other`, of the same shape: "albedo 0.3, visible
+// false".
 void other_defaults(const SectionEntry& section, const SectionEntry& other, const std::string& prefix,
                     std::string& out) {
     for (std::size_t i = 0; i < section.below.size(); ++i) {
@@ -144,7 +145,7 @@ constexpr std::size_t kMinFolded = 4;  // keys of a section that is worth foldin
 class ManualTable {
   public:
     explicit ManualTable(const std::vector<SectionEntry>& entries) {
-        // Others are like those at the top rather than the other way round.
+        // Sections refer to those nearer to the top, not the other way round.
         for (const SectionEntry& e : entries)
             if (e.below.size() >= kMinFolded) seen_.emplace(shape_of(e), &e);
         add_all(entries);
@@ -172,7 +173,7 @@ class ManualTable {
     std::map<std::string, const SectionEntry*> seen_;
 };
 
-// The entry of a key; null: there is none.
+// Returns the entry of a key; null when there is none.
 const SectionEntry* find(const std::vector<SectionEntry>& entries, std::string_view key) {
     for (const SectionEntry& e : entries) {
         if (e.key == key || e.key + ".N" == key) return &e;

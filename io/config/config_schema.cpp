@@ -13,7 +13,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// Whole ends as whole numbers, so that 1 does not become 1.0.
+// Returns a whole number as an integer, so that 1 does not become 1.0.
 OrderedJson plain_end(double end) {
     if (std::abs(end) < 9.1e15 && end == std::trunc(end)) return static_cast<std::int64_t>(end);
     return end;
@@ -43,7 +43,7 @@ OrderedJson section_of_field(const SectionField& section) {
     return {{"anyOf", {OrderedJson{{"type", "string"}, {"minLength", 1}}, mapping_of(section)}}};
 }
 
-// Adds the word that may stand in the place of what is accepted.
+// Adds the word that may replace the value.
 OrderedJson or_word(const OrderedJson& accepted, const std::string& word) {
     return word.empty() ? accepted : OrderedJson{{"anyOf", {OrderedJson{{"enum", {word}}}, accepted}}};
 }
@@ -60,7 +60,7 @@ OrderedJson type_of(const Field& field) {
             [](const FlagField&) {
                 return OrderedJson{{"type", "boolean"}};
             },
-            // Any plain value is a text: a serial number of digits, too.
+            // Any plain value is a text, also a serial number of digits.
             [](const TextField&) {
                 return OrderedJson{{"type", {"string", "number", "boolean"}}};
             },
@@ -90,14 +90,14 @@ OrderedJson type_of(const Field& field) {
         field.target);
 }
 
-// Returns the value that holds without the key, where that is one value.
+// Returns the value without the key, if that is a single value.
 std::optional<OrderedJson> default_of(const Field& field) {
     if (field.required) return {};
     const auto* number = std::get_if<NumberField>(&field.target);
     if (number && number->holds_word()) return number->word;
     if (const auto* f = number)
         if (const double value = *f->value / f->si_per_unit; std::isfinite(value)) {
-            // Twelve digits, as what is read and divided again is not quite what was written.
+            // Twelve digits, because a number that was scaled when it was read does not divide back exactly.
             char text[32];
             std::snprintf(text, sizeof text, "%.12g", value);
             return plain_end(std::strtod(text, nullptr));
@@ -123,8 +123,8 @@ OrderedJson mapping_of(const SectionField& section) {
     return out;
 }
 
-// The section that stands at a key, "objects.N.materials"; references into appended elements live on in their
-// owner.
+// Returns the section at a key, "objects.N.materials". References into appended elements remain valid in
+// their owner.
 std::optional<SectionField> section_at(const SectionField& root, std::string_view key) {
     const std::size_t dot = key.find('.');
     for (const Field& field : root.fields) {

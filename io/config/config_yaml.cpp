@@ -62,7 +62,7 @@ class Reader {
     std::size_t nodes_ = 0;
     std::size_t numbers_ = 0;
 
-    // Has `use` read what a file holds.
+    // Lets `use` read what a file holds.
     template <class Use>
     void in_file(const std::filesystem::path& file, const std::string& path, const Use& use) {
         std::error_code error;
@@ -102,7 +102,7 @@ class Reader {
         }
     }
 
-    // The last override of a key counts, so that a script's user can change what the script sets.
+    // The last override of a key counts, so that a user can change what a script sets.
     Override* override_at(const std::string& path) {
         Override* last = nullptr;
         for (Override& o : overrides_)
@@ -131,7 +131,7 @@ class Reader {
         for (const Field& field : section.fields) {
             const std::string field_path = join(path, field.key);
             const Override* override = override_at(field_path);
-            // yaml-cpp's nodes are references: one is only ever made, never assigned.
+            // yaml-cpp's nodes are references: a node is only constructed, never assigned.
             const YAML::Node given =
                 override ? override->value : value_of_key(map, field.key, section.fields);
             const bool absent = !given.IsDefined() || given.IsNull();
@@ -163,8 +163,9 @@ class Reader {
         }
     }
 
-    // A check that names its key from the top says the way to it already. Returns how many letters of the text are that way:
-    // all of the path, or of a further camera's its end ("outputs.preview." of "cameras.0.outputs.preview").
+    // A check that names its key from the top has the path in its text already. Returns how many letters of
+    // the text repeat the path: all of it or, for a further camera, its end ("outputs.preview." of
+    // "cameras.0.outputs.preview").
     static std::size_t said_of_path(std::string_view path, std::string_view text) {
         while (!path.empty()) {
             if (text.starts_with(path) && text.substr(path.size()).starts_with('.')) return path.size() + 1;
@@ -174,8 +175,7 @@ class Reader {
         return 0;
     }
 
-    // Fails where the key stands, or at as much of the way to it as there is in this file or on the command
-    // line.
+    // Fails at the key, or at the innermost section above it that this file or the command line gives.
     [[noreturn]] void fail_at_key(const YamlPlace& place, const YAML::Node& map, const std::string& path,
                                   const KeyError& error) {
         const std::string key = error.key().substr(said_of_path(path, error.key()));
@@ -237,7 +237,7 @@ class Reader {
             field.target);
     }
 
-    // The file that stands in the place of a mapping or a list; fails when there is none.
+    // Returns the file named in place of a mapping or a list; fails when there is none.
     static std::filesystem::path named_file(const YAML::Node& node, const YamlPlace& place,
                                             const std::string& path, const std::string& whole) {
         std::filesystem::path file = file_named_from(place.folder, node.Scalar(), path);
@@ -250,7 +250,7 @@ class Reader {
         return file;
     }
 
-    // A list in a file of its own stands there under the key that it has here.
+    // A list in its own file has the same key there as here.
     void list_in_file(const YAML::Node& node, const YamlPlace& place, const Field& field,
                       const std::string& word, const std::string& path, int depth) {
         in_file(named_file(node, place, path, accepted_or_word("a list of mappings", word)), path,
@@ -264,7 +264,7 @@ class Reader {
                 });
     }
 
-    // value: what names the key in an error.
+    // value: names the key in an error.
     void section(const YAML::Node& node, const YamlPlace& place, const SectionField& f,
                  const std::string& path, int depth, const YamlValue& value) {
         if (node.IsScalar()) return read_file(named_file(node, place, path, "a mapping"), f, path, depth + 1);

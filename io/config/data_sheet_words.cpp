@@ -9,12 +9,12 @@ namespace hilcam {
 namespace {
 
 struct SheetRow {
-    std::string_view words;  // words of one meaning, each between two spaces
+    std::string_view words;  // words with one meaning, each between two spaces
     DataSheetWord is;
 };
 
-// Conversions: 1 pA is 6.2415e6 e-/s, and 1 cm^2 is 1e8 um^2; quantum efficiency from A/W is h c / (e lambda),
-// 1.23984 um (CODATA 2018). Gains and noises in the words of EMVA 1288, release 4.0.
+// Conversions: 1 pA is 6.2415e6 e-/s, and 1 cm^2 is 1e8 um^2; quantum efficiency from A/W is h c / (e
+// lambda), 1.23984 um (CODATA 2018). Gains and noises in the words of EMVA 1288, release 4.0.
 constexpr std::array kSheetRows = {
     SheetRow{
         " conversion_gain cg charge_conversion_factor charge_to_voltage conversion_factor "
@@ -123,7 +123,7 @@ bool has_word(std::string_view list, std::string_view word) {
     return list.find(" " + std::string(word) + " ") != std::string_view::npos;
 }
 
-// "full_well_capacity" of "Full-Well Capacity".
+// Returns "full_well_capacity" for "Full-Well Capacity".
 std::string key_of_sheet(std::string_view text) {
     std::string out;
     for (const char c : text) {

@@ -1,5 +1,5 @@
 #pragma once
-// The words of sensors' and cameras' data sheets that are none of ours, and the key that each of them is here.
+// Words of sensors' and cameras' data sheets that are not keys here, and the keys that correspond to them.
 
 #include <string_view>
 
@@ -10,8 +10,8 @@ struct DataSheetWord {
     std::string_view how;  // from the sheet's figure to the key's
 };
 
-// Returns what a key of a data sheet is here; null: it is no such word. Capitals, spaces, hyphens and a unit at
-// its end do not matter: "Full-Well Capacity", "full_well_capacity_ke".
+// Returns the key for a data sheet's word; null when the word is unknown. Case, spaces, hyphens and a unit at
+// the end do not matter: "Full-Well Capacity", "full_well_capacity_ke".
 const DataSheetWord* data_sheet_word(std::string_view key);
 
 }  // namespace hilcam

@@ -15,7 +15,7 @@ std::string named(char bracket, std::size_t line) {
     return std::string("the ") + bracket + " of line " + std::to_string(line);
 }
 
-// Goes past a text in quotes; at: of the first quote. Returns the place of the last one.
+// Skips a quoted text; at: of the first quote. Returns the position of the last quote.
 std::size_t end_of_quotes(std::string_view text, std::size_t at, std::size_t& line) {
     const char quote = text[at];
     for (++at; at < text.size(); ++at) {
@@ -29,7 +29,7 @@ std::size_t end_of_quotes(std::string_view text, std::size_t at, std::size_t& li
     return at;
 }
 
-// A quote opens a text, and a # a comment, where a value may begin: "don't" and "a#b" are words.
+// A quote opens a text, and a # a comment, only where a value may begin: "don't" and "a#b" are words.
 bool may_begin(std::string_view text, std::size_t at) {
     return at == 0 || std::string_view(" \n\t[{,:").find(text[at - 1]) != std::string_view::npos;
 }

@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-// No key of today is in the first column (Scenario.EarlierNamesAreKeysOfTodayByTheirNewOnesAlone).
+// No present key is in the first column (Scenario.EarlierNamesAreKeysOfTodayByTheirNewOnesAlone).
 constexpr std::array kRenamedKeys = {
     RenamedKey{"kept_directions", "probe_directions"},
     RenamedKey{"kept_nodes", "probes"},

@@ -1,5 +1,5 @@
 #pragma once
-// Keys of an earlier version: the name that each of them has now, or what to use instead.
+// Keys of an earlier version: their new names, or what to use instead.
 
 #include <string_view>
 
@@ -16,11 +16,11 @@ struct RemovedKey {
     std::string_view instead;    // end of a message: what replaces it
 };
 
-// Returns the key that was removed; null: there was no such key.
+// Returns the removed key; null when no such key was removed.
 const RemovedKey* removed_key(std::string_view key);
-// Returns the new name of a key; empty: there was no such key.
+// Returns the new name of a key; empty when it was not renamed.
 std::string_view renamed_key(std::string_view key);
-// Returns the new word of a key's value; empty: it had no such word.
+// Returns the new word of a key's value; empty when it was not renamed.
 std::string_view renamed_value(std::string_view key, std::string_view value);
 
 }  // namespace hilcam

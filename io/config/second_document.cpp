@@ -13,7 +13,7 @@ bool is_marker(std::string_view line, std::string_view marker) {
            (line.size() == marker.size() || kBlanks.find(line[marker.size()]) != std::string_view::npos);
 }
 
-// True when something of a document stands in the line: no comment, and no directive.
+// True when the line has content of a document: it is neither a comment nor a directive.
 bool has_content(std::string_view line) {
     const std::size_t first = line.find_first_not_of(kBlanks);
     return first != std::string_view::npos && line[first] != '#' && line.front() != '%';
@@ -23,7 +23,7 @@ bool has_content(std::string_view line) {
 
 std::optional<std::size_t> line_of_second_document(std::string_view text) {
     bool first_has_content = false;
-    std::optional<std::size_t> begin;  // line at which what comes after the first document begins
+    std::optional<std::size_t> begin;  // line where the text after the first document begins
     for (std::size_t number = 1; !text.empty(); ++number) {
         std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));

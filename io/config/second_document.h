@@ -1,6 +1,6 @@
 #pragma once
-// Finds where a YAML text begins a second document. A file of settings holds one: of several, which one was meant is
-// not known.
+// Finds the start of a second document in a YAML text. A configuration file has one document; with several,
+// it would be unclear which one was meant.
 
 #include <cstddef>
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace hilcam {
 
-// Returns the number, from 1, of the line "---" with which the second document begins that has content; nothing where
-// there is one document at most. No value can hold such a line (YAML 1.2.2, 9.1.2, c-forbidden).
+// Returns the line number, from 1, of the "---" that begins the second document with content; nothing when
+// there is at most one document. No value can contain such a line (YAML 1.2.2, 9.1.2, c-forbidden).
 std::optional<std::size_t> line_of_second_document(std::string_view text);
 
 }  // namespace hilcam

@@ -41,7 +41,7 @@ YAML::Node only_document(std::string_view bytes, const YamlPlace& place) {
         throw InputError(place.name + ":" + std::to_string(*line) +
                          ":1: a second document ('---') begins here; accepted: one a file");
     try {
-        // An alias makes one node stand in many places; without any there is nothing to blow up.
+        // Without aliases a text cannot expand; with them, one node appears in many places.
         return YAML::Load(text);
     } catch (const YAML::Exception& error) {
         const std::string open = unpaired_bracket(text);

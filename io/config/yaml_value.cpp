@@ -22,7 +22,7 @@ std::optional<double> to_number(const YAML::Node& node) {
     return node.IsScalar() ? number_of(node.Scalar()) : std::nullopt;
 }
 
-// A whole number, which scripts may write as a decimal (256.0, 2.56e2).
+// Returns an integer, which scripts may write as a decimal (256.0, 2.56e2).
 std::optional<std::int64_t> to_whole(const std::string& text) {
     if (const auto value = parsed_as<std::int64_t>(text)) return value;
     constexpr double kExact = 9007199254740992;  // 2^53: each whole number up to it is a double
@@ -48,8 +48,8 @@ void YamlValue::refuse(const YAML::Node& at, const std::string& accepted, const 
             "found " + shown(at) + "; accepted: " + accepted + " (" + field_.meaning + ")" + advice);
 }
 
-// A list of thousands may stand, through an alias, in thousands of places. 4 MiB of pairs as people write
-// them are half a million numbers.
+// Through an alias, a list of thousands may appear in thousands of places. 4 MiB of pairs in ordinary
+// notation are half a million numbers.
 void YamlValue::count_number(const YAML::Node& at) const {
     if (++numbers_ > 1000000)
         fail_at(place_, at, path_, "the configuration has more than 1000000 numbers in its lists");
@@ -120,7 +120,7 @@ void YamlValue::read(const PathField& f) const {
 }
 
 void YamlValue::read(const ChoiceField& f) const {
-    // free-run is as good as free_run.
+    // free-run is accepted for free_run.
     std::string given = node_.IsScalar() ? node_.Scalar() : "";
     std::replace(given.begin(), given.end(), '-', '_');
     auto word = std::find(f.words.begin(), f.words.end(), given);

@@ -1,5 +1,6 @@
 #pragma once
-// Reads the value of one key: a number, a word, a path, a list, a curve. Sections are config_yaml.cpp's, which goes through a file.
+// Reads the value of one key: a number, a word, a path, a list, a curve. config_yaml.cpp reads sections and
+// whole files.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +14,12 @@ namespace hilcam {
 
 class YamlValue {
   public:
-    // All of it must live longer than this. numbers: counts those in the lists of the whole configuration.
+    // All arguments must outlive this. numbers: counts the numbers in all lists of the configuration.
     YamlValue(const YAML::Node& node, const YamlPlace& place, const Field& field, const std::string& path,
               std::size_t& numbers)
         : node_(node), place_(place), field_(field), path_(path), numbers_(numbers) {}
 
-    // Each puts the value where the field wants it. InputError: found, accepted.
+    // Each stores the value in the field's target. They throw InputError: found, accepted.
     void read(const NumberField& f) const;
     void read(const IntegerField& f) const;
     void read(const FlagField& f) const;
@@ -32,7 +33,7 @@ class YamlValue {
     void read(const CurveField& f) const;
     void read(const TableField& f) const;
 
-    // True when it is a word that stands in the place of a number or a list.
+    // True when the value is a word in place of a number or a list.
     bool is_word(const std::string& word) const;
     // Throws InputError: what was found, what is accepted, the key's meaning. at: the value, or a part of it.
     [[noreturn]] void refuse(const YAML::Node& at, const std::string& accepted,
@@ -53,7 +54,7 @@ class YamlValue {
     Table table(const TableField& f) const;
 };
 
-// Returns what a key accepts, with the word that it takes as well.
+// Returns what a key accepts, including the word.
 std::string accepted_or_word(const std::string& accepted, const std::string& word);
 
 }  // namespace hilcam

@@ -11,18 +11,19 @@
 
 namespace hilcam {
 
-// The source that starts a frame where it is not the frame rate alone. Line0 is the camera's trigger wire:
-// here the command `expose`.
+// The source that starts a frame in triggered mode. Line0 is the camera's trigger wire, which the command
+// `expose` drives.
 enum class TriggerSource : std::uint8_t { kSoftware, kLine0, kAction1 };
 
 struct CameraSettings {
     double exposure_s = 0;
-    double gain_db = 0;         // over the camera file's gain
+    double gain_db = 0;         // added to the gain of the camera file
     double black_level_dn = 0;  // unbinned
     double frame_rate_hz = 0;   // free-run
     bool running = true;        // false between stop and start
     bool automatic_exposure = false;
-    // Each trigger takes burst_frames frames at the frame rate, the first trigger_delay_s after it.
+    // When set, each trigger takes burst_frames frames at the frame rate. The first begins trigger_delay_s
+    // after the trigger.
     bool triggered = false;
     TriggerSource trigger_source = TriggerSource::kSoftware;
     double trigger_delay_s = 0;
@@ -32,7 +33,7 @@ struct CameraSettings {
     std::int64_t binning_x = 1, binning_y = 1;
 };
 
-// Members that are set change; the others stay.
+// A change of settings: members that hold a value change, the others keep theirs.
 struct SettingsChange {
     std::optional<double> exposure_s{}, gain_db{}, black_level_dn{}, frame_rate_hz{};
     std::optional<bool> running{}, automatic_exposure{}, triggered{};
@@ -45,7 +46,7 @@ struct SettingsChange {
 };
 
 // Calls visit(std::string_view name, &CameraSettings::..., &SettingsChange::...) for every setting.
-// Recordings keep this order: a new setting is the last.
+// Recordings rely on this order: append a new setting at the end.
 template <class Visit>
 constexpr void visit_settings(const Visit& visit) {
     using S = CameraSettings;
@@ -67,14 +68,14 @@ constexpr void visit_settings(const Visit& visit) {
     visit("binning_y", &S::binning_y, &C::binning_y);
 }
 
-// Sets what the change asks for.
+// Sets every setting that the change holds.
 inline void apply(const SettingsChange& change, CameraSettings& settings) {
     visit_settings([&](std::string_view, auto value, auto wish) {
         if (change.*wish) settings.*value = *(change.*wish);
     });
 }
 
-// Returns the change that leads from some settings to others, without what is the same in both.
+// Returns the change that turns `from` into `to`; settings that are equal in both are left out.
 inline SettingsChange difference(const CameraSettings& from, const CameraSettings& to) {
     SettingsChange change;
     visit_settings([&](std::string_view, auto value, auto wish) {
@@ -86,57 +87,57 @@ inline SettingsChange difference(const CameraSettings& from, const CameraSetting
 struct CameraLimits {
     int width = 0;  // width of a frame without binning
     int height = 0;
-    int bits = 0;                 // bits of a published DN
-    std::string color_pattern{};  // the first two rows of the colour filter array: "RGGB"; empty: none
+    int bits = 0;                 // significant bits of a published DN
+    std::string color_pattern{};  // first two rows of the colour filter array, "RGGB"; empty: monochrome
     double min_exposure_s = 0, max_exposure_s = 0;
     double min_gain_db = 0, max_gain_db = 0;
     double max_black_level_dn = 0;
     double min_frame_rate_hz = 0, max_frame_rate_hz = 0;
     double max_trigger_delay_s = 10;
     std::int64_t max_burst_frames = 65535;
-    std::int64_t max_binning = 1;  // 1, 2, 4, ... up to this along each axis; 1: fixed
-    double temperature_c = 0;      // temperature of the detector
-    // The camera sets them itself (a sequence, a line-scan shutter): any change is refused. With automatic
-    // exposure on, the exposure is refused too.
+    std::int64_t max_binning = 1;  // largest binning along each axis, a power of 2; 1: no binning
+    double temperature_c = 0;      // detector temperature
+    // True for what the camera sets itself (by a sequence or a line-scan shutter): it refuses any change of
+    // it. While automatic exposure is on, the exposure is refused as well.
     bool exposure_is_own = false, gain_is_own = false, frame_rate_is_own = false;
     bool has_automatic_exposure = false;
     bool reversible = false;  // ReverseX, ReverseY
-    bool lockstep = false;    // one frame per `expose`, in simulated time; triggered is fixed
+    bool lockstep = false;    // one frame per `expose`, in simulated time; `triggered` cannot change
 };
 
 enum class TriggerResult : std::uint8_t {
     kTaken,
-    kMissed,    // the camera is busy with the frame before: no frame, an event
-    kNotArmed,  // the camera does not listen to this source now
-    kTooEarly,  // lockstep: not after the frame before
+    kMissed,    // the camera is busy with the previous frame: no frame, but an event
+    kNotArmed,  // the camera does not listen to this source at present
+    kTooEarly,  // lockstep: the time is not later than the previous frame's
 };
 
-// A frame or burst that was asked for.
+// A request for a frame or a burst.
 struct TriggerOrder {
     TriggerSource source = TriggerSource::kSoftware;
     std::int64_t at_monotonic_ns = 0;  // 0: now
-    // The earliest simulated time, too; ns = 0: none. Lockstep: the instant of the exposure's middle; ns = 0:
-    // a period on.
+    // Lockstep: the middle of the exposure; ns = 0: one frame period after the previous frame. Otherwise the
+    // earliest simulated time of the trigger; ns = 0: no such limit.
     TimeTai at_simulated;
-    std::int64_t frames = 0;     // 0: the settings' burst_frames
-    std::uint32_t sequence = 0;  // sequence number of the command
-    bool at_any_time = false;    // lockstep: also not after the frame before
+    std::int64_t frames = 0;     // 0: burst_frames of the settings
+    std::uint32_t sequence = 0;  // sequence number of the command that asked
+    bool at_any_time = false;    // lockstep: a time that is not later than the previous frame's is allowed
 };
 
-// Changes take effect with the next frame whose exposure has not begun. All functions: any thread, never from
-// the loop (they may take a lock).
+// Reads and changes the camera's settings, and triggers frames. A change takes effect with the next frame
+// that has not begun its exposure. All functions: any thread but the loop, because they may take a lock.
 class CameraControl {
   public:
     virtual ~CameraControl() = default;
     virtual CameraSettings settings() const = 0;
-    // Returns the frame rate that the exposure leaves, free-run [Hz]: here that of a shutter which is ready when the
-    // exposure is over.
+    // Returns the free-running frame rate that the exposure time permits [Hz]. This default is for a shutter
+    // that is ready again when the exposure ends.
     virtual double resulting_frame_rate_hz() const {
         const CameraSettings now = settings();
         return now.exposure_s * now.frame_rate_hz > 1 ? 1 / now.exposure_s : now.frame_rate_hz;
     }
     virtual CameraLimits limits() const = 0;
-    // All or nothing: false, and nothing has changed, when one value is outside its limits.
+    // Makes the whole change, or none of it: false when a value is outside its limits.
     virtual bool change(const SettingsChange& change) = 0;
     virtual TriggerResult trigger(const TriggerOrder& order) = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// A transport that commands come in by and telemetry goes out by: UDP, TCP, a Unix socket, USB. The emulator
-// runs a list of them.
+// A transport that brings commands and carries telemetry: UDP, TCP, a Unix socket or USB. The emulator runs a
+// list of them.
 
 #include <array>
 #include <cstdint>
@@ -16,27 +16,29 @@ namespace hilcam {
 class CommandReceiver {
   public:
     virtual ~CommandReceiver() = default;
-    // Opens what it needs and starts a thread. Throws InputError or DeviceError. Owner thread.
+    // Opens what it needs and starts its thread. Throws InputError or DeviceError. Owner thread.
     virtual void start() = 0;
-    // Idempotent. Owner thread.
+    // Ends the thread and closes everything. Idempotent. Owner thread.
     virtual void stop() noexcept = 0;
-    // "udp 127.0.0.1:5010". Any thread.
+    // Returns the transport and its address, "udp 127.0.0.1:5010". Any thread.
     virtual std::string name() const = 0;
     virtual CommandReport report() const = 0;
     virtual std::vector<SenderReport> senders() const = 0;
-    // Why nothing can come at present (a device that may not be opened); empty: nothing is known to be wrong.
+    // Returns why no command can come at present, such as a device that cannot be opened; empty: no known
+    // trouble.
     virtual std::string trouble() const { return {}; }
-    // Its peer has asked for the run's end. Any thread.
+    // True when the peer has asked the run to end. Any thread.
     virtual bool asks_to_end() const { return false; }
-    // Sends to the senders that subscribed to it; never waits for one of them. Any thread but the loop, also
-    // before start() and after stop().
+    // Sends telemetry to the senders that subscribed to it, without waiting for any of them. Any thread but
+    // the loop, also before start() and after stop().
     virtual void notify(const Telemetry& telemetry) noexcept = 0;
 };
 
-// Telemetry on its way to a receiver's own thread. Bounded: the newest is dropped when nobody takes it.
+// A queue of telemetry to a receiver's own thread. It holds kMax items; when it is full, a new one is
+// dropped.
 class TelemetryQueue {
   public:
-    // False when it is full. Any thread.
+    // Returns false when the queue is full. Any thread.
     bool put(const Telemetry& telemetry) {
         const std::lock_guard lock(mutex_);
         if (count_ == kMax) return false;

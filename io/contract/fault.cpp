@@ -47,8 +47,8 @@ void FaultBoard::order(FaultOrder o) {
     }
     Cell& c = cells_[place];
     const std::uint32_t version = c.version.load(std::memory_order_relaxed);
-    // Whoever reads (acquires) one of the values stored from here on also sees this odd version. No fences:
-    // ThreadSanitizer does not know them.
+    // A reader that acquires one of the values stored below also sees this odd version. There are no fences,
+    // because ThreadSanitizer does not know them.
     c.version.store(version + 1, std::memory_order_relaxed);
     const std::int64_t now_ns = monotonic_ns();
     c.rate.store(o.rate, std::memory_order_release);
@@ -112,7 +112,7 @@ std::optional<double> FaultBoard::would_strike(FaultKind kind, std::uint64_t fra
         const std::array words =
             random_words({seed_ ^ index >> 32 << 32, frame}, RandomPurpose::kFault,
                          static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(kind));
-        // 64 bits of chance: rates down to 1e-15 are what they say.
+        // 64 random bits, so that even rates of 1e-15 hold.
         const std::uint64_t word = std::uint64_t{words[0]} << 32 | words[1];
         if (static_cast<double>(word) * 0x1p-64 >= s.order.rate) return {};
     }
@@ -160,7 +160,7 @@ std::uint64_t FaultBoard::all_strikes() const {
     return sum;
 }
 
-// A ring whose slots carry the turn they were written in: a reader that was overtaken sees it.
+// The slots of the ring carry the turn in which they were written, so a reader that was overtaken notices it.
 void FaultBoard::log(const Entry& entry) {
     const std::uint64_t turn = log_head_.fetch_add(1, std::memory_order_relaxed);
     LogSlot& slot = log_[turn % kLogLength];
@@ -179,7 +179,7 @@ bool FaultBoard::take_entry(Entry& entry) {
     while (log_tail_ < head) {
         const LogSlot& slot = log_[log_tail_ % kLogLength];
         if (slot.turn.load(std::memory_order_acquire) != log_tail_ + 1) {
-            // Being written: later. Overtaken: lost.
+            // When it is being written, try later; when it was overtaken, it is lost.
             if (log_head_.load() <= log_tail_ + kLogLength) return false;
             ++log_tail_;
             continue;

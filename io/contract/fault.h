@@ -1,10 +1,11 @@
 #pragma once
-// Faults on demand: what a bench can ask its camera to do wrong, and the board that says what is wrong now.
+// Faults on demand: what a bench can order its camera to do wrong, and the board that holds the orders in
+// force.
 //
-// A fault has a rate (the share of packets, messages or frames it strikes), a value whose meaning is its
-// kind's, and a span of frames or of time. Whether it strikes is a pure function of (seed, kind, frame,
-// index): the same orders strike the same packets of the same frames on every run. Every strike is counted,
-// and the first of each frame is logged with the frame's id.
+// A fault has a rate (the share of packets, messages or frames that it strikes), a value with a meaning of
+// its kind, and a span of frames or of time. Whether it strikes is a pure function of (seed, kind, frame,
+// index): the same orders strike the same packets of the same frames in every run. Every strike is counted,
+// and the first in each frame is logged with the frame's id.
 
 #include <array>
 #include <atomic>
@@ -19,46 +20,47 @@ namespace hilcam {
 struct FaultOrder {
     FaultKind kind = FaultKind::kPacketDrop;
     double rate = 1;               // 0..1; 0 ends the fault
-    double value = 0;              // by kind
-    std::uint64_t from_frame = 0;  // 0: at once; with `frames` the next one that begins
+    double value = 0;              // meaning by kind
+    std::uint64_t from_frame = 0;  // 0: at once; with `frames`, the next frame that begins
     std::uint64_t frames = 0;      // 0: no end by frames
-    double duration_s = 0;         // from the order's arrival; 0: no end by time
+    double duration_s = 0;         // counted from the order's arrival; 0: no end by time
 };
-// Why an order cannot be, or empty.
+// Returns why the board cannot take the order; empty: it can.
 std::string_view refusal_of(const FaultOrder& order);
 
-// One for each camera. One order per kind: a later one takes the earlier one's place.
+// The fault orders of one camera, one for each kind: a later order replaces the earlier one.
 class FaultBoard {
   public:
     explicit FaultBoard(std::uint64_t seed = 1) : seed_(seed) {}
 
-    // This frame begins. Loop.
+    // Says that this frame begins. Loop.
     void begin(std::uint64_t frame) noexcept { begun_.store(frame, std::memory_order_relaxed); }
-    // That would begin next, if none were skipped. Any thread.
+    // Returns the id of the next frame, if none is skipped. Any thread.
     std::uint64_t next_frame() const { return begun_.load(std::memory_order_relaxed) + 1; }
-    // Any thread but the loop (a lock among those that order).
+    // Any thread but the loop: callers share a lock.
     void order(FaultOrder order);
     void clear_all();
-    // The present order, if one is in force or waits for its frame.
+    // Returns the kind's order that is in force or waits for its frame; nothing when there is none.
     std::optional<FaultOrder> order_of(FaultKind kind) const;
 
-    // Any thread: no lock, no allocation. Does the fault strike this item of this frame? Gives its value. A
-    // strike is counted. `frame`: FrameRecord::id; 0 for what belongs to no frame. "once" kinds strike once
-    // per order.
+    // Decides whether the fault strikes this item of this frame; returns its value if so, and counts the
+    // strike. A "once" kind strikes once per order. frame: FrameRecord::id; 0 for what belongs to no frame.
+    // Any thread: no lock, no allocation.
     std::optional<double> strikes(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0);
-    // The same without counting.
+    // Returns the same and does not count.
     std::optional<double> would_strike(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0) const;
-    // Is an order in force for this frame, whatever its rate.
+    // True when an order is in force for this frame, whatever its rate.
     bool within_span(FaultKind kind, std::uint64_t frame) const;
-    // Strikes that the caller has drawn by himself.
+    // Counts strikes that the caller has drawn itself.
     void count(FaultKind kind, std::uint64_t frame, std::uint64_t strikes, double value);
-    // Returns when the present order came [CLOCK_MONOTONIC ns].
+    // Returns when the present order arrived [CLOCK_MONOTONIC ns].
     std::int64_t since_monotonic_ns(FaultKind kind) const;
 
     std::uint64_t strikes_of(FaultKind kind) const;
     std::uint64_t all_strikes() const;
 
-    // The log: first strikes by frame, oldest first; what is not taken in time is overwritten and counted.
+    // An entry of the log: the first strike of a kind in a frame. The log is a ring; entries that are not
+    // taken in time are overwritten and counted.
     struct Entry {
         FaultKind kind = FaultKind::kPacketDrop;
         std::uint64_t frame = 0;
@@ -66,11 +68,11 @@ class FaultBoard {
         double value = 0;
         std::int64_t monotonic_ns = 0;
     };
-    // One reading thread.
+    // Takes the oldest entry; false when there is none. One reading thread.
     bool take_entry(Entry& entry);
 
   private:
-    // A sequence lock: readers try again while a writer is at it.
+    // A sequence lock: a reader tries again when a writer was active.
     struct Cell {
         std::atomic<std::uint32_t> version{0};
         std::atomic<double> rate{0}, value{0};

@@ -1,5 +1,6 @@
 #pragma once
-// The kinds of faults that a bench can ask for: each has a number and, in one table, all that is known of it.
+// The kinds of faults that a bench can order. Each has a number and a row in one table with all that is known
+// of it.
 
 #include <array>
 #include <cstdint>
@@ -8,12 +9,12 @@
 
 namespace hilcam {
 
-// Numbers are part of the command protocol: never reuse one.
+// The numbers are part of the command protocol: never reuse one.
 enum class FaultKind : std::uint8_t {
     // Packets of a stream; index: packet id.
     kPacketDrop = 1,
     kPacketDuplicate = 2,
-    kPacketReorder = 3,   // changes place with the packet after it
+    kPacketReorder = 3,   // swapped with the next packet
     kPacketDelay = 4,     // value: ms
     kPacketCorrupt = 5,   // one byte of the payload is inverted
     kPacketWrongId = 6,   // value: added to the packet id
@@ -26,7 +27,7 @@ enum class FaultKind : std::uint8_t {
     kBandwidthCap = 13,   // value: MB/s
     // Whole frames.
     kFrameDrop = 20,    // not sent; its block id is skipped
-    kFrameRepeat = 21,  // the frame before is sent in its place
+    kFrameRepeat = 21,  // the previous frame is sent in its place
     kWrongSizeY = 22,   // value: added to the trailer's size_y
     // Time stamps.
     kTimestampStep = 30,   // value: ms, added while it lasts
@@ -35,14 +36,14 @@ enum class FaultKind : std::uint8_t {
     kBlockIdWrap = 33,  // once: the next block id is 65530
     // The control channel; index: request id.
     kControlSilence = 40,
-    kControlSlow = 41,  // value: ms; PENDING_ACK first where the client takes it
+    kControlSlow = 41,  // value: ms; preceded by PENDING_ACK if the client accepts it
     kControlBusy = 42,
     kControlDenied = 43,
-    kHeartbeatIgnored = 44,  // the controller is lost although it speaks
+    kHeartbeatIgnored = 44,  // the controller is dropped although it sends heartbeats
     // The device.
-    kDeviceReset = 50,      // once: control, stream and settings as after power-up
-    kLinkDown = 51,         // neither control nor stream
-    kIpChange = 52,         // once: value: added to the last byte of the address
+    kDeviceReset = 50,      // once: control, stream and settings return to power-up
+    kLinkDown = 51,         // no control and no stream
+    kIpChange = 52,         // once: value is added to the last byte of the address
     kTestPacketLimit = 53,  // value: bytes; longer test packets are not sent
     // V4L2.
     kV4l2Stall = 60,       // frames are withheld
@@ -54,26 +55,25 @@ enum class FaultKind : std::uint8_t {
     kUsbStall = 72,
     kUsbBadCrc = 73,  // CRC of acknowledgements and telemetry
     // The picture.
-    kImageStuck = 80,  // the picture of the frame before
+    kImageStuck = 80,  // the image of the previous frame
     kImageBlack = 81,
     kImageSaturated = 82,
-    kImageBitFlips = 83,  // rate is per pixel: one bit of each that is struck
+    kImageBitFlips = 83,  // rate is per pixel: one bit of each pixel struck flips
     kImageTear = 84,      // rows from `value` (share of the height, 0..1) on are of the frame before
 };
 
-// The traits of a kind. A kind without a value has an empty range.
+// All that is known of a kind. A kind without a value has an empty range.
 struct FaultTraits {
     FaultKind kind;
-    std::string_view
-        name;  // its name as scenario files, `hilcam send fault` and, as PacketDrop, GenICam have it
-    std::string_view meaning;  // its meaning and its value's, one line
+    std::string_view name;     // in scenario files and `hilcam send fault`; GenICam has it as PacketDrop
+    std::string_view meaning;  // one line, with the meaning of the value
     bool once = false;
     double least = 0, most = 0;  // range of the value
 
     constexpr bool has_value() const { return least < most; }
 };
 
-// A row's place is the kind's bit in FrameRecord::faults and ChunkFaults: a new kind is the last row.
+// A row's index is the kind's bit in FrameRecord::faults and ChunkFaults: append a new kind at the end.
 inline constexpr auto kFaultTable = std::to_array<FaultTraits>({
     {FaultKind::kPacketDrop, "packet_drop", "stream packets are not sent"},
     {FaultKind::kPacketDuplicate, "packet_duplicate", "stream packets are sent twice"},
@@ -128,13 +128,13 @@ inline constexpr auto kAllFaults = [] {
     return kinds;
 }();
 
-// The kind's row of the table; null for no kind.
+// Returns the kind's row of the table; null for an unknown kind.
 constexpr const FaultTraits* traits_of(FaultKind kind) {
     for (const FaultTraits& traits : kFaultTable)
         if (traits.kind == kind) return &traits;
     return nullptr;
 }
-// Empty for no kind.
+// Returns the kind's name; empty for an unknown kind.
 constexpr std::string_view name_of(FaultKind kind) {
     const FaultTraits* traits = traits_of(kind);
     return traits ? traits->name : std::string_view{};
@@ -148,7 +148,7 @@ constexpr std::optional<FaultKind> fault_named(std::string_view name) {
         if (traits.name == name) return traits.kind;
     return {};
 }
-// The kind's bit in FrameRecord::faults and ChunkFaults; 0 for no kind.
+// Returns the kind's bit in FrameRecord::faults and ChunkFaults; 0 for an unknown kind.
 constexpr std::uint64_t bit_of(FaultKind kind) {
     const FaultTraits* traits = traits_of(kind);
     return traits ? std::uint64_t{1} << (traits - kFaultTable.data()) : 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Tells what has become of frames' files: from the output that writes them to the truth, whose line of a frame says when
-// its file was lost. It knows the newest 1024 frames that were to be written.
+// A record of what became of frames' files. The output that writes them reports here, and a frame's line of
+// truth says whether its file was lost. The record holds the newest 1024 frames that were to be written.
 
 #include <array>
 #include <atomic>
@@ -14,9 +14,9 @@ class FrameFates {
   public:
     enum class Fate : std::uint8_t { kNoFile, kPending, kWritten, kLost };
 
-    // on_settled: is called by settle(). Owner thread, before frames come.
+    // Sets the function that settle() calls. Owner thread, before frames come.
     void listen(std::function<void()> on_settled) { on_settled_ = std::move(on_settled); }
-    // A frame's file is to be written. Loop, one thread, frames in their order.
+    // Says that a file of this frame will be written. Loop, one thread, frames in order.
     void expect(std::uint64_t frame) noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);
         Entry& entry = entries_[head % entries_.size()];
@@ -24,13 +24,13 @@ class FrameFates {
         entry.frame.store(frame, std::memory_order_relaxed);
         head_.store(head + 1, std::memory_order_release);
     }
-    // The file of an expected frame is written, or is lost. Loop, and the writing thread.
+    // Says that the file of an expected frame is written, or is lost. Loop, and the writing thread.
     void settle(std::uint64_t frame, bool written) {
         if (const std::size_t at = find(frame); at < entries_.size())
             entries_[at].fate.store(written ? Fate::kWritten : Fate::kLost, std::memory_order_release);
         if (on_settled_) on_settled_();
     }
-    // Any thread.
+    // Returns the fate of a frame's file. Any thread.
     Fate of(std::uint64_t frame) const {
         const std::size_t at = find(frame);
         return at < entries_.size() ? entries_[at].fate.load(std::memory_order_acquire) : Fate::kNoFile;
@@ -42,7 +42,7 @@ class FrameFates {
         std::atomic<Fate> fate{Fate::kNoFile};
     };
 
-    // The newest first; the number of entries when there is none.
+    // Returns the index of the newest entry of that frame; the number of entries when there is none.
     std::size_t find(std::uint64_t frame) const {
         const std::size_t head = head_.load(std::memory_order_acquire);
         for (std::size_t i = 0; i < entries_.size() && i < head; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// Frames from the loop to a sink's own thread: a ring of copies allocated beforehand. The loop never waits;
-// when the ring is full the new frame is dropped and counted.
+// Hands frames from the loop to a sink's own thread, through a ring of preallocated copies. The loop never
+// waits: when the ring is full, the new frame is dropped and counted.
 
 #include <atomic>
 #include <cstdint>
@@ -18,13 +18,13 @@ class FrameMailbox {
         FrameRecord record;
     };
 
-    // The largest frame's size.
+    // width, height: of the largest frame.
     FrameMailbox(int width, int height, std::size_t slots) : items_(slots) {
         for (Item& item : items_) item.frame = DnImage(width, height);
     }
-    // Opens the mailbox: from here to close() a thread takes what is put in. Owner thread.
+    // Opens the mailbox: a thread takes frames from here until close(). Owner thread.
     void open() { open_.store(true, std::memory_order_relaxed); }
-    // False: dropped. Loop, one thread.
+    // Copies a frame into the ring; false when it was dropped. Loop, one thread.
     bool put(const DnImage& frame, const FrameRecord& record) noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);
         if (head - tail_.load(std::memory_order_acquire) == items_.size()) {
@@ -39,19 +39,20 @@ class FrameMailbox {
         ready_.release();
         return true;
     }
-    // Sink's thread: waits for a frame; nullptr after close(). The item stays until done().
+    // Waits for a frame and returns it; nullptr after close(). The item stays valid until done(). Sink's
+    // thread.
     const Item* wait() {
         ready_.acquire();
         const std::size_t tail = tail_.load(std::memory_order_relaxed);
         return tail == head_.load(std::memory_order_acquire) ? nullptr : &items_[tail % items_.size()];
     }
     void done() { tail_.fetch_add(1, std::memory_order_release); }
-    // Frames already in the ring are still delivered before wait() gives nullptr.
+    // Closes the mailbox. wait() still returns the frames in the ring before it returns nullptr.
     void close() {
         open_.store(false, std::memory_order_relaxed);
         ready_.release();
     }
-    // Loop: put() finds a place, or nobody takes frames.
+    // True when the next put() finds a free place, and while the mailbox is closed. Loop.
     bool has_room() const {
         if (!open_.load(std::memory_order_relaxed)) return true;
         return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) < items_.size();

@@ -1,6 +1,6 @@
 #pragma once
-// A camera's frames taken apart into the parts of their light (render/vocabulary/light_part.h), for who looks at one part while the
-// camera runs: the preview's page. The loop takes a frame apart when somebody asks, and is otherwise as it is.
+// Gives the parts of a frame's light (render/vocabulary/light_part.h) while the camera runs, for the
+// preview's page. The loop separates a frame's light only when a page asks for a part.
 
 #include <chrono>
 #include <cstdint>
@@ -17,20 +17,21 @@ class LightPartSource {
   public:
     struct Wish {
         LightPart part{};
-        std::uint64_t after = 0;  // a frame with another id than this; 0: any
-        bool with_truth = false;  // one whose truth is told, if there is room for it
+        std::uint64_t after = 0;  // the frame has another id than this; 0: any frame
+        bool with_truth = false;  // prefer a frame with truth, if there is room for it
     };
-    // One part of a frame's light, in the numbers of the camera and as its frames lie, without noise.
+    // One part of a frame's light in DN, oriented as the camera's frames, without noise.
     struct Picture {
         DnImage numbers;
         FrameRecord record;
     };
 
     virtual ~LightPartSource() = default;
-    // Says in one line why frames of this camera cannot be taken apart; empty: they can. Any thread.
+    // Returns one line that says why this camera's frames cannot be separated; empty: they can. Any thread.
     virtual std::string refusal() const = 0;
-    // Gives the newest picture of that part, or waits for a frame that begins from now on. Null: none came in time, or none comes any
-    // more. Any thread but the loop, several at a time; what they ask is done one by one.
+    // Returns the newest picture of that part, or waits for a frame that begins after the call. Null when
+    // none came in time, or when no more will come. Any thread but the loop; concurrent requests are served
+    // one after the other.
     virtual std::shared_ptr<const Picture> wait_for(const Wish& wish, std::chrono::nanoseconds patience) = 0;
 };
 

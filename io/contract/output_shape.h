@@ -1,5 +1,6 @@
 #pragma once
-// The facts that an output is told of the camera whose frames it gets, and what others ask of it.
+// Says what an output needs to know of its camera, and the addresses on which outputs and command ports
+// listen.
 
 #include <cstdint>
 #include <functional>
@@ -11,15 +12,16 @@ struct PictureRun;
 
 struct OutputShape {
     int width = 0, height = 0;              // size of the largest frame
-    int fixed_width = 0, fixed_height = 0;  // size of all frames, where an output needs one size
+    int fixed_width = 0, fixed_height = 0;  // size of every frame, for outputs that need one size
     double frame_rate_hz = 0;               // at power-up
     std::string camera_name{};
-    const PictureRun* run = nullptr;  // the notes that pictures have of the run (io/images/picture_notes.h)
-    bool has_live_output = false;     // another output hands the same frames to clients while they are made
-    std::function<std::string()> status{};  // the run's figures as JSON; any thread, while the loop is there
+    const PictureRun* run = nullptr;  // the run's notes in image files (io/images/picture_notes.h)
+    bool has_live_output = false;     // another output sends the same frames to clients during the run
+    // Returns the run's figures as JSON; any thread, while the loop exists.
+    std::function<std::string()> status{};
 };
 
-// An address that an output or a command port listens on.
+// An address on which an output or a command port listens.
 struct ListeningPort {
     std::string key;  // "outputs.preview.port"
     std::string address;

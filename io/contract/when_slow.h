@@ -1,6 +1,6 @@
 #pragma once
-// The key `when_slow` of outputs that fill a folder: what happens to a frame that comes before the ones before it are
-// written. In lockstep and in replays the camera always waits.
+// The key `when_slow` of outputs that fill a folder: what happens to a frame that arrives before the earlier
+// ones are written. In lockstep and in replays the camera always waits.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,12 +21,13 @@ inline Field when_slow(WhenSlow& value) {
         "then is a fault (exit status 1)");
 }
 
-// has_live_output: somebody else takes the same frames while they are made.
+// True when the camera waits for the output. has_live_output: another output sends the same frames to
+// clients.
 inline bool waits(WhenSlow value, bool has_live_output) {
     return value == WhenSlow::kWait || (value == WhenSlow::kAuto && !has_live_output);
 }
 
-// Says that frames were lost that nobody allowed to be lost. key: "outputs.files".
+// Returns the message that frames were lost against the user's wish. key: "outputs.files".
 inline std::string report_of_drops(const std::string& key, const std::filesystem::path& folder,
                                    std::uint64_t dropped, std::uint64_t written) {
     return key + ": " + std::to_string(dropped) + " of " + std::to_string(dropped + written) +

@@ -31,7 +31,7 @@ enum class AttitudeType {
 struct TypeName {
     std::string_view name;
     AttitudeType type;
-    std::size_t numbers;  // in a data line
+    std::size_t numbers;  // numbers in a data line
     bool rates;
 };
 constexpr std::array<TypeName, 9> kTypes = {
@@ -45,7 +45,7 @@ constexpr std::array<TypeName, 9> kTypes = {
      {"EULER_ANGLE/RATE", AttitudeType::kEulerRate, 6, true},
      {"SPIN", AttitudeType::kSpin, 4, true}}};
 
-// Metadata say how the numbers of a data line are meant.
+// The metadata that give the numbers of a data line their meaning.
 struct Metadata {
     AemSegment segment;
     TimeSystem system = TimeSystem::kUtc;
@@ -54,10 +54,10 @@ struct Metadata {
     std::optional<std::array<int, 3>> euler_axes;  // 0, 1, 2: x, y, z
     bool scalar_first = false;
     bool angvel_in_a = false;  // components of angular velocities
-    // How version 1's rates are meant, and what its lines say: they are read when all are there.
+    // The meaning of version 1's rates, and its data lines, which are interpreted when all have been read.
     bool rates_of_angles = false;
     std::vector<double> version_1;
-    // The message's rotation takes A's axes to B's; the body may be either.
+    // The message's rotation takes A's axes to B's; the body may be either of them.
     bool b_to_a = false, body_is_a = false;
 };
 
@@ -74,7 +74,7 @@ std::array<int, 3> axes_of(const KvnLines& lines, const KvnEntry& entry) {
     std::array<int, 3> axes{};
     const std::string letters = ccsds_word(entry.value);
     for (std::size_t i = 0; letters.size() == 3 && i < 3; ++i) {
-        // Version 1 has digits.
+        // Version 1 uses digits.
         const std::size_t at = std::string_view("XYZ123").find(letters[i]);
         if (at == std::string_view::npos || (i > 0 && static_cast<int>(at % 3) == axes[i - 1])) break;
         axes[i] = static_cast<int>(at % 3);
@@ -88,7 +88,7 @@ bool is_version_1(AttitudeType type) {
     return type == AttitudeType::kQuaternionRate || type == AttitudeType::kEulerRate;
 }
 
-// Says which frame's components a rate has.
+// Determines in which frame a rate's components are given.
 void read_rate_frame(const KvnLines& lines, const KvnEntry& frame, const KvnEntry& a, const KvnEntry& b,
                      Metadata& m) {
     m.angvel_in_a = is_word(frame.value, a.value) || is_word(frame.value, "REF_FRAME_A");
@@ -160,13 +160,13 @@ Quat quaternion_at(const Metadata& m, const double* v) {
     return m.scalar_first ? Quat{v[0], v[1], v[2], v[3]} : Quat{v[3], v[0], v[1], v[2]};
 }
 
-// Frame B's axes by turning A's, and B's angular velocity against A, in B's axes.
+// Frame B's axes relative to A, and B's angular velocity relative to A, in B's axes.
 struct Turn {
     Quat a_from_b;
     Vec3d rate_b_rad_s;
 };
 
-// Annex F3: successive turns about the turned axes; the rate is the sum of theirs.
+// Annex F3: successive rotations about the rotated axes; the rate is the sum of the three.
 Turn euler_turn(const Metadata& m, const double* v) {
     const std::array<int, 3>& axes = m.euler_axes.value();
     const Quat q1 = about_axis(axes[0], v[0] * kDegree_rad), q2 = about_axis(axes[1], v[1] * kDegree_rad),
@@ -183,9 +183,10 @@ Turn euler_turn(const Metadata& m, const double* v) {
     return turn;
 }
 
-// The same of an attitude that is known as a quaternion. The first turn is about an axis of A, the third about one of B;
-// the second one's axis, the line of nodes, is at right angles to both. Its sign is that of a second angle of 0 to 180 deg,
-// or of -90 to 90 where the three axes differ. Nothing where the two are one line.
+// Computes the rate for an attitude that is given as a quaternion. The first rotation is about an axis of A,
+// the third about one of B, and the second about the line of nodes, perpendicular to both. The sign of that
+// line is chosen for a second angle of 0 to 180 deg, or of -90 to 90 when the three axes differ. Nothing when
+// the two axes are parallel.
 std::optional<Vec3d> rate_of_angles(const Metadata& m, const Quat& a_from_b, const double* rates_deg_s) {
     const std::array<int, 3>& axes = m.euler_axes.value();
     const Mat3d a_from_b_axes = to_matrix(a_from_b), b_from_a_axes = transposed(a_from_b_axes);
@@ -224,7 +225,7 @@ Turn turn_of(const KvnLines& lines, const Metadata& m, const double* v) {
     }
     const bool euler = m.type.name.starts_with("EULER");
     turn = euler ? euler_turn(m, v) : quaternion_turn(lines, m, v);
-    // Written as a turn of B's axes to A's, it is the inverse; its rate is A's against B, in A's axes.
+    // A rotation of B's axes to A's is the inverse; its rate is A's relative to B, in A's axes.
     if (m.b_to_a) turn = {conjugate(turn.a_from_b), -(to_matrix(turn.a_from_b) * turn.rate_b_rad_s)};
     if (m.type.type == AttitudeType::kQuaternionAngvel || m.type.type == AttitudeType::kEulerAngvel ||
         (is_version_1(m.type.type) && !m.rates_of_angles)) {
@@ -235,7 +236,7 @@ Turn turn_of(const KvnLines& lines, const Metadata& m, const double* v) {
     return turn;
 }
 
-// The same of the body against the reference.
+// Returns the same for the body relative to the reference.
 Turn body_turn(const KvnLines& lines, const Metadata& m, const double* v) {
     const Turn turn = turn_of(lines, m, v);
     if (!m.body_is_a) return turn;
@@ -253,7 +254,7 @@ void read_attitude(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     const TimeTai time = ccsds_epoch(lines, epoch, m.system);
     if (time < m.span.start || m.span.stop < time) lines.refuse(epoch, "epochs from START_TIME to STOP_TIME");
     std::vector<AttitudeSample>& samples = m.segment.attitudes;
-    // One that stands twice is a manoeuvre's.
+    // An epoch that occurs twice marks a manoeuvre.
     if (!samples.empty() && time < samples.back().time)
         lines.refuse(epoch, "epochs that rise from line to line");
     if (is_version_1(m.type.type)) m.version_1.insert(m.version_1.end(), v.begin(), v.end());
@@ -267,7 +268,8 @@ void read_attitude(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     samples.push_back({time, q, turn.rate_b_rad_s});
 }
 
-// Data between DATA_START and DATA_STOP, and what follows: another segment (true) or the file's end.
+// Reads data from DATA_START to DATA_STOP. Returns true when another segment follows, false at the end of the
+// file.
 bool read_data(KvnLines& lines, Metadata& m) {
     KvnLine line;
     if (!lines.next(line) || line.text != "DATA_START") lines.refuse(line.text, "DATA_START after META_STOP");
@@ -281,7 +283,7 @@ bool read_data(KvnLines& lines, Metadata& m) {
     return true;
 }
 
-// The sums of the turns from attitude to attitude, and of what rates are off them [rad].
+// Sums of the rotations from attitude to attitude, and of the deviations of the rates from them [rad].
 struct RateFit {
     double off_rad = 0, turned_rad = 0;
     std::size_t steps = 0;
@@ -292,7 +294,7 @@ RateFit fit_of(const std::vector<AttitudeSample>& samples) {
     for (std::size_t i = 1; i < samples.size(); ++i) {
         const double step_s = static_cast<double>(samples[i].time - samples[i - 1].time) * kSecondsPerNs;
         const Vec3d by_rates = (0.5 * step_s) * (samples[i - 1].rate_body_rad_s + samples[i].rate_body_rad_s);
-        // Beyond half a turn attitudes do not say which way they went.
+        // Beyond half a turn, attitudes do not tell the direction of the rotation.
         if (!(step_s > 0) || !(length(by_rates) < 0.5 * kPi)) continue;
         const Quat step = conjugate(samples[i - 1].reference_from_body) * samples[i].reference_from_body;
         const Vec3d sine = (step.w < 0 ? -1.0 : 1.0) * Vec3d{step.x, step.y, step.z};
@@ -303,9 +305,9 @@ RateFit fit_of(const std::vector<AttitudeSample>& samples) {
     return fit;
 }
 
-// Version 1 of the standard (504.0-B-1, 4.2.5) calls the rates of its types /RATE both rates of the Euler angles, in the
-// sequence's order, and components in RATE_FRAME; programs write either. The attitudes themselves say which it is; rates
-// that they contradict both ways are not used.
+// Version 1 of the standard (504.0-B-1, 4.2.5) calls the rates of its types /RATE both rates of the Euler
+// angles, in the sequence's order, and components in RATE_FRAME; programs write either. The attitudes decide
+// which it is. Rates that contradict the attitudes both ways are not used.
 void settle_version_1(KvnLines& lines, Metadata& m) {
     std::vector<AttitudeSample>& samples = m.segment.attitudes;
     const auto take = [&](bool of_angles) {

@@ -33,7 +33,7 @@ constexpr std::array<double, kTableAxes> kAxisUnit = {kDegree_rad, kDegree_rad, 
 
 using Geometry = std::array<double, kTableAxes>;
 
-// The values of one wavelength of one geometry.
+// The values at one wavelength of one geometry.
 struct Sample {
     double wavelength_um = 0;
     double tau_1 = 0, tau_2 = 0, radiance_sr = 0, sky = 0;
@@ -81,14 +81,14 @@ void require_physical(const std::string& where, const Sample& s) {
 
 // --- MODTRAN's text table
 
-// The columns of a run: their names, blanks inside them as underscores, and where each ends in its line.
+// The columns of a run: their names, with underscores for blanks, and where each ends in its line.
 struct RunColumns {
     struct Column {
         std::string name;
         std::size_t end = 0;
     };
     std::vector<Column> all;
-    bool is_fixed = false;  // names of two words: rows have their places, and may have blank fields
+    bool is_fixed = false;  // names of two words: fields have fixed places and may be blank
 
     std::optional<std::size_t> find(std::string_view name) const {
         for (std::size_t i = 0; i < all.size(); ++i)
@@ -97,7 +97,8 @@ struct RunColumns {
     }
 };
 
-// Reads a line of column names. MODTRAN 3 and 4 write names of two words, which MODTRAN 5 joins by an underscore.
+// Reads a line of column names. MODTRAN 3 and 4 write names of two words, which MODTRAN 5 joins with an
+// underscore.
 RunColumns columns_in(const std::string& line) {
     constexpr std::array<std::pair<const char*, const char*>, 15> kPairs = {{{"TOT", "TRANS"},
                                                                              {"TOTAL", "TRANS"},
@@ -132,8 +133,9 @@ RunColumns columns_in(const std::string& line) {
     return out;
 }
 
-// Returns how wide MODTRAN 3 and 4 write a column: F7.4 in tape7.scn and F11.6 in tape7 for the transmittance, E11.3 and E11.4 for radiances,
-// E9.2 for the Sun, F8.3 for the depth (the programs' own formats of tape7). 0: another.
+// Returns the width of a column in MODTRAN 3 and 4: F7.4 in tape7.scn and F11.6 in tape7 for the
+// transmittance, E11.3 and E11.4 for radiances, E9.2 for the Sun, F8.3 for the depth (the programs' own
+// formats of tape7). 0: another column.
 std::size_t fixed_width(const std::string& name) {
     if (name == "TRANS") return 7;
     if (name == "REF_SOL" || name == "SOL@OBS") return 9;
@@ -141,7 +143,7 @@ std::size_t fixed_width(const std::string& name) {
     return name.find('_') != std::string::npos ? 11 : 0;
 }
 
-// Reads a number as Fortran writes it: the letter of an exponent of three digits is left out (1.36-105).
+// Reads a number as Fortran writes it, which omits the letter of an exponent with three digits (1.36-105).
 bool to_fortran_number(std::string_view text, double& value) {
     if (to_number(text, value)) return true;
     const std::size_t sign = text.find_last_of("+-");
@@ -153,7 +155,8 @@ bool to_fortran_number(std::string_view text, double& value) {
 
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
-// Returns where column i begins and ends in a row. What stands before the first radiances is as wide as they leave it.
+// Returns where column i begins and ends in a row. Columns before the first radiances have the width that is
+// left for them.
 std::pair<std::size_t, std::size_t> place_of(const RunColumns& columns, std::size_t i) {
     const auto begin_of = [&](std::size_t k) {
         const RunColumns::Column& c = columns.all[k];
@@ -164,8 +167,8 @@ std::pair<std::size_t, std::size_t> place_of(const RunColumns& columns, std::siz
     return {0, columns.all.size() > 1 ? begin_of(1) : columns.all[0].end};
 }
 
-// Splits a row by the places of its columns, of which some are blank; NaN for these, and for what overflows its field (***). Nothing
-// where a number goes on in the next field: such a row is not of this layout.
+// Splits a row with blank fields by the places of its columns; NaN for these and for fields that overflowed
+// (***). Nothing when a number continues in the next field: such a row has another layout.
 std::vector<double> row_by_places(const RunColumns& columns, const std::string& line) {
     const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
     std::vector<double> out;
@@ -184,8 +187,8 @@ std::vector<double> row_by_places(const RunColumns& columns, const std::string& 
     return out;
 }
 
-// Returns a row's numbers, a column each; nothing for a line that begins with none. They stand between blanks, or, where columns of
-// MODTRAN 3 and 4 are blank or touch, at their places.
+// Returns a row's numbers, one per column; nothing for a line that does not begin with a number. Numbers are
+// separated by blanks or, where columns of MODTRAN 3 and 4 are blank or touch, found by their places.
 std::vector<double> row_of(const RunColumns& columns, const std::string& line) {
     std::istringstream words(line);
     std::vector<double> out;
@@ -200,7 +203,7 @@ std::vector<double> row_of(const RunColumns& columns, const std::string& line) {
     return !placed.empty() && std::isfinite(placed.front()) ? placed : out;
 }
 
-// The columns that are used.
+// The places of the columns that are used.
 struct RunPlaces {
     std::size_t trans, scatter, ground, direct, path, sun;
 };
@@ -220,8 +223,8 @@ RunPlaces places_of(const std::filesystem::path& file, int number, const RunColu
             column({"TOA_SUN", "SOL@OBS"})};
 }
 
-// Makes a sample of a row. tau_1 is from the way Sun - ground - observer, the sky from the diffuse part of the ground's light against its
-// direct one.
+// Makes a sample of a row. tau_1 comes from the path Sun - ground - observer, the sky from the ratio of
+// diffuse to direct light reflected by the ground.
 Sample sample_of(const std::string& where, const RunPlaces& at, const std::vector<double>& v, double mu_s) {
     for (const std::size_t used : {at.trans, at.scatter, at.ground, at.direct, at.path, at.sun})
         if (used >= v.size() || !std::isfinite(v[used]))
@@ -236,7 +239,7 @@ Sample sample_of(const std::string& where, const RunPlaces& at, const std::vecto
     return s;
 }
 
-// Reads lines up to that of the columns' names.
+// Reads lines up to the one with the columns' names.
 RunColumns find_columns(InputStream& in, int& number) {
     for (std::string line; std::getline(in, line);) {
         ++number;

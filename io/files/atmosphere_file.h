@@ -1,12 +1,13 @@
 #pragma once
-// Tables of an atmosphere from files (docs/atmosphere.md): a CSV of our own, or MODTRAN runs.
+// Reads tables of an atmosphere (docs/atmosphere.md): hilcam's own CSV, or MODTRAN runs.
 //
-// CSV: header
-// `sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,wavelength_um,tau_1,tau_2,path_radiance_sr,sky_irradiance`
-// and a line for every combination that occurs. Radiance [sr^-1] and sky irradiance [1] are per unit of solar
-// irradiance. MODTRAN: a CSV with the header `sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file`, a
-// line for each run; the files are its text tables (tape7.scn) beside it, whose columns are found by their
-// names: WAVLEN (nm) or FREQ (cm^-1), TOT_TRANS, SOL_SCAT, SOL@OBS, TOA_SUN and, for the sky, GRND_RFLT and
+// CSV: a header with these columns in this order: sun_zenith_deg, view_zenith_deg, azimuth_deg, height_km,
+// wavelength_um, tau_1, tau_2, path_radiance_sr, sky_irradiance, then a line for every combination of values.
+// Radiance [sr^-1] and sky irradiance [1] are per unit of solar irradiance.
+//
+// MODTRAN: a CSV with the header `sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file` and a line for
+// each run. The files are its text tables (tape7.scn) in the same folder. Their columns are found by name:
+// WAVLEN (nm) or FREQ (cm^-1), TOT_TRANS, SOL_SCAT, SOL@OBS, TOA_SUN and, for the sky, GRND_RFLT and
 // DRCT_RFLT with the run's surface albedo.
 
 #include <filesystem>

@@ -175,7 +175,7 @@ BrdfTable read_merl(const std::filesystem::path& file, const SpectralGrid& grid)
         spectra[i] = bands.spectrum({rgb[0], rgb[1], rgb[2]});
     }
     std::array<std::vector<float>, 3> axes;
-    // theta_h's cells are even in its square root; the table's axis is that root.
+    // The cells of theta_h are uniform in its square root, which is the axis of the table.
     for (std::size_t i = 0; i < kThetaH; ++i)
         axes[0].push_back(static_cast<float>(std::sqrt(0.5 * kPi) * static_cast<double>(i) / kThetaH));
     for (std::size_t i = 0; i < kThetaD; ++i)

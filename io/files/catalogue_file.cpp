@@ -24,7 +24,7 @@ struct Column {
     double least, most;
     void (*set)(CatalogueStar& star, double value);
     bool must_be_there = false;
-    bool may_be_empty = false;  // in some lines
+    bool may_be_empty = false;  // may be empty in some lines
 };
 
 constexpr std::array kStarColumns = {
@@ -38,7 +38,8 @@ constexpr std::array kStarColumns = {
            [](CatalogueStar& s, double v) { s.pm_ra_cosdec_rad_yr = v * kMas_rad; }},
     Column{"pm_dec_mas_yr", -20000, 20000,
            [](CatalogueStar& s, double v) { s.pm_dec_rad_yr = v * kMas_rad; }},
-    // The nearest star's is 768.5 mas. Measured ones of far stars may come out below 0, which no place has.
+    // The nearest star has 768.5 mas. Measured parallaxes of far stars may be negative, which no distance
+    // has.
     Column{"parallax_mas", -1000, 1000,
            [](CatalogueStar& s, double v) { s.parallax_rad = std::max(0.0, v) * kMas_rad; }},
     Column{"v_mag", -3, 30, [](CatalogueStar& s, double v) { s.magnitude_v = v; }, true},
@@ -50,7 +51,7 @@ std::string_view without_line_end(std::string_view line) {
     return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
 }
 
-// Takes what stands before the next comma off the line.
+// Removes the field up to the next comma from the line, and returns it.
 std::string_view take_field(std::string_view& line) {
     const std::size_t comma = line.find(',');
     const std::string_view field = line.substr(0, comma);
@@ -69,7 +70,7 @@ std::string all_columns() {
     return names;
 }
 
-// Returns what each column of the file is; empty: no header.
+// Returns the meaning of each column of the file; empty when there is no header.
 std::vector<const Column*> parse_header(std::string_view line) {
     std::vector<const Column*> found;
     while (!line.empty()) {
@@ -91,7 +92,7 @@ std::string names_of(const std::vector<const Column*>& columns) {
     return names;
 }
 
-// Throws InputError that begins with `where` and names the value that is none.
+// Throws InputError that begins with `where` and names the malformed value.
 CatalogueStar parse_row(const std::string& where, std::string_view line,
                         const std::vector<const Column*>& columns) {
     const std::string_view whole = line;

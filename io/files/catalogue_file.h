@@ -1,8 +1,8 @@
 #pragma once
-// Star catalogues as CSV. Lines that start with # are comments; the first other line names the columns, in
-// any order: ra_deg, dec_deg and v_mag must be there; hip, hd, epoch_year, pm_ra_mas_yr, pm_dec_mas_yr,
-// parallax_mas, b_v and v_i may be. Without a column its value is that of CatalogueStar: no number, J1991.25, no
-// motion, far away, B-V 0; a line without a v_i has none.
+// Reads star catalogues as CSV. Lines that start with # are comments. The first other line names the columns,
+// in any order: ra_deg, dec_deg and v_mag are required; hip, hd, epoch_year, pm_ra_mas_yr, pm_dec_mas_yr,
+// parallax_mas, b_v and v_i are optional. A missing column has CatalogueStar's default: no number, J1991.25,
+// no motion, far away, B-V 0. A star without v_i has none.
 
 #include <filesystem>
 
@@ -10,8 +10,8 @@
 
 namespace hilcam {
 
-// Places are ICRS at each line's epoch; pm_ra includes cos(dec). Throws InputError with file:line and column
-// for what is not a row.
+// Positions are ICRS at each line's epoch; pm_ra includes cos(dec). Throws InputError with file:line and
+// column for a malformed row.
 StarCatalogue load_catalogue(const std::filesystem::path& file);
 
 }  // namespace hilcam

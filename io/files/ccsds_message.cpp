@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-// "KEY = VALUE": the key is of capitals, digits and underscores.
+// Splits "KEY = VALUE"; a key has capitals, digits and underscores.
 bool split(std::string_view text, KvnLine& line) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) return false;
@@ -22,15 +22,15 @@ bool starts_keyword(std::string_view text, std::string_view word) {
            (text.size() == word.size() || text[word.size()] == ' ' || text[word.size()] == '\t');
 }
 
-// Axes of the Earth's equator may be those of an epoch.
+// Equatorial axes may be those of an epoch.
 enum class Epoch { kNone, kMayBe, kOfDate, kMustBe };
 struct FrameName {
-    std::string_view name;  // the word (ccsds_word()); a star stands for any end
+    std::string_view name;  // the word (ccsds_word()); a star matches any ending
     CcsdsFrame frame;
     Epoch epoch = Epoch::kNone;
 };
-// The SANA registries "Celestial Body Reference Frames", "Orbit-Relative Reference Frames" and "Spacecraft Body Reference
-// Frames", and the names of the standards' earlier annexes.
+// The SANA registries "Celestial Body Reference Frames", "Orbit-Relative Reference Frames" and "Spacecraft
+// Body Reference Frames", and the names of the standards' earlier annexes.
 constexpr std::array<FrameName, 56> kFrameNames = {{
     {"ICRF", CcsdsFrame::kIcrf},
     {"GCRF", CcsdsFrame::kIcrf},
@@ -95,7 +95,7 @@ bool is_named(const FrameName& frame, std::string_view word) {
     return word.starts_with(frame.name.substr(0, frame.name.size() - 1));
 }
 
-// A name as it is written in messages.
+// Returns a name as messages write it.
 std::string written(std::string_view name) {
     std::string out(name);
     std::replace(out.begin(), out.end(), ' ', '_');
@@ -171,7 +171,7 @@ std::optional<CalendarTime> ccsds_calendar(std::string_view text) {
     const std::size_t t = rest.find('T');
     if (t == std::string_view::npos || rest.size() < t + 9 || rest[t + 3] != ':' || rest[t + 6] != ':')
         return {};
-    // from_chars() takes a minus sign, which no field may have.
+    // from_chars() accepts a minus sign, which no field may have.
     bool good = true;
     const auto field = [&](std::size_t at, std::size_t size) {
         const auto value = parsed_as<int>(rest.substr(at, size));
@@ -205,7 +205,7 @@ TimeTai ccsds_epoch(const TextLines& lines, std::string_view text, TimeSystem sy
 int interpolation_nodes(const Interpolation& i) {
     switch (i.method) {
         case InterpolationMethod::kHermite:
-            // One state has no neighbour to go to: degree 1 is a line between two, here with their slopes.
+            // At least two states: degree 1 is a line between two, and their slopes are used as well.
             return std::max(2, (i.degree + 2) / 2);
         case InterpolationMethod::kLagrange:
             return i.degree + 1;
@@ -307,7 +307,7 @@ std::optional<TimeTai> frame_epoch(const TextLines& lines, const KvnSection& met
     }
     const TimeTai epoch = ccsds_epoch(lines, entry->value, system, entry->line);
     if (rule == Epoch::kMayBe || rule == Epoch::kMustBe) return epoch;
-    // J2000 is the axes' own epoch; two minutes are more than time systems differ by.
+    // J2000 is these axes' own epoch; time systems differ by less than two minutes.
     const bool inertial = frame == CcsdsFrame::kEme2000 || frame == CcsdsFrame::kIcrf;
     const std::int64_t from_j2000_ns = epoch - *from_calendar({2000, 1, 1, 12, 0, 0}, TimeSystem::kTt);
     constexpr std::int64_t kSame_ns = 120'000'000'000;

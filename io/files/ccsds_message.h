@@ -1,10 +1,10 @@
 #pragma once
-// The common part of CCSDS messages (OEM, AEM, OMM): lines, words, epochs, frames, time systems. CCSDS 502.0-B-3 (2023)
-// section 7 and 504.0-B-2 (2024) section 6; earlier issues differ in the keywords their readers name.
+// The part that OEM, AEM and OMM have in common: lines, words, epochs, frames, time systems. CCSDS 502.0-B-3
+// (2023) section 7 and 504.0-B-2 (2024) section 6; earlier issues differ in keywords that their readers name.
 //
-// A message is written as KVN (keyword = value notation) or as XML; ndm_xml.h turns XML into lines of KVN. The reader ignores the case
-// of values that are words of the standard, and takes an underscore for a blank (502.0-B-3, 7.5), as STK writes "Lagrange" and
-// "Earth". It notes and skips keywords that it does not use.
+// A message is KVN (keyword = value notation) or XML, which ndm_xml.h turns into lines of KVN. For values
+// that are words of the standard, the reader ignores case and treats an underscore as a blank (502.0-B-3,
+// 7.5): STK writes "Lagrange" and "Earth". Keywords that it does not use are noted and skipped.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,13 +19,13 @@
 
 namespace hilcam {
 
-// A line that says something; blank ones and comments are passed over.
+// A line with content; blank lines and comments are skipped.
 struct KvnLine {
     std::string_view text;        // trimmed
-    std::string_view key, value;  // the parts of "KEY = VALUE", trimmed; empty in other lines
+    std::string_view key, value;  // the two parts of "KEY = VALUE", trimmed; empty in other lines
 };
 
-// A keyword and where it stands.
+// A keyword with its value and line.
 struct KvnEntry {
     std::string key, value;
     int line = 0;
@@ -33,10 +33,11 @@ struct KvnEntry {
 
 class KvnLines : public TextLines {
   public:
-    // The text is the caller's. Throws InputError for XML that is not well formed or holds no such message.
+    // text: must outlive this. Throws InputError for XML that is malformed or has no such message.
     KvnLines(std::string_view text, const std::string& name, NdmKind kind);
     bool next(KvnLine& line);
-    // Keeps a remark, "file:12: ..."; a dozen at most, each about another thing. line: 0 is the last read.
+    // Keeps a remark, "file:12: ...", one for each `about` and a dozen at most. line: 0 is the line last
+    // read.
     void note(const std::string& about, const std::string& what, int line = 0);
     const std::vector<std::string>& notes() const { return notes_; }
 
@@ -45,12 +46,13 @@ class KvnLines : public TextLines {
     std::vector<std::string> notes_, noted_;
 };
 
-// Returns a word of the standard as it is compared: in capitals, with single blanks for underscores and runs of blanks.
+// Returns a word of the standard in the form for comparison: capitals, with a single blank for underscores
+// and runs of blanks.
 std::string ccsds_word(std::string_view value);
-// True when a value is that word.
+// True when a value is that word of the standard.
 bool is_word(std::string_view value, std::string_view word);
 
-// Axes by their SANA names.
+// Axes, by their SANA names.
 enum class CcsdsFrame {
     kIcrf,        // ICRF, GCRF
     kEme2000,     // EME2000, J2000
@@ -58,49 +60,49 @@ enum class CcsdsFrame {
     kTeme,        // TEME
     kTod,         // TOD: the Earth's true equator and equinox
     kMod,         // MOD: the Earth's mean equator and equinox
-    kGtod,        // GTOD, TDR, GRC: TOD turned by Greenwich's sidereal time; ITRF but for the pole's motion
-    kLvlh,        // LVLH, LVLH_ROTATING: z to the centre, y against the orbit's normal
-    kRtn,         // RTN, RSW, QSW, RTN_ROTATING...: x outward, z along the orbit's normal
+    kGtod,        // GTOD, TDR, GRC: TOD turned by Greenwich sidereal time; ITRF without polar motion
+    kLvlh,        // LVLH, LVLH_ROTATING: z to the centre, y opposite the orbit normal
+    kRtn,         // RTN, RSW, QSW, RTN_ROTATING...: x outward, z along the orbit normal
     kBody,        // SC_BODY, SC_BODY_1, and a part of it: STARTRACKER_1, INSTRUMENT_A, IMU_FRAME_1...
 };
-// The frame of that name, if it is one of those accepted. InputError by `lines` otherwise, as of all below.
+// Returns the frame of that name. Throws InputError, as all functions below, when it is not among `accepted`.
 CcsdsFrame ccsds_frame(const TextLines& lines, const KvnEntry& entry,
                        const std::vector<CcsdsFrame>& accepted);
-// UTC, TAI, TT, GPS or TDB.
+// Returns UTC, TAI, TT, GPS or TDB.
 TimeSystem ccsds_time_system(const TextLines& lines, const KvnEntry& entry);
-// "2026-03-20T06:00:00.5" or "2026-079T06:00:00.5", a Z after it or not. line: 0 is the last read.
+// Parses "2026-03-20T06:00:00.5" or "2026-079T06:00:00.5", with or without a final Z. line: 0 is the line
+// last read.
 TimeTai ccsds_epoch(const TextLines& lines, std::string_view text, TimeSystem system, int line = 0);
-// The date and time that such a text says; nothing where it is none.
+// Returns the date and time of such a text; nothing when it is malformed.
 std::optional<CalendarTime> ccsds_calendar(std::string_view text);
 
-// kUnsaid: the reader's user chooses.
+// kUnsaid: the caller chooses.
 enum class InterpolationMethod { kUnsaid, kLinear, kLagrange, kHermite };
 struct Interpolation {
     InterpolationMethod method = InterpolationMethod::kUnsaid;
     int degree = 0;
 };
 inline constexpr int kMaxInterpolationDegree = 31;
-// Returns how many states it takes: degree + 1, or for Hermite half as many, as each has a rate, too; an even degree of
-// Hermite takes as many as the next odd one.
+// Returns how many states the interpolation needs: degree + 1, or for Hermite half as many, because each
+// state has a rate. An even Hermite degree needs as many as the next odd one.
 int interpolation_nodes(const Interpolation& interpolation);
 
-// The span of a segment: from START_TIME to STOP_TIME, which data must not leave, and what of it is to be
-// used.
+// The span of a segment, START_TIME to STOP_TIME, which its data must not leave, and the usable part of it.
 struct SegmentSpan {
     TimeTai start, stop, usable_start, usable_stop;
 };
 
-// A segment's keywords as they come, until META_STOP.
+// The keywords of a segment, up to META_STOP.
 class KvnSection {
   public:
-    // Reads up to `end`, which stands on a line by itself. Keywords that are not among those known are noted.
+    // Reads up to `end`, which is a line of its own. Notes keywords that are not in `known`.
     void read(KvnLines& lines, std::string_view end, const std::vector<std::string_view>& known);
     const KvnEntry* find(std::string_view key) const;
-    // InputError when it is missing.
+    // Returns the entry; InputError when it is missing.
     const KvnEntry& require(const TextLines& lines, std::string_view key) const;
-    // START_TIME and the rest, in that time system.
+    // Returns the span from START_TIME, STOP_TIME and the usable times, in that time system.
     SegmentSpan span(const TextLines& lines, TimeSystem system) const;
-    // The method of the keyword `key`, and INTERPOLATION_DEGREE, which must come with it (LINEAR: 1).
+    // Returns the method in the keyword `key`, and INTERPOLATION_DEGREE, which must accompany it (LINEAR: 1).
     Interpolation interpolation(KvnLines& lines, std::string_view key) const;
 
   private:
@@ -108,17 +110,17 @@ class KvnSection {
     int end_line_ = 0;
 };
 
-// The epoch at which the axes of REF_FRAME stand still (TEME, TOD and MOD of REF_FRAME_EPOCH); nothing for those of date.
-// Frames that have no epoch of their own refuse another than J2000.
+// Returns the epoch at which the axes of REF_FRAME are frozen (TEME, TOD and MOD with REF_FRAME_EPOCH);
+// nothing for axes of date. A frame without an epoch of its own accepts J2000 only.
 std::optional<TimeTai> frame_epoch(const TextLines& lines, const KvnSection& meta, CcsdsFrame frame,
                                    TimeSystem system);
 
-// A value without the unit that KVN may have behind it in brackets. InputError for another unit than the standard's; `where`
-// is its place, "file:12".
+// Returns a value without the unit in brackets that KVN may append. Throws InputError for a unit other than
+// the standard's. where: the place, "file:12".
 std::string without_unit(const std::string& where, const KvnEntry& entry);
 
-// Steps of time that differ by more than a factor of a million leave an interpolation no digits: refused.
-// Samples have a `time`; epochs that are repeated are passed over (repeated_epochs.h). line: of the segment.
+// Refuses time steps that differ by more than a factor of a million, which leave an interpolation no digits.
+// Repeated epochs are skipped (repeated_epochs.h). Each sample has a `time`; line: of the segment.
 template <class Sample>
 void check_steps(const TextLines& lines, const std::vector<Sample>& samples, int line) {
     std::int64_t min_ns = INT64_MAX, max_ns = 0;
@@ -133,7 +135,7 @@ void check_steps(const TextLines& lines, const std::vector<Sample>& samples, int
                    line);
 }
 
-// A data line's numbers, after its epoch; Fortran's D of an exponent is taken.
+// Returns the numbers of a data line and sets `epoch` to its first word. Exponents may have Fortran's D.
 std::vector<double> data_numbers(const TextLines& lines, std::string_view text, std::string_view& epoch);
 
 }  // namespace hilcam

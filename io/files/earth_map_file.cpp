@@ -22,7 +22,7 @@ std::uint32_t u32_at(std::span<const std::uint8_t> bytes, std::size_t at) {
            static_cast<std::uint32_t>(bytes[at + 2]) << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
 }
 
-// One channel of a tile: predictions undone, into every eighth byte.
+// Restores one channel of a tile from its differences, into every eighth byte.
 void restore(std::span<const std::uint8_t> in, std::size_t side, std::span<std::uint8_t> out) {
     std::memcpy(out.data(), in.data(), in.size());
     const auto at = [&](std::size_t y, std::size_t x) -> std::uint8_t& { return out[y * side + x]; };
@@ -49,7 +49,7 @@ EarthMap decode_earth_map(std::span<const std::uint8_t> bytes, const std::string
     const auto begins_with = [&](std::string_view magic) {
         return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
     };
-    // A picture that was meant to be packed first.
+    // A picture that has to be packed first.
     for (const std::string_view picture : {"II*", "MM", "II+", "\x89PNG", "\xff\xd8"})
         if (begins_with(picture)) refuse("is a picture; accepted: what tools/make_earth_map.py makes of it");
     if (bytes.size() < kHead || !begins_with("HILEARTH"))
@@ -79,7 +79,8 @@ EarthMap decode_earth_map(std::span<const std::uint8_t> bytes, const std::string
         at += length;
     }
     if (at != bytes.size()) refuse("has " + std::to_string(bytes.size() - at) + " bytes after its last tile");
-    // A stream that cannot hold a tile is found before the map's memory is taken: deflate packs 1032 times at most.
+    // A stream too short for a tile is found before the map's memory is allocated: deflate compresses 1032
+    // times at most.
     const std::size_t plane = std::size_t{side} * side;
     for (std::size_t i = 0; i < tiles; ++i)
         if (streams[i].size() * 1100 + 64 < plane * kChannels)

@@ -1,9 +1,10 @@
 #pragma once
-// Maps of the Earth in hilcam's own packed form, as tools/make_earth_map.py writes them (docs/earth.md).
+// Reads maps of the Earth in hilcam's packed form, which tools/make_earth_map.py writes (docs/earth.md).
 //
-// Little-endian: "HILEARTH"; version 1, width, height, side of a tile, channels (8) as 32-bit numbers; the length of each
-// tile's stream, rows of tiles from the north; the streams. A stream is zlib's (RFC 1950) of a tile's channels one
-// after the other, each value less what its neighbours predict: the middle one of left, above, left + above - corner.
+// Little-endian: "HILEARTH"; then 32-bit numbers: version 1, width, height, side of a tile, channels (8), and
+// the length of each tile's stream, by rows of tiles from the north; then the streams. A stream is zlib's
+// (RFC 1950) and holds the channels of a tile one after the other. Each value is stored as its difference
+// from the prediction: the median of left, above, and left + above - corner.
 
 #include <filesystem>
 #include <span>
@@ -14,7 +15,7 @@ namespace hilcam {
 
 // Throws InputError, one line that names the file: what is wrong, found, accepted.
 EarthMap read_earth_map(const std::filesystem::path& file);
-// The same from bytes; name begins the message.
+// Decodes the same from memory; name begins messages.
 EarthMap decode_earth_map(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace hilcam

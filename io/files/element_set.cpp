@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = 128u << 20;
 
-// Alpha-5's letters in their order, from 10 on (Space-Track, "Alpha-5 Satellite Catalog Numbers").
+// The letters of Alpha-5 in order, from 10 on (Space-Track, "Alpha-5 Satellite Catalog Numbers").
 constexpr std::string_view kAlpha5Letters = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 
 bool is_same_satellite(const ElementSet& set, const std::string& wanted, const std::optional<int>& number) {
@@ -29,7 +29,7 @@ std::optional<int> catalogue_number(std::string_view text) {
             first = static_cast<int>(10 + letter) * 10'000;
             text.remove_prefix(1);
         }
-    constexpr std::size_t kMaxNumberDigits = 9;  // the CCSDS's NORAD_CAT_ID has as many
+    constexpr std::size_t kMaxNumberDigits = 9;  // the limit of the CCSDS's NORAD_CAT_ID
     if (text.empty() || text.size() > kMaxNumberDigits) return {};
     int number = 0;
     for (const char c : text) {
@@ -48,7 +48,7 @@ double days_since_1950(int year, int month, int day, double part_of_day) {
 
 std::string refusal_of_ephemeris_type(std::string_view type) {
     type = trimmed(type);
-    // Distributed sets have 0; 2 is SGP4's and 3 SDP4's own number, which are one theory here.
+    // Distributed sets have 0; 2 is for SGP4 and 3 for SDP4, which are one theory here.
     if (type.empty() || type == "0" || type == "2" || type == "3") return {};
     const std::string_view theory = type == "1"   ? "SGP"
                                     : type == "4" ? "SGP4-XP"

@@ -17,7 +17,7 @@ std::string padded(const std::string& number, std::size_t digits) {
     return std::string(digits - std::min(digits, number.size()), '0') + number;
 }
 
-// Turns a name into a part of a file's name on any system.
+// Turns a name into part of a file name that is valid on any system.
 std::string plain_name(std::string_view name) {
     std::string out(name);
     for (char& c : out) {
@@ -28,7 +28,7 @@ std::string plain_name(std::string_view name) {
     return out;
 }
 
-// "", "6", "06": zeros up to so many digits.
+// Parses "", "6" or "06": zeros up to that many digits.
 std::size_t digits_of(std::string_view text, std::string_view pattern) {
     std::size_t digits = 1;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), digits);

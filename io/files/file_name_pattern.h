@@ -1,12 +1,12 @@
 #pragma once
 // Names of a run's pictures by a pattern: "frame_%08d" or "{camera_name}_{frame:6}".
 //
-//   %d, %6d, %06d   the frame's number, with zeros up to so many digits
-//   {frame}, {frame:6}   the same
-//   {camera}        the camera's number on the bench, from 1
-//   {camera_name}   its model, what is no letter, digit, dot or dash as _
-//   {time_tai_ns}   of mid-exposure, TAI since 1970
-//   %%, {{, }}      %, {, }
+//  %d, %6d, %06d        the frame's number, padded with zeros to that many digits
+//  {frame}, {frame:6}   the same
+//  {camera}             the camera's number on the bench, from 1
+//  {camera_name}        its model; all but letters, digits, dots and dashes become _
+//  {time_tai_ns}        mid-exposure, TAI nanoseconds since 1970
+//  %%, {{, }}           %, {, }
 
 #include <cstdint>
 #include <string>
@@ -19,9 +19,9 @@ namespace hilcam {
 
 class FileNamePattern {
   public:
-    // ending: with its dot; a pattern that ends in it names whole files, to others it is added. Throws
-    // InputError for another ending of a picture, a field that is none of these, a folder in the name, and a
-    // pattern without the frame's number, as each frame would be written over the one before.
+    // ending: with its dot. A pattern that ends in it names whole files; to others it is appended. Throws
+    // InputError for another picture's ending, an unknown field, a folder in the name, and a pattern without
+    // the frame's number, with which each frame would overwrite the previous one.
     FileNamePattern(std::string_view pattern, std::string_view ending);
 
     struct Camera {
@@ -31,7 +31,8 @@ class FileNamePattern {
     // Returns the name without the ending.
     std::string stem(const FrameRecord& record, const Camera& camera) const;
     const std::string& ending() const { return ending_; }
-    // True for a file's name that a run with this pattern may have written, in any format, and for its view and label.
+    // True for a file name that a run with this pattern may have written: in any format, as a view, or as a
+    // label.
     bool may_have_named(std::string_view file_name) const;
 
   private:

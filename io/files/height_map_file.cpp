@@ -15,11 +15,11 @@
 namespace hilcam {
 namespace {
 
-// The most that columns and rows can ask for: a map is not read whole.
+// The largest size that columns and rows can give. A map is not read whole.
 constexpr std::uintmax_t kMaxHeightBytes = 4'000'000'000'000;
 
-// A file of another format that is often taken for raw heights, and what reads it; empty: none of them. TIFF 6.0
-// and BigTIFF begin with their byte order and 42 or 43, PDS3 labels with their version.
+// Returns advice for a file in another format that is often mistaken for raw heights; empty for other files.
+// TIFF 6.0 and BigTIFF begin with their byte order and 42 or 43, PDS3 labels with their version.
 std::string format_with_heights_inside(int fd) {
     std::array<char, 16> head{};
     if (pread(fd, head.data(), head.size(), 0) != static_cast<ssize_t>(head.size())) return {};

@@ -1,8 +1,7 @@
 #pragma once
-// Heights from a raw file: rows from north to south, columns from west to east, little-endian, nothing else
-// in it (GDAL's ENVI format without its header, SRTM and LOLA rasters after gdal_translate -of ENVI). The
-// file is mapped, so one larger than memory is read where it is looked at; it must not be cut short while the
-// program runs, which would end it.
+// Heights from a raw file: rows from north to south, columns from west to east, little-endian, without a
+// header (GDAL's ENVI format without its header; SRTM and LOLA rasters after gdal_translate -of ENVI). The
+// file is mapped into memory, so it may be larger than memory.
 
 #include <filesystem>
 #include <memory>
@@ -24,8 +23,8 @@ struct HeightMapConfig {
 };
 Fields fields(HeightMapConfig& config);
 
-// Throws InputError when the file is absent or not as large as columns, rows and format make it. Heights that
-// are not finite are 0 m. A file that is cut short while it is used ends the program (SIGBUS): do not.
+// Throws InputError when the file is missing or its size does not match columns, rows and format. Heights
+// that are not finite read as 0 m. Do not truncate the file while the program runs: that ends it with SIGBUS.
 std::unique_ptr<HeightMap> open_height_map(const HeightMapConfig& config);
 
 }  // namespace hilcam

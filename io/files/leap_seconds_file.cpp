@@ -20,7 +20,7 @@ std::optional<std::int64_t> seconds_of(std::string_view text) {
     return value && *value >= 0 && *value <= kLatest_s ? value : std::nullopt;
 }
 
-// The date of a day, counted from 1900-01-01.
+// Returns the date of a day, counted from 1900-01-01.
 CalendarTime date_of(std::int64_t day) {
     for (int year = 1900;; ++year) {
         const int length = calendar_of_day(year, 366) ? 366 : 365;

@@ -1,5 +1,5 @@
 #pragma once
-// The segments of an OEM or AEM that are one object's, in the order of their time, for the readers of both.
+// Collects one object's segments of an OEM or AEM in time order, for the readers of both.
 
 #include <string>
 #include <utility>
@@ -12,8 +12,9 @@
 
 namespace hilcam {
 
-// Adds a segment of the object, by its name or number; of any, when no object is named. InputError: a second object where none is
-// named, a segment that begins before the one before it ends.
+// Keeps a segment when it is the object's, by name or number; every segment when `object` is empty. Throws
+// InputError for a second object when `object` is empty, and for a segment that begins before the previous
+// one ends.
 template <class Segment>
 void keep_segment(const KvnLines& lines, std::vector<Segment>& kept, Segment&& segment,
                   const std::string& object) {
@@ -34,7 +35,7 @@ void keep_segment(const KvnLines& lines, std::vector<Segment>& kept, Segment&& s
     kept.push_back(std::move(segment));
 }
 
-// Ends the reading: hands on what the lines noted. InputError where no segment is the object's.
+// Returns the kept segments and passes on the lines' notes. Throws InputError when the object has no segment.
 template <class Segment>
 std::vector<Segment> kept_segments(const KvnLines& lines, std::vector<Segment>&& kept,
                                    const std::string& name, const std::string& object,

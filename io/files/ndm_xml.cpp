@@ -93,10 +93,10 @@ constexpr std::array<std::string_view, 34> kAttitudeNumbers = {"QC first",
                                                                "SPIN_ANGLE_VEL",
                                                                "NUTATION",
                                                                "NUTATION_PER"};
-// Deeper than any message's elements.
+// No message nests its elements deeper.
 constexpr int kDeepestData = 6;
 
-// A name without its namespace.
+// Returns a name without its namespace.
 std::string_view local_name(const pugi::xml_node& node) {
     const std::string_view name = node.name();
     const std::size_t colon = name.find(':');
@@ -155,7 +155,7 @@ class Unroller {
     NdmKind kind_;
     pugi::xml_document document_;
     NdmText out_;
-    // Lines are counted as elements come, which is in the file's order.
+    // Lines are counted as elements are met, which is in the file's order.
     std::size_t counted_ = 0;
     int line_ = 1;
 
@@ -181,7 +181,7 @@ class Unroller {
 
     void add_message(const pugi::xml_node& message) {
         const Word word = word_of(kind_);
-        // Of several messages the segments are read as those of one.
+        // The segments of several messages are read as those of one.
         if (out_.text.empty() || kind_ == NdmKind::kOmm) {
             add_line(message, std::string(word.version) + " = " + message.attribute("version").value());
             add_keywords(child_named(message, "header"));
@@ -214,7 +214,7 @@ class Unroller {
         if (kind_ == NdmKind::kAem) add_line(data, "DATA_STOP");
     }
 
-    // The elements of a block that are keywords; blocks of an OMM that have none of SGP4's are passed over.
+    // Adds the elements of a block as keywords; blocks of an OMM without any that SGP4 needs are skipped.
     void add_keywords(const pugi::xml_node& block) {
         const std::string_view name = local_name(block);
         if (name == "covarianceMatrix" || name == "userDefinedParameters" || name == "COMMENT") return;
@@ -246,7 +246,7 @@ class Unroller {
         std::size_t rank;
         std::string_view text;
     };
-    // The numbers below an element, and its epoch.
+    // Collects the numbers below an element, and its epoch.
     void collect(const pugi::xml_node& parent, bool first, int depth, std::string_view& epoch,
                  std::vector<Number>& numbers) {
         if (depth > kDeepestData)
@@ -271,7 +271,7 @@ class Unroller {
             check_unit(node, key);
             if (first && (name == "QC" || name == "QC_DOT")) key += " first";
             if (const auto rank = rank_of(key)) numbers.push_back({*rank, text});
-            // Of a state what is not used is left out: accelerations.
+            // Parts of a state that are not used, the accelerations, are left out.
             else if (kind_ == NdmKind::kAem)
                 fail(node.offset_debug(),
                      "found the element " + in_quotes(name) + "; accepted: those of attitudes by 504.0-B");

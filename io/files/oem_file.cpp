@@ -61,7 +61,7 @@ void read_state(const KvnLines& lines, const KvnLine& line, OemMetadata& m) {
     const TimeTai time = ccsds_epoch(lines, epoch, m.system);
     if (time < m.span.start || m.span.stop < time) lines.refuse(epoch, "epochs from START_TIME to STOP_TIME");
     std::vector<StateSample>& states = m.segment.states;
-    // One that stands twice is a manoeuvre's.
+    // An epoch that occurs twice marks a manoeuvre.
     if (!states.empty() && time < states.back().time)
         lines.refuse(epoch, "epochs that rise from line to line");
     const StateSample state{time, kKilometre_m * Vec3d{v[0], v[1], v[2]},
@@ -71,7 +71,7 @@ void read_state(const KvnLines& lines, const KvnLine& line, OemMetadata& m) {
     states.push_back(state);
 }
 
-// Checks that the states reach over the usable span.
+// Checks that the states cover the usable span.
 void check_states(const KvnLines& lines, const OemSegment& s) {
     if (s.states.size() < 2)
         lines.fail("the segment that begins here has " + std::to_string(s.states.size()) +
@@ -91,7 +91,7 @@ void skip_covariance(KvnLines& lines, KvnLine& line) {
     lines.fail("the file ends; accepted: COVARIANCE_STOP");
 }
 
-// Data up to the next META_START (true) or the file's end.
+// Reads data. Returns true at the next META_START, false at the end of the file.
 bool read_data(KvnLines& lines, KvnLine& line, OemMetadata& m) {
     while (lines.next(line)) {
         if (line.text == "META_START") return true;

@@ -1,10 +1,10 @@
 #pragma once
-// Orbit Ephemeris Messages (OEM) as KVN or XML: CCSDS 502.0-B-3 section 5, versions 1.0 to 3.0, as STK, GMAT, Orekit and
-// NASA write them.
+// Reads Orbit Ephemeris Messages (OEM) as KVN or XML: CCSDS 502.0-B-3 section 5, versions 1.0 to 3.0, as STK,
+// GMAT, Orekit and NASA write them.
 //
-// Frames: ICRF, GCRF, EME2000, ITRF and its realisations, TEME, TOD and MOD (of date or of REF_FRAME_EPOCH), GTOD. Time
-// systems: UTC, TAI, TT, GPS, TDB. Covariances and accelerations are passed over. An epoch that stands twice parts its
-// segment in two (repeated_epochs.h).
+// Frames: ICRF, GCRF, EME2000, ITRF and its realisations, TEME, TOD and MOD (of date or of REF_FRAME_EPOCH),
+// GTOD. Time systems: UTC, TAI, TT, GPS, TDB. Covariances and accelerations are skipped. An epoch that occurs
+// twice splits its segment (repeated_epochs.h).
 
 #include <filesystem>
 #include <optional>
@@ -26,19 +26,19 @@ struct StateSample {
 struct OemSegment {
     std::string object_name, object_id, center_name;
     CcsdsFrame frame = CcsdsFrame::kIcrf;
-    std::optional<TimeTai> frame_epoch;  // instant of which the frame's axes are, where they stand still
+    std::optional<TimeTai> frame_epoch;  // epoch at which the frame's axes are frozen, if they are
     TimeTai usable_start, usable_stop;
     Interpolation interpolation;
-    std::vector<StateSample> states;  // times rise; at least two, and enough for the interpolation
+    std::vector<StateSample> states;  // rising times; at least two, and enough for the interpolation
     int line = 0;                     // line of META_START
 };
 
-// The segments of one object, in time; usable spans do not overlap. An empty `object`: of a message with only
-// one, else its name or id. At most 256 MiB (XML: 128). `notes` gets what of the message is not used, a line each. Throws
-// InputError with file:line.
+// Loads the segments of one object in time order, from at most 256 MiB (XML: 128); usable spans do not
+// overlap. object: its name or id; may be empty when the message has only one. notes: gets one line for each
+// thing in the message that is not used. Throws InputError with file:line.
 std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object = "",
                                  std::vector<std::string>* notes = nullptr);
-// The same from memory; `name` stands for the file in messages.
+// Reads the same from memory; name stands for the file in messages.
 std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
                                  const std::string& object = "", std::vector<std::string>* notes = nullptr);
 

@@ -12,15 +12,15 @@ namespace hilcam {
 namespace {
 
 constexpr double kDay_min = 1440, kOmmDay_s = 86400;
-// More keywords than the standard has.
+// The standard has fewer keywords.
 constexpr std::size_t kMaxKeywords = 200;
 
-// One message's keywords.
+// The keywords of one message.
 class Keywords {
   public:
     explicit Keywords(std::string where) : where_(std::move(where)) {}
 
-    // A keyword without a value is as if it was not there: CelesTrak's headers have such.
+    // A keyword without a value counts as missing: CelesTrak's headers have such ones.
     void add(std::string_view key, std::string_view value) {
         if (value.empty() || key == "COMMENT") return;
         if (entries_.size() == kMaxKeywords) throw InputError(where_ + ": has more than 200 keywords");
@@ -106,7 +106,7 @@ class OmmReader {
                             (date->hour * 3600 + date->minute * 60 + date->second) / kOmmDay_s);
     }
 
-    // Empty: the set is one for SGP4.
+    // Returns why SGP4 cannot use the set; empty: it can.
     std::string refusal() const {
         const std::string theory = keywords_.text("MEAN_ELEMENT_THEORY");
         constexpr std::array<std::string_view, 4> kTheories = {"SGP4", "SGP/SGP4", "SDP4", "SGP4/SDP4"};
@@ -166,7 +166,8 @@ std::vector<ElementSet> read_kvn(std::string_view text, const std::string& name)
     return sets;
 }
 
-// The fields of a line by RFC 4180: those in double quotes may have commas, and a double quote twice.
+// Returns the fields of a line (RFC 4180): a field in double quotes may have commas, and doubled quotes for
+// one.
 std::vector<std::string> csv_fields(const TextLines& lines, std::string_view line) {
     std::vector<std::string> fields(1);
     bool quoted = false;
@@ -209,7 +210,7 @@ std::vector<ElementSet> read_csv(std::string_view text, const std::string& name)
     return sets;
 }
 
-// Takes the objects of a text as they come: no tree is built of what may be deep.
+// Takes the objects of a text as they come, without a tree, because input may be nested deeply.
 class JsonSets : public nlohmann::json_sax<nlohmann::json> {
   public:
     explicit JsonSets(const std::string& name) : name_(name) {}

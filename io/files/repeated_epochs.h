@@ -1,7 +1,7 @@
 #pragma once
-// Segments of ephemerides in which an epoch stands twice, with the states before and after a manoeuvre, as STK and GMAT
-// write them: they are cut there, so that nothing is interpolated across it (CCSDS 502.0-B-3, 5.2.4.7, asks for a segment of
-// its own on each side). At the epoch itself the later side counts.
+// Splits segments of ephemerides at an epoch that occurs twice, as STK and GMAT write the states before and
+// after a manoeuvre, so that nothing is interpolated across it (CCSDS 502.0-B-3, 5.2.4.7, asks for a segment
+// on each side). At the epoch itself the later state counts.
 
 #include <algorithm>
 #include <string>
@@ -11,9 +11,10 @@
 
 namespace hilcam {
 
-// Returns the pieces of a segment, whose samples (`Samples` of the segment, each with a time) do not fall. A piece of one
-// sample is left out, as its neighbours have its epoch. A piece, or a whole segment, with fewer samples than the interpolation
-// takes has the degree that they allow, which is noted. nodes_of: how many samples an interpolation of the segment takes.
+// Returns the pieces of a segment. Its samples are in time order, each with a `time`. A piece of one sample
+// is dropped, because its neighbours share its epoch. A piece or whole segment with fewer samples than the
+// interpolation needs gets a lower degree, which is noted. nodes_of: returns how many samples an
+// interpolation of the segment needs.
 template <class Segment, class Sample>
 std::vector<Segment> cut_at_repeated_epochs(KvnLines& lines, Segment&& whole,
                                             std::vector<Sample> Segment::*samples,

@@ -44,7 +44,7 @@ RunFolder run_folder(const FilesConfig& c) {
 }
 
 void validate(const FilesConfig& c) {
-    [[maybe_unused]] const FileNamePattern names(c.name, ending_of(c.format));  // refuses a bad one
+    [[maybe_unused]] const FileNamePattern names(c.name, ending_of(c.format));  // throws for a bad one
     if (c.label && c.format != FilesConfig::Format::kFits)
         throw KeyError("label", "describes FITS files; accepted: with format: fits, or no 'label'");
 }
@@ -75,7 +75,7 @@ void FilesSink::start() {
 
 void FilesSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
     if (offered_++ % static_cast<std::uint64_t>(config_.every_nth) != 0) return;
-    if (fates_) fates_->expect(record.id);  // the writing thread may be done with it before put() returns
+    if (fates_) fates_->expect(record.id);  // the writing thread may finish the frame before put() returns
     if (!mailbox_.put(frame, record) && fates_) fates_->settle(record.id, false);
 }
 
@@ -115,7 +115,7 @@ bool FilesSink::has_fault() const noexcept {
     return failed_ > 0;
 }
 
-// The files that could not be written come before those that there was no time for.
+// Reports files that could not be written before frames that came too fast.
 std::string FilesSink::report_of_loss() const {
     if (failed_ > 0)
         return first_failure_ + (failed_ == 1

@@ -1,8 +1,7 @@
 #pragma once
-// Frames as files in a folder, "frame_00000001.png", each with what it says of itself (image_file.h), and
-// beside it, where that is asked for, a picture to look at, "frame_00000001.view.png", or a PDS4 label,
-// "frame_00000001.xml". A frame that cannot be
-// written leaves no file; the next is tried all the same, as a disk may be emptied.
+// Writes frames as files in a folder, "frame_00000001.png", each with its notes (image_file.h). On request it
+// adds a picture for the eye, "frame_00000001.view.png", or a PDS4 label, "frame_00000001.xml". A frame that
+// cannot be written leaves no file; the next one is tried all the same, because space may be freed.
 
 #include <cstdint>
 #include <filesystem>
@@ -34,20 +33,20 @@ struct FilesConfig {
     bool overwrite = false;
     WhenSlow when_slow = WhenSlow::kAuto;
 };
-// Returns the part of its folder that must not be mixed with another run.
+// Returns the folder, which must not be mixed with another run's.
 RunFolder run_folder(const FilesConfig& config);
 Fields fields(FilesConfig& config);
 void validate(const FilesConfig& config);
 std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext& context,
                                      const OutputShape& shape);
-// Returns what is to be said of the pictures before they are written: that they are dark in a viewer; or
+// Returns the warning that the pictures will be dark in a viewer, to be given before they are written; or
 // nothing.
 std::string dark_picture_warning(const FilesConfig& config, int bits);
 
 class FilesSink : public FrameSink {
   public:
-    // The largest frame's size; waits: the loop waits for room. fates may be null, and outlives the sink. Throws
-    // InputError when the folder holds another run's frames.
+    // width, height: of the largest frame. waits: the loop waits for room. fates: may be null; must outlive
+    // the sink. Throws InputError when the folder holds another run's frames.
     FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run, bool waits = true,
               FrameFates* fates = nullptr);
     ~FilesSink() override { stop(); }

@@ -8,7 +8,7 @@ namespace {
 struct OddBlank {
     std::string_view bytes, name;
 };
-// Unicode's blanks (category Zs, The Unicode Standard 15, table 6-2) and the zero-width ones, in UTF-8.
+// Unicode's blanks (category Zs, The Unicode Standard 15, table 6-2) and zero-width ones, in UTF-8.
 constexpr std::array<OddBlank, 18> kOddBlanks = {{{"\xC2\xA0", "U+00A0, a non-breaking blank"},
                                                   {"\xE2\x80\xAF", "U+202F, a narrow non-breaking blank"},
                                                   {"\xE2\x80\x80", "U+2000, a blank of half a width"},
@@ -37,7 +37,7 @@ std::string odd_blank_in(std::string_view text) {
         if (static_cast<signed char>(text[i]) >= 0) continue;
         for (const OddBlank& blank : kOddBlanks)
             if (text.substr(i).starts_with(blank.bytes)) return std::string(blank.name);
-        // Latin 1's stands by itself; in UTF-8 such a byte belongs to the character before it.
+        // In Latin 1 this byte is a character; in UTF-8 it continues one.
         if (text[i] == '\xA0' && (i == 0 || static_cast<signed char>(text[i - 1]) >= 0))
             return "byte A0, a non-breaking blank";
         while (i + 1 < text.size() && is_tail(text[i + 1])) ++i;

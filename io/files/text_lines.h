@@ -1,5 +1,5 @@
 #pragma once
-// Text files line by line, with the place for messages.
+// Reads text files line by line and keeps the place for messages.
 
 #include <string>
 #include <string_view>
@@ -18,16 +18,16 @@ inline std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-// The name of the first blank in a text that is none of ASCII's, as word processors, web pages and PDF put in the place
-// of plain ones: "U+00A0, a non-breaking blank"; empty where there is none. A lone byte 0xA0 is Latin 1's.
+// Names the first blank in a text that is not ASCII, as word processors, web pages and PDF use: "U+00A0, a
+// non-breaking blank"; empty when there is none. A lone byte 0xA0 counts as Latin 1's.
 std::string odd_blank_in(std::string_view text);
 
 class TextLines {
   public:
-    // A byte-order mark of UTF-8 is passed over, as editors on Windows write one. Throws InputError for UTF-16.
+    // Skips a byte-order mark of UTF-8, as editors on Windows write. Throws InputError for UTF-16.
     TextLines(std::string_view text, std::string name);
 
-    // The next line, without its end. False after the last.
+    // Gets the next line without its end; false after the last.
     bool next(std::string_view& line) {
         if (rest_.empty()) return false;
         const std::size_t end = rest_.find('\n');
@@ -40,7 +40,8 @@ class TextLines {
     }
     int number() const { return number_; }
     const std::string& name() const { return name_; }
-    // "file:12: found 'x'; accepted: y", of the last line or of another. A blank that looks like a plain one is named.
+    // Throws InputError, "file:12: found 'x'; accepted: y", about the last line or another. It names a blank
+    // that only looks like a plain one.
     [[noreturn]] void refuse(std::string_view found, const std::string& accepted, int line = 0) const {
         const std::string odd = odd_blank_in(found);
         fail("found " + in_quotes(found) + (odd.empty() ? "" : ", which has " + odd) +
@@ -52,8 +53,8 @@ class TextLines {
     }
 
   protected:
-    // Goes on with a text that was made of the file's, each of whose lines came from the line that `numbers` says. Both
-    // stay the caller's.
+    // Continues with another text, made from the file's; numbers[i] is the file's line for its line i. Both
+    // must outlive this.
     void go_on_with(std::string_view text, const std::vector<int>& numbers) {
         rest_ = text, numbers_ = &numbers, count_ = 0;
     }

@@ -11,17 +11,17 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kLineColumns = 69;
-// Owners give names of more than the 24 characters of the format's description.
+// Owners give names longer than the format's 24 characters.
 constexpr std::size_t kLongestTitle = 200;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kMinutesPerDay = 1440;
 
-// Columns are counted from 1, as the format's description does.
+// Columns are numbered from 1, as in the format's description.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
     return trimmed(line.substr(first - 1, last - first + 1));
 }
 
-// Digits as they are, minus signs as 1, all else 0; the sum's last digit.
+// The last digit of a sum: digits count as they are, minus signs as 1, all else as 0.
 char checksum_of(std::string_view line) {
     int sum = 0;
     for (const char c : line.substr(0, kLineColumns - 1)) {
@@ -31,14 +31,14 @@ char checksum_of(std::string_view line) {
     return static_cast<char>('0' + sum % 10);
 }
 
-// Digits after an assumed decimal point.
+// Returns digits as a fraction, after an assumed decimal point.
 std::optional<double> fraction_of(std::string_view digits) {
     std::string text = ".";
     text += digits;
     return number_of(text);
 }
 
-// One of the two lines, with its messages.
+// One of the two lines, with its error messages.
 struct Line {
     const TextLines& lines;
     std::string_view text;
@@ -50,7 +50,7 @@ struct Line {
         if (!found || *found < least || *found > most) refuse(digits, first, last, name);
         return *found;
     }
-    // "-12345-3" stands for -0.12345e-3.
+    // Returns a number with an assumed decimal point: "-12345-3" is -0.12345e-3.
     double assumed_point(std::size_t first, std::size_t last, const char* name) const {
         const std::string_view all = columns(text, first, last);
         std::string_view digits = all;
@@ -104,7 +104,8 @@ void read_epoch(const Line& line, ElementSet& tle) {
     tle.epoch_days_1950 = days_since_1950(year, 1, 1, 0) - 1 + day;
 }
 
-// A satellite's name may have any character; a line of a set with blanks that are none of ASCII's looks like one.
+// Refuses a line of a set with blanks outside ASCII. Otherwise it would pass for a satellite's name, which
+// may have any character.
 void refuse_odd_blanks(const TextLines& lines, std::string_view line) {
     const std::string odd = odd_blank_in(line);
     if (odd.empty() || line.size() < kLineColumns - 1 || (line[0] != '1' && line[0] != '2')) return;
@@ -121,7 +122,7 @@ ElementSet read_set(const TextLines& lines, const Line& one, const Line& two) {
         (!catalogue_number(other) || catalogue_number(other) != catalogue_number(tle.satellite)))
         lines.refuse(other, "satellite " + tle.satellite + ", as on the line before", two.number);
     read_epoch(one, tle);
-    // Of another theory columns 45 to 61 have other quantities.
+    // In a set of another theory, columns 45 to 61 have other quantities.
     tle.refusal = refusal_of_ephemeris_type(columns(one.text, 63, 63));
     if (!tle.refusal.empty()) return tle;
     tle.bstar_per_er = one.assumed_point(54, 61, "drag (B*)");
@@ -139,8 +140,8 @@ ElementSet read_set(const TextLines& lines, const Line& one, const Line& two) {
     return tle;
 }
 
-// True for a line that is a satellite's name. One that begins as a line of a set does ("1 KUNS-PF") is known by the whole
-// line 1 behind it.
+// True for a line with a satellite's name. A name that begins like a line of a set ("1 KUNS-PF") is
+// recognized by the whole line 1 that follows.
 bool is_name(const TextLines& lines, std::string_view line) {
     if (!line.starts_with("1 ") && !line.starts_with("2 ")) return true;
     TextLines ahead = lines;

@@ -1,6 +1,6 @@
 #pragma once
-// Two-line element sets (TLE), as Space-Track and CelesTrak publish them: two lines of 69 columns, perhaps
-// under a line with a name.
+// Reads two-line element sets (TLE) as Space-Track and CelesTrak publish them: two lines of 69 columns,
+// optionally below a line with a name.
 
 #include <string>
 #include <string_view>
@@ -10,10 +10,10 @@
 
 namespace hilcam {
 
-// All sets of a text, in its order. Years 57 to 99 are 1957 to 1999, 00 to 56 are 2000 to 2056. Lines without their
-// checksum's column are taken when checksums are ignored. A set of another theory (column 63) is kept with its refusal.
-// Throws InputError with file:line for a line of wrong length, number, satellite, column or checksum; `name` stands for the
-// file.
+// Returns all sets of a text, in order. Years 57 to 99 are 1957 to 1999, 00 to 56 are 2000 to 2056. With
+// kIgnore, lines may lack the checksum's column. A set made for another theory (column 63) is kept with its
+// refusal. Throws InputError with file:line for a wrong length, line number, satellite, column or checksum;
+// name stands for the file.
 std::vector<ElementSet> read_tles(std::string_view text, const std::string& name,
                                   TleChecksum checksum = TleChecksum::kVerify);
 

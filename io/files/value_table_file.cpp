@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxColumns = 1000;
 
-// A quoted field ends on its line: what a table holds here are numbers and words.
+// A quoted field ends on its line, because these tables hold numbers and words.
 std::vector<std::string> fields_of(std::string_view line, char between, const TextLines& lines) {
     std::vector<std::string> out;
     while (true) {

@@ -12,8 +12,8 @@
 namespace hilcam {
 namespace {
 
-// Nothing when another program holds the address for itself: clients that know the camera's address still
-// find it.
+// Returns an empty Fd when another program has bound the address exclusively; clients that know the camera's
+// address still find it.
 Fd open_broadcast(std::uint32_t address) {
     try {
         return open_udp(address, gvcp::kPort, true);
@@ -34,10 +34,10 @@ struct Datagram {
     std::array<std::uint8_t, 2048> bytes;
     std::size_t size = 0;
     sockaddr_in sender{};
-    unsigned interface = 0;  // that it came in by; 0: the kernel did not say
+    unsigned interface = 0;  // on which it arrived; 0: the kernel did not say
 };
 
-// False when there is none.
+// Returns false when there is none.
 bool receive_from(int socket, Datagram& d) {
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(in_pktinfo))> control;
     iovec where{d.bytes.data(), d.bytes.size()};
@@ -64,7 +64,7 @@ bool receive_from(int socket, Datagram& d) {
 }  // namespace
 
 GigeSockets::GigeSockets(const NetInterface& net)
-    // A second address of a card may have a name of its own, as eth0:1; the card is what counts.
+    // A card's second address may have a name of its own, as eth0:1; only the card matters.
     : interface_(net.name.substr(0, net.name.find(':'))),
       interface_number_(if_nametoindex(interface_.c_str())),
       control_(open_udp(net.address, gvcp::kPort)),
@@ -73,7 +73,7 @@ GigeSockets::GigeSockets(const NetInterface& net)
     if (net.mask != 0xFFFFFFFF) broadcast_[1] = open_broadcast(net.address | ~net.mask);
     for (const Fd* socket : {&control_, &message_, &broadcast_[0], &broadcast_[1]})
         report_interfaces(*socket);
-    const int on = 1;  // an answer may be for everybody
+    const int on = 1;  // an answer may be a broadcast
     setsockopt(control_.get(), SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
     sockaddr_in own{};
     socklen_t size = sizeof own;
@@ -82,7 +82,7 @@ GigeSockets::GigeSockets(const NetInterface& net)
 }
 
 void GigeSockets::wait(const Fd& wakeup, std::int64_t timeout_ns) {
-    // poll() skips what is negative.
+    // poll() ignores negative descriptors.
     watched_ = {{{wakeup.get(), POLLIN, 0},
                  {control_.get(), POLLIN, 0},
                  {broadcast_[0].get(), POLLIN, 0},
@@ -105,7 +105,7 @@ std::uint64_t GigeSockets::take(const Receive& receive) {
         const bool broadcast = watched_[i].fd == broadcast_[0].get() || watched_[i].fd == broadcast_[1].get();
         const bool message = watched_[i].fd == message_.get();
         for (int n = 0; n < kAtOnce && receive_from(watched_[i].fd, d); ++n) {
-            // Clients acknowledge an event where it came from, and command elsewhere.
+            // Clients send acknowledgements of events to this socket, and commands to the other one.
             if (message && d.size > 0 && d.bytes[0] == gvcp::Header::kKey) continue;
             if (is_heard(d.interface, broadcast))
                 receive({d.bytes.data(), d.size}, {ntohl(d.sender.sin_addr.s_addr), ntohs(d.sender.sin_port)},
@@ -120,8 +120,7 @@ std::uint64_t GigeSockets::take(const Receive& receive) {
 bool GigeSockets::is_heard(unsigned interface, bool broadcast) {
     if (interface == 0) return false;
     if (interface == interface_number_) return true;
-    // A packet from a program of this machine to any address of this machine goes through the loopback
-    // interface.
+    // A packet from a program on this machine to one of its addresses arrives on the loopback interface.
     if (interface == kLoopback && !broadcast) return true;
     char name[IF_NAMESIZE] = {};
     if (!if_indextoname(interface, name) || interface_ != name) return false;

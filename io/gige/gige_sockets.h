@@ -1,10 +1,10 @@
 #pragma once
 // The control side's sockets of a GigE Vision camera on one address: commands, broadcasts, messages.
 //
-// A camera hears its own interface only. Broadcasts reach every socket of this machine that is bound to their
-// address, whichever interface they come in by, and Linux takes datagrams for any of its addresses from any
-// network: a host on a LAN could order a loopback camera about. Hence each datagram is asked for the
-// interface that it came in by (IP_PKTINFO, ip(7)), which needs no rights.
+// A camera listens to its own interface only. But Linux delivers broadcasts to every socket bound to their
+// address, whichever interface they arrive on, and accepts datagrams for any of its addresses from any
+// network: a host on a LAN could control a loopback camera. So each datagram is checked for the interface on
+// which it arrived (IP_PKTINFO, ip(7)), which needs no privileges.
 
 #include <poll.h>
 
@@ -22,15 +22,15 @@ namespace hilcam {
 
 class GigeSockets {
   public:
-    // Throws DeviceError when the address is not this machine's or port 3956 there is taken. Broadcasts are
-    // listened to where that is possible: several cameras share them.
+    // Throws DeviceError when this machine lacks the address, or when port 3956 there is taken. Listens to
+    // broadcasts where that is possible; several cameras share them.
     explicit GigeSockets(const NetInterface& net);
 
     std::uint16_t message_port() const { return message_port_; }
-    // Waits for datagrams, for `wakeup` or for so long.
+    // Waits for datagrams, for `wakeup`, or until the time-out.
     void wait(const Fd& wakeup, std::int64_t timeout_ns);
-    // Gets what wait() saw: (datagram, sender, whether it was broadcast). At most kAtOnce of each socket.
-    // Returns how many others were thrown away, because they came in by another interface.
+    // Calls receive(datagram, sender, whether it was broadcast) for datagrams that have arrived, at most
+    // kAtOnce per socket. Returns how many others were discarded because they arrived on another interface.
     using Receive = std::function<void(std::span<const std::uint8_t>, Endpoint, bool)>;
     static constexpr int kAtOnce = 16;
     std::uint64_t take(const Receive& receive);
@@ -40,7 +40,7 @@ class GigeSockets {
 
   private:
     static void send(const Fd& socket, std::span<const std::uint8_t> bytes, Endpoint to) noexcept;
-    // True when a datagram that came in by the interface of this number is meant for the camera.
+    // True when a datagram from the interface with this number is meant for the camera.
     bool is_heard(unsigned interface, bool broadcast);
 
     std::string interface_;

@@ -20,7 +20,7 @@
 namespace hilcam {
 namespace {
 
-// Clients ask again for packets up to some 100 ms old (Aravis' frame_retention).
+// Clients request packets again that are up to some 100 ms old (Aravis' frame_retention).
 constexpr double kKept_s = 0.2;
 constexpr double kMaxRingBytes = 512e6;
 
@@ -30,7 +30,7 @@ std::size_t slots_for(double frame_rate_hz, std::size_t bytes_each) {
     return std::max(GigeRing::kMinSlots, static_cast<std::size_t>(wanted));
 }
 
-// Packets longer than the link's MTU would be cut up by the kernel, and most clients' filters lose such.
+// The kernel would fragment packets longer than the link's MTU, and most clients' filters drop fragments.
 std::uint32_t first_packet_bytes(const GigeConfig& config, const NetInterface& net) {
     return static_cast<std::uint32_t>(std::min<std::int64_t>(config.packet_bytes, net.mtu_bytes / 4 * 4));
 }
@@ -99,12 +99,12 @@ struct GigeSink::Implementation {
         std::uint64_t block = 0;  // block of the event's frame; 0: none, or not known yet
     };
     BoundedQueue<Event, 1024> events;
-    std::optional<CameraEvent> exposure_end;  // the loop's: told when publish() knows its frame's block
+    std::optional<CameraEvent> exposure_end;  // the loop's; reported when publish() knows its frame's block
     std::atomic<std::uint64_t> events_dropped{0};
     std::atomic<bool> controlled{false};
-    std::atomic<std::uint32_t> address;  // for reports; net is the control thread's
+    std::atomic<std::uint32_t> address;  // for reports; net belongs to the control thread
     std::atomic<std::uint32_t> acquisitions{0};
-    std::atomic<std::uint64_t> strange_datagrams{0};  // that came in by another interface
+    std::atomic<std::uint64_t> strange_datagrams{0};  // arrived on another interface
     std::atomic<std::uint64_t> foreign_resend_requests{0};
 
     Implementation(const GigeConfig& c, const SinkContext& context, const CameraLimits& limits,
@@ -149,7 +149,7 @@ void GigeSink::Implementation::open() {
     device->set_ports(sender.port(), sockets->message_port());
 }
 
-// --- what the device sets in motion
+// --- effects of the device
 
 GigeDevice::Effects GigeSink::Implementation::effects() {
     GigeDevice::Effects e;
@@ -167,7 +167,7 @@ GigeDevice::Effects GigeSink::Implementation::effects() {
         if (!faults.strikes(FaultKind::kLinkDown, 0)) sockets->send_answer(bytes, to);
     };
     e.reset = [this] {
-        ++era;  // no frame that is kept belongs to what comes
+        ++era;  // no frame that is kept belongs to later acquisitions
         set_stream(device->stream_state());
     };
     e.change_address = [this](std::uint32_t ip, std::uint32_t, std::uint32_t) { return change_address(ip); };
@@ -203,8 +203,8 @@ void GigeSink::Implementation::order_test_packet(const GigeStreamState& s, std::
     sender.order(order);
 }
 
-// New sockets are opened at once, the stream's too, so that the device can say whether it worked; they are used when the
-// message at hand is answered.
+// Opens new sockets at once, the stream's too, so that the device can report whether that worked. They are
+// used after the present message is answered.
 bool GigeSink::Implementation::change_address(std::uint32_t ip) {
     if (ip == net.address) return true;
     try {
@@ -296,8 +296,8 @@ void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept
     if (outcome.finished) my.finish(now.acquisition);
 }
 
-// A sender waits for no client for long, so there is a place soon; with one frame less than the ring takes, the sender
-// gives no late one up.
+// A sender never waits long for a client, so there is room soon. With one frame fewer than the ring holds,
+// the sender gives up no late frame.
 bool GigeSink::has_room() const noexcept {
     Implementation& my = *implementation_;
     const GigeStreamState& s = my.for_loop.read().state;
@@ -307,8 +307,8 @@ bool GigeSink::has_room() const noexcept {
 
 void GigeSink::on_event(const CameraEvent& event) noexcept {
     Implementation& my = *implementation_;
-    // A frame has its block id when it is published: whether the stream takes it is not known before, so an
-    // exposure's start goes out without.
+    // A frame gets its block id when it is published. Before that it is unknown whether the stream takes it,
+    // so the event of an exposure's start has none.
     if (event.kind == CameraEvent::Kind::kExposureEnd)
         my.exposure_end = event;
     else

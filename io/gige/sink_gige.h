@@ -1,11 +1,11 @@
 #pragma once
-// Frames out of a GigE Vision camera on one IPv4 address: the threads around gige_device.h (control) and
+// Sends frames as a GigE Vision camera on one IPv4 address: the threads around gige_device.h (control) and
 // gige_sender.h (stream).
 //
-// The loop writes each frame into a ring slot (gige_frame_writer.h); the sender's thread sends it; the
-// control thread answers as soon as the machine lets it run, for it shares nothing with rendering. Leaders
-// carry the exposure's middle on the device's clock: CLOCK_MONOTONIC, 1 tick = 1 ns, unless a client reset it
-// or enabled PTP. Several cameras live in one process, one address each.
+// The loop writes each frame into a slot of a ring (gige_frame_writer.h), and the sender's thread sends it.
+// The control thread shares nothing with rendering, so it answers as soon as the machine lets it run. Leaders
+// carry mid-exposure on the device's clock: CLOCK_MONOTONIC with 1 tick = 1 ns, unless a client has reset it
+// or enabled PTP. A process may have several cameras, each on its own address.
 
 #include <cstdint>
 #include <memory>
@@ -27,16 +27,16 @@ struct GigeConfig {
     std::string model = "hilcam";
     std::string serial = "HC000001";
     std::string user_name{};
-    std::int64_t packet_bytes = 7680;  // before a client negotiates another; no more than the interface's MTU
+    std::int64_t packet_bytes = 7680;  // until a client negotiates another; at most the interface's MTU
     double rate_bytes_s = 400e6;       // upper limit of the stream
     bool multipart = false;            // announce it
     double spread_fraction = 0.5;      // share of a frame period over which a frame's packets may be spread
-    std::vector<std::string> lines{};  // names of the trigger input beside Line0
+    std::vector<std::string> lines{};  // names of the trigger input besides Line0
 };
 Fields fields(GigeConfig& config);
 void validate(const GigeConfig& config);
 std::vector<ListeningPort> listening(const GigeConfig& config);
-// A model of "hilcam" becomes the camera's name. Throws InputError.
+// Makes the output; the model "hilcam" is replaced by the camera's name. Throws InputError.
 std::unique_ptr<FrameSink> make_sink(const GigeConfig& config, const SinkContext& context,
                                      const OutputShape& shape);
 

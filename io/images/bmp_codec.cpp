@@ -6,8 +6,8 @@
 namespace hilcam {
 namespace {
 
-// Returns how many bytes a picture without compression has, by its header (Microsoft, BITMAPFILEHEADER, BITMAPINFOHEADER and
-// BITMAPCOREHEADER): rows end on four bytes.
+// Returns the size in bytes that the header of an uncompressed picture implies (Microsoft, BITMAPFILEHEADER,
+// BITMAPINFOHEADER and BITMAPCOREHEADER); rows are padded to four bytes.
 std::uint64_t size_by_header(PictureBytes bytes, const PictureSize& size) {
     constexpr std::uint64_t kOldHeader_bytes = 12;
     const PictureOpening h(bytes);

@@ -27,12 +27,12 @@ struct Channel {
     std::span<const float> values;
 };
 
-// OpenEXR's boxes have their last pixels in them.
+// OpenEXR's boxes include their last pixels.
 Imath::Box2i box(int left, int top, int width, int height) {
     return {{left, top}, {left + width - 1, top + height - 1}};
 }
 
-// Whole numbers beyond 2^53 are text, as is what has no type of OpenEXR's.
+// Integers beyond 2^53 become text, as does anything without an OpenEXR type.
 void insert(const PictureNote& note, Imf::Header& header) {
     const auto* const list = std::get_if<std::vector<double>>(&note.value);
     if (const auto* const real = std::get_if<double>(&note.value))
@@ -45,7 +45,7 @@ void insert(const PictureNote& note, Imf::Header& header) {
         header.insert(note.key, Imf::StringAttribute(text_of(note)));
 }
 
-// frame: what the display window is to be, as it lies in the picture.
+// frame: the future display window, in the picture's pixels.
 template <class Image>
 void write_exr(const std::filesystem::path& file, const Image& image, const PixelRectangle& frame,
                const std::vector<Channel>& channels, const PictureNotes& notes) {
@@ -67,7 +67,7 @@ void write_exr(const std::filesystem::path& file, const Image& image, const Pixe
     }
 }
 
-// The mean of the bins, each with its weight and its width; empty: no bin has a weight.
+// Returns the mean of the bins, weighted by `weights` and bin width; empty when no bin has a weight.
 std::vector<float> mean_of_bins(const RadianceImage& radiance, const SpectralGrid& grid,
                                 const Spectrum& weights) {
     double sum = 0;
@@ -87,7 +87,7 @@ std::string picture_bin_name(const SpectralGrid& grid, int bin) {
     return name;
 }
 
-// Has no dot, which would end the name of a layer.
+// Returns a name without a dot, which would end the layer's name.
 std::string layer_bin_name(const SpectralGrid& grid, int bin) {
     char name[64];
     std::snprintf(name, sizeof name, "L_%.6g_%.6gnm", 1e3 * grid.from_um(bin), 1e3 * grid.to_um(bin));
@@ -97,7 +97,8 @@ std::string layer_bin_name(const SpectralGrid& grid, int bin) {
 
 constexpr std::size_t kMaxMade = 3 * (1 + kLightParts);
 
-// Adds a picture's channels: its bins, and what viewers show of several. made: room for three planes more.
+// Adds a picture's channels: its bins and, for several bins, the colours for viewers. made: must have room
+// for three more planes.
 void add_picture(const RadianceImage& radiance, const SpectralGrid& grid, const std::string& layer,
                  std::string (*bin_name)(const SpectralGrid&, int), std::vector<std::vector<float>>& made,
                  std::vector<Channel>& channels) {

@@ -14,15 +14,16 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kCard = 80, kBlock = 2880, kKeyword = 8;
-// A header of more cards is no camera's.
+// Cameras write shorter headers.
 constexpr std::size_t kMaxCards = 20'000;
 constexpr double kMaxFloat = std::numeric_limits<float>::max();
 constexpr std::uint64_t kMaxAxis = std::uint64_t{1} << 32;
 
-// 4.1: cards of 80 letters in blocks of 2880 bytes, a keyword in the first eight, "= " before a value.
+// 4.1: cards of 80 letters in blocks of 2880 bytes; a keyword in the first eight letters, "= " before a
+// value.
 class Header {
   public:
-    // Reads the header at a place of the file; end() is where its data begin.
+    // Reads the header at a place in the file; its data begin at end().
     Header(PictureBytes bytes, std::size_t begin) {
         for (std::size_t card = 0, at = begin; card < kMaxCards && at + kCard <= bytes.size();
              ++card, at += kCard) {
@@ -67,7 +68,7 @@ class Header {
         if (first == std::string_view::npos) return {};
         return std::string(text.substr(first, text.find_last_not_of(' ') + 1 - first));
     }
-    // 4.2.1: a text in quotes, or a word up to the comment.
+    // 4.2.1: a quoted text, or a word up to the comment.
     static std::string value_in(std::string_view text) {
         const std::size_t first = text.find_first_not_of(' ');
         if (first == std::string_view::npos) return {};
@@ -86,7 +87,7 @@ struct FitsImage {
     bool bottom_up = false;
 };
 
-// 4.4.1.1 and 7.1.2: the bytes of an array, without what fills its last block.
+// 4.4.1.1 and 7.1.2: returns the length of an array, without the padding of its last block.
 std::uint64_t bytes_of_data(const Header& h, std::uint64_t axes) {
     if (axes == 0) return 0;
     std::uint64_t values = 1;
@@ -102,7 +103,7 @@ std::uint64_t bytes_of_data(const Header& h, std::uint64_t axes) {
     return static_cast<std::uint64_t>(bytes);
 }
 
-// An image of one plane; nothing for tables and for what has other axes.
+// Returns an image of one plane; nothing for tables and for other axes.
 std::optional<FitsImage> image_in(const Header& h, std::uint64_t axes) {
     const bool is_image = !h.text("SIMPLE").empty() || h.text("XTENSION") == "IMAGE";
     if (!is_image || axes < 2) return std::nullopt;
@@ -138,7 +139,7 @@ FitsImage first_image(PictureBytes bytes) {
                                  : "FITS: it has no image of two axes");
 }
 
-// 5: the most significant byte comes first; whole numbers of 8 bits have no sign.
+// 5: the most significant byte comes first; 8-bit integers are unsigned.
 double value_at(const std::uint8_t* at, int bits) {
     std::uint64_t word = 0;
     for (int i = 0; i < std::abs(bits) / 8; ++i) word = word << 8 | at[i];

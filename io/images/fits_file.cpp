@@ -18,7 +18,7 @@ void fill_block(char with, std::string& out) {
     out.resize((out.size() + kBlockBytes - 1) / kBlockBytes * kBlockBytes, with);
 }
 
-// Section 4.2.1: printable ASCII alone.
+// Section 4.2.1: printable ASCII only.
 std::string printable(std::string_view text) {
     std::string out;
     for (const char c : text) out += c >= ' ' && c <= '~' ? c : '?';
@@ -45,11 +45,12 @@ class Cards {
     void whole(std::string_view key, std::int64_t value, std::string_view comment) {
         fixed(key, std::to_string(value), comment);
     }
-    // A value that is no number has no form in a header.
+    // A value that is not finite cannot be written in a header.
     void real(std::string_view key, double value, std::string_view comment) {
         if (std::isfinite(value)) fixed(key, real_text(value), comment);
     }
-    // Section 4.2.1: quotes are doubled; at least eight characters. What a card cannot hold is cut off.
+    // Section 4.2.1: quotes are doubled, and a text has at least eight characters. What exceeds a card is cut
+    // off.
     void text(std::string_view key, std::string_view value, std::string_view comment) {
         std::string quoted;
         for (const char c : printable(value)) {
@@ -59,7 +60,7 @@ class Cards {
         quoted.resize(std::max<std::size_t>(quoted.size(), 8), ' ');
         put(key, "'" + quoted + "'", comment);
     }
-    // Section 4.4.2.4: as many cards as it takes.
+    // Section 4.4.2.4: as many cards as needed.
     void comment(const std::string& words) {
         constexpr std::size_t kMax = 72;
         std::istringstream in(printable(words));
@@ -72,7 +73,7 @@ class Cards {
         add("COMMENT " + line);
     }
 
-    // Section 4.4.1: END, then blanks to the block's end.
+    // Section 4.4.1: END, then blanks to the end of the block.
     std::string finished() {
         add("END");
         fill_block(' ', out_);
@@ -114,7 +115,7 @@ void put_note(const PictureNote& note, Cards& cards) {
             cards.whole(note.fits + std::to_string(i + 1), (*list)[i], note.meaning);
 }
 
-// Section 9: without the Z that others have. To the microsecond, as exposures may be shorter than a
+// Section 9: without the Z of other formats. To the microsecond, because exposures may be shorter than a
 // millisecond.
 std::string fits_time(TimeTai time) {
     std::string text = format_utc(time, 6);
@@ -195,7 +196,7 @@ std::string encode_fits(const DnImage& frame, const FitsHeader& header) {
 }
 
 std::size_t fits_header_bytes(std::string_view file) {
-    // END is a card of its own; nothing else begins one.
+    // END is a card of its own; no other card begins with it.
     std::size_t card = 0;
     while (card + kCardBytes <= file.size() && !file.substr(card, kCardBytes).starts_with("END "))
         card += kCardBytes;

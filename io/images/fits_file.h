@@ -1,9 +1,9 @@
 #pragma once
 // Pictures as FITS (Flexible Image Transport System 4.0, IAU FITS Working Group, 2018; Pence et al., A&A 524
-// (2010) A42): one image, its header the picture's notes and a map of the sky (sky_map.h).
+// (2010) A42): one image with a header of the picture's notes and a map of the sky (sky_map.h).
 //
-// Rows stand in the file from the top, which the keyword ROWORDER says; data[y][x] of a reader is the frame's
-// pixel (x, y). DN are 16-bit numbers with BZERO 32768, electrons 32-bit floats.
+// Rows are stored from the top, as the keyword ROWORDER says: data[y][x] of a reader is the frame's pixel (x,
+// y). DN are 16-bit numbers with BZERO 32768, electrons are 32-bit floats.
 
 #include <optional>
 #include <span>
@@ -18,12 +18,12 @@ namespace hilcam {
 struct FitsHeader {
     PictureNotes notes;
     std::string unit;           // BUNIT: "adu", "electron"
-    std::optional<SkyMap> sky;  // none: the camera's pose is not known
+    std::optional<SkyMap> sky;  // none: the camera's pose is unknown
 };
-// The whole file. Any thread.
+// Returns the whole file. Any thread.
 std::string encode_fits(const DnImage& frame, const FitsHeader& header);
 std::string encode_fits(const ElectronImage& electrons, const FitsHeader& header);
-// The bytes of such a file's header, after which its numbers stand.
+// Returns the length of such a file's header; the numbers follow it.
 std::size_t fits_header_bytes(std::string_view file);
 
 }  // namespace hilcam

@@ -17,7 +17,7 @@
 namespace hilcam {
 namespace {
 
-// All of it, or no file.
+// Writes the whole file or none.
 void write_file(const std::filesystem::path& file, std::string_view bytes) {
     errno = 0;
     std::ofstream out(file, std::ios::binary);

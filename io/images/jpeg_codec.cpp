@@ -13,7 +13,8 @@ struct Destroy {
     void operator()(void* handle) const { tjDestroy(handle); }
 };
 
-// libjpeg warns of bytes that are too many, which every viewer passes over. Half of a picture is not one.
+// Surplus bytes give a warning from libjpeg and are ignored, as in every viewer. An incomplete picture is
+// refused.
 bool is_whole(tjhandle handle) {
     return tjGetErrorCode(handle) == TJERR_WARNING &&
            std::string_view(tjGetErrorStr2(handle)).find("remature end") == std::string_view::npos;

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// XML 1.0, section 2.4; control characters have no place in it.
+// Escapes text for XML 1.0, section 2.4; control characters are not allowed in it.
 std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : harmless(text)) {
@@ -85,7 +85,7 @@ void put_image(const LabelledFile& file, Xml& xml) {
         .item("offset unit=\"byte\"", file.header_bytes)
         .item("axes", 2)
         .item("axis_index_order", "Last Index Fastest");
-    // FITS has numbers without sign as numbers with one and BZERO.
+    // FITS stores unsigned numbers as signed ones with BZERO.
     xml.open("Element_Array")
         .item("data_type", "SignedMSB2")
         .item("unit", "DN")

@@ -12,7 +12,7 @@ PictureFault undecodable(const std::string& reason) {
 
 void require_few_pixels(std::uint64_t width, std::uint64_t height) {
     if (width == 0 || height == 0) throw undecodable("it has no pixels");
-    // Divided, since a TIFF may claim 2^64.
+    // Compared by division, because a TIFF may claim 2^64.
     if (width > kMaxPicturePixels / height)
         throw PictureFault("has " + std::to_string(width) + " x " + std::to_string(height) +
                            " pixels; accepted: at most " + std::to_string(kMaxPicturePixels) +

@@ -13,13 +13,13 @@
 namespace hilcam {
 namespace {
 
-// The bytes that a pixel may take while it is decoded and copied: its colours twice, a strip of it as it is
-// stored, and what progressive JPEG and lossless WebP keep of all of it.
+// Bytes per pixel during decoding and copying: the colours twice, a strip as it is stored, and what
+// progressive JPEG and lossless WebP keep of the whole picture.
 constexpr std::uint64_t kBytesPerPixel = 16;
 
 void allow_for(std::uint64_t width, std::uint64_t height) {
     require_few_pixels(width, height);
-    // 0.3 us a pixel is ten times what PNG takes, the slowest of them.
+    // 0.3 us a pixel is ten times what the slowest format, PNG, needs.
     const std::uint64_t pixels = width * height;
     allow_more(kBytesPerPixel * pixels, 3e-7 * static_cast<double>(pixels));
 }
@@ -76,11 +76,11 @@ void write_numbers(const std::string& bytes, const std::string& name, bool any_s
     }
 }
 
-// The file is read before the child is made, so that what is wrong with it is told as for every file.
+// The file is read before the child starts, so that its errors are reported as for every file.
 ConfinedResult confine(const std::filesystem::path& file,
                        const std::function<void(const std::string&, ConfinedOutput&)>& work) {
     const std::string bytes = read_input_file(file, picture_kind());
-    // The rest is allowed by the picture's header.
+    // The picture's header permits the rest.
     const ConfinedLimits limits{(std::uint64_t{256} << 20) + bytes.size(), 10};
     return run_confined(file.string(), limits, {}, [&](ConfinedOutput& out) { work(bytes, out); });
 }

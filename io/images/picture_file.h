@@ -1,7 +1,8 @@
 #pragma once
-// Pictures from outside: textures, maps of bodies, maps of a detector. PNG, JPEG, TIFF, BMP, WebP, PPM, PGM, TGA.
+// Reads pictures from users: textures, maps of bodies, maps of a detector. PNG, JPEG, TIFF, BMP, WebP, PPM,
+// PGM, TGA.
 //
-// A picture's size is read from its header before anything is decoded, and bounded; files are decoded in a
+// A picture's size is read from its header and bounded before anything is decoded. Files are decoded in a
 // child process with limits (confined.h).
 
 #include <cstdint>
@@ -16,22 +17,23 @@
 
 namespace hilcam {
 
-// The kind as which picture files are opened.
+// Returns the limits with which picture files are opened.
 const InputKind& picture_kind();
 
-// An 8-bit colour picture as a texture. InputError when it is too large or does not decode.
+// Reads an 8-bit colour picture as a texture. Throws InputError when it is too large or does not decode.
 Texture read_picture(const std::filesystem::path& file);
-// A number for each pixel: TIFF of one channel (whole numbers of 8 to 32 bits, floats), PNG or PGM of one channel
-// (8 or 16 bits), or FITS. InputError when it is missing, too large, does not decode, has several channels or a value
-// that is negative (unless any_sign) or not a number.
+// Reads one number a pixel: TIFF of one channel (integers of 8 to 32 bits, floats), PNG or PGM of one channel
+// (8 or 16 bits), or FITS. Throws InputError when the file is missing, is too large, does not decode, has
+// several channels, or has a value that is not a number or, unless any_sign, negative.
 PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign);
 
-// Decodes here, without a child of its own: for what runs in one. `what` begins messages. The texture has no
+// Decodes in this process, for callers that run in a child already. what: begins messages. The texture has no
 // name.
 Texture decode_texture(std::span<const std::uint8_t> bytes, const std::string& what);
-// The alpha channel of such a picture, a byte for each of its pixels; empty where it has none: PNG and WebP have them.
+// Returns the alpha channel of such a picture, one byte a pixel; empty when it has none. Only PNG and WebP
+// can have one.
 std::vector<std::uint8_t> decode_alpha(std::span<const std::uint8_t> bytes, const std::string& what);
-// The same of a map of numbers, of any sign and finite or not. PictureFault of picture_codecs.h.
+// Decodes a map of numbers, of any sign, finite or not. Throws PictureFault (picture_codecs.h).
 PixelMap decode_numbers(std::span<const std::uint8_t> bytes);
 
 }  // namespace hilcam

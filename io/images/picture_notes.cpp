@@ -16,7 +16,7 @@ using OrderedJson = nlohmann::ordered_json;
 OrderedJson json_value(const PictureNote& note) {
     return std::visit([](const auto& value) { return OrderedJson(value); }, note.value);
 }
-// Names may be any bytes: what is no UTF-8 is replaced.
+// Names may have any bytes; invalid UTF-8 is replaced.
 std::string dumped(const OrderedJson& json) {
     return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
@@ -69,7 +69,7 @@ void add_pose(const Pose& camera, PictureNotes& notes) {
                      "turns camera axes (x right, y down) into world"});
 }
 
-// Returns the number of a pixel without light: summed numbers have as many black levels.
+// Returns the DN of a pixel without light. When pixels are summed, so are their black levels.
 double black_dn(const CameraModel& model, const FrameRecord& record) {
     const DnScale scale = dn_scale_of(model, {record.exposure_s,
                                               record.gain_db,

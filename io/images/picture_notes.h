@@ -1,7 +1,7 @@
 #pragma once
-// The notes that a picture carries, whatever its format: when and how it was taken, from where, and by which
-// run. Each format writes the same notes in its own way; docs/pictures.md lists them. Nothing of the machine
-// or of the day is among them: the same picture is the same bytes.
+// The notes of a picture, in any format: when, how and from where it was taken, and by which run. Each format
+// writes the same notes in its own way; docs/pictures.md lists them. The machine and the date are not among
+// them, so the same picture always gives the same bytes.
 
 #include <cstdint>
 #include <string>
@@ -17,7 +17,7 @@
 
 namespace hilcam {
 
-// The notes that all pictures of a camera have in common.
+// The notes that all pictures of a camera share.
 struct PictureRun {
     std::string software;  // "hilcam 0.1.0"
     std::string scenario;  // its name
@@ -28,32 +28,32 @@ struct PictureRun {
 };
 
 struct PictureNote {
-    std::string key;   // key as in the lines of truth (docs/truth.md)
-    std::string fits;  // keyword in FITS, which a list's numbers follow; empty: FITS has words of its own
+    std::string key;   // the key in the lines of truth (docs/truth.md)
+    std::string fits;  // keyword in FITS, numbered for the values of a list; empty: FITS has words of its own
     std::variant<std::string, std::int64_t, double, std::vector<double>, std::vector<std::int64_t>> value;
     std::string meaning;  // meaning, with its unit
 };
 using PictureNotes = std::vector<PictureNote>;
 
-// The way in which the picture's pixels come from the camera's.
+// Says how the picture's pixels follow from the camera's.
 struct PictureLayout {
     FrameLayout frame;
-    int oversampling = 1;  // pixels of the picture across one of the frame
+    int oversampling = 1;  // pixels of the picture across one pixel of the frame
 };
 PictureLayout layout_of(const FrameRecord& record);
-// The lens as a picture has it [px of the picture], whose corner is the frame's.
+// Returns the lens of a picture [px of the picture]; the origin is the corner of the frame.
 FrameIntrinsics lens_of(const CameraModel& model, const PictureLayout& layout);
 
-// unit: of the picture's numbers, "DN", "e-", ... Owner thread.
+// Returns the notes of a picture. unit: of its numbers, "DN", "e-", ... Owner thread.
 PictureNotes notes_of(const PictureRun& run, const FrameRecord& record, const PictureLayout& layout,
                       const std::string& unit);
 const PictureNote* find_note(const PictureNotes& notes, std::string_view key);
 
-// Numbers with as many digits as bring them back; lists in brackets.
+// Returns a note's value as text: numbers with enough digits to read them back exactly, lists in brackets.
 std::string text_of(const PictureNote& note);
 // Returns the texts for PNG: `Software`, then each note by its key.
 std::vector<std::pair<std::string, std::string>> png_texts(const PictureNotes& notes);
-// One object of JSON, UTF-8.
+// Returns the notes as one JSON object, UTF-8.
 std::string json_of(const PictureNotes& notes);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// The bytes with which a picture begins, as their readers look at them: a byte that is not there is 0.
+// The first bytes of a picture, for readers of headers. A byte beyond the end reads as 0.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +15,7 @@ class PictureOpening {
 
     std::uint64_t size() const { return bytes_.size(); }
     std::uint8_t byte(std::uint64_t at) const { return at < bytes_.size() ? bytes_[at] : std::uint8_t{0}; }
-    // Numbers of so many bytes, the least one first or the greatest one first.
+    // little() and big() return a number of `count` bytes, least or most significant byte first.
     std::uint64_t little(std::uint64_t at, unsigned count) const {
         std::uint64_t value = 0;
         for (unsigned i = count; i-- > 0;) value = value << 8 | byte(at + i);

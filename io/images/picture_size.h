@@ -1,5 +1,5 @@
 #pragma once
-// Finds what kind a picture is and how large, from its header alone: before anything is decoded.
+// Finds the format and the size of a picture from its header, before anything is decoded.
 
 #include <cstdint>
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace hilcam {
 
-// A picture of 16384 x 16384 has so many, a map of 21600 x 10800 fewer: 0.8 GB of colours.
+// The pixels of a picture of 16384 x 16384, 0.8 GB of colours. A map of 21600 x 10800 has fewer.
 inline constexpr std::uint64_t kMaxPicturePixels = std::uint64_t{1} << 28;
 
 enum class PictureKind { kPng, kJpeg, kTiff, kBmp, kWebp, kPnm, kTga };
@@ -17,7 +17,7 @@ struct PictureSize {
     PictureKind kind = PictureKind::kPng;
 };
 
-// Nothing when the bytes are none of these kinds or have no such header. A size of 0 is nothing, too.
+// Returns nothing when the bytes are of none of these kinds, have no such header, or say a size of 0.
 std::optional<PictureSize> picture_size(std::span<const std::uint8_t> bytes);
 
 }  // namespace hilcam

@@ -38,7 +38,7 @@ void read_png(png_structp png, png_bytep to, std::size_t size) {
 
 void write_png(png_structp png, png_bytep from, std::size_t size) {
     auto* const port = static_cast<PngPort*>(png_get_io_ptr(png));
-    // An exception must not go through libpng.
+    // Keeps exceptions from passing through libpng.
     bool written = true;
     try {
         port->out->append(reinterpret_cast<const char*>(from), size);
@@ -49,8 +49,8 @@ void write_png(png_structp png, png_bytep from, std::size_t size) {
 }
 void flush_png(png_structp) {}
 
-// False when libpng gives up on the way: it jumps, so `work` and what it calls of ours may have nothing that
-// is to be destroyed.
+// Returns false when libpng gives up. It uses longjmp, so `work`, and what it calls of ours, must not hold
+// objects with destructors.
 template <class Work>
 bool guarded(png_structp png, const Work& work) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -84,7 +84,7 @@ class PngReader {
     int channels() const { return png_get_channels(png_, info_); }
     bool has_palette() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE; }
 
-    // Any kind of samples comes as three of 8 bits.
+    // Converts any kind of samples to three of 8 bits.
     void ask_for_colors() {
         require(guarded(png_, [this] {
             png_set_strip_16(png_);
@@ -95,7 +95,7 @@ class PngReader {
             png_read_update_info(png_, info_);
         }));
     }
-    // Any kind of samples comes as four of 8 bits, the last of them alpha.
+    // Converts any kind of samples to four of 8 bits, the last one alpha.
     void ask_for_alpha() {
         require(guarded(png_, [this] {
             png_set_strip_16(png_);
@@ -106,7 +106,7 @@ class PngReader {
             png_read_update_info(png_, info_);
         }));
     }
-    // Grey comes as 8 bits, or as 16 as the machine has them.
+    // Converts grey to 8 bits, or to 16 in the machine's byte order.
     void ask_for_numbers() {
         require(guarded(png_, [this] {
             png_set_expand_gray_1_2_4_to_8(png_);
@@ -159,7 +159,7 @@ class PngWriter {
 
     bool write(const PictureSamples& p, double gamma, std::vector<png_text>& texts) {
         return guarded(png_, [&] {
-            // Frames are noise in the low bits: harder compression costs time and gains nothing.
+            // The low bits of frames are noise, so stronger compression costs time and saves nothing.
             png_set_compression_level(png_, 1);
             png_set_IHDR(png_, info_, static_cast<png_uint_32>(p.width), static_cast<png_uint_32>(p.height),
                          p.kind == SampleKind::kGray16 ? 16 : 8,
@@ -187,7 +187,7 @@ bool is_ascii(std::string_view text) {
     return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 128; });
 }
 
-// libpng does not change what it is given, but asks for pointers that allow it to.
+// libpng does not change its input, but asks for non-const pointers.
 png_text text_of(const std::pair<std::string, std::string>& note) {
     png_text out{};
     out.compression = is_ascii(note.second) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;

@@ -1,5 +1,6 @@
-// Netpbm's pictures by 60 lines of our own: stb_image reads P5 and P6 alone, takes what is missing at the end of a file
-// as it finds it, and does not look at the sample that is white, so that a picture of 4 or 10 bits would be dark.
+// Netpbm's pictures by own code. stb_image reads only P5 and P6, fills the missing end of a file with
+// whatever is in memory, and ignores the sample value of white, so that a picture of 4 or 10 bits would be
+// dark.
 #include <vector>
 
 #include "io/images/picture_codecs.h"
@@ -8,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// Gives the samples of a picture in their order.
+// Returns the samples of a picture in order.
 class PnmSamples {
   public:
     PnmSamples(PictureBytes bytes, const PnmHeader& header)
@@ -33,7 +34,7 @@ class PnmSamples {
         if (value) return *value;
         throw undecodable(at_ < bytes_.size() ? "a sample is no number" : "the file ends too early");
     }
-    // Samples above 255 have two bytes, the greater one first.
+    // Samples above 255 have two bytes, most significant first.
     std::uint32_t next_bytes() {
         const std::size_t size = most_ > 255 ? 2 : 1;
         if (bytes_.size() - at_ < size) throw undecodable("the file ends too early");
@@ -47,7 +48,7 @@ PnmHeader required_header(PictureBytes bytes) {
     const auto header = pnm_header(bytes);
     if (!header) throw undecodable("no head of a PGM or PPM");
     require_few_pixels(header->width, header->height);
-    // Words have a digit and a blank at least, but for the last one.
+    // Every word but the last has at least a digit and a blank.
     const std::uint64_t samples = header->width * header->height * (header->is_color ? 3 : 1);
     const std::uint64_t min_bytes =
         header->is_text ? 2 * samples - 1 : samples * (header->most > 255 ? 2 : 1);

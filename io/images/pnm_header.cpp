@@ -42,7 +42,7 @@ std::optional<PnmHeader> pnm_header(std::span<const std::uint8_t> bytes) {
     const auto height = width ? next_pnm_number(bytes, at) : std::nullopt;
     const auto most = height ? next_pnm_number(bytes, at) : std::nullopt;
     if (!most || *most < 1 || *most > 65535) return {};
-    // One blank ends the head: the next byte may be a sample that looks like one.
+    // Exactly one blank ends the header: the next byte may be a sample that looks like a blank.
     if (at >= bytes.size() || !is_blank(bytes[at])) return {};
     return PnmHeader{kind == '3' || kind == '6', kind == '2' || kind == '3', *width, *height, *most, at + 1};
 }

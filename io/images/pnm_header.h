@@ -1,6 +1,6 @@
 #pragma once
-// The head of Netpbm's grey and colour pictures (PGM, PPM): "P5 640 480 255", with blanks and comments between the words
-// (Netpbm, "PGM Format Specification" and "PPM Format Specification", 2016).
+// The header of Netpbm's grey and colour pictures (PGM, PPM): "P5 640 480 255", with blanks and comments
+// between the words (Netpbm, "PGM Format Specification" and "PPM Format Specification", 2016).
 
 #include <cstddef>
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace hilcam {
 
 struct PnmHeader {
     bool is_color = false;  // P3 and P6; P2 and P5 are grey
-    bool is_text = false;   // P2 and P3 have their samples as words
+    bool is_text = false;   // P2 and P3 write samples as words
     std::uint64_t width = 0, height = 0;
-    std::uint32_t most = 0;   // the sample that is white, 1 to 65535
-    std::size_t data_at = 0;  // the first byte of the samples
+    std::uint32_t most = 0;   // sample of white, 1 to 65535
+    std::size_t data_at = 0;  // offset of the samples
 };
 
-// Returns nothing for bytes that do not begin so. Any thread.
+// Returns nothing when the bytes do not begin with such a header. Any thread.
 std::optional<PnmHeader> pnm_header(std::span<const std::uint8_t> bytes);
 
-// Takes the number at `at`, behind blanks and comments (# to the end of its line), and moves `at` behind it. Returns nothing for
-// what is no number below 2^32.
+// Reads the number at `at`, after blanks and comments (# to the end of the line), and moves `at` behind it.
+// Returns nothing when there is no number below 2^32.
 std::optional<std::uint32_t> next_pnm_number(std::span<const std::uint8_t> bytes, std::size_t& at);
 
 }  // namespace hilcam

@@ -21,7 +21,7 @@ SkyMap sky_map(const Pose& camera, const CameraModel& model, const PictureLayout
     map.fisheye = model.projection == Projection::kFisheye;
     map.ra_deg = (ra < 0 ? ra + 2 * kPi : ra) * kDegrees;
     map.dec_deg = dec * kDegrees;
-    // Ours has the first pixel's centre at (0.5, 0.5).
+    // hilcam has the first pixel's centre at (0.5, 0.5).
     map.reference_px = {lens.principal_point_px.x + 0.5, lens.principal_point_px.y + 0.5};
     const double per_x = kDegrees / lens.focal_length_px.x, per_y = kDegrees / lens.focal_length_px.y;
     map.east_deg_px[0] = per_x * dot(right, east), map.east_deg_px[1] = per_y * dot(down, east);

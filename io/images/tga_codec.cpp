@@ -5,8 +5,9 @@
 namespace hilcam {
 namespace {
 
-// Goes from run to run: a byte of its length less one, whose upper bit says that the run is one pixel repeated (TGA
-// specification, "Run-length encoded images"). Returns false where the file ends before its last pixel.
+// Checks run by run: a byte has the length minus one, and its upper bit says that the run is one pixel
+// repeated (TGA specification, "Run-length encoded images"). Returns false when the file ends before the last
+// pixel.
 bool runs_are_whole(const PictureOpening& h, const TgaHeader& header) {
     std::uint64_t at = header.data_at, pixels = 0;
     while (pixels < header.pixels()) {

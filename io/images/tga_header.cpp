@@ -11,7 +11,7 @@ std::optional<TgaHeader> tga_header(const PictureOpening& h) {
     constexpr std::uint64_t kHeader_bytes = 18;
     if (h.size() < kHeader_bytes) return {};
     const std::uint8_t map = h.byte(1), type = h.byte(2), depth = h.byte(16), about = h.byte(17);
-    const std::uint8_t plain = type & 7;  // 1 palette, 2 colours, 3 grey; 8 more: by run lengths
+    const std::uint8_t plain = type & 7;  // 1 palette, 2 colours, 3 grey; plus 8: run-length encoded
     if (map > 1 || (type != plain && type != plain + 8) || plain < 1 || plain > 3) return {};
     TgaHeader out;
     out.has_palette = plain == 1, out.is_grey = plain == 3, out.is_packed = type != plain;

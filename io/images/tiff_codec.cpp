@@ -39,7 +39,7 @@ tmsize_t read_tiff(thandle_t handle, void* to, tmsize_t size) {
 tmsize_t write_tiff(thandle_t handle, void* from, tmsize_t size) {
     TiffPort& port = port_of(handle);
     if (!port.out || size < 0) return 0;
-    // An exception must not go through libtiff.
+    // Keeps exceptions from passing through libtiff.
     try {
         const auto end = port.at + static_cast<toff_t>(size);
         if (end > port.out->size()) port.out->resize(end);
@@ -66,7 +66,7 @@ int keep_complaint(TIFF*, void* user, const char*, const char* format, va_list v
         std::vsnprintf(text, sizeof text, format, values);
         std::snprintf(port->complaint, sizeof port->complaint, "libtiff: %s", text);
     }
-    return 1;  // nobody else need be told
+    return 1;  // no other handler is called
 }
 int pass_over(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
@@ -76,11 +76,11 @@ struct Close {
 };
 using OpenTiff = std::unique_ptr<TIFF, Close>;
 
-// mode: as TIFFOpen() has it; M: the bytes are not to be mapped.
+// mode: for TIFFOpen(); M: do not map the bytes.
 OpenTiff open_port(TiffPort& port, const char* mode) {
     const std::unique_ptr<TIFFOpenOptions, Close> options(TIFFOpenOptionsAlloc());
     if (!options) throw std::bad_alloc();
-    // One strip of the largest picture, four samples of 16 bits a pixel.
+    // Large enough for one strip of the largest picture with four samples of 16 bits.
     TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(8 * kMaxPicturePixels));
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_complaint, &port);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), pass_over, nullptr);
@@ -190,7 +190,7 @@ Texture decode_tiff(PictureBytes bytes) {
     char why[1024] = {};
     if (!TIFFRGBAImageOK(tiff.get(), why)) throw undecodable(std::string("libtiff: ") + why);
     std::vector<std::uint32_t> rgba(texture.texels.size());
-    // The last argument: half a picture is none.
+    // The last argument stops at an error, because an incomplete picture is refused.
     if (!TIFFReadRGBAImageOriented(tiff.get(), static_cast<std::uint32_t>(texture.width),
                                    static_cast<std::uint32_t>(texture.height), rgba.data(),
                                    ORIENTATION_TOPLEFT, 1))
@@ -221,7 +221,7 @@ std::string encode_tiff(const PictureSamples& p, const TiffNotes& notes) {
     port.out = &out;
     bool written = true;
     {
-        // Little-endian on any machine, so that a picture is the same bytes everywhere.
+        // Little-endian on any machine, so that the same picture gives the same bytes everywhere.
         const OpenTiff tiff = open_port(port, "wl");
         if (!tiff) return {};
         const bool color = p.kind == SampleKind::kRgb8;

@@ -21,7 +21,7 @@ double linear_dn(std::size_t dn, const DnScale& scale) {
 
 using CodeTable = std::vector<std::uint8_t>;
 
-// The code of each number that a frame may have, amplified.
+// Returns the code of each possible DN, amplified.
 CodeTable code_table(const DnScale& scale, const ViewLevels& levels, double gain) {
     CodeTable table(65536);
     for (std::size_t dn = 0; dn < table.size(); ++dn) {
@@ -33,7 +33,7 @@ CodeTable code_table(const DnScale& scale, const ViewLevels& levels, double gain
     return table;
 }
 
-// Returns the electrons that a letter's pixels collect of sunlight on a white surface.
+// Returns the electrons that pixels behind this filter collect from a white surface in sunlight.
 double sunlit_electrons(const PictureRun& run, const ColorFilterConfig& filter) {
     const Spectrum response = electrons_per_s_per_irradiance(run.model, run.grid, &filter.transmission);
     const Spectrum sun = solar_irradiance_1au_w_m2_um(run.grid);
@@ -84,7 +84,8 @@ ViewLevels PictureView::levels_of(const DnImage& frame, const DnScale& scale) co
             std::clamp(white_dn, scale.black_dn + kMinSpan * full_span, scale.black_dn + full_span)};
 }
 
-// By 4096 steps from black to saturation, as balanced colours are no whole numbers; what is above saturation counts as that.
+// Uses 4096 steps from black to saturation, because balanced colours are not integers; values above
+// saturation count as saturated.
 ViewLevels PictureView::levels_of_colors(const DnScale& scale) const {
     constexpr std::size_t kSteps = 4096;
     const double full_span = std::max(1.0, scale.full_dn - scale.black_dn);
@@ -113,7 +114,7 @@ PictureSamples PictureView::make(const DnImage& frame, const FrameRecord& record
                             {},
                             {}};
     const DnScale scale = dn_scale_of(model_, exposure);
-    // Mirrored or binned, a mosaic is none.
+    // A mirrored or binned frame has no mosaic with that pattern.
     const bool color = !pattern_.empty() && record.binning_x == 1 && record.binning_y == 1 &&
                        !record.reverse_x && !record.reverse_y;
     if (!color) {

@@ -1,15 +1,16 @@
 #pragma once
-// A frame for eyes and viewers: 8 bits, from the camera's black level to a white level taken from the frame,
-// by gamma 2.2. The frame itself is linear and mostly dark: a viewer shows 12-bit numbers in 16 bits as
+// An 8-bit picture of a frame for the eye: from the camera's black level to a white level found in the frame,
+// with gamma 2.2. The frame itself is linear and mostly dark; viewers show its 12-bit numbers in 16 bits as
 // black.
 //
-// White is the level below which 99.5 % of the lit pixels lie: of those that are brighter than black by more
-// than a 64th of the way from black to saturation. It is never nearer to black than a 16th of that way, so
-// that a dark frame does not become a picture of its noise, and never above saturation. Space around a small
-// target does not count, and a glint does not darken the rest.
+// White is the 99.5 % quantile of the lit pixels, those brighter than black by more than 1/64 of the range
+// from black to saturation. It is at least 1/16 of that range above black, so that a dark frame does not
+// become a picture of its noise, and at most saturation. Empty space around a small target does not count,
+// and a glint does not darken the rest.
 //
-// A colour filter array is interpolated (bilinear) and balanced so that a white surface in sunlight is white; its white is
-// the level of the balanced colours. What saturates is white, too. Numbers that a camera has companded are taken back first.
+// A colour filter array is interpolated bilinearly and balanced, so that a white surface in sunlight looks
+// white; its white level is found in the balanced colours. Saturated pixels are white, too. Companded numbers
+// are expanded first.
 
 #include <array>
 #include <vector>
@@ -28,20 +29,20 @@ class PictureView {
   public:
     explicit PictureView(const PictureRun& run);
 
-    // scale: dn_scale_of() the frame. Any thread, one at a time.
+    // Returns the levels of a frame. scale: the frame's dn_scale_of(). Any thread, one at a time.
     ViewLevels levels_of(const DnImage& frame, const DnScale& scale) const;
-    // Valid until the next call. record: how the frame was taken. Owner thread.
+    // Makes the picture; it stays valid until the next call. record: how the frame was taken. Owner thread.
     PictureSamples make(const DnImage& frame, const FrameRecord& record);
-    // A PNG with the frame's notes and the levels.
+    // Returns the picture as PNG with the frame's notes and the levels.
     std::string png(const DnImage& frame, const FrameRecord& record, PictureNotes notes);
 
   private:
-    // Those of the interpolated colours, balanced.
+    // Returns the levels of the interpolated, balanced colours.
     ViewLevels levels_of_colors(const DnScale& scale) const;
 
     const CameraModel model_;
     std::string pattern_;
-    std::array<double, 3> balance_ = {1, 1, 1};  // red, green, blue: the least is 1
+    std::array<double, 3> balance_ = {1, 1, 1};  // red, green, blue: the smallest is 1
     ViewLevels levels_;
     std::vector<std::uint8_t> samples_;
     std::vector<std::uint16_t> colors_, row_;

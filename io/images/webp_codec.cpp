@@ -28,7 +28,8 @@ const char* reason_of(VP8StatusCode status) {
 
 namespace {
 
-// Has libwebp write rows of so many bytes a pixel into memory of ours, which `room` gives for a width and a height.
+// Lets libwebp write rows, with this many bytes per pixel, into the memory that `room` returns for a width
+// and a height.
 template <class Room>
 void decode_into(PictureBytes bytes, WEBP_CSP_MODE mode, int pixel_bytes, const Room& room) {
     WebPDecoderConfig config;

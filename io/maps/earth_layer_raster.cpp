@@ -30,7 +30,7 @@ GroundMapConfig map_of_layer(const EarthLayerConfig& layer) {
     GroundMapConfig out;
     out.file = layer.file, out.where = layer.where;
     out.kind = layer.kind == EarthLayerConfig::Kind::kLand ? GroundKind::kAlbedo : GroundKind::kHeights;
-    // Where a layer has holes the map below shows.
+    // The map below shows through a layer's holes.
     out.holes = MapHoles::kFill;
     out.bounds_deg = layer.bounds_deg;
     if (is_picture(layer.file) && layer.bounds_deg.empty()) out.bounds_deg = {-180, -90, 180, 90};
@@ -52,7 +52,7 @@ EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config, std::unique_p
     const GroundRaster::Shape& shape = raster_->shape();
     const std::string channels = std::to_string(shape.bands) + (shape.bands == 1 ? " channel" : " channels");
     if (config.kind == EarthLayerConfig::Kind::kLand) {
-        // A fourth one is how transparent it is.
+        // A fourth channel is opacity.
         if (shape.bands != 3 && shape.bands != 4)
             refuse("has " + channels + "; accepted: red, green and blue (kind: land)");
     } else if (shape.bands != 1) {
@@ -92,7 +92,7 @@ float EarthLayerRaster::decoded(float raw) const {
     return static_cast<float>(config_.scale * value + config_.offset);
 }
 
-// Posts of a level of the file, columns around the turn, into posts_.
+// Reads posts of a level of the file into posts_; columns wrap around.
 void EarthLayerRaster::read_posts(int level, const LayerWindow& w) {
     const int columns = raster_->shape().columns >> level;
     const auto channels = static_cast<std::size_t>(this->channels());
@@ -111,7 +111,7 @@ void EarthLayerRaster::read_posts(int level, const LayerWindow& w) {
 }
 
 bool EarthLayerRaster::read(const LayerGrid& grid, const LayerWindow& w, std::vector<float>& values) {
-    // The coarsest level that is as fine as the grid.
+    // Chooses the coarsest level that is as fine as the grid.
     int level = 0;
     while ((rows() >> (level + 1)) >= grid.rows && (rows() >> (level + 1)) >= 2) ++level;
     const double per_post = std::ldexp(1.0, -level), columns = this->columns() * per_post,
@@ -149,7 +149,7 @@ bool EarthLayerRaster::read(const LayerGrid& grid, const LayerWindow& w, std::ve
             const float *a = at(column, above), *b = at(column + 1, above), *c = at(column, below),
                         *d = at(column + 1, below);
             for (std::size_t n = 0; n < channels; ++n) {
-                // A neighbour that does not count may be a hole.
+                // A neighbour with no weight may be a hole.
                 const auto mixed = [](float p, float q, float share) {
                     return share < 1e-4f ? p : p + share * (q - p);
                 };

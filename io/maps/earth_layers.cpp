@@ -13,9 +13,10 @@ namespace {
 
 using LayerKind = EarthLayerConfig::Kind;
 
-// The grey of a picture to the clouds' scale, and how high those reach: the figures of tools/make_earth_map.py, which says where they are from.
+// From a picture's grey to the scale of clouds, and their top heights: the figures of
+// tools/make_earth_map.py, which gives the sources.
 constexpr float kCloudPower = 1.33f, kLowestTop_m = 2000, kTopRise_m = 8000;
-constexpr float kSea = 0.999f;  // water from which on a texel has no land
+constexpr float kSea = 0.999f;  // share of water from which a texel has no land
 
 // Values of all layers in a window.
 class LayerValues {
@@ -31,7 +32,7 @@ class LayerValues {
         return whole;
     }
 
-    // Puts what they say at the i-th cell in place of what the map below has there.
+    // Returns a texel in which the layers' values of the i-th cell replace those of the map below.
     EarthMap::Texel texel(std::size_t i, EarthSample out) const {
         float value;
         if (finds(LayerKind::kWater, i, value))
@@ -79,7 +80,7 @@ class LayerValues {
         float infrared;
         if (finds(LayerKind::kInfrared, i, infrared))
             out.value[EarthSample::kInfrared] = std::clamp(infrared, 0.0f, 1.0f);
-        // The colour of open water is the sea's own.
+        // Open water has the sea's own colour.
         if (out.water() >= kSea) std::fill_n(out.value.begin(), 4, 0.0f);
     }
     static void put_cloud(float cloud, EarthSample& out) {
@@ -119,7 +120,7 @@ class LayerDetail final : public EarthDetail {
     LayerValues values_;
 };
 
-// The map with the layers on it, a strip of rows at a time.
+// Returns the map with the layers on it; works on a strip of rows at a time.
 EarthMap overlaid(const EarthMap& map, std::vector<EarthLayerRaster>& layers) {
     EarthMap::Level out{map.width(), map.height(), {}};
     out.texels.reserve(map.finest().texels.size());

@@ -1,6 +1,6 @@
 #pragma once
-// Maps of the user's own in place of parts of a packed map of the Earth: what of them is as coarse as that map is put onto it, and what is
-// finer is read by tiles, as pictures look at it.
+// Combines the user's maps with a packed map of the Earth. What is as coarse as the packed map is written
+// into it; finer detail is read in tiles, where a picture looks.
 
 #include <memory>
 #include <vector>
@@ -13,12 +13,13 @@ namespace hilcam {
 
 struct LayeredEarth {
     EarthMap map;
-    std::shared_ptr<EarthDetail> detail;  // null: nothing is finer
+    std::shared_ptr<EarthDetail> detail;  // null: no layer is finer
 };
 
-// Opens the layers. Throws InputError, see EarthLayerRaster, and where a layer cannot be read as far as the map has its texels.
+// Opens the layers. Throws InputError as EarthLayerRaster does, and when a layer cannot be read at the map's
+// texels.
 LayeredEarth with_layers(EarthMap map, const std::vector<EarthLayerConfig>& layers);
-// The same for layers that are open.
+// Combines layers that are open.
 LayeredEarth with_layers(EarthMap map, std::vector<EarthLayerRaster> layers);
 
 }  // namespace hilcam

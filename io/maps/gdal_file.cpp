@@ -22,16 +22,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDrivers[] = {"GTiff", "PDS", "PDS4", "ISIS3", "ENVI", nullptr};
-// GDAL's own cache of blocks, beside the pages that are kept.
+// GDAL's own cache of blocks, in addition to the pages that are kept.
 constexpr GIntBig kCacheBytes = 64 << 20;
-// A block is read whole, whatever is wanted of it.
+// Largest block, because a block is read whole, whatever part is needed.
 constexpr double kMaxBlock_bytes = 64 << 20;
-// The number of a TIFF's blocks that are looked at, over all of it.
+// Number of a TIFF's blocks that are checked, spread over all of it.
 constexpr int kBlocksLookedAt = 1 << 16;
-// A file of more overviews than halvings of its size has none that is of use.
+// A file with more overviews than halvings of its size has useless ones.
 constexpr int kMaxOverviews = 64;
 
-// Takes the place of GDAL's own file systems, which go into archives, to programs and into the network.
+// Replaces GDAL's own file systems, which access archives, programs and the network.
 class NoFiles final : public VSIFilesystemHandler {
   public:
     VSIVirtualHandle* Open(const char*, const char*, bool, CSLConstList) override { return nullptr; }
@@ -39,12 +39,12 @@ class NoFiles final : public VSIFilesystemHandler {
 };
 
 void close_file_systems() {
-    // GDAL lets go of a handler that another replaces and does not delete it, and one may serve several prefixes: they
-    // stay until the process is gone.
+    // GDAL drops a handler that another replaces and does not delete it, and one handler may serve several
+    // prefixes. So they are kept until the process ends.
     static auto* const replaced = new std::vector<VSIFilesystemHandler*>;
     char** const prefixes = VSIGetFileSystemsPrefixes();
     for (char** prefix = prefixes; prefix && *prefix; ++prefix)
-        // Formats use these two for parts of files and of memory. A handler is GDAL's from here on.
+        // Formats use these two for parts of files and of memory. GDAL owns the handler from here on.
         if (const std::string_view own(*prefix);
             own.starts_with("/vsi") && own != "/vsimem/" && own != "/vsisubfile/") {
             replaced->push_back(VSIFileManager::GetHandler(*prefix));
@@ -64,7 +64,7 @@ class Judge {
         CSLDestroy(list);
     }
 
-    // True where a block is too large, but the file can be read by rows: one strip without compression.
+    // True when a block is too large, but the file can be read by rows: one strip without compression.
     bool wants_rows() const {
         return is_tiff() && !is_compressed() && block_bytes(*dataset_.GetRasterBand(1)) > kMaxBlock_bytes;
     }
@@ -83,7 +83,7 @@ class Judge {
   private:
     GDALDataset& dataset_;
     const std::string& name_;
-    double bytes_ = 0;  // those of the largest of its files, which has the values
+    double bytes_ = 0;  // size of the largest of its files, which has the values
 
     [[noreturn]] void refuse(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
@@ -120,7 +120,7 @@ class Judge {
                           dataset_.GetRasterCount());
         if (is_tiff()) require_blocks(band);
     }
-    // Rows of one strip, as wants_rows() has them read, are no blocks that the file knows.
+    // With one strip read by rows, as wants_rows() requests, the blocks are not those of the file.
     static bool is_by_rows(GDALRasterBand& band) {
         int columns = 0, rows = 0;
         band.GetBlockSize(&columns, &rows);
@@ -137,7 +137,7 @@ class Judge {
                    " of values that it promises; accepted: a whole file");
     }
 
-    // Each block has an entry in the file, and lies in it unless it is left out.
+    // Each block has an entry in the file, and is inside the file unless it is left out.
     void require_blocks(GDALRasterBand& band) const {
         int columns = 0, rows = 0;
         band.GetBlockSize(&columns, &rows);
@@ -186,13 +186,13 @@ std::string QuietErrors::last() {
 void start_gdal() {
     static std::once_flag once;
     std::call_once(once, [] {
-        // No addresses of the network, neither in a file's own words nor for PROJ's grids; nothing beside a map but
-        // its header and its overviews.
+        // No network addresses, neither in a file's own text nor for PROJ's grids, and no files beside a map
+        // except its header and its overviews.
         close_file_systems();
         CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");
         CPLSetConfigOption("GDAL_GEOREF_SOURCES", "INTERNAL");
         OSRSetPROJEnableNetwork(false);
-        // PROJ prints what a damaged file's projection lacks, unless it is told not to.
+        // Otherwise PROJ prints what is missing in a damaged file's projection.
         setenv("PROJ_DEBUG", "0", 0);
         GDALSetCacheMax64(kCacheBytes);
         GDALRegister_GTiff();
@@ -209,7 +209,7 @@ std::vector<fs::path> gdal_folders() {
     char** const proj = OSRGetPROJSearchPaths();
     for (char** one = proj; one && *one; ++one) out.emplace_back(*one);
     CSLDestroy(proj);
-    // Any of GDAL's files tells where all are.
+    // The place of any of GDAL's files is the place of all.
     if (const char* const own = CPLFindFile("gdal", "gdalvrt.xsd"))
         out.push_back(fs::path(own).parent_path());
     return out;

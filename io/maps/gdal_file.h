@@ -1,6 +1,6 @@
 #pragma once
-// Opens a map by GDAL, within bounds: one of five formats, regular files of one folder, blocks of a size that can be read, no more
-// values than the file has bytes for, and nothing of the network.
+// Opens a map with GDAL, within bounds: one of five formats, regular files of one folder, blocks of a
+// readable size, no more values than the file has bytes for, and no network.
 
 #include <cpl_error.h>
 #include <gdal_priv.h>
@@ -19,7 +19,7 @@ struct CloseDataset {
 };
 using GdalFile = std::unique_ptr<GDALDataset, CloseDataset>;
 
-// While there is one, nothing is printed; the last message is asked for.
+// Silences GDAL's messages while it exists, and keeps the last.
 class QuietErrors {
   public:
     QuietErrors() {
@@ -29,13 +29,13 @@ class QuietErrors {
     ~QuietErrors() { CPLPopErrorHandler(); }
     QuietErrors(const QuietErrors&) = delete;
     QuietErrors& operator=(const QuietErrors&) = delete;
-    // Returns at most 200 bytes of it, without control characters.
+    // Returns at most 200 bytes of the last message, without control characters.
     static std::string last();
 };
 
-// Makes GDAL ready, once for the process; open_gdal_file() does so, too.
+// Starts GDAL, once per process; open_gdal_file() does so, too.
 void start_gdal();
-// Returns the folders in which GDAL and PROJ have their own data.
+// Returns the folders of GDAL's and PROJ's own data.
 std::vector<std::filesystem::path> gdal_folders();
 // Throws InputError, one line that begins with `name`.
 GdalFile open_gdal_file(const MapFiles& files, const std::string& name);

@@ -19,7 +19,7 @@ using TransformCount = std::size_t;
 using TransformCount = int;
 #endif
 
-// Adds "what (by)" to a list.
+// Appends "what (by)" to a list.
 void add(std::string& taken, const std::string& what, const std::string& by) {
     taken += (taken.empty() ? "" : ", ") + what + " (" + by + ")";
 }
@@ -29,7 +29,7 @@ std::string list_text(const MapBounds& b) {
            plain(b.north_deg) + "]";
 }
 
-// Returns "1 post north", or nothing for less than half a post.
+// Returns "1 post north"; empty for less than half a post.
 std::string displacement(double posts, const char* positive, const char* negative) {
     if (std::abs(posts) < 0.5 - 1e-3) return {};
     const double rounded = std::round(100 * std::abs(posts)) / 100;
@@ -38,7 +38,7 @@ std::string displacement(double posts, const char* positive, const char* negativ
 
 double within_half_turn(double deg) { return deg - 360 * std::round(deg / 360); }
 
-// Returns the longitude of a projection's middle, as it stands in it.
+// Returns the longitude of a projection's centre, as the projection gives it.
 std::optional<double> middle_deg(const OGRSpatialReference& reference) {
     for (const char* const name :
          {SRS_PP_CENTRAL_MERIDIAN, SRS_PP_LONGITUDE_OF_CENTER, SRS_PP_LONGITUDE_OF_ORIGIN}) {
@@ -70,9 +70,10 @@ GdalPlacement::GdalPlacement(GDALDataset& file, const MapLabel& label, const Gro
     add(reading.taken, "at " + list_text(*bounds_), "bounds_deg");
 }
 
-// The label says it, else the projection's name, else its figure: under a flattened body a sphere has planetocentric latitudes (IAU Working
-// Group on Cartographic Coordinates, Archinal et al. 2018; MOLA's, HRSC's and USGS' maps of Mars). On the Earth a sphere has geodetic ones,
-// as MODIS' sinusoidal grid has (Masuoka et al., IEEE Trans. Geosci. Remote Sens. 36, 1313, 1998).
+// The label decides, else the projection's name, else its figure. On a flattened body, a sphere has
+// planetocentric latitudes (IAU Working Group on Cartographic Coordinates, Archinal et al. 2018; maps of Mars
+// by MOLA, HRSC and USGS). On the Earth, a sphere has geodetic ones, as in MODIS' sinusoidal grid (Masuoka et
+// al., IEEE Trans. Geosci. Remote Sens. 36, 1313, 1998).
 void GdalPlacement::choose_latitudes(const OGRSpatialReference* reference, const MappedBody& body,
                                      GroundRaster::Reading& reading) {
     std::string by = "latitudes";
@@ -99,7 +100,7 @@ void GdalPlacement::choose_latitudes(const OGRSpatialReference* reference, const
 }
 
 void GdalPlacement::require_body(const OGRSpatialReference& reference, const MappedBody& body) const {
-    // A projection may have the equator's, the pole's or a place's own radius.
+    // A projection may use the equator's, the pole's or a place's own radius.
     constexpr double kShare = 0.01;
     const double radius_m = reference.GetSemiMajor();
     const auto [min_m, max_m] = std::minmax(body.figure.polar_radius_m, body.figure.equatorial_radius_m);
@@ -126,7 +127,7 @@ void GdalPlacement::find_projection(GDALDataset& file, const MappedBody& body, G
                             ? reference.GetAngularUnits() * body.figure.equatorial_radius_m
                             : reference.GetLinearUnits();
     shape.spacing_m = unit * std::sqrt(std::abs(to_ground[1] * to_ground[5] - to_ground[2] * to_ground[4]));
-    // Angles are degrees, as nearly all files have them.
+    // Angles are degrees, as in nearly all files.
     if (reference.IsGeographic() && std::abs(reference.GetAngularUnits() / kDegree_rad - 1) > 1e-6)
         refuse("has angles in other units than degrees; accepted: degrees");
     if (reference.IsProjected()) {
@@ -143,8 +144,9 @@ void GdalPlacement::find_projection(GDALDataset& file, const MappedBody& body, G
     find_turn(*grid, shape);
 }
 
-// A projection depends on the longitude from its middle alone. In PDS3 and ISIS columns go east where longitudes count to the west, too, and
-// GDAL takes the middle's number for one of the east: for what the middle is in truth, minus that, twice it is added.
+// A projection depends only on the longitude relative to its centre. In PDS3 and ISIS, columns go east even
+// where longitudes count to the west, and GDAL reads the centre's number as an east longitude. The true
+// centre is the negative of it, so twice the number is added.
 void GdalPlacement::choose_longitudes(const OGRSpatialReference& reference, GroundRaster::Reading& reading) {
     const bool by_key = config_.longitudes != MapLongitudes::kLabel;
     const bool west =
@@ -160,7 +162,7 @@ void GdalPlacement::choose_longitudes(const OGRSpatialReference& reference, Grou
         return;
     }
     const std::optional<double> middle = middle_deg(reference);
-    // GDAL itself turns those of PDS4, and those of oblique cylinders (Cassini's radar).
+    // GDAL itself converts the longitudes of PDS4, and of oblique cylinders (Cassini's radar).
     if (!by_key && (label_.format == MapLabel::Format::kPds4 || label_.oblique)) return;
     if (!middle)
         refuse(
@@ -179,7 +181,7 @@ void GdalPlacement::choose_longitudes(const OGRSpatialReference& reference, Grou
     shift_deg_ = 2 * *middle;
 }
 
-// Finds the grid of degrees of a map that has one.
+// Returns the grid of degrees, if the map has one.
 std::optional<GdalPlacement::Grid> GdalPlacement::grid_of(const OGRSpatialReference& reference,
                                                           const double* to_ground) {
     const double column = to_ground[1], row = -to_ground[5];
@@ -207,8 +209,9 @@ void GdalPlacement::find_turn(const Grid& grid, GroundRaster::Shape& shape) {
         std::abs(grid.north_deg - grid.row_deg * shape.rows + 90) < 0.5 * grid.row_deg;
 }
 
-// Holds the place against the bounds of the label, where these are the map's: as wide as its posts, from edge to edge or from middle to
-// middle. MOLA's labels of 2003 have offsets that are a post off, and right bounds.
+// Compares the placement with the label's bounds, if these are the map's: as wide as its posts, from edge to
+// edge or from centre to centre. MOLA's labels of 2003 have offsets that are one post off, and correct
+// bounds.
 GdalPlacement::Contradiction GdalPlacement::contradiction(const Grid& grid,
                                                           const GroundRaster::Shape& shape) const {
     if (!label_.bounds) return {};
@@ -225,7 +228,7 @@ GdalPlacement::Contradiction GdalPlacement::contradiction(const Grid& grid,
                   b.east_deg + edge * grid.column_deg, b.north_deg + edge * grid.row_deg};
     const double north = (grid.north_deg - own.north_deg) / grid.row_deg;
     double east = within_half_turn(grid.west_deg - own.west_deg) / grid.column_deg;
-    // A whole turn may begin anywhere, and its label says 0 to 360, or -180 to 180, all the same.
+    // A whole turn may begin anywhere, and its label may say 0 to 360 or -180 to 180.
     constexpr double kMaxOff = 2;
     if (std::abs(b.east_deg - b.west_deg - 360) < 0.5 * grid.column_deg && std::abs(east) > kMaxOff)
         own.west_deg = grid.west_deg, own.east_deg = grid.west_deg + 360, east = 0;
@@ -233,7 +236,7 @@ GdalPlacement::Contradiction GdalPlacement::contradiction(const Grid& grid,
     return {up + (up.empty() || across.empty() ? "" : " and ") + across, list_text(own)};
 }
 
-// Refuses posts beyond a pole, and doubts what the label contradicts.
+// Refuses posts beyond a pole, and adds a doubt for what the label contradicts.
 void GdalPlacement::judge(const Grid& grid, const GroundRaster::Shape& shape,
                           GroundRaster::Reading& reading) const {
     const Contradiction found = contradiction(grid, shape);

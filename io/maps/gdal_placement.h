@@ -1,6 +1,7 @@
 #pragma once
-// Where the posts of a file that GDAL reads are on a body: its projection, or bounds in degrees that the scenario gives, with what GDAL does
-// not hand on - the kind of latitudes, and longitudes that count to the west - from its label (map_label.h).
+// Places the posts of a GDAL file on a body, from the file's projection or from the scenario's bounds in
+// degrees. The label (map_label.h) gives what GDAL does not pass on: the kind of latitudes, and longitudes
+// that count to the west.
 
 #include <ogr_spatialref.h>
 
@@ -19,8 +20,9 @@ namespace hilcam {
 
 class GdalPlacement {
   public:
-    // shape: has columns and rows, and gets what follows from the place. reading: gets what was taken and why. Throws InputError, which begins
-    // with the map's name: there is no projection, it is of another body, or it puts posts beyond a pole.
+    // shape: has columns and rows on entry; gets the rest. reading: gets which choices were made and why.
+    // Throws InputError that begins with the map's name when there is no projection, when it is another
+    // body's, or when it puts posts beyond a pole.
     GdalPlacement(GDALDataset& file, const MapLabel& label, const GroundMapConfig& config,
                   const MappedBody& body, GroundRaster::Shape& shape, GroundRaster::Reading& reading);
 
@@ -31,12 +33,13 @@ class GdalPlacement {
     struct DestroyTransformation {
         void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
     };
-    // A map whose columns are meridians and whose rows are parallels, in degrees east and north.
+    // A map with meridians as columns and parallels as rows, in degrees east and north.
     struct Grid {
         double west_deg, north_deg, column_deg, row_deg;
     };
 
-    // Tells how far a map is from its label's own bounds, as "1 post north", and these as the key has them; both empty: it is not, or cannot be told.
+    // Says how far a map is from its label's own bounds, "1 post north", and these bounds as the key has
+    // them. Both empty: they agree, or cannot be compared.
     struct Contradiction {
         std::string off, bounds;
     };
@@ -45,12 +48,13 @@ class GdalPlacement {
     const MapLabel& label_;
     std::optional<MapBounds> bounds_;
     std::unique_ptr<OGRCoordinateTransformation, DestroyTransformation>
-        projection_;  // null: longitudes, latitudes
+        projection_;  // null: longitude and latitude
     double from_ground_[6] = {};
-    double factor_ = 1;        // see latitude_factor()
-    double sign_ = 1;          // -1: longitudes of degrees count to the west
-    double shift_deg_ = 0;     // is added to longitudes, so that a middle of west longitude is at its place
-    double turn_columns_ = 0;  // columns of 360 deg; 0: no such thing
+    double factor_ = 1;  // see latitude_factor()
+    double sign_ = 1;    // -1: longitudes count to the west
+    // Added to longitudes, to put a central meridian given as a west longitude in its place.
+    double shift_deg_ = 0;
+    double turn_columns_ = 0;  // columns in 360 deg; 0: not a grid of longitudes
     std::vector<double> x_, y_;
     std::vector<int> success_;
 

@@ -52,8 +52,8 @@ class GdalRaster final : public GroundRaster {
     };
     std::vector<Band> bands_;
     std::optional<GdalPlacement> placement_;
-    double unit_ = 1;                  // metres of the file's unit of heights
-    std::vector<float> unsaid_holes_;  // values that stand for holes beside the file's own
+    double unit_ = 1;                  // metres per unit of the file's heights
+    std::vector<float> unsaid_holes_;  // values that mean holes, besides the file's own
     std::vector<float> raw_;
 
     [[noreturn]] void refuse(const std::string& what) const {
@@ -87,7 +87,7 @@ class GdalRaster final : public GroundRaster {
         }
     }
 
-    // The unit of heights: the channel's own, else the label's.
+    // Finds the unit of heights: the channel's own, else the label's.
     void find_unit() {
         if (config_.kind != GroundKind::kHeights) return;
         const char* const own = bands_.front().band->GetUnitType();
@@ -102,7 +102,8 @@ class GdalRaster final : public GroundRaster {
             reading_.taken += (reading_.taken.empty() ? "" : ", ") + ("heights in " + unit) + " (label)";
     }
 
-    // Looks at all posts of a small map, and at some of a large one, whose blocks would otherwise all be read.
+    // Returns the level for a sample: all posts of a small map, and some of a large one, because otherwise
+    // all of its blocks would be read.
     int level_of_sample() const {
         constexpr int kAll = 2048, kSome = 32, kWithOverviews = 512;
         const int most = std::max(shape_.columns, shape_.rows) <= kAll ? kAll
@@ -123,7 +124,7 @@ class GdalRaster final : public GroundRaster {
         for (const double value : config_.no_data) unsaid_holes_.push_back(static_cast<float>(value));
         if (config_.no_data.empty()) {
             unsaid_holes_ = unsaid_holes(raw_);
-            // GDAL has a value of its own for PDS3 labels without one.
+            // GDAL invents a value for PDS3 labels without one.
             if (band.none) std::erase(unsaid_holes_, static_cast<float>(*band.none));
             for (const float value : unsaid_holes_)
                 reading_.doubts.push_back(
@@ -138,7 +139,7 @@ class GdalRaster final : public GroundRaster {
             refuse(why);
     }
 
-    // A hole is the file's own value for it, and what is no number.
+    // Returns a post's value. Holes are the file's own value for them, and what is not a number.
     float value_of(const Band& band, float raw) const {
         const auto value = static_cast<double>(raw);
         // No body has heights beyond a million kilometres.
@@ -154,7 +155,7 @@ class GdalRaster final : public GroundRaster {
         return static_cast<float>(config_.scale * out + config_.offset);
     }
 
-    // Reads a channel's own values into raw_.
+    // Reads a channel's raw values into raw_.
     CPLErr read_raw(const Band& band, int level, int column, int row, int columns, int rows,
                     GDALRIOResampleAlg alg) {
         raw_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -165,8 +166,8 @@ class GdalRaster final : public GroundRaster {
                                    raw_.data(), columns, rows, GDT_Float32, 0, 0, &how);
     }
 
-    // Reads a level's values into raw_. Without overviews a mean would read all of the map, and of holes that the file does not know GDAL would
-    // make one.
+    // Reads a level's values into raw_. Without overviews, a mean would read all of the map; and where the
+    // file does not know its holes, GDAL would average them in.
     CPLErr read_level(const Band& band, int level, int column, int row, int columns, int rows) {
         constexpr int kMeansTo = 3;
         const bool is_mean = level > 0 && (level <= kMeansTo || band.has_overviews);
@@ -189,7 +190,7 @@ class GdalRaster final : public GroundRaster {
         return error;
     }
 
-    // Returns the mean of a square of values that are no holes; a hole where all are.
+    // Returns the mean of a square of values without its holes; a hole when all are.
     float mean_beside_holes(const std::vector<float>& fine, int stride, int column, int row, int each) const {
         double sum = 0, count = 0;
         for (int y = row; y < row + each; ++y)

@@ -61,7 +61,7 @@ void validate(const GroundMapConfig& c) {
 
 namespace {
 
-// Looks at some hundreds of posts along each edge for what the kind does not take.
+// Refuses values beyond the kind's limits; looks at some hundreds of posts along each edge.
 void refuse_beyond(const GroundMapConfig& config, GroundRaster& raster) {
     const std::optional<ParameterLimits> limits = limits_of(config.kind);
     if (!limits) return;
@@ -76,7 +76,7 @@ void refuse_beyond(const GroundMapConfig& config, GroundRaster& raster) {
     raster.read(level, 0, 0, columns, rows, values);
     for (std::size_t i = 0; i < values.size(); ++i) {
         const auto value = static_cast<double>(values[i]);
-        // Single precision may round the limits themselves; a hole is none of this.
+        // Single precision may round the limits themselves. Holes are not compared.
         const double slack = 1e-6 * std::max(std::abs(limits->least), std::abs(limits->most));
         if (value < limits->least - slack || value > limits->most + slack)
             throw InputError(config.where + ": " + config.file.string() + ": found " + plain(value) +

@@ -1,5 +1,6 @@
 #pragma once
-// Maps of the ground as a scenario names them: which file, what its values mean, how it lies on the body.
+// Maps of the ground as a scenario describes them: the file, the meaning of its values, and its placement on
+// the body.
 
 #include <filesystem>
 #include <memory>
@@ -28,8 +29,8 @@ struct GroundMapConfig {
     double blend_posts = 8;
     MapLatitudes latitudes = MapLatitudes::kLabel;
     MapLongitudes longitudes = MapLongitudes::kLabel;
-    std::vector<double>
-        no_data;  // values of the file that are holes; empty: those that stand alone, see value_judge.h
+    // Values of the file that are holes; empty: values that stand alone are judged (value_judge.h).
+    std::vector<double> no_data;
     std::vector<double> bounds_deg;  // west, south, east, north; empty: the file's own projection
 };
 Fields fields(GroundMapConfig& config);
@@ -41,8 +42,8 @@ struct MappedBody {
     Figure figure;
 };
 
-// Opens a map; what is looked at is read later. Throws InputError, one line that names the file: it is missing or of no
-// known format, has no projection or one of another body, has holes that the config refuses.
+// Opens a map; values are read when they are needed. Throws InputError, one line that names the file, when it
+// is missing, has no known format, has no projection or another body's, or has holes that the config refuses.
 GroundMap open_ground_map(const GroundMapConfig& config, const MappedBody& body);
 
 }  // namespace hilcam

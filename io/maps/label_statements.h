@@ -1,5 +1,5 @@
 #pragma once
-// This takes the text of a PDS3 or ISIS label apart into its statements.
+// Splits the text of a PDS3 or ISIS label into statements.
 
 #include <cctype>
 #include <string>
@@ -7,11 +7,13 @@
 
 namespace hilcam {
 
-// Takes out comments that no quotation can begin or end in, which may have slashes.
+// Removes comments without quotation marks. A comment with one may be part of a quoted text, which may have
+// slashes.
 std::string without_label_comments(std::string_view text);
 
-// Calls take(key, value) for each "KEY = value" of a label. A value goes on to the next statement's key and includes that, so that no
-// reader of labels, whatever it makes of brackets and quotes, finds more in it.
+// Calls take(key, value) for each "KEY = value" of a label. A value extends to the next equals sign and
+// includes the next statement's key, so that no other reader of labels, whatever it makes of brackets and
+// quotes, finds more in it.
 template <class Take>
 void visit_label_statements(std::string_view text, const Take& take) {
     const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
@@ -27,7 +29,7 @@ void visit_label_statements(std::string_view text, const Take& take) {
     }
 }
 
-// Returns the text in small letters: labels' words and files' names are compared so.
+// Returns the text in lower case, in which words of labels and file names are compared.
 std::string small_letters(std::string_view text);
 
 }  // namespace hilcam

@@ -1,6 +1,6 @@
 #pragma once
-// This finds the posts of a map in longitude and latitude, planetographic (that of a place's normal) or planetocentric (that of the
-// line from the body's middle to the point of the ellipsoid there).
+// Finds the posts of a map in longitude and latitude. Latitudes are planetographic (angle of the surface
+// normal) or planetocentric (angle of the line from the body's centre).
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ struct MapBounds {
     double west_deg = -180, south_deg = -90, east_deg = 180, north_deg = 90;
 };
 
-// Sets what of a shape follows from the bounds; columns and rows are there.
+// Sets the members of a shape that follow from the bounds; columns and rows are set already.
 inline void set_bounds(const MapBounds& b, double radius_m, GroundRaster::Shape& shape) {
     const double column_deg = (b.east_deg - b.west_deg) / shape.columns,
                  row_deg = (b.north_deg - b.south_deg) / shape.rows;
@@ -25,8 +25,8 @@ inline void set_bounds(const MapBounds& b, double radius_m, GroundRaster::Shape&
     shape.pole_below_last_row = shape.whole_turn && std::abs(b.south_deg + 90) < 0.5 * row_deg;
 }
 
-// Returns the factor by which planetocentric latitudes are flatter: tan(latitude) is that of the normal's times (b/a)^2 (Snyder, USGS
-// Professional Paper 1395, 1987, eq. 3-28). For planetographic ones it is 1.
+// Returns the ratio of tan(planetocentric latitude) to tan(planetographic latitude), (b/a)^2 (Snyder, USGS
+// Professional Paper 1395, 1987, eq. 3-28); 1 for planetographic maps.
 inline double latitude_factor(const Figure& figure, bool planetocentric) {
     if (!planetocentric) return 1;
     const double ratio = figure.polar_radius_m / figure.equatorial_radius_m;
@@ -38,12 +38,12 @@ inline double latitude_deg(Vec3d place, double factor) {
     return std::atan2(factor * place.z, std::hypot(place.x, place.y)) / kDegree_rad;
 }
 
-// Takes whole turns off a column, which leaves it within -0.5 to turn - 0.5.
+// Subtracts whole turns from a column; the result is from -0.5 to turn - 0.5.
 inline double within_turn(double column, double columns_of_turn) {
     return column - columns_of_turn * std::floor((column + 0.5) / columns_of_turn);
 }
 
-// factor: see latitude_factor().
+// Returns the post at a place. factor: latitude_factor().
 inline Vec2d post_at(const MapBounds& b, const GroundRaster::Shape& shape, Vec3d place, double factor) {
     const double per_deg = shape.columns / (b.east_deg - b.west_deg);
     const double turn = shape.whole_turn ? shape.columns : 360 * per_deg;

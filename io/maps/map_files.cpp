@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A petabyte is no map.
+// A petabyte; no map is larger.
 constexpr std::uintmax_t kMaxMapBytes = std::uintmax_t{1} << 50;
-// Labels are shorter, and say at their begin that they are some.
+// Labels are shorter, and have their mark near the beginning.
 constexpr std::size_t kLabel_bytes = std::size_t{1} << 20, kMark_bytes = std::size_t{1} << 16;
-// XML begins with its first mark, behind a byte-order mark and blanks at most.
+// XML begins with its first mark, after a byte-order mark and blanks at most.
 constexpr std::size_t kMax_before_xml = 64;
 
-// Adds what may be the name of a file: what stands between quotes, and each word.
+// Adds every possible file name: the contents of quotation marks, and each word.
 void add_names(std::string_view value, std::vector<std::string>& names) {
     const auto add_pieces = [&](std::string_view separators) {
         for (std::size_t at = 0; at < value.size();) {
@@ -33,7 +33,7 @@ void add_names(std::string_view value, std::vector<std::string>& names) {
     add_pieces("\"'(){},<> \t\r\n\f\v");
 }
 
-// Opens what a map's reader would open, and so says what is wrong with it.
+// Opens what a map's reader would open, and so reports what is wrong with it.
 void require_regular(const fs::path& file) {
     open_input_file(file, {kMaxMapBytes, "a regular file, as a part of a map"});
 }
@@ -45,13 +45,13 @@ bool is_label(const std::string& text) {
            begin.find("IsisCube") != std::string_view::npos;
 }
 
-// PDS4's labels are XML, and a file of their own.
+// PDS4's labels are XML in a file of their own.
 bool is_pds4_label(const std::string& text) {
     const std::string_view begin = std::string_view(text).substr(0, kMark_bytes);
     return begin.find("<Product_") != std::string_view::npos && begin.find('<') < kMax_before_xml;
 }
 
-// Returns a label's text up to its end, as readers look for it; nothing of a file that is no label.
+// Returns a label's text up to its end as readers determine it; empty when the file has no label.
 std::string label_of(const fs::path& file, const std::string& name) {
     const InputFile in = open_input_file(file, {kMaxMapBytes, "a map"});
     std::string text(std::min<std::uintmax_t>(in.bytes, kLabel_bytes), '\0');
@@ -72,7 +72,8 @@ std::string label_of(const fs::path& file, const std::string& name) {
     const std::size_t zero = text.find('\0');
     if (zero < end)
         throw InputError(name + ": its label has bytes that are no text; accepted: text up to the line END");
-    // Readers take the rest of a block with it, and go on in there where that line was a comment's.
+    // Readers take the rest of a block with the label, and continue there when that line was inside a
+    // comment.
     constexpr std::size_t kBlock_bytes = 520;
     text.resize(std::min({text.size(), end + kBlock_bytes, zero}));
     return text;
@@ -82,7 +83,7 @@ std::string label_of(const fs::path& file, const std::string& name) {
 
 namespace {
 
-// Refuses what leads out of the map's folder.
+// Refuses a name that leads out of the map's folder.
 void require_plain_name(std::string_view value, const std::string& name) {
     if (value.find_first_of("/\\") == std::string_view::npos) return;
     const std::size_t begin = std::min(value.find_first_not_of(" \t\r\n"), value.size());
@@ -90,7 +91,8 @@ void require_plain_name(std::string_view value, const std::string& name) {
                      "; accepted: the name of a file beside it, without folders");
 }
 
-// A PDS4 label names files in its elements file_name alone; references (&...;) could spell others.
+// A PDS4 label names files only in its elements file_name. References (&...;), which could hide other names,
+// are refused.
 std::vector<std::string> pds4_pointers(const std::string& text, const std::string& name) {
     std::vector<std::string> out;
     if (text.find("<!DOCTYPE") != std::string::npos || text.find("<!ENTITY") != std::string::npos)

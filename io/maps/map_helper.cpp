@@ -21,14 +21,14 @@
 namespace hilcam {
 namespace {
 
-// The longest request looks at some hundred thousand posts of a map without overviews.
+// The longest request examines some hundred thousand posts of a map without overviews.
 constexpr HelperProcess::Limits kOpening{60, 30}, kReading{30, 30};
 
 std::string name_of(const GroundMapConfig& config) {
     return (config.where.empty() ? "" : config.where + ": ") + config.file.string();
 }
 
-// The readers that have ended, of all maps.
+// The readers of all maps that have ended.
 class EndedReaders {
   public:
     void add(const std::string& what) {
@@ -63,7 +63,7 @@ class HelpedRaster final : public GroundRaster {
         if (!config.bounds_deg.empty())
             bounds_ = {config.bounds_deg[0], config.bounds_deg[1], config.bounds_deg[2],
                        config.bounds_deg[3]};
-        constexpr std::uintmax_t kMaxMapBytes = std::uintmax_t{1} << 50;  // a petabyte is no map
+        constexpr std::uintmax_t kMaxMapBytes = std::uintmax_t{1} << 50;  // a petabyte; no map is larger
         open_input_file(config.file, {kMaxMapBytes, "a map"});
         shape_ = opened(reading_);
     }
@@ -109,7 +109,7 @@ class HelpedRaster final : public GroundRaster {
 
     std::filesystem::path program_;
     GroundMapConfig config_;
-    std::filesystem::path file_;  // absolute: a reader may be started later, from another folder
+    std::filesystem::path file_;  // absolute, because a reader may be started later from another folder
     MappedBody body_;
     std::optional<MapBounds> bounds_;
     double factor_ = 1;                      // see latitude_factor()
@@ -120,7 +120,7 @@ class HelpedRaster final : public GroundRaster {
         throw InputError(name_of(config_) + ": " + what);
     }
 
-    // Starts a reader and has it open the map. Throws InputError.
+    // Starts a reader and lets it open the map. Throws InputError.
     Shape opened(Reading& reading) {
         std::error_code error;
         if (!std::filesystem::is_regular_file(program_, error))
@@ -163,7 +163,7 @@ class HelpedRaster final : public GroundRaster {
         return out;
     }
 
-    // The reader knows the file by its absolute path, and whoever reads the message by what the scenario says.
+    // The reader knows the file by its absolute path; the message gives the path of the scenario.
     std::string refusal(const MapAnswer& answer) const {
         const std::size_t size = std::min<std::size_t>(answer.refused_bytes, kMaxText_bytes);
         const std::string text = harmless({reinterpret_cast<const char*>(helper_->memory().data()), size});
@@ -173,7 +173,7 @@ class HelpedRaster final : public GroundRaster {
         return text.starts_with(begin) ? name_of(config_) + text.substr(begin.size()) : text;
     }
 
-    // Its words are shown, within bounds and without what turns a terminal over.
+    // The reader's words are shown, but limited in length and without control characters.
     Reading reading_in(const MapAnswer& answer) const {
         const std::size_t size = std::min<std::size_t>(answer.reading_bytes, kMaxText_bytes);
         std::istringstream lines(std::string(reinterpret_cast<const char*>(helper_->memory().data()), size));
@@ -205,7 +205,7 @@ class HelpedRaster final : public GroundRaster {
         return fault;
     }
 
-    // The same once the map is open. False: there is no answer, and never will be.
+    // Asks again while the map is open. False: there is no answer, and there never will be.
     bool ask_on(const MapRequest& request, MapAnswer& answer) {
         const std::string fault = ask(request, answer, kReading);
         if (!fault.empty())
@@ -214,7 +214,8 @@ class HelpedRaster final : public GroundRaster {
         return fault.empty() && answer.refused_bytes == 0;
     }
 
-    // A forked process has a reader of its own. False: there is none, as the map has ended it or is gone.
+    // A forked process gets a reader of its own. False: there is none, because the map has ended it or it has
+    // gone.
     bool has_reader() {
         if (!helper_ || helper_->is_own()) return helper_ != nullptr;
         try {
@@ -246,7 +247,7 @@ class HelpedRaster final : public GroundRaster {
         }
     }
 
-    // Reads into piece_: holes where nothing can be read, which is false.
+    // Reads into piece_. Returns false, with holes, where nothing can be read.
     bool read_piece(const Window& w) {
         piece_.resize(static_cast<std::size_t>(w.columns) * static_cast<std::size_t>(w.rows) *
                       static_cast<std::size_t>(shape_.channels));

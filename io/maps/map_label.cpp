@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\f\v";
 
-// Returns the first word of a value, or what its first quotation holds.
+// Returns the first word of a value, or the contents of its first quotation.
 std::string first_word(std::string_view value) {
     const std::size_t begin = value.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos) return {};
@@ -35,13 +35,13 @@ std::optional<double> number_in(std::string_view value) {
 
 bool has(const std::string& text, std::string_view word) { return text.find(word) != std::string::npos; }
 
-// The edges of a map as its label gives them, before the direction of its longitudes is known.
+// The edges of a map as its label gives them, while the direction of its longitudes is unknown.
 struct Edges {
     std::optional<double> west, south, east, north;
 };
 
 void set_latitudes(MapLabel& out, std::string_view key, const std::string& word) {
-    // The frame's name says it only where no other keyword does: CENTRIC, GRAPHIC and DETIC are its three endings.
+    // The frame's name decides only where no other keyword does; its endings are CENTRIC, GRAPHIC and DETIC.
     const bool centric = has(word, "centric"), graphic = has(word, "graphic") || has(word, "detic");
     if (centric == graphic || out.planetocentric) return;
     out.planetocentric = centric;
@@ -55,7 +55,7 @@ void set_longitudes(MapLabel& out, std::string_view key, const std::string& word
     out.longitudes_by = key;
 }
 
-// Puts the edges into degrees east.
+// Converts the edges to degrees east.
 void set_edges(MapLabel& out, const Edges& e) {
     if (!e.west || !e.south || !e.east || !e.north || !(*e.south < *e.north)) return;
     MapBounds b{*e.west, *e.south, *e.east, *e.north};
@@ -68,7 +68,7 @@ void set_edges(MapLabel& out, const Edges& e) {
     if (b.east_deg - b.west_deg <= kTurn_deg) out.bounds = b;
 }
 
-// The statements of PDS3 and ISIS are of one form, and their keywords meet nowhere.
+// PDS3 and ISIS have the same form of statements and no conflicting keywords.
 class StatementReader {
   public:
     MapLabel read(const std::string& text) {
@@ -76,8 +76,8 @@ class StatementReader {
         visit_label_statements(
             without_label_comments(text),
             [&](std::string_view key, std::string_view value) { take(small_letters(key), value); });
-        // MOLA's and others' westernmost and easternmost longitude; ISIS has a least and a greatest one, which are its west
-        // and east where longitudes count to the east.
+        // MOLA and others give westernmost and easternmost longitudes. ISIS gives least and greatest ones,
+        // which are west and east where longitudes count to the east.
         if (out_.format == MapLabel::Format::kIsis3 && out_.longitudes_west.value_or(false))
             std::swap(edges_.west, edges_.east);
         set_edges(out_, edges_);
@@ -87,7 +87,7 @@ class StatementReader {
   private:
     MapLabel out_;
     Edges edges_;
-    std::string object_;  // the innermost one that has begun
+    std::string object_;  // the innermost object that has begun
 
     void take(const std::string& key, std::string_view value) {
         if (key == "object" || key == "group") object_ = small_letters(first_word(value));
@@ -119,7 +119,7 @@ class StatementReader {
             if (key == names[0] || key == names[1]) *edge = number_in(value);
     }
 
-    // Returns a keyword as its standard writes it.
+    // Returns a keyword in the spelling of its standard.
     std::string_view spelt(const std::string& key) const {
         constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSpelt = {
             {{"projection_latitude_type", "PROJECTION_LATITUDE_TYPE"},
@@ -133,7 +133,7 @@ class StatementReader {
     }
 };
 
-// Returns the text of the first element of a name, whatever its prefix; empty: there is none.
+// Returns the text of the first element with this name, whatever its prefix; empty when there is none.
 std::string element_text(const std::string& text, std::string_view name) {
     for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
         const std::size_t after = at + name.size();
@@ -170,7 +170,8 @@ MapLabel read_map_label(const std::string& text) {
 
 std::optional<double> metres_of_unit(std::string_view unit) {
     const std::string word = small_letters(first_word(unit));
-    // The international foot, and the United States' survey foot of 1200/3937 m (NIST SP 811, 2008, appendix B.6).
+    // The international foot, and the United States' survey foot of 1200/3937 m (NIST SP 811, 2008, appendix
+    // B.6).
     constexpr double kFoot_m = 0.3048, kSurveyFoot_m = 1200.0 / 3937.0;
     constexpr std::array<std::pair<std::string_view, double>, 20> kUnits = {
         {{"m", 1},

@@ -26,12 +26,12 @@
 namespace hilcam {
 namespace {
 
-// The memory that a map may take beside the libraries: GDAL's cache, a block as it is stored and as it is read, overviews.
+// Memory that a map may take besides the libraries: GDAL's cache, a block as stored and as read, overviews.
 constexpr std::uint64_t kMemory_bytes = std::uint64_t{1} << 30;
 
 [[noreturn]] void end(ChildStatus status) { _exit(static_cast<int>(status)); }
 
-// Ends the process when whoever asks has gone, whatever else it does.
+// Ends the process when the parent has gone, whatever it is doing.
 void watch_over(int socket) {
     std::thread([socket] {
         for (;;) {
@@ -45,7 +45,7 @@ class MapService {
   public:
     MapService(int socket, std::uint8_t* memory) : socket_(socket), memory_(memory) {}
 
-    // Answers one request; false: nobody asks any more.
+    // Answers one request; false when the parent has gone.
     bool serve_one() {
         MapRequest request;
         ssize_t got = 0;
@@ -121,12 +121,12 @@ class MapService {
         answer.reading_bytes = static_cast<std::uint32_t>(text.size());
     }
 
-    // Leaves the process what this one map needs, before anybody has looked into it.
+    // Restricts the process to what this one map needs, before any of its bytes are read.
     void confine(const MapFiles& files) const {
         const std::filesystem::path folder = files.file.parent_path();
         std::vector<std::filesystem::path> readable = gdal_folders();
         readable.push_back(folder);
-        // Links lead elsewhere.
+        // The targets of symlinks are elsewhere.
         for (const auto* const names : {&files.beside, &files.pointed_at})
             for (const std::string& name : *names) {
                 std::error_code error;

@@ -1,9 +1,10 @@
 #pragma once
-// The other side of map_helper.h: answers requests about one map until whoever asks has gone.
+// The other end of map_helper.h: answers requests about one map until the parent has gone.
 
 namespace hilcam {
 
-// Serves at the descriptors of a helper (helper_process.h) and never returns. One thread, but for one that watches over the socket.
+// Serves on the descriptors of a helper (helper_process.h) and never returns. One thread, and another that
+// watches the socket.
 [[noreturn]] void serve_map(int socket, int memory);
 
 }  // namespace hilcam

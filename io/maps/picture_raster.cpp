@@ -40,7 +40,7 @@ class PictureRaster final : public GroundRaster {
             posts[i] = post_at(bounds_, shape_, places[i], factor_);
     }
 
-    // Means of what a post of the level stands for.
+    // Reads means of the area that a post of the level covers.
     void read(int level, int column, int row, int columns, int rows, std::span<float> values) override {
         const int each = 1 << level;
         std::size_t k = 0;

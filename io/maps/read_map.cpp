@@ -1,4 +1,5 @@
-// hilcam-read-map: reads one map by GDAL for hilcam, which starts it (io/maps/map_helper.h). Of no use by hand.
+// hilcam-read-map: reads one map with GDAL for hilcam, which starts it (io/maps/map_helper.h). Not useful by
+// hand.
 
 #include <fcntl.h>
 

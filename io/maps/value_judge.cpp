@@ -23,7 +23,7 @@ struct Spread {
 }  // namespace
 
 std::vector<float> unsaid_holes(std::span<const float> raw) {
-    // The habits of GIS programs and of generic mapping tools, and the least numbers of 16 bits with a sign.
+    // Values that GIS programs and generic mapping tools use for holes, and the lowest signed 16-bit numbers.
     constexpr std::array<float, 6> kHabits = {-999, -9999, -32767, -32768, -99999, -999999};
     std::array<bool, kHabits.size()> met{};
     Spread others;
@@ -61,7 +61,8 @@ std::string judge_heights(std::span<const float> heights_m, const Figure& figure
         return "its heights are radii, " + rounded(all.least) + " to " + rounded(all.most) +
                " m; accepted: heights over the ellipsoid, with offset: " + plain(-radius_m) +
                (figure.polar_radius_m < radius_m ? " where they are over a sphere of that radius" : "");
-    // A tenth of a radius is more than any round body's relief: Vesta's is 0.09 (Jaumann et al., Science 336, 687, 2012).
+    // A tenth of a radius is more than the relief of any round body: Vesta's is 0.09 (Jaumann et al., Science
+    // 336, 687, 2012).
     if (const double max_m = std::max(std::abs(all.least), std::abs(all.most)); max_m > 0.1 * radius_m)
         doubts.push_back("its heights go from " + rounded(all.least) + " to " + rounded(all.most) +
                          " m, more than a tenth of the body's radius of " + rounded(radius_m) +
@@ -70,7 +71,7 @@ std::string judge_heights(std::span<const float> heights_m, const Figure& figure
         doubts.push_back(
             "its heights, " + rounded(all.least) + " to " + rounded(all.most) +
             " m, look like radii in km; if they are, scale: 1000 and offset: " + plain(-radius_m));
-    // The Moon's and planets' relief is 0.003 to 0.01 of their radius.
+    // The relief of the Moon and planets is 0.003 to 0.01 of their radius.
     else if (whole_turn && all.most > all.least && all.most - all.least < 2e-5 * radius_m)
         doubts.push_back("all of the body lies within " +
                          plain(std::round(10 * (all.most - all.least)) / 10) +

@@ -1,6 +1,6 @@
 #pragma once
-// This judges the values of a map by a sample of them: numbers that stand for holes without the file saying so, and heights that are radii or
-// of another unit.
+// Judges the values of a map by a sample of them: values that mean holes although the file does not say so,
+// and heights that are radii or in another unit.
 
 #include <optional>
 #include <span>
@@ -12,12 +12,12 @@
 
 namespace hilcam {
 
-// Returns which of -9999, -32768 and the like are among a file's values and stand alone: no other value is within a tenth of the others'
-// range, or within 100.
+// Returns those of -9999, -32768 and similar values that occur and stand alone: outside the range of the
+// other values by more than 100, and by more than a tenth of that range.
 std::vector<float> unsaid_holes(std::span<const float> raw);
 
-// Judges heights [m]; what is no number is left out. Returns why they cannot be heights, and what to give; empty: they can. doubts: gets what
-// is probably not meant.
+// Returns why these numbers cannot be heights [m], and what to configure; empty: they can. Values that are
+// not numbers are ignored. doubts: gets what is probably a mistake.
 std::string judge_heights(std::span<const float> heights_m, const Figure& figure, bool whole_turn,
                           std::vector<std::string>& doubts);
 

@@ -26,7 +26,7 @@ Texture grey_ramp() {
     return ramp;
 }
 
-// The place on the ramp that has a linear value between 0 and 1.
+// Finds the texture coordinate on the ramp for a linear value between 0 and 1.
 class RampPlaces {
   public:
     RampPlaces() {
@@ -44,7 +44,7 @@ class RampPlaces {
     std::array<float, kGreyCodes> values_{};
 };
 
-// The mean by area, of the facets or of their corners.
+// Returns the mean by area, of the facets or of their corners.
 double mean_albedo(const Mesh& mesh, const std::vector<float>& albedos, bool of_facets) {
     double sum = 0, area = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -57,7 +57,7 @@ double mean_albedo(const Mesh& mesh, const std::vector<float>& albedos, bool of_
     return area > 0 ? sum / area : 0;
 }
 
-// Gives each triangle corners of its own.
+// Gives each triangle its own vertices.
 void take_apart(Mesh& mesh) {
     std::vector<Vec3f> vertices_m, normals;
     vertices_m.reserve(3 * mesh.triangles.size());

@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-// Values of the letters of base64 and of base64url (RFC 4648, sections 4 and 5); -1: none.
+// Values of the letters of base64 and base64url (RFC 4648, sections 4 and 5); -1: not a letter.
 constexpr std::array<std::int8_t, 256> kSextets = [] {
     std::array<std::int8_t, 256> values{};
     values.fill(-1);

@@ -1,5 +1,5 @@
 #pragma once
-// Data in a URI itself (RFC 2397), as glTF may have its buffers and pictures.
+// Data inside a URI (RFC 2397), in which glTF may have buffers and pictures.
 
 #include <optional>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace hilcam {
 
-// Returns the bytes of a URI that holds them as base64; nothing where it is another or its base64 is none.
+// Returns the bytes of a base64 data URI; nothing for another URI or bad base64.
 std::optional<std::string> decoded_data_uri(std::string_view uri);
 
 }  // namespace hilcam

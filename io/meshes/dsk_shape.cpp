@@ -12,24 +12,25 @@ namespace hilcam {
 namespace {
 
 constexpr double kMetres_km = 1000;
-// Farther than Neptune.
+// Beyond Neptune.
 constexpr double kMax_km = 1e10;
 
-// Integers 1 to 3 of the file: the version, and where the first and the last descriptor begin; -1 for none.
+// Integers 1 to 3 of the file are the version and the addresses of the first and the last descriptor; -1 for
+// none.
 constexpr std::int32_t kDlaVersion = 1'000'000, kNoSegment = -1;
-// A descriptor: the one before and the next, then base address and size of integers, doubles and characters. The base
-// is the address before the first.
+// A descriptor has the previous and the next descriptor, then base address and size of integers, doubles and
+// characters. The base is the address before the first.
 constexpr std::int64_t kDescriptorIntegers = 8;
 constexpr std::size_t kNextSegment = 1, kIntegerBase = 2, kIntegerSize = 3, kDoubleBase = 4, kDoubleSize = 5;
-// The segment's doubles begin with 24 that say what it is; the vertices of type 2 follow after ten more.
+// The segment's doubles begin with 24 that describe it; the vertices of type 2 follow after ten more.
 constexpr std::int64_t kAboutWords = 24, kFirstVertex = 34;
-// Its integers begin with the numbers of vertices and plates; the plates follow after eight more.
+// The segment's integers begin with the numbers of vertices and plates; the plates follow after eight more.
 constexpr std::int64_t kFirstPlate = 10;
 
 struct Segment {
     DskSegment about;
     std::string where;
-    std::int64_t integers = 0, doubles = 0;  // bases
+    std::int64_t integers = 0, doubles = 0;  // base addresses
 };
 
 class DskReader {
@@ -135,7 +136,7 @@ std::string list_of(const std::set<int>& codes) {
     return out;
 }
 
-// Throws unless all chosen segments are one surface of one body in one frame, by plates.
+// Throws unless all chosen segments are plates of one surface of one body in one frame.
 void require_one(const std::vector<const Segment*>& chosen, const std::string& name) {
     std::set<int> surfaces, bodies, frames;
     for (const Segment* segment : chosen) {

@@ -49,7 +49,8 @@ T read_as(const std::uint8_t* from) {
     return value;
 }
 
-// A whole number over the greatest of its type is a fraction; those with a sign end at -1 (section 3.6.2.2).
+// Returns a normalised integer as a fraction of the greatest of its type; signed ones end at -1 (section
+// 3.6.2.2).
 template <class T>
 float fraction(T value) {
     return std::max(-1.0f, static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max()));
@@ -89,7 +90,7 @@ bool is_index(Component type) {
            type == Component::kUnsignedInt;
 }
 
-// An accessor as it says of itself, checked.
+// An accessor with its members checked.
 class Accessor {
   public:
     Accessor(GltfDocument& document, std::uint64_t index, std::string use)
@@ -104,7 +105,7 @@ class Accessor {
         for (const auto& [known, width] : kWidths)
             if (name == known) width_ = width;
         if (width_ == 0) refuse("type: found " + in_quotes(name) + "; accepted: SCALAR, VEC2 to VEC4, MAT4");
-        // Three corners to a triangle are all that a mesh may name.
+        // No mesh needs more than three corners per triangle.
         if (count_ > 3 * kMaxTriangles)
             refuse("count: found " + std::to_string(count_) + "; accepted: at most " +
                    std::to_string(3 * kMaxTriangles));
@@ -118,15 +119,16 @@ class Accessor {
         document_.refuse("does not parse: " + where_ + ": " + what);
     }
 
-    // Calls take(component, bytes of it) for all components of all elements, and anew for those that are told apart.
-    // Elements that nothing gives are left as they are.
+    // Calls take(component, its bytes) for all components of all elements, then again for those that are
+    // given sparsely. Elements without data are left unchanged.
     template <class Take>
     void visit(const Take& take) {
         if (gltf_member(json_, "bufferView")) visit_view(json_, type_, count_, width_, true, take);
         if (const Json* const sparse = gltf_member(json_, "sparse")) visit_sparse(*sparse, take);
     }
     bool normalized() const { return normalized_; }
-    // Returns how many numbers it has. More memory is asked for where a view has bytes for them: zeros cost a file nothing.
+    // Returns how many numbers it has. More memory is requested only if a view has bytes for them, because
+    // zeros take no space in the file.
     std::uint64_t values() const {
         if (gltf_member(json_, "bufferView")) allow_more(4 * count_ * width_, 0);
         return count_ * width_;
@@ -149,7 +151,7 @@ class Accessor {
         return type;
     }
 
-    // `of` names a view and a place in it. strided: the view's own stride goes for it.
+    // `of` names a view and an offset in it. strided: uses the view's own stride.
     template <class Take>
     void visit_view(const Json& of, Component type, std::uint64_t count, std::size_t width, bool strided,
                     const Take& take) {

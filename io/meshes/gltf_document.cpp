@@ -20,7 +20,7 @@ namespace {
 
 using Json = GltfDocument::Json;
 
-// The extensions that a file may require, as they are obeyed. The names are those of Khronos' registry.
+// The required extensions that this reader supports, by their names in Khronos' registry.
 constexpr std::array<std::string_view, 12> kObeyed = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
@@ -154,7 +154,7 @@ std::string GltfDocument::bytes_at(const std::string& uri, const InputKind& kind
                                    const std::string& what) const {
     if (const auto data = decoded_data_uri(uri)) return *data;
     if (uri.starts_with("data:")) throw InputError(what + " does not parse: its data are no base64");
-    // What the URI stands for, and the URI itself, as some writers have it.
+    // Tries the decoded URI, then the URI itself, which some writers mean.
     std::optional<std::filesystem::path> found = files_.find({without_percents(uri), {}}, what);
     if (!found) found = files_.find({uri, {}}, what);
     if (!found)
@@ -214,7 +214,8 @@ GltfBytes GltfDocument::unpacked(std::uint64_t index, const Json& c) {
     const GltfBytes packed = part_of_buffer(c, where);
     const MeshoptLayout layout{gltf_text(c, "mode"), gltf_text(c, "filter"),
                                required_whole(c, "count", where), required_whole(c, "byteStride", where)};
-    // A vertex that repeats the one before it takes a bit and more, so that bytes say what there may be.
+    // A vertex that repeats the previous one takes little more than a bit, so the bytes limit the number of
+    // vertices.
     constexpr std::uint64_t kMaxPerByte = 1024;
     if (layout.stride_bytes > 256 || layout.count > kMaxPerByte * (packed.size() + 1))
         refuse("does not parse: " + where + ": " + std::to_string(layout.count) + " elements of " +

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-// The values of an attribute, point by point; whole numbers come as fractions where it is normalised.
+// Returns the values of an attribute, point by point; normalised integers become fractions.
 GltfNumbers numbers_of(const draco::PointAttribute& attribute, std::uint32_t points,
                        const std::string& name) {
     const auto width = static_cast<std::size_t>(attribute.num_components());

@@ -21,7 +21,7 @@ namespace {
 
 using Json = GltfDocument::Json;
 
-// The joints of a skin, as maps from the mesh's own axes to the file's.
+// Returns the joints of a skin as transforms from the mesh's axes to the file's.
 std::vector<NodeMatrix> joints_of(GltfDocument& document, std::uint64_t skin,
                                   const std::vector<NodeMatrix>& places) {
     const std::string where = "skins[" + std::to_string(skin) + "]";
@@ -43,7 +43,7 @@ std::vector<NodeMatrix> joints_of(GltfDocument& document, std::uint64_t skin,
     return out;
 }
 
-// The weighted mean of a vertex' joints; nothing where it hangs on none.
+// Returns the weighted mean of a vertex's joints; nothing when it has none.
 std::optional<NodeMatrix> blended(const GltfPart& part, std::size_t vertex,
                                   const std::vector<NodeMatrix>& joints) {
     NodeMatrix sum;
@@ -74,13 +74,13 @@ class GltfImport {
         require_few_triangles();
     }
 
-    // The mesh of the nodes that names[part] takes, or that none takes where part is -1.
+    // Returns the mesh of the nodes that names[part] matches, or that none matches if part is -1.
     Mesh mesh_of(std::span<const std::string> names, int part, std::vector<MeshNode>* found,
                  std::uint64_t* collapsed) {
         mesh_ = {};
         mesh_.surfaces = looks_.surfaces;
         collapsed_ = 0;
-        std::vector<int> above;  // the part of each depth's node
+        std::vector<int> above;  // part of the node at each depth
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             const GltfNode& node = nodes_[i];
             above.resize(node.depth);
@@ -104,7 +104,7 @@ class GltfImport {
     GltfDocument document_;
     std::vector<GltfNode> nodes_;
     GltfLooks looks_;
-    // Primitives with triangles, by mesh and the node whose own weights they have, if any.
+    // Identifies primitives with triangles, by mesh and, if it has weights of its own, by node.
     using PartKey = std::pair<std::uint64_t, std::size_t>;
     std::map<PartKey, std::vector<GltfPart>> parts_;
     std::map<std::uint64_t, std::vector<NodeMatrix>> joints_;
@@ -121,11 +121,11 @@ class GltfImport {
         return {*node.mesh, node.weights.empty() ? document_.list("nodes").size() : node.number};
     }
 
-    // In the order in which nodes show them, those below a node before its own.
+    // Returns the materials in the order in which nodes show them, a node's descendants before itself.
     std::vector<GltfLooks::Named> named_materials() const {
         std::vector<GltfLooks::Named> out;
         std::map<std::uint64_t, std::size_t> place;
-        std::vector<const GltfNode*> open;  // the way from the root
+        std::vector<const GltfNode*> open;  // the path from the root
         const auto close_to = [&](std::size_t depth) {
             for (; open.size() > depth; open.pop_back()) name_materials_of(*open.back(), place, out);
         };
@@ -186,7 +186,7 @@ class GltfImport {
             document_.refuse("has " + std::to_string(triangles) + " triangles; accepted: at most " +
                              std::to_string(kMaxTriangles));
     }
-    // As nodes and instances place them.
+    // Counts triangles as nodes and instances place them.
     void require_few_triangles() const {
         std::uint64_t triangles = 0;
         for (const GltfNode& node : nodes_) {
@@ -208,7 +208,7 @@ class GltfImport {
         if (!node.mesh || node.places.empty()) return;
         for (const GltfPart& part : parts_.at(key_of(node))) {
             require_finite(part, node);
-            // A skin is where its joints are, wherever its node is (glTF 2.0, section 3.7.3.2).
+            // Joints place a skin, wherever its node is (glTF 2.0, section 3.7.3.2).
             if (node.skin && !part.joints.empty())
                 add_skinned(part, node);
             else

@@ -16,7 +16,7 @@ namespace {
 using Json = GltfDocument::Json;
 
 TextureWrap wrap_of(std::uint64_t word, const GltfDocument& document, const std::string& where) {
-    // Values of WebGL (glTF 2.0, section 5.26).
+    // The values are WebGL's (glTF 2.0, section 5.26).
     if (word == 10497) return TextureWrap::kRepeat;
     if (word == 33071) return TextureWrap::kClamp;
     if (word == 33648) return TextureWrap::kMirror;
@@ -39,7 +39,8 @@ GltfBytes as_bytes(const std::string& text) {
 
 }  // namespace
 
-// Notes what is wrong with a picture; a fault of the file itself, whose message begins with the file's name, goes on.
+// Records what is wrong with a picture. A fault of the file itself, with a message that begins with the
+// file's name, is thrown on.
 template <class Read>
 bool GltfLooks::is_read(const Read& read) {
     try {
@@ -54,7 +55,8 @@ bool GltfLooks::is_read(const Read& read) {
     }
 }
 
-// The order is scale, rotation, offset; a positive angle turns places counterclockwise as the picture is seen (v down).
+// The order is scale, rotation, offset; a positive angle rotates coordinates counterclockwise as the picture
+// is seen (v down).
 Vec2f GltfTexturePlace::of(Vec2f uv) const {
     const float x = scale.x * uv.x, y = scale.y * uv.y;
     const float c = std::cos(rotation_rad), s = std::sin(rotation_rad);
@@ -69,7 +71,7 @@ bool GltfTexturePlace::operator==(const GltfTexturePlace& o) const {
 GltfLooks::GltfLooks(GltfDocument& document, const std::vector<Named>& named) : document_(document) {
     surfaces.resize(named.size() + 1);
     places.resize(named.size() + 1);
-    // The default of a material is white metal (glTF 2.0, section 5.19); so is that of a primitive without one.
+    // A material's default is white metal (glTF 2.0, section 5.19), also for a primitive without a material.
     for (MeshSurface& surface : surfaces) {
         surface.base_color = {1, 1, 1};
         surface.metallic = surface.roughness = 1;
@@ -118,8 +120,9 @@ void GltfLooks::read_metal_rough(Material& m) {
     set_colors(m, gltf_member(*p, "baseColorTexture"));
 }
 
-// A diffuse body below a layer that reflects `specularFactor` at normal incidence, or a metal where that is most of what there is:
-// the two are told apart as Khronos' own conversion does (the extension's appendix "Best practices").
+// Becomes a diffuse body below a layer that reflects `specularFactor` at normal incidence, or a metal where
+// most of the light is specular. Khronos' own conversion draws the same line (the extension's appendix "Best
+// practices").
 void GltfLooks::read_specular(Material& m, const Json& given) {
     std::array<float, 4> diffuse{1, 1, 1, 1};
     std::array<float, 3> specular{1, 1, 1};
@@ -127,7 +130,7 @@ void GltfLooks::read_specular(Material& m, const Json& given) {
     document_.numbers(given, "diffuseFactor", m.where, diffuse);
     document_.numbers(given, "specularFactor", m.where, specular);
     document_.number(given, "glossinessFactor", m.where, glossiness);
-    // Perceived brightness (HSP colour model), as that conversion has it.
+    // Perceived brightness (HSP colour model), as in that conversion.
     const auto brightness = [](Vec3f c) {
         return std::sqrt(0.299f * c.x * c.x + 0.587f * c.y * c.y + 0.114f * c.z * c.z);
     };
@@ -145,7 +148,7 @@ void GltfLooks::read_specular(Material& m, const Json& given) {
     s.metallic = metallic;
     s.base_color = metallic >= 0.5f ? f : d;
     s.roughness = std::clamp(1 - glossiness, 0.0f, 1.0f);
-    // Fresnel's reflectance at normal incidence is ((n - 1) / (n + 1))^2.
+    // The Fresnel reflectance at normal incidence is ((n - 1) / (n + 1))^2.
     const float root = std::sqrt(std::min(most, 0.36f));
     s.refractive_index = std::clamp((1 + root) / (1 - root), 1.0f, 4.0f);
     m.alpha = std::clamp(diffuse[3], 0.0f, 1.0f);
@@ -161,7 +164,8 @@ void GltfLooks::set_colors(Material& m, const Json* texture) {
     if (picture) surfaces[m.surface].base_color_texture = texture_of(*picture, m);
 }
 
-// Alpha is coverage (glTF 2.0, section 3.9.4), transmission is light that goes through (KHR_materials_transmission).
+// Alpha is coverage (glTF 2.0, section 3.9.4), transmission is light that passes through
+// (KHR_materials_transmission).
 void GltfLooks::read_sheet(const Material& m) {
     MeshSurface& s = surfaces[m.surface];
     if (gltf_text(m.json, "alphaMode") == "BLEND") s.opacity = m.alpha;
@@ -181,7 +185,7 @@ void GltfLooks::cut_by_textures(const Material& m) {
     if (has_metal || has_alpha) add_kinds(m, std::move(cut));
 }
 
-// Gives each kind a surface: the first the material's own.
+// Gives each kind a surface, the first one the material's own.
 void GltfLooks::add_kinds(const Material& m, SurfaceCut cut) {
     cut.kinds = kinds_of(cut.source);
     cut.surface_of_kind = {SurfaceCut::kNothing, static_cast<std::int32_t>(m.surface)};
@@ -198,14 +202,14 @@ void GltfLooks::add_kinds(const Material& m, SurfaceCut cut) {
     if (cut.kinds.size() > 1 || cut.source.cutoff > 0) cuts.push_back(std::move(cut));
 }
 
-// Reads the alpha channel of the picture of colours, where it counts. False: the surface is whole.
+// Reads the alpha channel of the colour picture, if it is used. False: the surface has no holes.
 bool GltfLooks::read_alpha(const Material& m, SurfaceCut& cut) {
     const std::string mode = gltf_text(m.json, "alphaMode");
     cut.source.cutoff = 0;
     if (mode != "MASK" && mode != "BLEND") return false;
     float cutoff = 0.5f;
     if (mode == "MASK") document_.number(m.json, "alphaCutoff", m.where, cutoff);
-    // With BLEND the factor is the veil's.
+    // With BLEND the factor belongs to the veil.
     const float factor = mode == "MASK" ? m.alpha : 1.0f;
     const auto picture = m.colors ? picture_of(m.colors->texture) : std::nullopt;
     if (const int number = surfaces[m.surface].base_color_texture; picture && number >= 0) {
@@ -228,7 +232,7 @@ bool GltfLooks::read_alpha(const Material& m, SurfaceCut& cut) {
     return true;
 }
 
-// A texture that lies otherwise on the surface than the colours do is left out.
+// A texture that is placed differently from the colours is left out.
 bool GltfLooks::read_metal_texture(const Material& m, SurfaceCut& cut) {
     const Json* const p = gltf_member(m.json, "pbrMetallicRoughness");
     const auto use = p ? use_of(gltf_member(*p, "metallicRoughnessTexture"), m.where) : std::nullopt;
@@ -332,7 +336,7 @@ void GltfLooks::count_texels(const Texture& texture) {
 }
 
 int GltfLooks::texture_of(const Picture& picture, const Material& m) {
-    // Colours are linear between texels, whatever the sampler says.
+    // Colours are interpolated linearly between texels, whatever the sampler says.
     Picture key = picture;
     key.smooth = true;
     const auto known = known_.find(key);

@@ -1,6 +1,7 @@
 #pragma once
-// The materials of a glTF file as surfaces of a mesh: metallic-roughness, or the older specular-glossiness, with textures, the
-// parts of a surface that a mask or a metallic-roughness texture cuts it into, and the names of what is left out.
+// Turns the materials of a glTF file into surfaces of a mesh: metallic-roughness or the older
+// specular-glossiness, with textures. Collects the cuts that masks and metallic-roughness textures need, and
+// the names of what is left out.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +19,8 @@
 
 namespace hilcam {
 
-// Where a texture lies on a surface: which of the vertices' places it takes, and how these are moved (KHR_texture_transform).
+// The placement of a texture on a surface: the set of texture coordinates, and their transform
+// (KHR_texture_transform).
 struct GltfTexturePlace {
     std::uint64_t uv_set = 0;
     Vec2f offset{0, 0}, scale{1, 1};
@@ -30,18 +32,18 @@ struct GltfTexturePlace {
 
 class GltfLooks {
   public:
-    // named: the materials that primitives have, in the order of the surfaces that are made of them. Pictures are read of those that
-    // a triangle has.
+    // named: the materials of the primitives, in the order of the surfaces made from them. Pictures are read
+    // only for materials that triangles have.
     struct Named {
         std::uint64_t material = 0;
         bool has_triangles = false;
     };
     GltfLooks(GltfDocument& document, const std::vector<Named>& named);
 
-    // Returns the surface of a material; of none, the default.
+    // Returns the surface of a material; without a material, the default surface.
     std::size_t surface_of(std::optional<std::uint64_t> material) const;
 
-    std::vector<MeshSurface> surfaces;  // one per material, the default one, then what cuts make
+    std::vector<MeshSurface> surfaces;  // one per material, the default, then those that cuts add
     std::vector<Texture> textures;
     std::vector<std::optional<GltfTexturePlace>> places;  // by surface; none: it has no textures
     std::vector<SurfaceCut> cuts;
@@ -50,19 +52,19 @@ class GltfLooks {
 
   private:
     using Json = GltfDocument::Json;
-    // A texture as a material names it.
+    // A texture as a material refers to it.
     struct Use {
         std::uint64_t texture = 0;
         GltfTexturePlace place;
     };
-    // A picture as it goes on beyond its edges.
+    // A picture with its wrapping beyond the edges.
     struct Picture {
         std::uint64_t image = 0;
         std::array<TextureWrap, 2> wrap{};
         bool smooth = true;
         auto operator<=>(const Picture&) const = default;
     };
-    // The file's name of a material, and its numbers, while it is read.
+    // A material and its numbers while it is read.
     struct Material {
         const Json& json;
         std::string name, where;
@@ -90,7 +92,8 @@ class GltfLooks {
     std::optional<Picture> picture_of(std::uint64_t texture) const;
     std::string bytes_of(std::uint64_t image, const Material& material);
     int texture_of(const Picture& picture, const Material& material);
-    // Calls read(); false where it throws InputError of a picture, which is then kept among the unreadable ones.
+    // Calls read(). Returns false when it throws InputError about a picture, which is then added to
+    // `unreadable`.
     template <class Read>
     bool is_read(const Read& read);
     void count_texels(const Texture& texture);

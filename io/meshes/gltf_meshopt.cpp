@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// The library asserts what it wants of strides: see the extension's tables of modes and filters.
+// The library asserts its requirements on strides: see the extension's tables of modes and filters.
 void require_stride(const MeshoptLayout& l, bool good, const char* accepted) {
     if (!good)
         throw InputError("byteStride: found " + std::to_string(l.stride_bytes) + " with mode " +
@@ -54,7 +54,7 @@ void unfilter(const MeshoptLayout& l, std::vector<std::uint8_t>& out) {
 }  // namespace
 
 std::vector<std::uint8_t> unpack_meshopt(std::span<const std::uint8_t> packed, const MeshoptLayout& layout) {
-    // Filters work on four elements at once.
+    // Filters process four elements at a time.
     std::vector<std::uint8_t> out(layout.count * layout.stride_bytes);
     if (layout.count == 0) return out;
     if (decode(packed, layout, out) != 0)

@@ -77,7 +77,7 @@ class PartReader {
         }
     }
 
-    // An attribute by its name; nothing where there is none.
+    // Returns an attribute by its name; nothing when it is missing.
     std::optional<GltfNumbers> numbers(const std::string& name, std::size_t least, std::size_t most) {
         if (draco_)
             if (const auto found = draco_->attributes.find(name); found != draco_->attributes.end()) {
@@ -128,7 +128,7 @@ class PartReader {
         }
     }
 
-    // Factors on the colours of the surface, linear (glTF 2.0, section 3.9.2).
+    // Reads linear factors on the colours of the surface (glTF 2.0, section 3.9.2).
     void read_colors() {
         const auto colors = numbers("COLOR_0", 3, 4);
         if (!colors) return;
@@ -142,7 +142,7 @@ class PartReader {
             clear = clear || (colors->width == 4 && c[3] < 1);
         }
         if (clear) looks_.left_out.add("alpha of vertex colours", name_);
-        // White ones, as many writers give them, say nothing.
+        // White colours, which many writers add, have no effect.
         if (!any) out_.colors.clear();
     }
 
@@ -198,7 +198,7 @@ class PartReader {
         return out;
     }
 
-    // glTF 2.0, section 3.7.2.1: strips turn every other triangle.
+    // Reads triangles; in strips, every other triangle is reversed (glTF 2.0, section 3.7.2.1).
     void read_triangles() {
         const std::vector<std::uint32_t> v = corners();
         const Mode mode = draco_ ? Mode::kTriangles : mode_of(document_, primitive_).value();
@@ -214,7 +214,7 @@ class PartReader {
         }
     }
 
-    // Primitives may share vertices of which each names some.
+    // Primitives may share vertices of which each uses some.
     void drop_unused() {
         constexpr std::uint32_t kNone = ~std::uint32_t{0};
         std::vector<std::uint32_t> to(out_.places.size(), kNone);

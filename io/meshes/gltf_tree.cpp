@@ -15,7 +15,7 @@ using Json = GltfDocument::Json;
 
 std::string where_of(std::size_t node) { return "nodes[" + std::to_string(node) + "]"; }
 
-// A matrix, or a place, a turn and a scale (glTF 2.0, section 3.5.3).
+// Reads a node's transform: a matrix, or translation, rotation and scale (glTF 2.0, section 3.5.3).
 NodeMatrix own_place(const GltfDocument& document, std::size_t number) {
     const Json& node = document.at("nodes", number);
     const std::string where = where_of(number);
@@ -51,7 +51,7 @@ std::vector<std::size_t> indices(const GltfDocument& document, const Json* list)
     return out;
 }
 
-// Where the instances of a node are, in its own axes.
+// Returns the transforms of a node's instances, in its own axes.
 std::vector<NodeMatrix> instances_of(GltfDocument& document, const Json& node, const std::string& where) {
     const Json* const instancing = gltf_extension(node, "EXT_mesh_gpu_instancing");
     const Json* const attributes = instancing ? gltf_member(*instancing, "attributes") : nullptr;
@@ -73,7 +73,7 @@ std::vector<NodeMatrix> instances_of(GltfDocument& document, const Json& node, c
         if (at.width > 0) out[i] = out[i] * NodeMatrix::moved({at.at(i)[0], at.at(i)[1], at.at(i)[2]});
         if (turn.width > 0) {
             const float* const q = turn.at(i);
-            // Of quantised ones the length is about one.
+            // Quantised quaternions have a length of about one.
             const float size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
             if (size > 0)
                 out[i] = out[i] * NodeMatrix::turned({q[0] / size, q[1] / size, q[2] / size, q[3] / size});
@@ -99,7 +99,8 @@ class TreeWalk {
     GltfDocument& document_;
     std::vector<GltfNode> out_;
 
-    // The scene that the file says, or its first; without scenes all nodes that are no children.
+    // Returns the roots of the default scene, or of the first; without scenes, all nodes that are no
+    // children.
     std::vector<std::size_t> roots_of_scene() {
         const auto scene = document_.whole(document_.root(), "scene", "scene");
         if (!document_.list("scenes").empty())

@@ -1,5 +1,5 @@
 #pragma once
-// The nodes of a glTF file's scene: where they are, and what they show.
+// The nodes of a glTF file's scene: their transforms, and what they show.
 
 #include <cstdint>
 #include <optional>
@@ -14,16 +14,16 @@ namespace hilcam {
 struct GltfNode {
     std::string name;
     std::uint32_t depth = 0;                  // below the root
-    std::size_t number = 0;                   // in the file
-    std::optional<std::uint64_t> mesh, skin;  // that it shows
+    std::size_t number = 0;                   // its number in the file
+    std::optional<std::uint64_t> mesh, skin;  // the mesh that it shows, and that mesh's skin
     std::vector<float> weights;               // its own, of morph targets; empty: the mesh's
-    std::vector<NodeMatrix> places;           // in the file's axes: one, or one for each instance
+    std::vector<NodeMatrix> places;           // in the file's axes; one, or one per instance
 };
 
-// Returns the nodes of the scene that are to be seen, parents first. Several roots stand below one node ROOT, whose number is none of the
-// file's.
+// Returns the visible nodes of the scene, parents first. Several roots are put under one node ROOT, which has
+// a number that no node of the file has.
 std::vector<GltfNode> shown_nodes(GltfDocument& document);
-// Returns where each node of the file is, in the file's axes; by its number.
+// Returns the transform of each node of the file to the file's axes, by node number.
 std::vector<NodeMatrix> places_of_nodes(const GltfDocument& document);
 
 }  // namespace hilcam

@@ -9,7 +9,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kBands = 4;  // bands of roughness
-// A picture of few texels is made this wide at least: smooth borders go between its texels.
+// A small picture is enlarged to at least this width, because smooth borders run between its texels.
 constexpr int kFineEnough = 512;
 constexpr int kLargest = 2048;
 
@@ -18,7 +18,7 @@ BytePlane halved(const BytePlane& p) {
     out.values.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
-            // An odd last row or column joins its neighbour.
+            // An odd last row or column is merged with its neighbour.
             const int x0 = x * p.width / out.width, x1 = (x + 1) * p.width / out.width;
             const int y0 = y * p.height / out.height, y1 = (y + 1) * p.height / out.height;
             int sum = 0;
@@ -30,7 +30,7 @@ BytePlane halved(const BytePlane& p) {
     return out;
 }
 
-// A channel as it is looked up at the places of another size.
+// A channel, sampled at the places of another size.
 class PictureChannel {
   public:
     PictureChannel(const BytePlane& plane, std::array<TextureWrap, 2> wrap, bool smooth, int width,
@@ -46,7 +46,7 @@ class PictureChannel {
     }
 
     bool empty() const { return plane_.empty(); }
-    // Returns the value at the middle of a place of the other size.
+    // Returns the value at the centre of a place of the other size.
     float at(int column, int row) const {
         if (is_same_) return plane_.at(column, row);
         const float x = (static_cast<float>(column) + 0.5f) * scale_x_,
@@ -88,7 +88,7 @@ std::size_t nearest(std::span<const LookKind> kinds, const LookKind& look) {
     return best;
 }
 
-// Tells the kind of each pair of values, rounded.
+// Maps each pair of rounded values to its kind.
 class KindTable {
   public:
     KindTable(const KindSource& source, std::span<const LookKind> kinds) {
@@ -108,7 +108,7 @@ class KindTable {
     std::vector<std::uint8_t> kinds_;
 };
 
-// A channel that is not there is 255 everywhere.
+// A missing channel is 255 everywhere.
 float at(const PictureChannel& channel, int x, int y) { return channel.empty() ? 255.0f : channel.at(x, y); }
 
 }  // namespace
@@ -169,7 +169,6 @@ KindPicture kind_picture(const KindSource& s, const std::vector<LookKind>& kinds
     };
     while (std::max(out.width, out.height) > kLargest) halve();
     for (int k = 0; k < halvings; ++k) halve();
-    // = std::max(1, out.width / 2), out.height = std::max(1, out.height / 2);
     out.wrap = s.wrap;
     const PictureChannel alpha(s.alpha, s.wrap, s.smooth, out.width, out.height),
         metallic(s.metallic, s.wrap, s.smooth, out.width, out.height),

@@ -1,7 +1,7 @@
 #pragma once
-// Pictures that say what a surface is made of, place by place: whether there is anything (an alpha mask), and whether it is metal
-// or paint and how rough (a metallic-roughness texture). Made into kinds, of which each is a surface of its own
-// (surface_cutter.h).
+// Pictures that say what a surface consists of: whether anything is there (an alpha mask), and whether it is
+// metal or paint and how rough (a metallic-roughness texture). They are quantised into kinds; each kind
+// becomes a surface of its own (surface_cutter.h).
 
 #include <array>
 #include <cstdint>
@@ -26,20 +26,20 @@ struct BytePlane {
     }
 };
 
-// Returns where a texel beyond a picture's edge is found in it.
+// Returns the index of a texel in the picture, wrapped when it is beyond the edge.
 int wrapped(std::int64_t texel, int size, TextureWrap wrap);
 
-// The channels, each over one and the same part of the surface; one that is empty says the same everywhere.
+// The channels, which all cover the same part of the surface. An empty one is constant.
 struct KindSource {
-    BytePlane alpha;  // there is something where it is `cutoff` or more, 0..255
+    BytePlane alpha;  // material is there where it is `cutoff` or more, 0..255
     float cutoff = 127.5f;
-    BytePlane metallic, roughness;  // shares, 0..255
+    BytePlane metallic, roughness;  // 0..255 for shares of 0 to 1
     float metallic_factor = 1, roughness_factor = 1;
     std::array<TextureWrap, 2> wrap{};
-    bool smooth = true;  // between texels values go over; false: each texel is a square
+    bool smooth = true;  // interpolated between texels; false: each texel is a square
 };
 
-// The kinds that a source has. Kind 0 is where nothing is; it may not occur.
+// The look of a kind. Kind 0 is empty space; it may not occur.
 struct LookKind {
     float metallic = 0, roughness = 1;
 };
@@ -51,11 +51,11 @@ struct KindPicture {
     std::uint8_t at(std::int64_t x, std::int64_t y) const;
 };
 
-// Returns the looks of the kinds from 1 on: metal and paint, each in up to four bands of roughness with the mean that occurs in it,
-// the one that covers most first. Nothing without channels of metal and roughness.
+// Returns the looks of the kinds from 1 on, by covered area, largest first: metal and paint, each in up to
+// four bands of roughness with the band's mean. Empty without channels of metal and roughness.
 std::vector<LookKind> kinds_of(const KindSource& source);
-// Returns the kinds place by place. halvings: how often the picture is to be half as wide and high as it could be. A look that is
-// none of `kinds` is the nearest of them; without any, all there is is kind 1.
+// Returns the kind of each texel. A look that is not in `kinds` becomes the nearest; with no kinds, all
+// material is kind 1. halvings: how often width and height are halved from full size.
 KindPicture kind_picture(const KindSource& source, const std::vector<LookKind>& kinds, int halvings);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// The looks of a mesh file that its reader does not take, in a line for each kind.
+// Collects what a reader of mesh files does not use, and lists it by kind.
 
 #include <map>
 #include <string>
@@ -9,8 +9,8 @@ namespace hilcam {
 
 class LeftOut {
   public:
-    // Notes that a kind of look is left out of a thing: "emission", "lamp". An empty name stands for the file, or a thing without
-    // a name.
+    // Notes that a kind of look, "emission" or "lamp", of a named thing is not used. An empty name stands for
+    // the file, or for a thing without a name.
     void add(const std::string& what, const std::string& whose);
     // Returns a line for each kind: "emission of 'lamp' and 3 others: not used".
     std::vector<std::string> lines() const;

@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-// The memory that any mesh may take: a node or a material is a kilobyte and more, and libraries have tables.
+// Memory that any mesh may take: a node or a material takes more than a kilobyte, and libraries have tables.
 constexpr std::uint64_t kMinMemory_bytes = std::uint64_t{512} << 20;
 constexpr double kMinCpu_s = 10;
 
@@ -80,7 +80,8 @@ void write_mesh(const Mesh& m, ConfinedOutput& out) {
     for (const std::string& line : m.left_out) out.text(line);
 }
 
-// Checks for what would lead astray whoever uses it: the child may have been broken by the file.
+// Checks everything that could mislead code that uses the mesh, because the file may have corrupted the
+// child.
 bool is_whole(const Mesh& m) {
     const auto all_below = [](const auto& values, std::size_t end) {
         return std::all_of(values.begin(), values.end(), [&](auto v) { return v < end; });
@@ -169,7 +170,7 @@ MeshContents read_contents(ConfinedResult& in) {
     return contents;
 }
 
-// Writes the files that the parent is to look at, before anything else.
+// Writes the files that the parent has to examine, before any result.
 void write_wanted(const std::vector<FileName>& wanted, ConfinedOutput& out) {
     out.value(wanted.size());
     for (const FileName& name : wanted) {
@@ -192,11 +193,11 @@ std::vector<FileName> read_wanted(ConfinedResult& in) {
     return wanted;
 }
 
-// Shapes of small bodies have no nodes; a shape kernel tells its segments in their place.
+// Shapes of small bodies have no nodes; a shape kernel lists its segments instead.
 bool is_shape_kernel(const std::string& kind) { return kind == ".bds" || kind == ".xds"; }
 bool is_shape(const std::string& kind) { return is_shape_kernel(kind) || is_shape_table(kind); }
 
-// Reads the label beside a table, the name of which differs by the ending.
+// Reads the label beside a table, which has the same name with another ending.
 Longitudes labelled_longitudes(const std::filesystem::path& table) {
     const InputKind kind{1u << 20, "a PDS label"};
     for (const char* ending : {".lbl", ".LBL", ".Lbl"}) {
@@ -229,7 +230,7 @@ MeshContents shape_contents(const std::filesystem::path& file, const std::string
     return out;
 }
 
-// Returns the ending of a mesh file in small letters; throws InputError for what is no mesh.
+// Returns the ending of a mesh file in lower case. Throws InputError for an unknown one.
 std::string required_kind(const std::filesystem::path& file, std::optional<int> surface) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -246,9 +247,9 @@ std::string required_kind(const std::filesystem::path& file, std::optional<int> 
     return kind;
 }
 
-// Has `import` read the file in a child process, which gets the file's kind and the files that the mesh names, and what it returns
-// written by `write`. Where some of these files lie outside the mesh's folders, the child says so in place of results; those that may
-// be read are then open to another child.
+// Lets `import` read the file in a child process, with the file's kind and the files that the mesh names;
+// `write` writes its result. When some of these files are outside the mesh's folders, the child reports them
+// in place of a result. A second child may then read those that are permitted.
 template <class Import, class Write>
 ConfinedResult read_confined(const std::filesystem::path& file, std::optional<int> surface,
                              const Import& import, const Write& write) {
@@ -269,7 +270,7 @@ ConfinedResult read_confined(const std::filesystem::path& file, std::optional<in
         write_wanted(files.wanted(), out);
         if (files.wanted().empty()) write(*found, out);
     };
-    // Materials outside name textures, which may lie outside, too. A child that goes on asking is broken.
+    // Materials outside may name textures outside. A child that keeps asking is broken.
     constexpr int kMaxRounds = 4;
     for (int round = 1;; ++round) {
         ConfinedResult result = run_confined(file.string(), limits, readable, work);

@@ -24,8 +24,8 @@ std::uint64_t little(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-// Counts how many nodes there are at and below each node, and how deep they lie. A value that is no index is
-// left to the reader.
+// Counts the nodes at and below each node, and their depth. A value that is not an index is left to the
+// reader.
 class NodeCounter {
   public:
     NodeCounter(const json& nodes, const std::string& name)
@@ -48,8 +48,8 @@ class NodeCounter {
 
   private:
     struct Seen {
-        std::uint64_t count = 0;  // 0: not known yet
-        bool open = false;        // on the way from the root
+        std::uint64_t count = 0;  // 0: unknown
+        bool open = false;        // on the path from the root
     };
     const json& nodes_;
     const std::string& name_;

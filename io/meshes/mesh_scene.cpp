@@ -32,12 +32,13 @@ namespace {
     throw InputError(file.string() + ": " + what);
 }
 
-// The files that assimp opens: the mesh and its materials are in memory already, others are opened as every file is.
+// The files that assimp opens. The mesh and its materials are in memory already; others are opened like every
+// file.
 class MeshFiles final : public Assimp::IOSystem {
   public:
     MeshFiles(NamedFiles& files, const MeshSource& source) : files_(files), source_(source) {}
 
-    // The error in a file: assimp has words of its own for it, or goes on without the file.
+    // The error in a file. assimp replaces it with its own text, or continues without the file.
     const std::optional<InputError>& refused() const { return refused_; }
 
     bool Exists(const char* file) const override {
@@ -68,14 +69,14 @@ class MeshFiles final : public Assimp::IOSystem {
     NamedFiles& files_;
     const MeshSource& source_;
     std::optional<InputError> refused_;
-    std::deque<std::string> beside_;  // in use as long as assimp reads
+    std::deque<std::string> beside_;  // in use while assimp reads
 
     static Assimp::IOStream* stream_of(std::string_view bytes) {
         return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     }
 };
 
-// Returns the number of triangles that the parts have once their nodes place them.
+// Returns the number of triangles after nodes have placed the parts.
 std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64_t>& of_mesh) {
     std::uint64_t sum = 0;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) sum += of_mesh[node.mMeshes[i]];
@@ -83,7 +84,7 @@ std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64
     return sum;
 }
 
-// Called before anything is computed of it.
+// Called before anything is computed from the scene.
 void require_few(const aiScene& scene, const std::filesystem::path& file) {
     if (scene.mNumMaterials > kMaxMaterials) refuse_materials(scene.mNumMaterials, file.string());
     std::vector<std::uint64_t> of_mesh(scene.mNumMeshes);
@@ -104,7 +105,7 @@ void require_few(const aiScene& scene, const std::filesystem::path& file) {
     allow_more(kBytesPerTriangle * triangles, 1e-6 * static_cast<double>(triangles));
 }
 
-// A word of a list with blanks between its words.
+// True when a list of words separated by blanks has this word.
 bool lists_word(std::string_view list, std::string_view word) {
     std::istringstream words{std::string(list)};
     for (std::string one; words >> one;)
@@ -112,8 +113,9 @@ bool lists_word(std::string_view list, std::string_view word) {
     return false;
 }
 
-// Leaves the one importer that is for this kind of file. assimp has fifty, and gives contents that none of a
-// file's ending takes to whichever knows them: a file of any kind would be read under a name of ours.
+// Keeps only the importer for this kind of file. assimp has fifty, and gives contents that do not suit the
+// file's ending to any importer that recognizes them; a file of any kind could then pass under one of our
+// names.
 void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     const std::string_view ending = std::string_view(kind).substr(1);
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
@@ -134,7 +136,7 @@ MeshScene::MeshScene(const MeshSource& source, NamedFiles& names)
     const std::filesystem::path& file = names.mesh();
     keep_importer_of(std::filesystem::path(source.path).extension().string(), importer);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    auto* const files = new MeshFiles(names, source);  // the importer's from the next line on
+    auto* const files = new MeshFiles(names, source);  // owned by the importer from the next line on
     importer.SetIOHandler(files);
     scene_ = importer.ReadFile(source.path, 0);
     if (files->refused()) throw InputError(*files->refused());

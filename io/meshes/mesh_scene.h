@@ -1,6 +1,6 @@
 #pragma once
-// The scene that assimp makes of a mesh file. assimp is kept to the importer of the file's ending, to files that named_files.h allows,
-// and to so many triangles as there may be.
+// The scene that assimp reads from a mesh file. assimp may use only the importer for the file's ending, the
+// files that named_files.h permits, and a bounded number of triangles.
 
 #include <memory>
 
@@ -16,7 +16,7 @@ namespace hilcam {
 
 class MeshScene {
   public:
-    // InputError; std::bad_alloc when memory is limited and runs out. Both must live longer.
+    // Both must outlive this. Throws InputError, and std::bad_alloc when limited memory runs out.
     MeshScene(const MeshSource& source, NamedFiles& files);
     ~MeshScene();
     MeshScene(const MeshScene&) = delete;

@@ -1,5 +1,5 @@
 #pragma once
-// An OBJ, PLY or STL in memory as assimp is to read it, with what assimp drops of it.
+// An OBJ, PLY or STL in memory, rewritten so that assimp reads it correctly, with what assimp would drop.
 
 #include <string>
 #include <vector>
@@ -11,18 +11,18 @@
 namespace hilcam {
 
 struct MeshSource {
-    std::string path, bytes;      // the path's ending says what it is
-    ObjLibraries libraries = {};  // an OBJ has some
+    std::string path, bytes;      // the path's ending gives the format
+    ObjLibraries libraries = {};  // an OBJ's
     std::vector<std::string> remarks = {};
-    bool is_flat = false;       // the corners' order is the normal
-    ObjMaps maps = {};          // an OBJ may have some
-    bool whole_colors = false;  // colours at corners are a picture's, not linear
+    bool is_flat = false;       // the order of the corners gives the normal
+    ObjMaps maps = {};          // an OBJ's
+    bool whole_colors = false;  // colours at corners are sRGB integers, not linear
 };
 
-// The name by which the mesh asks for an OBJ's materials, all of them in one text.
+// The name under which the mesh refers to an OBJ's materials, all in one text.
 inline constexpr const char* kMeshMaterials = "hilcam_materials.mtl";
 
-// Reads the mesh and, for an OBJ, its libraries of materials. kind: the ending, in small letters. InputError.
+// Reads the mesh and, for an OBJ, its material libraries. kind: the ending, in lower case. Throws InputError.
 MeshSource mesh_source_of(NamedFiles& files, const std::string& kind);
 
 }  // namespace hilcam

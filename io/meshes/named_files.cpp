@@ -22,13 +22,14 @@ bool is_same_word(std::string_view a, std::string_view b) {
                       [](char x, char y) { return small_letter(x) == small_letter(y); });
 }
 
-// A pipe is there, too: whoever opens it says what it is.
+// A pipe counts as well: opening it then reports what it is.
 bool is_file_there(const Path& file) {
     std::error_code error;
     return std::filesystem::exists(file, error) && !std::filesystem::is_directory(file, error);
 }
 
-// Returns the entry of the folder that has this name but for case; of several, the first by the alphabet. Empty: none.
+// Returns the entry of the folder with this name in any case; of several, the alphabetically first. Empty:
+// none.
 Path entry_of(const Path& folder, const std::string& name) {
     std::error_code error;
     Path found;
@@ -39,7 +40,8 @@ Path entry_of(const Path& folder, const std::string& name) {
     return found.empty() ? Path() : folder / found;
 }
 
-// Goes down from the folder by the words of the name, each without regard to case where it must be. Empty: nothing is there.
+// Follows the components of the name from the folder, each in any case if necessary. Empty: there is no such
+// file.
 Path without_case(Path at, const Path& name) {
     if (name.is_absolute()) at = "/";
     for (const Path& word : name.relative_path()) {
@@ -52,7 +54,7 @@ Path without_case(Path at, const Path& name) {
 }
 
 struct FoundFile {
-    Path file;           // empty: nothing
+    Path file;           // empty: not found
     bool whole = false;  // by its whole name
 };
 
@@ -81,7 +83,7 @@ bool is_inside(const Path& mesh, const Path& file) {
     return false;
 }
 
-// True where the name leads out of the mesh's folders, so that the child cannot list what is there.
+// True when the name leads out of the mesh's folders, so that the child cannot list the folder.
 bool leads_outside(const Path& mesh, const FileName& name) {
     std::string slashes = name.name;
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
@@ -93,7 +95,7 @@ bool leads_outside(const Path& mesh, const FileName& name) {
     return outside(mesh.parent_path()) || std::any_of(name.folders.begin(), name.folders.end(), outside);
 }
 
-// Textures are known by their first bytes; a JPEG may have a preview of itself before its size.
+// Textures are recognized by their first bytes; a JPEG may have a preview of itself before its size.
 bool opens_as_picture(const Path& file) {
     constexpr std::uintmax_t kOpening_bytes = 1u << 20;
     const InputFile in = open_input_file(file, picture_kind());

@@ -1,5 +1,5 @@
 #pragma once
-// The place of a node of a mesh file: an affine map in single precision, as files have their coordinates.
+// The transform of a node of a mesh file: an affine map in single precision, as files have coordinates.
 
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ struct NodeMatrix {
         m.row[0][0] = by.x, m.row[1][1] = by.y, m.row[2][2] = by.z;
         return m;
     }
-    // A turn by a unit quaternion x, y, z, w.
+    // Returns the rotation by a unit quaternion x, y, z, w.
     static NodeMatrix turned(const std::array<float, 4>& q) {
         const auto [x, y, z, w] = q;
         NodeMatrix m;
@@ -41,7 +41,8 @@ struct NodeMatrix {
         return a[0] * b[1] * c[2] - a[0] * b[2] * c[1] + a[1] * b[2] * c[0] - a[1] * b[0] * c[2] +
                a[2] * b[0] * c[1] - a[2] * b[1] * c[0];
     }
-    // The map of normals: the inverse of the linear part, transposed. Not finite where that has no inverse.
+    // Returns the map for normals, the inverse transpose of the linear part. Not finite when there is no
+    // inverse.
     NodeMatrix of_normals() const {
         const auto& [a, b, c, d] = row;
         const float by = 1 / determinant();
@@ -54,7 +55,7 @@ struct NodeMatrix {
                     by * (a[0] * b[1] - a[1] * b[0]), 0};
         return m;
     }
-    // A normal by such a map, as a unit vector; zero where it has no length.
+    // Returns the normal transformed by such a map, as a unit vector; zero when it has no length.
     Vec3f turn_normal(Vec3f n) const {
         const Vec3f v{along(0, n), along(1, n), along(2, n)};
         const float size = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// Takes the next word off a line, and the blanks before it.
+// Removes the next word and the blanks before it from a line, and returns it.
 std::string_view take_word(std::string_view& line) {
     line = trimmed(line);
     const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
@@ -18,7 +18,7 @@ std::string_view take_word(std::string_view& line) {
     return word;
 }
 
-// Takes as many numbers as come next, three at most, into u and v.
+// Removes the numbers that come next, at most three, and stores the first two in u and v.
 void take_numbers(std::string_view& line, Vec2f& to) {
     for (int k = 0; k < 3; ++k) {
         std::string_view rest = line;
@@ -29,7 +29,7 @@ void take_numbers(std::string_view& line, Vec2f& to) {
     }
 }
 
-// Takes the options off what stands behind map_Kd: the file's name is left. A name may begin with a sign, too.
+// Removes the options after map_Kd; the file's name remains. A name may begin with a sign, too.
 ObjMap take_options(std::string_view& line) {
     ObjMap map;
     for (;;) {

@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// More than any OBJ names, and each is sought on the disk.
+// More than any OBJ names; each is searched on the disk.
 constexpr std::size_t kMaxLibraries = 1000;
 
 bool is_mtl(std::string_view word) {
@@ -29,7 +29,8 @@ std::string_view without_quotes(std::string_view name) {
     return quoted ? name.substr(1, name.size() - 2) : name;
 }
 
-// A name may have blanks, and one line several names: each goes to the next word that ends as such files do.
+// A name may have blanks, and a line several names: each extends to the next word with the ending of such
+// files.
 void add_libraries(std::string_view rest, std::vector<std::string>& out) {
     std::size_t begin = 0;
     for (std::size_t at = 0; at < rest.size();) {
@@ -57,10 +58,10 @@ class ObjWriter {
     std::string_view rest_;
     const std::string& name_;
     ObjSource out_;
-    std::string joined_;  // lines that go on, as one
+    std::string joined_;  // continued lines, joined
     int line_ = 0, begin_ = 0;
 
-    // The next line of the file, which ends with a line feed, a carriage return or both.
+    // Returns the next line of the file, which ends with a line feed, a carriage return or both.
     std::string_view physical_line() {
         const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
         const std::string_view line = rest_.substr(0, end);
@@ -69,7 +70,7 @@ class ObjWriter {
         ++line_;
         return line;
     }
-    // The next line without its blanks; one that ends with \ goes on on the next.
+    // Gets the next line without its blanks; a line that ends with \ continues in the next.
     bool next(std::string_view& line) {
         if (rest_.empty()) return false;
         begin_ = line_ + 1;
@@ -109,7 +110,7 @@ class ObjWriter {
         if (!line.empty() && word.front() != '#') out_.text.append(line) += '\n';
     }
 
-    // Gives each word until a comment to `use`, and returns how many there were.
+    // Calls `use` for each word up to a comment, and returns how many there were.
     template <class Use>
     static std::size_t each_word(std::string_view rest, const Use& use) {
         std::size_t count = 0;
@@ -122,7 +123,7 @@ class ObjWriter {
         return count;
     }
 
-    // assimp knows 3, 4 and 6 numbers of a vertex, 2 and 3 of a place on a texture.
+    // assimp accepts 3, 4 and 6 numbers for a vertex, 2 and 3 for texture coordinates.
     void add_numbers(std::string_view line, std::string_view keyword, std::string_view rest,
                      std::size_t least, std::size_t most) {
         const std::size_t found = each_word(rest, [](std::string_view, std::size_t) {});
@@ -138,14 +139,14 @@ class ObjWriter {
         out_.text.append(number.starts_with('.') ? " 0" : " ");
         const std::size_t begin = out_.text.size();
         out_.text.append(number);
-        // Fortran's exponents of double precision.
+        // Exponents of Fortran's double precision.
         const std::size_t d = out_.text.find_first_of("dD", begin);
         if (d == std::string::npos || d == begin) return;
         const char before = out_.text[d - 1];
         if (before == '.' || (before >= '0' && before <= '9')) out_.text[d] = 'e';
     }
 
-    // Corners are v, v/vt, v//vn or v/vt/vn, each a whole number but 0.
+    // Corners are v, v/vt, v//vn or v/vt/vn, each a non-zero integer.
     void add_indices(std::string_view line, std::string_view keyword, std::string_view rest) {
         out_.text.append(keyword);
         each_word(rest, [&](std::string_view corner, std::size_t) {
@@ -175,7 +176,7 @@ class ObjWriter {
     }
 };
 
-// Takes what is in a library: its text, and where the textures of its materials lie.
+// Adds a library: its text, and the folder of its materials' textures.
 void add_library(const std::filesystem::path& file, ObjMaterials& materials, ObjLibraries& out) {
     const std::string bytes = read_input_file(file, mesh_kind());
     allow_more(kMeshMemoryPerByte * bytes.size(), kMeshCpu_s_byte * static_cast<double>(bytes.size()));

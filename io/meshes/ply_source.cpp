@@ -27,7 +27,7 @@ struct PlyProperty {
     PlyType count, value;
 };
 struct PlyElement {
-    std::string name, header;  // its lines of the header
+    std::string name, header;  // its lines in the header
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 };
@@ -74,7 +74,7 @@ class PlyHeaderReader {
         require_end();
         for (std::string_view line; lines_.next(line);)
             if (add(line)) {
-                // The data begin behind this line, whatever its end is.
+                // The data begin after this line, whatever ends it.
                 out_.data_at = static_cast<std::size_t>(line.data() - ply_.data()) + line.size();
                 if (ply_.substr(out_.data_at).starts_with('\r')) ++out_.data_at;
                 if (ply_.substr(out_.data_at).starts_with('\n')) ++out_.data_at;
@@ -84,7 +84,7 @@ class PlyHeaderReader {
     }
 
   private:
-    static constexpr int kMaxLines = 1000;  // a header has so many
+    static constexpr int kMaxLines = 1000;  // no header has more
 
     std::string_view ply_;
     TextLines lines_;
@@ -103,7 +103,7 @@ class PlyHeaderReader {
     bool add(std::string_view line) {
         const auto words = words_of(line);
         if (words.empty() || words[0] == "obj_info") return false;
-        // A texture may be named in a comment (VCGlib).
+        // A comment may name a texture (VCGlib).
         if (words[0] == "comment" && (words.size() < 3 || words[1] != "TextureFile")) return false;
         if (words[0].starts_with("end_header")) return true;
         if (words[0] == "element") return add_element(words), false;
@@ -141,7 +141,7 @@ class PlyHeaderReader {
     }
 };
 
-// Reads the numbers of the data one after another.
+// Reads the numbers of the data in order.
 class PlyData {
   public:
     PlyData(std::string_view ply, const PlyHeader& header, const std::string& name)
@@ -149,7 +149,7 @@ class PlyData {
 
     std::size_t at() const { return at_; }
 
-    // A whole number.
+    // Returns an integer.
     std::int64_t whole(const PlyType& type) {
         if (form_ == PlyForm::kText) {
             const std::string_view word = next_word();
@@ -169,7 +169,7 @@ class PlyData {
     }
     std::uint64_t count(const PlyType& type) {
         const std::int64_t value = whole(type);
-        // Each has a byte at least, or a digit and a blank.
+        // Each takes at least a byte, or a digit and a blank.
         if (value < 0 || static_cast<std::uint64_t>(value) > ply_.size() - at_)
             fail("a list of " + std::to_string(value) + " numbers does not fit into the file");
         return static_cast<std::uint64_t>(value);
@@ -217,7 +217,8 @@ class PlyData {
 
 using PlyTriangle = std::array<std::int64_t, 3>;
 
-// Takes a strip apart: each index makes a triangle with the two before it, every other one turned round; -1 begins anew.
+// Splits a strip: each index makes a triangle with the two before it, every other one reversed; -1 starts a
+// new strip.
 void add_strip(PlyData& data, const PlyProperty& property, std::vector<PlyTriangle>& out) {
     std::array<std::int64_t, 2> before{-1, -1};
     bool turned = false;
@@ -255,7 +256,7 @@ std::string face_data(const std::vector<PlyTriangle>& faces, PlyForm form) {
     return out;
 }
 
-// Makes faces of an element of strips, and returns their data.
+// Turns an element of strips into faces, and returns their data.
 std::string unrolled(PlyElement& strips, PlyData& data, PlyForm form) {
     std::vector<PlyTriangle> triangles;
     for (std::uint64_t i = 0; i < strips.count; ++i)
@@ -269,13 +270,14 @@ std::string unrolled(PlyElement& strips, PlyData& data, PlyForm form) {
     return face_data(triangles, form);
 }
 
-// assimp knows these; of another it takes the data for those of the next.
+// assimp knows these elements; the data of any other it reads as the next element's.
 bool is_known(const PlyElement& element) {
     const std::string& name = element.name;
     return name == "vertex" || name == "face" || name == "edge" || name == "material";
 }
 
-// Turns strips into faces, and leaves out elements that assimp does not know: in the header, and in the data that come back.
+// Turns strips into faces and removes elements that assimp does not know, from the header and from the data
+// returned.
 std::string plain_data(std::string_view ply, PlyHeader& header, const std::string& name) {
     const auto is_strips = [](const PlyElement& e) { return e.name == "tristrips" && e.count > 0; };
     const auto is_faces = [](const PlyElement& e) { return e.name == "face" && e.count > 0; };
@@ -284,7 +286,7 @@ std::string plain_data(std::string_view ply, PlyHeader& header, const std::strin
     if (strips != elements.end() && std::any_of(elements.begin(), elements.end(), is_faces))
         throw InputError(name +
                          ": does not parse: it has faces and strips of triangles; accepted: one of them");
-    // Behind the last one that is wanted, all may stay.
+    // After the last element that is needed, everything may stay.
     while (!elements.empty() && !is_known(elements.back()) && !is_strips(elements.back()))
         elements.pop_back();
     if (std::all_of(elements.begin(), elements.end(), is_known))
@@ -313,11 +315,12 @@ std::string plain_ply(std::string_view ply, const std::string& name) {
     PlyHeader header = PlyHeaderReader(ply, name).read();
     const std::string data = plain_data(ply, header, name);
     std::string out = header.begin;
-    // assimp takes all ends of lines behind the header for its end: a byte of an element that nothing uses stands before the data.
+    // assimp takes all line ends after the header as part of it, so an unused element of one byte is put
+    // before the data.
     const bool needs_guard = header.form != PlyForm::kText && data.find_first_of("\r\n") == 0;
     if (needs_guard) out += "element edge 1\nproperty uchar vertex1\n";
     for (const PlyElement& element : header.elements)
-        // Elements of none may stand beside others of their kind, of which assimp knows one.
+        // An empty element may exist beside another of the same name, of which assimp accepts only one.
         if (element.count > 0 && !(needs_guard && element.name == "edge")) out += element.header;
     return out.append(needs_guard ? "end_header\n#" : "end_header\n").append(data);
 }

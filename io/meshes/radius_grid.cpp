@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// Angles that are the same but for rounding.
+// Angles as integers, so that equal ones compare equal in spite of rounding.
 using Microdegrees = long long;
 constexpr Microdegrees kDegree = 1'000'000, kPole = 90 * kDegree, kCircle = 360 * kDegree;
 
@@ -99,7 +99,7 @@ class RadiusGrid {
         seen_.insert(longitude);
     }
 
-    // A map of a part would be closed over what it lacks.
+    // A table of part of the body would be closed over what it lacks.
     void require_round() const {
         constexpr Microdegrees kWidest = 45 * kDegree;
         if (longitudes_.size() < 3 || rings_.empty())
@@ -165,7 +165,7 @@ class RadiusGrid {
     }
 };
 
-// The label in capitals, with one blank between its words.
+// Returns the label in capitals, with single blanks between its words.
 std::string words_of_label(std::string_view label) {
     std::string out;
     for (const char c : label) {

@@ -31,7 +31,7 @@ namespace {
 
 class SceneLoader {
   public:
-    // part: which of `nodes` to take, or -1 for what none of them takes.
+    // part: index of the part in `nodes`, or -1 for what none of them matches.
     SceneLoader(NamedFiles& files, const MeshSource& source, const aiScene& scene,
                 std::span<const std::string> nodes, int part)
         : file_(files.mesh()), files_(files), source_(source), scene_(scene), nodes_(nodes), part_(part) {}
@@ -64,14 +64,15 @@ class SceneLoader {
     int part_;
     Mesh mesh_;
     MeshContents out_;
-    std::map<std::pair<FileName, bool>, int> texture_index_;  // by name, and whether its edge goes on
+    std::map<std::pair<FileName, bool>, int> texture_index_;  // by name, and whether its edge continues
     bool any_normals_ = false;
     bool any_uvs_ = false;
     bool any_colors_ = false;
     LeftOut left_out_;
     std::uint64_t texels_ = 0;
 
-    // One part without normals or uvs must not take them from the others, so the missing ones are filled in.
+    // One part without normals or texture coordinates must not remove them from the others, so missing ones
+    // are filled in.
     void count_normals_and_uvs() {
         for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
             any_normals_ |= scene_.mMeshes[i]->HasNormals() && !source_.is_flat;
@@ -80,13 +81,13 @@ class SceneLoader {
         }
     }
 
-    // White ones say nothing.
+    // White colours have no effect.
     static bool has_colors(const aiMesh& part) {
         if (!part.HasVertexColors(0)) return false;
         return std::any_of(part.mColors[0], part.mColors[0] + part.mNumVertices,
                            [](const aiColor4D& c) { return c.r != 1 || c.g != 1 || c.b != 1; });
     }
-    // A colour at a corner as a factor, linear.
+    // Returns the colour at a corner as a linear factor.
     Vec3f color_of(const aiColor4D& c) const {
         const auto factor = [this](float v) {
             const float share = v >= 0 ? std::min(v, 1.0f) : 0.0f;
@@ -116,7 +117,7 @@ class SceneLoader {
             surface.metallic = std::clamp(value, 0.0f, 1.0f);
         if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == AI_SUCCESS)
             surface.roughness = std::clamp(value, 0.0f, 1.0f);
-        // The grey that assimp has for what a file says nothing of would dim the colours that it does give.
+        // assimp's default grey, for files without materials, would dim the colours that the file does have.
         if (any_colors_ && surface.name == AI_DEFAULT_MATERIAL_NAME) surface.base_color = {1, 1, 1};
         // `d` and `Tr` of an OBJ. Many writers mean "opaque" by 0.
         if (material.Get(AI_MATKEY_OPACITY, value) == AI_SUCCESS && value > 0 && value < 1)
@@ -147,7 +148,8 @@ class SceneLoader {
         return found == source_.maps.end() ? ObjMap{} : found->second;
     }
 
-    // Reads the textures of the surfaces that triangles have, and names what is left out of them: libraries of materials have others, too.
+    // Reads the textures of surfaces with triangles, and names what is left out of these; libraries of
+    // materials have more.
     void read_textures() {
         std::vector<bool> used(mesh_.surfaces.size());
         for (const std::uint16_t surface : mesh_.surface_of_triangle) used[surface] = true;
@@ -162,7 +164,7 @@ class SceneLoader {
         }
     }
 
-    // Returns the texture's number, or -1 for one that cannot be read.
+    // Returns the texture's index, or -1 for one that cannot be read.
     int texture_of(const std::string& name, const std::string& material) {
         FileName file{name, {}};
         const auto& folders = source_.libraries.folder_of_material;
@@ -189,7 +191,7 @@ class SceneLoader {
         return texture_index_[{file, clamp}] = index;
     }
 
-    // `what` begins messages.
+    // what: begins messages.
     Texture decode(const FileName& name, const std::string& what) const {
         const aiTexture* const embedded = scene_.GetEmbeddedTexture(name.name.c_str());
         if (!embedded) {
@@ -212,7 +214,7 @@ class SceneLoader {
         throw InputError(what + " is not compressed; accepted: " + picture_kind().accepted);
     }
 
-    // above: the part that a node further up belongs to.
+    // above: the part of an ancestor.
     void read_node(const aiNode& node, const aiMatrix4x4& parent, int above, std::uint32_t depth) {
         const int own = taken_by(nodes_, node.mName.C_Str());
         const int part = own >= 0 ? own : above;
@@ -252,7 +254,7 @@ class SceneLoader {
             mesh_.vertices_m.push_back({p.x, p.y, p.z});
             if (any_uvs_) {
                 const bool has = part.HasTextureCoords(0);
-                // These formats have v upwards from the picture's bottom.
+                // In these formats v points upwards from the bottom of the picture.
                 const Vec2f uv =
                     has ? map.of({part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y}) : Vec2f{};
                 mesh_.uvs.push_back(finite_or_zero({uv.x, 1 - uv.y}));
@@ -278,7 +280,7 @@ class SceneLoader {
                 refuse_scene(file_, "triangle " + std::to_string(i) + " of part " +
                                         in_quotes(part.mName.C_Str()) +
                                         " names a vertex that does not exist");
-            // By place: some of assimp's loaders give each corner a vertex of its own.
+            // Compares positions, because some of assimp's loaders give each corner its own vertex.
             const auto at = [&](std::size_t corner) { return mesh_.vertices_m[base + t[corner]]; };
             if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) {
                 ++out_.collapsed_triangles;
@@ -292,7 +294,8 @@ class SceneLoader {
         }
     }
 
-    // Counts a facet whose normal in the file is not that of its corners' order; one of 0 says nothing.
+    // Counts a facet with a normal in the file that is not that of its corners' order; a zero normal has no
+    // meaning.
     void compare_normals(const aiMesh& part, const aiFace& face) {
         const aiVector3D said = part.mNormals[face.mIndices[0]];
         const aiVector3D a = part.mVertices[face.mIndices[0]], b = part.mVertices[face.mIndices[1]];

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh of the scene that assimp makes of a file: its node tree flattened, its materials, textures and colours.
+// Turns assimp's scene of a file into a mesh: the flattened node tree, materials, textures and colours.
 
 #include <span>
 #include <string>
@@ -12,10 +12,10 @@ struct aiScene;
 
 namespace hilcam {
 
-// Returns the mesh with what the file has beside the triangles. InputError.
+// Returns the mesh with facts about its file. Throws InputError.
 MeshContents contents_of_scene(const aiScene& scene, const MeshSource& source, NamedFiles& files);
-// Returns one part: that of the node `part` of `nodes`, or for -1 what none of them takes. InputError, also when textures cannot be
-// read, all of them in one line.
+// Returns one part: the nodes that nodes[part] matches or, for -1, what none of them matches. Throws
+// InputError, also when textures cannot be read: one line lists them all.
 Mesh part_of_scene(const aiScene& scene, const MeshSource& source, NamedFiles& files,
                    std::span<const std::string> nodes, int part);
 

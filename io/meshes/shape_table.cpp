@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxTableColumns = 5;
 
-// A line's words, at most kMaxTableColumns + 1.
+// The words of a line, at most kMaxTableColumns + 1.
 struct Words {
     std::array<std::string_view, kMaxTableColumns + 1> word;
     std::size_t count = 0;
@@ -33,7 +33,7 @@ struct Words {
     }
 };
 
-// A number, whose exponent may be Fortran's of double precision.
+// Returns a number; its exponent may be of Fortran's double precision.
 std::optional<double> shape_number(std::string_view text) {
     if (const auto value = number_of(text)) return value;
     std::string plain(text);
@@ -43,7 +43,7 @@ std::optional<double> shape_number(std::string_view text) {
     return number_of(plain);
 }
 
-// Leaves out what stands behind the end of a text of DOS, and zeros with which records are filled.
+// Removes what follows DOS's end of text, and zeros that fill up records.
 std::string_view text_of_table(std::string_view bytes, const std::string& name) {
     std::string_view text = without_mark(bytes, name);
     text = text.substr(0, text.find('\x1A'));
@@ -120,7 +120,7 @@ class ShapeReader {
         mesh_.triangles.push_back(
             {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
     }
-    // Corners are counted from 1, or from 0 where one is 0 (settle_corners); four make two facets.
+    // Corners count from 1, or from 0 if one is 0 (settle_corners); four corners make two facets.
     void add_corners(const Words& words, std::size_t from) {
         const auto most = static_cast<double>(mesh_.vertices_m.size());
         if (words.count != from + 3 && words.count != from + 4)
@@ -172,7 +172,7 @@ class ShapeReader {
         settle_corners();
     }
 
-    // Plates number their lines, polyhedra and quadrilaterals do not.
+    // Plates number their lines; polyhedra and quadrilaterals do not.
     void read_counted(const Words& head) {
         const std::size_t first = count(head.word[0], static_cast<double>(kMaxTriangles));
         const Words line = next("a vertex");
@@ -205,7 +205,7 @@ class ShapeReader {
         for (std::size_t i = 0; i < facets; ++i) add_polyhedron_facet(next("a facet"));
         settle_corners();
     }
-    // Corners alone, or behind their count, which may have a line of its own.
+    // Corners only, or after their number, which may be on a line of its own.
     void add_polyhedron_facet(Words line) {
         const auto counts = [](const Words& words) {
             return words.word[0] == "3" ? 3u : words.word[0] == "4" ? 4u : 0u;
@@ -221,7 +221,7 @@ class ShapeReader {
     }
     void read_quadrilaterals(std::size_t q, Words line) {
         if (q > 4096) lines_.refuse(std::to_string(q), "Q of 1 to 4096");
-        // Vertices on the edges of the cube stand in the file more than once.
+        // Vertices on the edges of the cube occur more than once in the file.
         std::map<std::array<float, 3>, std::uint32_t> known;
         std::vector<std::uint32_t> index;
         const std::size_t side = q + 1;
@@ -259,7 +259,7 @@ class ShapeReader {
                 "so");
     }
 
-    // Six times the volume that the facets enclose is the sum of their corners' triple products.
+    // The sum of the corners' triple products is six times the enclosed volume.
     void turn_outwards() {
         double volume = 0;
         for (const auto& t : mesh_.triangles)

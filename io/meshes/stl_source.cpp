@@ -10,7 +10,7 @@
 namespace hilcam {
 namespace {
 
-// A header and the number of triangles, then each of them; little-endian.
+// A header, the number of triangles, then the triangles; little-endian.
 constexpr std::size_t kCountAt = 80, kTrianglesAt = 84, kTriangleBytes = 50;
 
 std::string whole_triangles(std::string_view stl, const std::string& name,
@@ -44,23 +44,23 @@ std::string in_small_letters(std::string_view word) {
     return out;
 }
 
-// Copies a line with its words of STL in small letters, and returns its first word.
+// Copies a line with STL's keywords in lower case, and returns its first word.
 std::string add_line(std::string_view line, std::string& out) {
     const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
     const std::string word = in_small_letters(line.substr(0, end));
-    // What a solid is called keeps its letters.
+    // The name of a solid keeps its case.
     const bool names = word == "solid" || word == "endsolid";
     out.append(word).append(names ? std::string(line.substr(end)) : in_small_letters(line.substr(end))) +=
         '\n';
     return word;
 }
 
-// assimp gives up at a solid without a facet.
+// assimp fails at a solid without a facet.
 std::string without_empty_solids(std::string_view stl, const std::string& name) {
     std::string out;
     out.reserve(stl.size() + 1);
     std::size_t solid = 0;  // where the last one begins
-    bool any_facet = true;  // in it
+    bool any_facet = true;  // true if that one has a facet
     TextLines lines(stl, name);
     for (std::string_view line; lines.next(line);) {
         line = trimmed(line);
@@ -87,7 +87,7 @@ bool is_stl_text(std::string_view stl) {
 std::string plain_stl(std::string_view stl, const std::string& name, std::vector<std::string>& remarks) {
     if (!is_stl_text(stl)) return whole_triangles(stl, name, remarks);
     std::string text(without_mark(stl, name));
-    // Lines may end with a carriage return alone.
+    // Lines may end with a carriage return only.
     std::replace(text.begin(), text.end(), '\r', '\n');
     return without_empty_solids(text, name);
 }

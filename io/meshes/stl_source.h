@@ -1,6 +1,7 @@
 #pragma once
-// STL files in the form that assimp reads rightly: in text without solids that have no facet, with words in small letters; binary
-// ones without what lies behind their last triangle (3D Systems, "StereoLithography Interface Specification", 1989).
+// Rewrites STL files so that assimp reads them correctly: text without solids that have no facet, and with
+// keywords in lower case; binary files without bytes after the last triangle (3D Systems, "StereoLithography
+// Interface Specification", 1989).
 
 #include <string>
 #include <string_view>
@@ -8,10 +9,11 @@
 
 namespace hilcam {
 
-// True for an STL in text. Binary ones may begin with the same word, but their numbers are no ASCII.
+// True for an STL in text. A binary one may begin with the same word, but its numbers are not ASCII.
 bool is_stl_text(std::string_view stl);
 
-// Throws InputError that begins with `name` for a binary file that is shorter than it says. remarks: gets what was left out.
+// Throws InputError that begins with `name` for a binary file that is shorter than it says. remarks: gets
+// what was left out.
 std::string plain_stl(std::string_view stl, const std::string& name, std::vector<std::string>& remarks);
 
 }  // namespace hilcam

@@ -14,7 +14,8 @@
 namespace hilcam {
 namespace {
 
-// A corner of a part of a triangle: where it lies in the picture [texels], and how much of each of the triangle's corners it is.
+// A corner of a piece of a triangle: its place in the picture [texels], and its barycentric coordinates in
+// the triangle.
 struct CutCorner {
     double x = 0, y = 0;
     std::array<double, 3> share{};
@@ -27,7 +28,7 @@ CutCorner between(const CutCorner& a, const CutCorner& b, double t) {
             {mix(a.share[0], b.share[0]), mix(a.share[1], b.share[1]), mix(a.share[2], b.share[2])}};
 }
 
-// A triangle that is cut by the sides of a rectangle has seven corners at most.
+// A triangle cut by the sides of a rectangle has at most seven corners.
 class CutPart {
   public:
     void add(const CutCorner& corner) {
@@ -35,7 +36,7 @@ class CutPart {
     }
     std::span<const CutCorner> corners() const { return std::span(corners_).first(count_); }
 
-    // Returns the two parts on both sides of a line x = at, or y = at.
+    // Returns the pieces on the two sides of a line x = at, or y = at.
     std::array<CutPart, 2> divided(bool along_x, std::int64_t line) const {
         const auto at = static_cast<double>(line);
         std::array<CutPart, 2> out;
@@ -58,7 +59,7 @@ class CutPart {
     std::size_t count_ = 0;
 };
 
-// Texels from x0 up to but for x1.
+// Texels from x0 up to, and without, x1.
 struct Rectangle {
     std::int64_t x0, y0, x1, y1;
 };
@@ -74,7 +75,7 @@ Rectangle rectangle_about(std::span<const CutCorner> corners) {
     return {r.x0, r.y0, std::max(r.x1, r.x0 + 1), std::max(r.y1, r.y0 + 1)};
 }
 
-// Tells where a picture is of one kind.
+// Finds where a picture has a single kind.
 class KindMap {
   public:
     explicit KindMap(KindPicture picture) : picture_(std::move(picture)), stride_(picture_.width + 1) {
@@ -93,8 +94,8 @@ class KindMap {
     std::uint8_t at(std::int64_t x, std::int64_t y) const { return picture_.at(x, y); }
     bool is_uniform() const { return changes_.back() == 0; }
 
-    // Returns a line that a rectangle crosses and that may be a border: of the picture, or in the middle; nothing where all of it is
-    // of one kind.
+    // A line that crosses a rectangle and may be a border: the picture's edge or the rectangle's middle.
+    // Nothing when the rectangle has a single kind.
     struct Line {
         bool along_x;
         std::int64_t at;
@@ -111,7 +112,8 @@ class KindMap {
   private:
     KindPicture picture_;
     int stride_;
-    // Sums over all texels above and to the left: of those that differ from the next to the right or below.
+    // Sums, over all texels above and to the left, of those that differ from the next texel to the right or
+    // below.
     std::vector<std::uint32_t> changes_;
 
     std::size_t index(int x, int y) const {
@@ -120,7 +122,7 @@ class KindMap {
     static std::int64_t floor_of(std::int64_t a, std::int64_t b) {
         return a >= 0 ? a / b : -((b - 1 - a) / b);
     }
-    // Returns an edge of one of the pictures that lie side by side.
+    // Returns an edge between repeated pictures.
     static std::optional<std::int64_t> edge_between(std::int64_t from, std::int64_t to, std::int64_t size,
                                                     TextureWrap wrap) {
         if (wrap == TextureWrap::kClamp) {
@@ -132,7 +134,7 @@ class KindMap {
         if (first > last) return {};
         return size * ((first + last) / 2);
     }
-    // A rectangle that crosses no such edge, as texels of the picture.
+    // Returns a rectangle that crosses no such edge, as texels of the picture.
     std::array<int, 2> inside(std::int64_t from, std::int64_t to, int size, TextureWrap wrap) const {
         const int a = wrapped(from, size, wrap), b = wrapped(to - 1, size, wrap);
         return {std::min(a, b), std::max(a, b)};
@@ -141,7 +143,8 @@ class KindMap {
         const auto [x0, x1] = inside(r.x0, r.x1, width(), picture_.wrap[0]);
         const auto [y0, y1] = inside(r.y0, r.y1, height(), picture_.wrap[1]);
         if (x0 == x1 && y0 == y1) return true;
-        // Changes beyond the last column and row do not matter, nor do they inside where there are none: these are asked for one by one.
+        // Changes beyond the last column and row do not matter; when there are none inside, these are
+        // examined one by one.
         const auto sum = [&](int left, int top, int right, int bottom) {
             return left >= right || top >= bottom
                        ? 0u
@@ -159,7 +162,7 @@ class KindMap {
 
 class Cutter {
   public:
-    // Nothing of `mesh` is changed until finish().
+    // `mesh` stays unchanged until finish().
     Cutter(Mesh& mesh, std::size_t max_more)
         : mesh_(mesh), most_(mesh.triangles.size() + max_more), steps_left_(8 * (most_ + 1)) {}
 
@@ -173,7 +176,7 @@ class Cutter {
         triangle_ = triangle, map_ = &map;
         pieces_.clear();
         if (!divide(whole(triangle, map))) return false;
-        // Where all of it is of one kind it stays as it is.
+        // A triangle of a single kind is left as it is.
         const bool one = std::all_of(pieces_.begin(), pieces_.end(),
                                      [&](const Piece& piece) { return piece.kind == pieces_[0].kind; });
         if (pieces_.empty() || one)
@@ -208,7 +211,7 @@ class Cutter {
     std::vector<std::uint16_t> surfaces_;
     std::size_t triangle_ = 0;
     const KindMap* map_ = nullptr;
-    std::vector<Piece> pieces_;  // pieces of the triangle
+    std::vector<Piece> pieces_;  // pieces of the present triangle
 
     void add(const std::array<std::uint32_t, 3>& corners, std::int32_t surface) {
         if (surface == SurfaceCut::kNothing) return;
@@ -217,7 +220,7 @@ class Cutter {
     }
 
     CutPart whole(std::size_t triangle, const KindMap& map) const {
-        // Beyond this many pictures side by side a texel is finer than single precision has it.
+        // With this many repeated pictures, a texel is finer than single precision.
         constexpr double kFarthest = 1e6;
         CutPart out;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -276,7 +279,7 @@ class Cutter {
         }
         uvs_.push_back(uv);
     }
-    // Corners without normals stay without.
+    // Corners without normals get none.
     Vec3f mixed_normal(Vec3f sum) const {
         for (const std::uint32_t v : mesh_.triangles[triangle_])
             if (mesh_.normals[v] == Vec3f{}) return {};
@@ -291,7 +294,7 @@ bool try_to_cut(Mesh& mesh, std::span<const SurfaceCut> cuts, int halvings, std:
     Cutter cutter(mesh, max_more);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         if (!is_cut[mesh.surface_of_triangle[t]]) cutter.keep(t, mesh.surface_of_triangle[t]);
-    // One picture at a time: together they might be large.
+    // One picture at a time, because together they might be large.
     for (const SurfaceCut& cut : cuts) {
         const KindMap map(kind_picture(cut.source, cut.kinds, halvings));
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -312,10 +315,11 @@ int cut_surfaces(Mesh& mesh, std::span<const SurfaceCut> cuts, std::size_t max_m
 }
 
 int cut_mesh(Mesh& mesh, std::span<const SurfaceCut> cuts) {
-    // A net of 1000 x 1000 meshes has as many; a spacecraft whose textures are noise stays of its size.
+    // A mask of a net with 1000 x 1000 openings needs that many more triangles. Without masks, a spacecraft
+    // with noise for textures must not grow much.
     constexpr std::size_t kMaxOfMasks = 1'000'000, kMin = 100'000;
     constexpr std::uint64_t kBytesOfPicture =
-        200 << 20;  // a picture of 2048 x 2048 kinds with its sums, and what it is made of
+        200 << 20;  // a picture of 2048 x 2048 kinds with its sums, and its source
     if (cuts.empty()) return 0;
     const bool masks =
         std::any_of(cuts.begin(), cuts.end(), [](const SurfaceCut& c) { return c.source.cutoff > 0; });

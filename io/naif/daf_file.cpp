@@ -15,7 +15,8 @@ constexpr std::uintmax_t kMaxDafBytes = std::uintmax_t{1} << 34;
 constexpr std::size_t kMaxArrays = 1'000'000;
 constexpr std::uint64_t kMaxTransferBytes = std::uint64_t{1} << 30;
 
-// The kind that an identification word says; NAIF/DAF is the word of files from before 1996, SPK or CK. Empty: none.
+// Returns the kind in an identification word. Files from before 1996 have NAIF/DAF and are SPK or CK. Empty:
+// none.
 std::string kind_by(std::string_view word) {
     if (word == "NAIF/DAF") return "SPK";
     return word.starts_with("DAF/") ? std::string(word.substr(4)) : std::string();
@@ -56,7 +57,7 @@ void DafFile::require_kind(std::int64_t doubles, std::int64_t integers) const {
              " integers; accepted: 2 and " + std::to_string(integers_of(kind_)));
 }
 
-// The arrays stand in decoded_ one behind the other, in the file's order.
+// The arrays are in decoded_ one after the other, in the file's order.
 void DafFile::read_transfer() {
     if (size_ > kMaxTransferBytes)
         fail("has " + std::to_string(size_) + " bytes of transfer format; accepted: at most 1 GiB");
@@ -87,7 +88,7 @@ void DafFile::read_transfer_array(TransferText& text, std::size_t integers) {
     for (double& word : array.doubles) word = text.next_double();
     for (std::size_t i = 2; i < integers; ++i) array.integers.push_back(text.next_integer());
     array.first = decoded_.size() + 1;
-    // In blocks, each after its count.
+    // Blocks, each after its count.
     while (left > 0) {
         const std::int64_t count = text.next_count();
         if (count < 1 || count > left)
@@ -120,7 +121,8 @@ void DafFile::open() {
     else if (format == "LTL-IEEE")
         numbers_.big_endian = false;
     else if (format.empty() || format.find_first_not_of('\0') == std::string::npos)
-        // Older files do not say: the number of doubles in a summary is 2 in one order and 2^25 in the other.
+        // Older files do not say. The number of doubles in a summary reads as 2 in one byte order and as 2^25
+        // in the other.
         numbers_.big_endian = NaifNumbers{true}.integer_at(record.data() + 8) == 2;
     else
         fail("found the binary format " + in_quotes(format) + "; accepted: LTL-IEEE, BIG-IEEE");

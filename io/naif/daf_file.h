@@ -1,10 +1,12 @@
 #pragma once
-// DAF, the container of SPICE's binary kernels (SPK, CK, binary PCK): arrays of doubles, each with a summary and a name.
+// DAF, the container of SPICE's binary kernels (SPK, CK, binary PCK): arrays of doubles, each with a summary
+// and a name.
 //
-// NAIF, "Double Precision Array Files (DAF) Required Reading": records of 1024 bytes; the first is the file record, then
-// come reserved records with comments, which are passed over, then doubly linked summary records with a record of names
-// after each, and the arrays. Words count from 1. Both byte orders are read, and the transfer format (transfer_text.h); a
-// binary file that was transferred as text, and so is damaged, is known by the file record's FTP string.
+// NAIF, "Double Precision Array Files (DAF) Required Reading". Records are 1024 bytes. The file record comes
+// first, then reserved records with comments, which are skipped, then doubly linked summary records, each
+// followed by a record of names, and the arrays. Words are numbered from 1. Both byte orders and the transfer
+// format (transfer_text.h) are read. The FTP string in the file record reveals a binary file that was damaged
+// by a transfer as text.
 
 #include <array>
 #include <cstdint>
@@ -20,24 +22,25 @@
 
 namespace hilcam {
 
-// An array's summary.
+// The summary of an array.
 struct DafArray {
-    std::string name;                    // without blanks at its end
-    std::array<double, 2> doubles{};     // start and stop in all kernels
-    std::vector<std::int32_t> integers;  // without the two words' addresses, which are the next two
+    std::string name;                    // without trailing blanks
+    std::array<double, 2> doubles{};     // start and stop, in all kernels
+    std::vector<std::int32_t> integers;  // without the last two, the addresses `first` and `last`
     std::uint64_t first = 0, last = 0;
     std::uint64_t size() const { return last - first + 1; }
 };
 
 class DafFile {
   public:
-    // Opens a file and reads its summaries. Throws InputError, one line that names the file, for what is no DAF, is
-    // cut short, or has arrays that overlap: read one by one they would take more memory than the file. Owner thread.
+    // Opens a file and reads its summaries. Throws InputError, one line that names the file, when it is not a
+    // DAF, is truncated, or has arrays that overlap: reading these one by one would take more memory than the
+    // file. Owner thread.
     explicit DafFile(const std::filesystem::path& file);
-    // The same from memory; `name` stands for the file in messages.
+    // Reads the same from memory. name: stands for the file in messages.
     DafFile(std::string bytes, std::string name);
 
-    // SPK, CK or PCK.
+    // Returns SPK, CK or PCK.
     const std::string& kind() const { return kind_; }
     const std::string& name() const { return name_; }
     const std::vector<DafArray>& arrays() const { return arrays_; }
@@ -46,7 +49,7 @@ class DafFile {
 
   private:
     std::string name_, kind_;
-    std::optional<InputFile> file_;  // none: bytes_
+    std::optional<InputFile> file_;  // none: the file is in bytes_
     std::string bytes_;
     std::uint64_t size_ = 0;
     NaifNumbers numbers_;

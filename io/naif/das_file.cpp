@@ -13,9 +13,10 @@ namespace {
 constexpr auto kDasRecord = static_cast<std::int64_t>(kNaifRecordBytes);
 // Bytes of a character, a double, an integer.
 constexpr std::array<std::int64_t, 3> kNumberBytes = {1, 8, 4};
-// A directory is 256 integers: the directory before and the next, least and greatest address of each kind, the kind
-// of the first cluster, and its number of records; then those of the others, negative where the kind is the one
-// before in the circle characters, doubles, integers, positive where it is the next.
+// A directory is 256 integers: the previous and the next directory, the least and greatest address of each
+// kind, the kind of the first cluster and its number of records, then those of the other clusters. These
+// counts give the kind by their sign, in the cycle characters, doubles, integers: positive is the next kind,
+// negative the previous one.
 constexpr std::size_t kNextDirectory = 1, kAddressRanges = 2, kFirstKind = 8, kClusterCounts = 9,
                       kDirectoryIntegers = 256;
 
@@ -49,7 +50,7 @@ DasFile::DasFile(std::string_view bytes, std::string name) : bytes_(bytes), name
     read_directories(2 + reserved + comments);
 }
 
-// Comments and characters are passed over; doubles and integers stand in blocks, each with its count.
+// Comments and characters are skipped; doubles and integers are in blocks, each after its count.
 void DasFile::read_transfer() {
     is_transfer_ = true;
     TransferText text(bytes_, name_);
@@ -92,7 +93,7 @@ std::vector<T> DasFile::decoded(const std::vector<T>& all, const char* what, std
 
 void DasFile::fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
-// Records count from 1.
+// Records are numbered from 1.
 const char* DasFile::record_at(std::int64_t record, std::int64_t count) const {
     const auto records = static_cast<std::int64_t>(bytes_.size()) / kDasRecord;
     if (record < 2 || count < 0 || record - 1 > records - count)

@@ -1,11 +1,11 @@
 #pragma once
-// DAS, the container of SPICE's shape kernels: characters, doubles and integers, each numbered from 1 over the whole
-// file.
+// DAS, the container of SPICE's shape kernels: characters, doubles and integers, each kind numbered from 1
+// over the whole file.
 //
-// NAIF, "Direct Access, Segregated (DAS) Required Reading": records of 1024 bytes; the first is the file record, then
-// come reserved records and comments, which are passed over, then directories, each before the clusters of records of
-// one kind that it lists. Both byte orders are read, and the transfer format (transfer_text.h); a binary file that was
-// transferred as text, and so is damaged, is known by the file record's FTP string.
+// NAIF, "Direct Access, Segregated (DAS) Required Reading". Records are 1024 bytes. The file record comes
+// first, then reserved records and comments, which are skipped, then directories. A directory lists the
+// clusters of records of one kind that follow it. Both byte orders and the transfer format (transfer_text.h)
+// are read. The FTP string in the file record reveals a binary file that was damaged by a transfer as text.
 
 #include <array>
 #include <cstdint>
@@ -19,11 +19,13 @@ namespace hilcam {
 
 class DasFile {
   public:
-    // Reads the directories. `bytes` are the whole file and stay the caller's; `name` stands for the file in messages.
-    // Throws InputError, one line that names the file, for what is no DAS file of shapes or is cut short.
+    // Reads the directories. bytes: the whole file, which must outlive this. name: stands for the file in
+    // messages. Throws InputError, one line that names the file, when it is not a DAS file of shapes or is
+    // truncated.
     DasFile(std::string_view bytes, std::string name);
 
-    // Returns so many numbers from an address on. Throws InputError where the file has no such addresses.
+    // Return `count` numbers from address `first` on. They throw InputError when the file has no such
+    // addresses.
     std::vector<std::int32_t> integers(std::int64_t first, std::int64_t count) const;
     std::vector<double> doubles(std::int64_t first, std::int64_t count) const;
     std::int64_t integer_count() const { return kinds_[2].last; }
@@ -32,11 +34,11 @@ class DasFile {
     [[noreturn]] void fail(const std::string& what) const;
 
   private:
-    // Records of one kind, one behind the other.
+    // Consecutive records of one kind.
     struct Cluster {
         std::int64_t first = 1;  // address of its first number
         std::int64_t numbers = 0;
-        std::uint64_t byte = 0;  // where it begins in the file
+        std::uint64_t byte = 0;  // offset in the file
     };
     struct Kind {
         std::vector<Cluster> clusters;

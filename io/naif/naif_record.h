@@ -1,6 +1,6 @@
 #pragma once
-// The file record that SPICE's binary kernels begin with, DAF and DAS alike, and numbers in either byte order (NAIF,
-// "Kernel Required Reading", "DAF Required Reading", "DAS Required Reading").
+// The file record that begins SPICE's binary kernels, both DAF and DAS, and numbers in either byte order
+// (NAIF, "Kernel Required Reading", "DAF Required Reading", "DAS Required Reading").
 
 #include <bit>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace hilcam {
 
 inline constexpr std::size_t kNaifRecordBytes = 1024;
 
-// The numbers of a kernel, which stand in the byte order of the machine that wrote it.
+// Reads numbers in the byte order of the machine that wrote the kernel.
 struct NaifNumbers {
     bool big_endian = false;
 
@@ -29,10 +29,10 @@ struct NaifNumbers {
     }
 };
 
-// Returns a text without the blanks and zeros at its end.
+// Returns a text without trailing blanks and zeros.
 std::string without_tail(std::string_view text);
-// False when the file record's string of all characters that transfers as text change was changed. Older files have
-// none.
+// Returns false when a transfer as text has changed the file: the FTP string of its file record holds all
+// characters that such a transfer changes. Older files have no such string and pass.
 bool arrived_as_binary(std::string_view record);
 
 }  // namespace hilcam

@@ -16,7 +16,7 @@ constexpr std::size_t kMaxTransferDigits = 16;
 // 16^256 is 2^1024, just beyond the largest double.
 constexpr int kMaxExponent = 300;
 
-// Hexadecimal digits in capitals, at most `most` of them.
+// Parses at most `most` hexadecimal digits in capitals.
 std::optional<std::uint64_t> hex_of(std::string_view digits, std::size_t most) {
     if (digits.empty() || digits.size() > most) return {};
     std::uint64_t value = 0;
@@ -81,7 +81,7 @@ void TransferText::skip_blanks() {
     fail("the file ends; accepted: a whole kernel in transfer format");
 }
 
-// Up to the line's end, behind which it goes on.
+// Returns the rest of the line and moves behind its end.
 std::string_view TransferText::rest_of_line() {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
     std::string_view line = text_.substr(at_, end - at_);

@@ -42,8 +42,8 @@ DragDensity density_at(double perigee_km) {
     return {s_km / kEarthRadius_km + 1, square(square((120 - s_km) / kEarthRadius_km))};
 }
 
-// Kepler's equation in the elements e cos w, e sin w, solved for E + w. Newton's steps, held below 0.95 rad,
-// to 1e-12 rad: as the theory prescribes.
+// Solves Kepler's equation in e cos w and e sin w for E + w, as the theory prescribes: Newton's steps,
+// limited to 0.95 rad, to 1e-12 rad.
 double solve_kepler(double u, double axn, double ayn) {
     double angle = u;
     for (int i = 0; i < 10; ++i) {
@@ -78,7 +78,7 @@ Sgp4::~Sgp4() = default;
 Sgp4::Sgp4(Sgp4&&) noexcept = default;
 Sgp4& Sgp4::operator=(Sgp4&&) noexcept = default;
 
-// Brouwer's mean motion from Kozai's.
+// Computes Brouwer's mean motion from Kozai's.
 void Sgp4::set_mean_motion() {
     const double beta2 = 1 - square(epoch_.eccentricity);
     const double d1 =
@@ -120,7 +120,7 @@ void Sgp4::set_drag() {
     }
     cubed_at_epoch_ = cube(1 + eta_ * std::cos(epoch_.mean_anomaly_rad));
     sin_anomaly_at_epoch_ = std::sin(epoch_.mean_anomaly_rad);
-    // Perigees below 220 km and deep space: drag to first order only.
+    // For perigees below 220 km and for deep space, drag is first-order only.
     simple_drag_ = perigee_er < 220 / kEarthRadius_km + 1 || kTurn_rad / n >= kDeepSpacePeriod_min;
     if (!simple_drag_) set_higher_drag(xi, s);
 }
@@ -136,7 +136,7 @@ void Sgp4::set_higher_drag(double xi, double s) {
     t5_ = 0.2 * (3 * d4_ + 12 * c1_ * d3_ + 6 * square(d2_) + 15 * c1_2 * (2 * d2_ + c1_2));
 }
 
-// Secular rates by J2, J2^2 and J4.
+// Computes the secular rates from J2, J2^2 and J4.
 void Sgp4::set_rates() {
     const double n = n0_rad_min_, theta = std::cos(epoch_.inclination_rad), theta2 = square(theta);
     const double theta4 = square(theta2), beta2 = 1 - square(epoch_.eccentricity), beta = std::sqrt(beta2);
@@ -169,7 +169,7 @@ Sgp4Status Sgp4::at(double minutes, StateVector& teme) const {
     return state_of(m, a_er, teme);
 }
 
-// Gravity's and drag's secular effects.
+// Applies the secular effects of gravity and drag.
 Sgp4Status Sgp4::secular(double t, MeanElements& m, double& a_er) const {
     m = {epoch_.eccentricity,
          epoch_.inclination_rad,
@@ -207,10 +207,10 @@ Sgp4Status Sgp4::secular(double t, MeanElements& m, double& a_er) const {
     return Sgp4Status::kOk;
 }
 
-// Long-period periodics, Kepler's equation, short-period periodics, and the axes.
+// Applies long-period periodics, Kepler's equation and short-period periodics, and rotates into the axes.
 Sgp4Status Sgp4::state_of(const MeanElements& m, double a, StateVector& teme) const {
     const double cosi = std::cos(m.inclination_rad), sini = std::sin(m.inclination_rad);
-    // Where the orbit is turned back into the equator 1 + cos i divides.
+    // 1 + cos i is a divisor below, and vanishes for a retrograde equatorial orbit.
     const double one_plus_cosi = std::abs(1 + cosi) > 1.5e-12 ? 1 + cosi : 1.5e-12;
     const double a_yn = -0.5 * (kJ3 / kJ2) * sini;
     const double l_n = 0.5 * a_yn * (3 + 5 * cosi) / one_plus_cosi;

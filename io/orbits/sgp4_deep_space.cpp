@@ -9,7 +9,7 @@ namespace {
 
 // The Earth's rotation [rad/min].
 constexpr double kSiderealRate = 4.37526908801129966e-3;
-// Below 3 degrees from the equator, either way round, the node's rate is left out.
+// Within 3 degrees of the equator, prograde or retrograde, the node's rate is left out.
 constexpr double kFlat_rad = 5.2359877e-2;
 constexpr double kStep_min = 720;
 
@@ -24,14 +24,14 @@ double sidereal_rad(double days_1950) {
 
 }  // namespace
 
-// The Sun or the Moon, as seen from the orbit's plane.
+// The Sun or the Moon, relative to the orbit's plane.
 struct DeepSpace::Body {
-    double cosg, sing, cosi, sini, cosh, sinh;  // perigee, inclination, node (against the orbit's)
+    double cosg, sing, cosi, sini, cosh, sinh;  // perigee, inclination, node (relative to the orbit's)
     double strength;                            // [rad/min]
     double anomaly_at_epoch, mean_motion, eccentricity;
 };
 
-// Products of direction cosines: what X, Z are in the theory.
+// Products of direction cosines: X and Z in the theory.
 struct DeepSpace::Geometry {
     double z1, z2, z3, z11, z12, z13, z21, z22, z23, z31, z32, z33, s5, s6, s7;
 };
@@ -39,7 +39,7 @@ struct DeepSpace::Geometry {
 DeepSpace::DeepSpace(const Sgp4Elements& epoch, const DeepSpaceRates& rates)
     : epoch_(epoch), rates_(rates), sidereal_at_epoch_rad_(sidereal_rad(epoch.epoch_days_1950)) {
     const double sin_node = std::sin(epoch.node_rad), cos_node = std::cos(epoch.node_rad);
-    // Days since 1900 January 0.5; the Moon's node and its orbit against the equator.
+    // Days since 1900 January 0.5; the Moon's node, and its orbit relative to the equator.
     const double day = epoch.epoch_days_1950 + 18261.5;
     const double moon_node = std::fmod(4.5236020 - 9.2422029e-4 * day, kTurn_rad);
     const double s = std::sin(moon_node), c = std::cos(moon_node);
@@ -70,7 +70,7 @@ DeepSpace::DeepSpace(const Sgp4Elements& epoch, const DeepSpaceRates& rates)
     if (n >= 8.26e-3 && n <= 9.24e-3 && epoch.eccentricity >= 0.5) set_half_day_resonance(theta);
 }
 
-// A body's secular rates and periodic terms.
+// Adds a body's secular rates and periodic terms.
 void DeepSpace::add_body(const Body& b, Periodics& p) {
     const double e = epoch_.eccentricity, e2 = e * e, beta2 = 1 - e2, beta = std::sqrt(beta2);
     const double sini = std::sin(epoch_.inclination_rad), cosi = std::cos(epoch_.inclination_rad);
@@ -131,7 +131,7 @@ void DeepSpace::add_body(const Body& b, Periodics& p) {
          -2 * s2 * (g.z23 - g.z21)};
 }
 
-// Orbits of a day: three terms in the mean longitude against the Earth.
+// Sets the resonance of one-day orbits: three terms in the mean longitude relative to the Earth.
 void DeepSpace::set_day_resonance(double theta) {
     constexpr double kQ22 = 1.7891679e-6, kQ31 = 2.1460748e-6, kQ33 = 2.2123015e-7;
     constexpr double kPhase2 = 0.13130908, kPhase4 = 2.8843198, kPhase6 = 0.37448087;
@@ -197,7 +197,7 @@ HalfDayG half_day_g(double e) {
 
 }  // namespace
 
-// Orbits of half a day and an eccentricity above 0.5: ten terms.
+// Sets the resonance of half-day orbits with an eccentricity above 0.5: ten terms.
 void DeepSpace::set_half_day_resonance(double theta) {
     constexpr double kRoot22 = 1.7891679e-6, kRoot32 = 3.7393792e-7, kRoot44 = 7.3636953e-9;
     constexpr double kRoot52 = 1.1428639e-7, kRoot54 = 2.1765803e-9;

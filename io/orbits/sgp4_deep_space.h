@@ -1,7 +1,7 @@
 #pragma once
-// SGP4's deep-space part, for periods of 225 minutes and longer: the Sun and the Moon, and the resonances of
-// orbits of a day or half a day with the Earth's tesseral harmonics. Sources as sgp4.h; constants from
-// Spacetrack Report No. 3, section DEEP, where they have no other names than these.
+// The deep-space part of SGP4, for periods of 225 minutes and longer: Sun, Moon, and the resonances of
+// one-day and half-day orbits with the Earth's tesseral harmonics. Sources as in sgp4.h; constants are from
+// Spacetrack Report No. 3, section DEEP, which gives them no other names.
 
 #include <array>
 
@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// Rates by the Earth's gravity alone [rad/min].
+// Rates from the Earth's gravity alone [rad/min].
 struct DeepSpaceRates {
     double mean_motion, mean_anomaly, perigee, node;
 };
@@ -18,15 +18,16 @@ class DeepSpace {
   public:
     DeepSpace(const Sgp4Elements& epoch, const DeepSpaceRates& rates);
 
-    // Secular rates by Sun and Moon, and resonance, on top of what the Earth's zonals do. t: minutes from
-    // epoch. A pure function: the resonance is integrated from epoch each time, in steps of 720 minutes.
-    // Loop.
+    // Adds the secular rates from Sun and Moon and the resonance to those from the Earth's zonal harmonics.
+    // t: minutes from epoch. A pure function: the resonance is integrated from epoch at each call, in steps
+    // of 720 minutes. Loop.
     void add_secular(double t, MeanElements& m) const;
-    // Periods of half a month and half a year (Lyddane's form at inclinations below 0.2 rad). Loop.
+    // Adds terms with periods of half a month and half a year (Lyddane's form at inclinations below 0.2 rad).
+    // Loop.
     void add_periodics(double t, MeanElements& m) const;
 
   private:
-    // The periodic terms of one perturbing body, by the theory's names.
+    // The periodic terms of one perturbing body, with the theory's names.
     struct Periodics {
         double anomaly_at_epoch, mean_motion, eccentricity;  // elements of the body
         double e2, e3, i2, i3, l2, l3, l4, g2, g3, g4, h2, h3;
@@ -34,7 +35,8 @@ class DeepSpace {
     struct Change {
         double e = 0, i = 0, l = 0, g = 0, h = 0;  // terms of e, i, M, perigee, node (the last times sin i)
     };
-    // amplitude * sin(perigee_times * perigee + times * lambda - phase), in the rate of the mean motion.
+    // amplitude * sin(perigee_times * perigee + times * lambda - phase), a term in the rate of the mean
+    // motion.
     struct ResonanceTerm {
         double amplitude = 0;
         int perigee_times = 0, times = 0;
@@ -58,7 +60,7 @@ class DeepSpace {
     void set_day_resonance(double theta);
     void set_half_day_resonance(double theta);
     static void change_of(const Periodics& body, double t, Change& change);
-    // The resonance's longitude and mean motion at t.
+    // Integrates the resonance's longitude and mean motion to t.
     void integrate(double t, double& lambda, double& n) const;
 };
 

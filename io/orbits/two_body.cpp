@@ -34,10 +34,10 @@ StateVector two_body_state(const StateVector& state, double gravity, double seco
     const Vec3d r0 = state.position_m, v0 = state.velocity_m_s;
     const double distance = length(r0), radial = dot(r0, v0);
     const double alpha = 2 * gravity / distance - dot(v0, v0);  // gravity / a
-    // Whole periods of an ellipse are left out.
+    // Whole periods of an ellipse are removed.
     if (alpha > 0) seconds = std::remainder(seconds, kTurn_rad * gravity / (alpha * std::sqrt(alpha)));
-    // Kepler's equation in s, which rises: distance c1 s + radial c2 s^2 + gravity c3 s^3 = seconds. Its derivative by s
-    // is the distance at s.
+    // Kepler's equation in s, a rising function: distance c1 s + radial c2 s^2 + gravity c3 s^3 = seconds.
+    // Its derivative with respect to s is the distance at s.
     struct Point {
         double time, distance;
         Stumpff c;
@@ -47,7 +47,7 @@ StateVector two_body_state(const StateVector& state, double gravity, double seco
         return Point{s * (distance * c.c1 + s * (radial * c.c2 + s * gravity * c.c3)),
                      distance * c.c0 + s * (radial * c.c1 + s * gravity * c.c2), c};
     };
-    // A bracket, then Newton's steps that stay inside it.
+    // A bracket, then Newton's steps inside it.
     double low = 0, high = 0, step = seconds / distance;
     if (step == 0) return state;
     for (int i = 0; i < 200; ++i, step *= 2) {

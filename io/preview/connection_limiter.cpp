@@ -29,8 +29,8 @@ struct Connection {
     std::uint64_t received_bytes;
 };
 
-// The library keeps its sockets to itself, so they are found among the process's descriptors: TCP, connected,
-// with our port at this end.
+// The library hides its sockets, so they are found among the process's descriptors: connected TCP sockets
+// with our local port.
 bool find_connection(int fd, std::uint16_t port, Connection& found) {
     sockaddr_in here{}, there{};
     socklen_t length = sizeof here;
@@ -45,8 +45,7 @@ bool find_connection(int fd, std::uint16_t port, Connection& found) {
     return true;
 }
 
-// True when all of a request has come, as far as headers go: who has sent that and waits for a worker does
-// not dawdle.
+// True when the headers of a request are complete: its client waits for a worker and is not slow.
 bool has_request_unread(int fd) {
     std::array<char, 8192> bytes;
     const ssize_t size = recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
@@ -124,11 +123,12 @@ void ConnectionLimiter::look() {
         const auto known = first_seen_.find(peer);
         const auto since = known == first_seen_.end() ? now : known->second;
         still_there.emplace(peer, since);
-        // A worker that has read a request may be kept from telling so: what was seen unread once has come.
+        // A worker that has read a request may report it late, so a request seen complete before counts as
+        // heard.
         const bool heard = heard_.contains(peer) || has_request_unread(c.fd);
         if (heard) still_heard.insert(peer);
         const bool dawdles = !heard && now - since > patience;
-        // The library sees the end of the connection and closes it.
+        // The library notices the end of the connection and closes it.
         if (ending_ || dawdles || now - since > limits_.age || c.received_bytes > limits_.received_bytes ||
             !limits_.allows(c.peer_address))
             shutdown(c.fd, SHUT_RDWR);

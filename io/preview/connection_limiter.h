@@ -1,7 +1,7 @@
 #pragma once
-// Ends connections of a TCP port of this process that last too long, send too much, take too long to send a
-// request, or come from somebody who may not: the HTTP library bounds neither the number of a request's
-// headers nor the time that a client may take to send them, byte by byte, and a worker waits with each.
+// Ends connections to a TCP port of this process that last too long, send too much, are slow to send a
+// request, or come from an address that is not allowed. The HTTP library limits neither the number of a
+// request's headers nor the time in which a client sends them, byte by byte, while a worker waits.
 
 #include <chrono>
 #include <condition_variable>
@@ -21,19 +21,19 @@ class ConnectionLimiter {
     struct Limits {
         std::chrono::milliseconds age;
         std::uint64_t received_bytes;
-        // Greatest time until a request is there; the shorter one holds while more than `crowd` are
-        // connected, so that others do not wait for those who dawdle.
+        // Longest time until a request is complete. The shorter one applies while more than `crowd` are
+        // connected, so that slow clients do not delay the others.
         std::chrono::milliseconds request_age, request_age_in_crowd;
         std::size_t crowd;
         std::function<bool(std::uint32_t address)> allows;  // host order
     };
     ~ConnectionLimiter() { stop(); }
 
-    // `port` as bound. Looks every 50 ms.
+    // port: as bound. Checks connections every 50 ms.
     void start(std::uint16_t port, const Limits& limits);
-    // The request of this peer has come. Any thread.
+    // Says that this peer's request is complete. Any thread.
     void heard(const std::string& address, int port);
-    // Ends all that are left, and goes on ending new ones until stop().
+    // Ends all connections, and new ones until stop().
     void end_all();
     void stop() noexcept;
 

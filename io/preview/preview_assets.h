@@ -1,5 +1,5 @@
 #pragma once
-// The page's files, which are in the program: it is one file.
+// The page's files, which are compiled into the program.
 
 #include <span>
 #include <string_view>
@@ -7,11 +7,11 @@
 namespace hilcam {
 
 struct PreviewAsset {
-    const char* path;  // path by which it is asked for
+    const char* path;  // path in a request
     std::string_view text;
     const char* type;
 };
-// Any thread.
+// Returns all files. Any thread.
 std::span<const PreviewAsset> preview_assets();
 
 }  // namespace hilcam

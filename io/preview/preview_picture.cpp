@@ -17,7 +17,7 @@ void put(std::string& out, const T& value) {
     out.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Leap seconds are the server's to know. No text for no instant.
+// The server applies leap seconds, so the page need not know them. No text for no instant.
 void put_utc(std::string& out, TimeTai time) {
     constexpr std::size_t kBytes = 32;
     std::string text = time.ns == 0 ? std::string() : format_utc(time);

@@ -1,6 +1,6 @@
 #pragma once
-// A part of a frame as the preview's page reads it: a header of kPictureHeaderBytes, then rows of 16-bit
-// samples; everything little-endian. docs/preview.md has the header's layout.
+// A part of a frame in the form that the preview's page reads: a header of kPictureHeaderBytes, then rows of
+// 16-bit samples, all little-endian. docs/preview.md has the header's layout.
 
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@
 namespace hilcam {
 
 inline constexpr std::size_t kPictureHeaderBytes = 208;
-// The most samples of one answer: larger parts are reduced further.
+// The most samples in one answer; larger parts are reduced further.
 inline constexpr std::int64_t kMaxPictureSamples = 1 << 21;
 
 struct PictureSource {
@@ -21,10 +21,11 @@ struct PictureSource {
     const FrameRecord& record;
 };
 
-// The request cut to the frame, its step raised until the answer is small enough; never empty. Corners are
-// multiples of the step.
+// Returns the request clipped to the frame, with its step raised until the answer is small enough; never
+// empty. Corners are multiples of the step.
 PictureRequest fit_to_frame(PictureRequest request, int width, int height);
-// A sample is the mean of its block, rounded to nearest; of what is there of it at the frame's edge.
+// Encodes a part. A sample is the mean of its block, rounded to nearest; at the frame's edge, of the pixels
+// that exist.
 std::string encode_picture(const PictureSource& source, const PictureRequest& fitted,
                            const std::string& color_pattern);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The preview's working threads. Jobs beyond a number let who brings them wait: the thread that accepts
-// connections, whose backlog in the kernel then refuses the rest.
+// The preview's worker threads. When too many jobs wait, add() blocks the thread that accepts connections,
+// and the kernel's backlog then refuses further ones.
 
 #include <condition_variable>
 #include <cstddef>
@@ -22,14 +22,14 @@ class BoundedPool {
     }
     ~BoundedPool() { stop(); }
 
-    // Waits for room.
+    // Adds a job; blocks until there is room.
     void add(std::function<void()> job) {
         std::unique_lock lock(mutex_);
         room_.wait(lock, [&] { return jobs_.size() < max_waiting_; });
         jobs_.push_back(std::move(job));
         jobs_there_.notify_one();
     }
-    // Jobs that are there are still done. Idempotent.
+    // Finishes the jobs in the queue and ends the threads. Idempotent.
     void stop() {
         {
             const std::lock_guard lock(mutex_);

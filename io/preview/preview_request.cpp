@@ -53,7 +53,7 @@ bool parse_flag(std::string_view key, std::string_view text) {
     return text == "1";
 }
 
-// One of a list of words, as the enum whose values count them.
+// Parses one of a list of words into the enum with these indices.
 template <class Enum, std::size_t N>
 Enum parse_word(std::string_view key, std::string_view text, const std::array<std::string_view, N>& words) {
     std::string accepted;

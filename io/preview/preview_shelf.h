@@ -1,6 +1,6 @@
 #pragma once
-// The shelf keeps what the preview's page comes back for: frames that a viewer has frozen, and lines of
-// truth. Both are bounded; the oldest goes first. Any thread but the loop.
+// Keeps what the preview's page asks for later: frames that a viewer has frozen, and lines of truth. Both are
+// bounded; the oldest is dropped first. Any thread but the loop.
 
 #include <algorithm>
 #include <chrono>
@@ -19,9 +19,9 @@ namespace hilcam {
 class PreviewShelf {
   public:
     using Frame = std::shared_ptr<const PreviewSlot::Frame>;
-    // A frozen frame stays until so many others have been frozen.
+    // A frozen frame stays until this many others have been frozen.
     static constexpr std::size_t kMaxFrames = 4;
-    // A frame's truth is asked for as soon as the frame is there.
+    // Few lines suffice, because a frame's truth is requested right after the frame.
     static constexpr std::size_t kMaxLines = 8;
 
     void keep(const PreviewSlot::Frame& frame) {
@@ -31,7 +31,7 @@ class PreviewShelf {
         if (frames_.size() == kMaxFrames) frames_.pop_front();
         frames_.push_back(std::move(copy));
     }
-    // Null when it is not, or no longer, here.
+    // Returns the frame; null when it is not here or was dropped.
     Frame find(std::uint64_t id) const {
         const std::lock_guard lock(mutex_);
         for (const Frame& frame : frames_)
@@ -47,7 +47,7 @@ class PreviewShelf {
         }
         news_.notify_all();
     }
-    // Waits for it; empty when it does not come in time.
+    // Waits for a frame's line; empty when it does not come in time.
     std::string line_of(std::uint64_t frame, std::chrono::nanoseconds patience) {
         std::unique_lock lock(mutex_);
         std::string found;

@@ -45,8 +45,8 @@ void PreviewSlot::copy(const DnImage& frame, const FrameRecord& record) noexcept
     full_.release();
 }
 
-// A camera that waits for a trigger takes no other frame before: what is wanted of the next one changes now.
-// If the loop is copying at this moment, that frame comes and the next is asked for anew.
+// A camera that waits for a trigger takes no other frame first, so the wish must change at once. If the loop
+// is copying at this moment, that frame arrives and the next one is asked for again.
 void PreviewSlot::ask_for_truth(Clock::time_point deadline) {
     truth_until_ = std::max(truth_until_, deadline);
     State plain = State::kWanted;

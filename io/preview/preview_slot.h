@@ -1,8 +1,9 @@
 #pragma once
-// The newest frame, from the loop to the preview's threads: copied only when it is asked for.
+// The newest frame, from the loop to the preview's threads, copied only on request.
 //
-// Two buffers change places: the loop fills one while readers have the other. The loop never waits: it copies
-// if and only if a frame is wanted, and somebody who wants another one waits until the last is handed over.
+// There are two buffers, one filled by the loop and one read by the threads, which are swapped. The loop
+// never waits: it copies only when a frame is wanted. A reader that wants another frame waits for the
+// hand-over.
 
 #include <atomic>
 #include <chrono>
@@ -17,12 +18,12 @@
 
 namespace hilcam {
 
-// Nice value of the preview's threads, so that neither a viewer nor a flood of requests takes the processor
-// from the loop. 0: as others, 19: the least.
+// Nice value of the preview's threads, from 0 (as other threads) to 19 (least), so that neither viewers nor a
+// flood of requests take the processor from the loop.
 inline constexpr int kPreviewNiceness = 15;
-// The name by which `top -H` shows them.
+// Name in `top -H`.
 inline constexpr const char* kPreviewThreadName = "preview";
-// The calling thread is one of the preview's from now on.
+// Gives the calling thread that name and nice value.
 void become_preview_thread() noexcept;
 
 class PreviewSlot {
@@ -33,27 +34,27 @@ class PreviewSlot {
         FrameRecord record;
     };
 
-    // Room for frames of up to `max_samples`; at most one copy per `min_interval`.
+    // Holds frames of up to `max_samples`; makes at most one copy per `min_interval`.
     PreviewSlot(std::size_t max_samples, std::chrono::nanoseconds min_interval);
     ~PreviewSlot() { stop(); }
 
     void start();
-    // Wakes all who wait. Idempotent.
+    // Wakes all waiting threads. Idempotent.
     void stop() noexcept;
 
-    // Loop, one thread: no lock, no allocation.
+    // Offers a frame. Loop, one thread: no lock, no allocation.
     void put(const DnImage& frame, const FrameRecord& record) noexcept {
         const State state = state_.load(std::memory_order_acquire);
         if (state == State::kWanted || (state == State::kWantedWithTruth && record.has_truth))
             copy(frame, record);
     }
-    // True while a frame is waited for whose truth is told. Loop.
+    // True while a reader waits for a frame with truth. Loop.
     bool wants_truth() const noexcept {
         return state_.load(std::memory_order_relaxed) == State::kWantedWithTruth;
     }
-    // Waits until there is a frame with another id than `after`, then calls read(frame) with the lock held.
-    // False when none came in time. with_truth: while it waits, for one whose truth is told; when time is up
-    // any will do. Any thread but the loop.
+    // Waits for a frame with another id than `after`, then calls read(frame) with the lock held. False when
+    // none came in time. with_truth: prefers a frame with truth and accepts any when time is up. Any thread
+    // but the loop.
     template <class Read>
     bool wait_for(std::uint64_t after, std::chrono::nanoseconds patience, bool with_truth, Read&& read) {
         std::unique_lock lock(mutex_);
@@ -72,7 +73,7 @@ class PreviewSlot {
 
   private:
     using Clock = std::chrono::steady_clock;
-    // kIdle and kFull: the hand-over thread owns `incoming_`; else the loop does.
+    // The hand-over thread owns `incoming_` in kIdle and kFull, the loop otherwise.
     enum class State : std::uint8_t { kIdle, kWanted, kWantedWithTruth, kFull };
 
     void copy(const DnImage& frame, const FrameRecord& record) noexcept;
@@ -85,7 +86,7 @@ class PreviewSlot {
     std::counting_semaphore<> full_{0};
     std::atomic<std::uint64_t> copies_{0};
 
-    std::mutex mutex_;  // guards what follows
+    std::mutex mutex_;  // guards the following members
     std::condition_variable asked_, news_;
     Frame shown_;
     Clock::time_point asked_until_{}, truth_until_{};

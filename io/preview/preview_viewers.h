@@ -1,5 +1,5 @@
 #pragma once
-// The viewers of the preview: the page's own numbers, forgotten after a while. Any thread.
+// The viewers of the preview, by a number that each page chooses; forgotten after a while. Any thread.
 
 #include <algorithm>
 #include <chrono>
@@ -15,8 +15,8 @@ class PreviewViewers {
     static constexpr std::chrono::milliseconds kInterval{66};  // 15 pictures/s
     static constexpr std::size_t kMax = 16;
 
-    // Waits so that a viewer gets no more than 15 answers a second. False when there are too many
-    // viewers or requests.
+    // Waits so that a viewer gets at most 15 answers a second. False when there are too many viewers or
+    // requests.
     bool admit(std::uint64_t viewer) {
         Clock::time_point turn;
         {
@@ -26,7 +26,7 @@ class PreviewViewers {
             const auto known = turns_.find(viewer);
             if (known == turns_.end() && turns_.size() == kMax) return false;
             turn = known == turns_.end() ? now : std::max(now, known->second + kInterval);
-            // Many requests of one viewer at once: they may not queue up.
+            // Refuses a queue of simultaneous requests from one viewer.
             if (turn - now > 2 * kInterval) return false;
             turns_[viewer] = turn;
         }

@@ -26,16 +26,16 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLongestPoll = 2s;
-// A frame's truth is on its way when the frame is there.
+// A frame's truth follows soon after the frame.
 constexpr auto kTruthPoll = 1s;
-// A viewer has a poll for pictures and one for figures under way, and now and then an order.
+// A viewer has one open request for pictures, one for figures, and now and then an order.
 constexpr std::size_t kWorkers = 24;
-// Those who dawdle with their requests are ended together, however many: so many do not keep others out.
+// Slow clients are ended together, however many there are, so they do not keep others out.
 constexpr std::size_t kMaxConnectionsWaiting = 232;
 constexpr int kBacklog = 128;  // in the kernel, behind those
 constexpr std::size_t kMaxBody_bytes = 4096;
 
-// Browsers send less than 2 KB, at once; a picture over a slow line takes its time.
+// Browsers send less than 2 KB, at once; a picture on a slow line takes time.
 ConnectionLimiter::Limits connection_limits(const AllowList& allow) {
     return {.age = 30s,
             .received_bytes = 128 * 1024,
@@ -45,7 +45,7 @@ ConnectionLimiter::Limits connection_limits(const AllowList& allow) {
             .allows = [&allow](std::uint32_t address) { return allow.allows(address); }};
 }
 
-// The library's pool takes any number of connections.
+// The library's own pool accepts any number of connections.
 class Workers : public httplib::TaskQueue {
   public:
     // bool in newer versions of the library.
@@ -67,7 +67,7 @@ std::string machine_name() {
     return name;
 }
 
-// Returns the length of the body as announced; a text that is no number counts as too many.
+// Returns the announced length of the body; a text that is not a number counts as too long.
 std::uint64_t body_bytes(const httplib::Request& request) {
     const std::string text = request.get_header_value("Content-Length");
     return text.empty() ? 0 : parsed_as<std::uint64_t>(text).value_or(~std::uint64_t{0});
@@ -126,7 +126,7 @@ struct PreviewSink::Implementation {
     std::string machine = machine_name();
     PreviewSlot slot;
     PreviewShelf shelf;
-    std::mutex encoding;  // one file at a time: it takes memory and time
+    std::mutex encoding;  // one file at a time, because encoding takes memory and time
     PreviewViewers viewers;
     ConnectionLimiter guard;
     httplib::Server server;
@@ -145,7 +145,7 @@ struct PreviewSink::Implementation {
     void order_fault(const httplib::Request& request, httplib::Response& response);
 };
 
-// Refuses strangers before the body is read. True: answered.
+// Refuses clients that are not allowed before the body is read. True: answered.
 bool PreviewSink::Implementation::refuse_stranger(const httplib::Request& request,
                                                   httplib::Response& response) {
     const std::string host = request.get_header_value("Host");
@@ -184,7 +184,7 @@ void PreviewSink::Implementation::send_picture(const httplib::Request& request, 
     answer(std::move(picture), response);
 }
 
-// One part of the light of a frame, in the picture's form. It is not held.
+// Sends one part of a frame's light in the picture's form; the frame is not kept.
 void PreviewSink::Implementation::send_light(const PictureRequest& wanted, httplib::Response& response) {
     if (!context.light_parts) return refuse(response, 409, "light: nobody takes this camera's frames apart");
     if (const std::string why = context.light_parts->refusal(); !why.empty())
@@ -208,7 +208,7 @@ void PreviewSink::Implementation::answer(std::string picture, httplib::Response&
     response.body = std::move(picture);
 }
 
-// A frame that was held, or the newest there is.
+// Sends a kept frame, or the newest.
 void PreviewSink::Implementation::send_numbers(const httplib::Request& request, httplib::Response& response) {
     const NumbersRequest wanted = parse_numbers_request(query_of(request));
     if (!viewers.admit(wanted.viewer)) return refuse_crowd(response);
@@ -292,7 +292,7 @@ void PreviewSink::Implementation::add_routes() {
     server.Post("/fault", [this](const Request& q, Response& a) { order_fault(q, a); });
 
     server.set_pre_routing_handler([this](const Request& q, Response& a) {
-        // A POST's body, which nothing here needs long for, is still to come.
+        // A POST's body, which takes no time here, is still to come.
         if (q.method == "GET") guard.heard(q.remote_addr, q.remote_port);
         return refuse_stranger(q, a) ? httplib::Server::HandlerResponse::Handled
                                      : httplib::Server::HandlerResponse::Unhandled;
@@ -333,7 +333,7 @@ void PreviewSink::start() {
     parse_ipv4(i.config.address, "outputs.preview.address");
     i.add_routes();
     i.server.new_task_queue = [] { return new Workers; };
-    // One request a connection: an idle browser holds no worker.
+    // One request per connection, so an idle browser holds no worker.
     i.server.set_keep_alive_max_count(1);
     i.server.set_keep_alive_timeout(2);
     i.server.set_read_timeout(2s);
@@ -352,14 +352,14 @@ void PreviewSink::start() {
         throw DeviceError("outputs.preview: " + i.config.address + ":" + std::to_string(port) +
                           " cannot be had: " + std::strerror(errno) +
                           "; does another program use the port? (ss -ltnp)");
-    listen(listening, kBacklog);  // once more: the library's own backlog is 5
+    listen(listening, kBacklog);  // again, because the library's own backlog is 5
     i.slot.start();
     i.guard.start(port, connection_limits(i.allow));
     i.thread = std::thread([&server = i.server] {
         become_preview_thread();
         server.listen_after_bind();
     });
-    // stop() of a server that does not run yet would do nothing.
+    // stop() has no effect on a server that does not run yet.
     while (!i.server.is_running()) std::this_thread::sleep_for(1ms);
 }
 

@@ -1,15 +1,16 @@
 #pragma once
 // A web page with the live picture, the run's figures, the camera's settings and fault buttons
-// (docs/preview.md; the page itself is io/preview/).
+// (docs/preview.md; the page's files are in io/preview/).
 //
-// The loop copies a frame only when somebody is looking, and at most kMaxPictures_hz times a second: while
-// nobody looks, publish() is one atomic load. The server's threads cut and reduce the copy, at a lower
-// priority than the loop's.
+// The loop copies a frame only on request, at most once per PreviewViewers::kInterval; without viewers,
+// publish() is one atomic load. The server's threads clip and reduce the copy with a lower priority than the
+// loop's.
 //
-// What a client can do is bounded: kWorkers connections are served at a time and as many wait, one request
-// each; connection_limiter.h ends those that last or send too long. Requests that name another host than this
-// machine are refused (DNS rebinding), and those that change something unless they come from the page
-// itself. There are no passwords: beyond loopback a list says who may come.
+// Clients are limited. kWorkers connections are served at a time and kMaxConnectionsWaiting wait, with one
+// request each; connection_limiter.h ends those that last or send too long. A request that names a host other
+// than this machine is refused (DNS rebinding), and so is a request that changes something and does not come
+// from the page itself. There are no passwords: on addresses other than loopback, a list says which clients
+// may connect.
 
 #include <functional>
 #include <memory>
@@ -41,13 +42,13 @@ std::unique_ptr<FrameSink> make_sink(const PreviewConfig& config, const SinkCont
 
 class PreviewSink : public FrameSink, public TruthListener {
   public:
-    // `run`: what saved frames say of themselves. `status` gives the run's figures as JSON; called from the
-    // server's threads, several at a time, between start() and stop().
+    // run: for the notes in saved frames. status: returns the run's figures as JSON; the server's threads
+    // call it between start() and stop(), several at a time.
     PreviewSink(const PreviewConfig& config, const SinkContext& context, PictureRun run,
                 std::function<std::string()> status);
     ~PreviewSink() override;
 
-    // Throws InputError when the address is none, DeviceError when the port cannot be had.
+    // Throws InputError when the address is invalid, DeviceError when the port cannot be opened.
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     void stop() noexcept override;

@@ -17,14 +17,14 @@ namespace hilcam {
 namespace {
 
 constexpr mode_t kReadByAll = 0644;
-constexpr int kTries = 8;  // others may start and end meanwhile
+constexpr int kTries = 8;  // other programs may start and end meanwhile
 constexpr std::int64_t kReadersLook_ns = 1'000'000;
 
 std::string megabytes(double bytes) {
     return std::to_string(static_cast<std::int64_t>(bytes / 1e6 + 0.5)) + " MB";
 }
 
-// A reader that asks whether the writer lives holds a lock for a moment (tools/client/hilcam_shm.h).
+// A reader that tests whether the writer lives holds a lock for a moment (tools/client/hilcam_shm.h).
 bool is_held_by_a_writer(const Fd& memory) {
     for (int i = 0; i < kTries; ++i) {
         if (flock(memory.get(), LOCK_EX | LOCK_NB) == 0) return false;
@@ -33,7 +33,7 @@ bool is_held_by_a_writer(const Fd& memory) {
     return true;
 }
 
-// False also when there is no such name.
+// Returns false also when there is no such name.
 bool names(const std::string& path, const Fd& memory) {
     const Fd found(shm_open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC, 0));
     struct stat theirs {};
@@ -42,12 +42,13 @@ bool names(const std::string& path, const Fd& memory) {
            theirs.st_dev == ours.st_dev && theirs.st_ino == ours.st_ino;
 }
 
-// Removes a memory that a killed program has left, and tells its readers. InputError when it is another's.
+// Removes a memory that a killed program has left, and notifies its readers. Throws InputError when it is
+// another's.
 void take_over(const std::string& path) {
     const std::string key = "outputs.shm.name: found " + in_quotes(path.substr(1)) + ", ";
     const Fd old(shm_open(path.c_str(), O_RDWR | O_CLOEXEC, 0));
     if (!old) {
-        if (errno == ENOENT) return;  // it went meanwhile
+        if (errno == ENOENT) return;  // it was removed meanwhile
         throw InputError(key + "a shared memory of another user; accepted: a name that is free");
     }
     struct stat facts {};
@@ -80,7 +81,7 @@ void ShmSegment::create(const std::string& name, std::size_t bytes) {
     for (int i = 0; i < kTries && !fd_; ++i) {
         fd_ = Fd(shm_open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kReadByAll));
         if (fd_) {
-            // Whoever found it before it was locked may have taken it for a dead one's.
+            // A program that found it before it was locked may have treated it as abandoned.
             struct stat facts {};
             if (flock(fd_.get(), LOCK_EX | LOCK_NB) == 0 && fstat(fd_.get(), &facts) == 0 &&
                 facts.st_nlink > 0)
@@ -96,7 +97,7 @@ void ShmSegment::create(const std::string& name, std::size_t bytes) {
         try {
             take_over(path_);
         } catch (...) {
-            path_.clear();  // another's name stays
+            path_.clear();  // another program's name stays
             throw;
         }
     }
@@ -131,7 +132,7 @@ void ShmSegment::create(const std::string& name, std::size_t bytes) {
 void ShmSegment::remove() noexcept {
     if (data_) munmap(data_, bytes_);
     data_ = nullptr, bytes_ = 0;
-    // Somebody may have removed the name, and another program have taken it.
+    // The name may have been removed, and taken by another program.
     if (!path_.empty() && names(path_, fd_)) shm_unlink(path_.c_str());
     path_.clear();
     fd_.reset();

@@ -1,10 +1,11 @@
 #pragma once
-// A POSIX shared memory that this program writes, and whose name it holds by a lock while it lives.
+// A POSIX shared memory that this program writes. A lock on it holds the name while the program lives.
 //
-// The lock (flock) is the kernel's and goes with the program, however that ends: a memory of hilcam's that
-// nobody holds was left by a killed one and is replaced. Its readers are told that it has ended. What another
-// program holds, or hilcam has not made, is refused. All of the memory is taken at once, so that no write of a
-// frame can fail later. A memory that begins with zeros counts as one whose writer was killed while it started.
+// The kernel releases the lock (flock) however the program ends. A memory made by hilcam without a lock is
+// therefore left from a killed program: it is replaced, and its readers see that it has ended. A memory that
+// another program has locked, or that hilcam has not made, is refused. A memory that begins with zeros counts
+// as one whose writer was killed while it started. All memory is allocated at the start, so that no later
+// write of a frame can fail.
 
 #include <string>
 
@@ -20,18 +21,18 @@ class ShmSegment {
     ShmSegment(const ShmSegment&) = delete;
     ShmSegment& operator=(const ShmSegment&) = delete;
 
-    // Owner thread. All bytes are 0. Throws InputError when the name is another's, DeviceError when there is no
-    // room.
+    // Creates the memory, all bytes 0. Throws InputError when the name is taken, DeviceError when there is no
+    // room. Owner thread.
     void create(const std::string& name, std::size_t bytes);
-    // Takes the name away where it is still this memory's; who has the memory mapped keeps it. Idempotent. Owner
-    // thread.
+    // Removes the name if it is still this memory's; programs that have mapped the memory keep it.
+    // Idempotent. Owner thread.
     void remove() noexcept;
 
     std::byte* data() const { return data_; }
     ShmHeader& header() const { return *reinterpret_cast<ShmHeader*>(data_); }
 
   private:
-    std::string path_;  // "/hilcam", as shm_open has it
+    std::string path_;  // "/hilcam", as for shm_open()
     Fd fd_;
     std::byte* data_ = nullptr;
     std::size_t bytes_ = 0;

@@ -123,7 +123,7 @@ void ShmSink::publish(const DnImage& frame, const FrameRecord& record) noexcept 
                              (number - 1) % static_cast<std::uint64_t>(config_.slots) * slot_bytes_;
     auto& slot = *reinterpret_cast<ShmSlot*>(place);
     slot.sequence.store(2 * number - 1, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_release);  // nothing below is seen before it
+    std::atomic_thread_fence(std::memory_order_release);  // nothing below becomes visible before it
     std::memcpy(place + kShmSlotHeaderBytes, frame.data(), bytes);
     describe(record, slot);
     slot.width_px = static_cast<std::uint32_t>(frame.width());
@@ -142,7 +142,7 @@ void ShmSink::stop() noexcept {
     if (!segment_.data()) return;
     ShmHeader& header = segment_.header();
     header.ended.store(1, std::memory_order_release);
-    header.news.fetch_add(1, std::memory_order_release);  // a reader that is about to wait goes on
+    header.news.fetch_add(1, std::memory_order_release);  // wakes a reader that is about to wait
     wake_readers(header);
     segment_.remove();
 }

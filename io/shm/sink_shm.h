@@ -1,9 +1,10 @@
 #pragma once
-// Frames and their reports in a shared memory that other programs of this machine read without a copy.
+// Publishes frames with their reports in a shared memory, which other programs of this machine read without a
+// copy.
 //
-// The loop's own copy into the memory is the only one; there is no thread. Readers cannot hold the writer up
-// and are not known to it: one that is slower than the ring goes round finds that by the slot's sequence
-// (shm_ring.h). A futex wakes those who wait. Lockstep does not wait for readers.
+// The loop's own copy into the memory is the only one, and there is no thread. Readers cannot delay the
+// writer, which does not know them. A reader that is slower than the ring detects that from the slot's
+// sequence (shm_ring.h). A futex wakes waiting readers. Lockstep does not wait for readers.
 
 #include <atomic>
 #include <memory>
@@ -37,7 +38,7 @@ class ShmSink : public FrameSink {
             DeliveryListener* listener);
     ~ShmSink() override { stop(); }
 
-    // Throws InputError, DeviceError (shm_segment.h).
+    // Throws InputError and DeviceError (shm_segment.h).
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     void stop() noexcept override;

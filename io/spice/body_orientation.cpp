@@ -14,12 +14,13 @@ namespace {
 
 constexpr double kCentury_s = 36525 * kJulianDay_s;
 
-// Angles and their rates: the node's from the reference's x axis, the tilt, and along the equator from the node.
+// Angles and rates: of the node from the reference's x axis, of the tilt, and along the equator from the
+// node.
 struct Euler {
     double node_rad, tilt_rad, spin_rad, node_rate, tilt_rate, spin_rate;
 };
 
-// NAIF's [spin]3 [tilt]1 [node]3; the rate is the sum of those about the three axes.
+// Returns NAIF's [spin]3 [tilt]1 [node]3; the rate is the sum of the rates about the three axes.
 FrameTurn turn_of(const Euler& e) {
     const double cn = std::cos(e.node_rad), sn = std::sin(e.node_rad), ct = std::cos(e.tilt_rad),
                  st = std::sin(e.tilt_rad), cs = std::cos(e.spin_rad), ss = std::sin(e.spin_rad);
@@ -88,7 +89,7 @@ class TextOrientation final : public BodyOrientation {
     std::size_t coefficients_ = 2;
     double epoch_et_s_ = 0;
 
-    // The angles of the periodic terms belong to the barycentre of a planet's moons, or to the body itself.
+    // The angles of the periodic terms are the planet's barycentre's, or the body's own.
     void read_angles(const KernelPool& pool, int body) {
         const std::size_t most = std::max({ra_terms_.size(), dec_terms_.size(), meridian_terms_.size()});
         if (most == 0) return;

@@ -1,6 +1,6 @@
 #pragma once
-// Sums of Chebyshev polynomials of the first kind, their derivative and their integral, by Clenshaw's recurrence (Press et
-// al., Numerical Recipes, 3rd ed., 2007, section 5.8). No allocation.
+// Sums of Chebyshev polynomials of the first kind, with derivative and integral, by Clenshaw's recurrence
+// (Press et al., Numerical Recipes, 3rd ed., 2007, section 5.8). No allocation.
 
 #include <cstddef>
 #include <span>
@@ -11,7 +11,7 @@ struct ChebyshevValue {
     double value = 0, slope = 0;
 };
 
-// Returns sum c_n T_n(s) and its derivative by s, for s in [-1, 1].
+// Returns sum c_n T_n(s) and its derivative with respect to s, for s in [-1, 1].
 inline ChebyshevValue chebyshev_at(std::span<const double> c, double s) {
     // b_n = c_n + 2 s b_(n+1) - b_(n+2), and the same recurrence differentiated.
     double b1 = 0, b2 = 0, d1 = 0, d2 = 0;
@@ -23,7 +23,8 @@ inline ChebyshevValue chebyshev_at(std::span<const double> c, double s) {
     return {c[0] + s * b1 - b2, b1 + s * d1 - d2};
 }
 
-// Returns the integral of the sum from 0 to s: that of T_n is (T_(n+1) / (n + 1) - T_(n-1) / (n - 1)) / 2 for n > 1.
+// Returns the integral of the sum from 0 to s. That of T_n is (T_(n+1) / (n + 1) - T_(n-1) / (n - 1)) / 2 for
+// n > 1.
 inline double chebyshev_integral(std::span<const double> c, double s) {
     double before = 1, now = s, sum = 0;  // T_(n-1), T_n at s
     // T_n(0) is 1, 0, -1, 0, 1, ...

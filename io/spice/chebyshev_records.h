@@ -1,6 +1,5 @@
 #pragma once
-// Records of Chebyshev polynomials over spans of equal length, as SPK types 2 and 3 and binary PCK types 2 and 3 have
-// them.
+// Records of Chebyshev polynomials over spans of equal length, as in types 2 and 3 of SPK and of binary PCK.
 
 #include <array>
 
@@ -9,13 +8,13 @@
 
 namespace hilcam {
 
-// A record is the middle and half the length of its span [s], then the coefficients of each function. After the records:
-// the first one's begin, the length of each, the words of each, how many.
+// A record is the midpoint and half the length of its span [s], then the coefficients of each function. After
+// the records come the beginning of the first, the length of each, the words of each, and their number.
 class ChebyshevRecords {
   public:
     static constexpr std::size_t kMaxSets = 6;
 
-    // sets: how many functions there are, at most kMaxSets. Throws InputError.
+    // sets: number of functions, at most kMaxSets. Throws InputError.
     ChebyshevRecords(std::vector<double> words, const std::string& where, std::size_t sets)
         : words_(std::move(words), where), sets_(sets) {
         record_ = words_.count_from_end(2, "words of a record", static_cast<double>(2 + sets_), 1e6);
@@ -33,7 +32,7 @@ class ChebyshevRecords {
                             plain(words_[i * record_ + 1]) + "; accepted: above 0");
     }
 
-    // Returns the functions, and their slopes by second. Loop.
+    // Returns the functions and their slopes per second. Loop.
     std::array<ChebyshevValue, kMaxSets> at(double et_s) const {
         const double index = std::floor((et_s - begin_s_) / length_s_);
         const auto i = static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count_ - 1)));

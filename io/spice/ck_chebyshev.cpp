@@ -1,4 +1,4 @@
-// CK type 4: Chebyshev polynomials of quaternions and perhaps rates over spans of varying length.
+// CK type 4: Chebyshev polynomials of quaternions and, optionally, rates, over spans of varying length.
 
 #include <array>
 
@@ -9,8 +9,8 @@
 namespace hilcam {
 namespace {
 
-// A generic segment of NAIF's (SPICELIB, include file sgparam.inc): parts in any order, and at the end where they are. The
-// last word is how many such words there are.
+// Words at the end of a generic segment (SPICELIB, include file sgparam.inc), which give the places of its
+// parts; these may be in any order. The last word is the number of such words.
 enum FromEnd : std::size_t {
     kPacketBase = 7,
     kPackets = 6,
@@ -20,12 +20,13 @@ enum FromEnd : std::size_t {
     kReferences = 11
 };
 
-// The counts of coefficients of the seven polynomials are digits to the base 128 of one number, the first the lowest.
+// The seven polynomials' counts of coefficients are the digits, to the base 128, of one number; the first is
+// the lowest.
 constexpr double kCountBase = 128;
 constexpr std::size_t kMaxTerms = 64;
 
-// A packet: the middle and half the length of its span in ticks, the counts, the coefficients of the quaternion, those of
-// the rate. References are the spans' starts.
+// A packet has the middle and half the length of its span in ticks, the counts, the coefficients of the
+// quaternion, and those of the rate. References are the starts of the spans.
 class Chebyshev final : public CkSegment {
   public:
     Chebyshev(const CkSummary& about, std::vector<double> words)
@@ -86,7 +87,7 @@ class Chebyshev final : public CkSegment {
     double stop(std::size_t i) const { return words_[packets_[i].from] + words_[packets_[i].from + 1]; }
     void add_packet(std::size_t i, std::size_t base, std::size_t directory, std::size_t references) {
         const std::string name = "packet " + std::to_string(i + 1) + ": ";
-        // Places count from that of the first packet.
+        // Places are relative to the first packet's.
         const double offset = words_[directory + i] - words_[directory];
         if (!(offset >= 0 && offset < static_cast<double>(words_.size()))) words_.fail(name + "lies outside");
         Packet p;

@@ -5,13 +5,14 @@
 namespace hilcam {
 namespace {
 
-// Records of a quaternion at the span's start, the rate in the reference frame [rad/s] and the seconds of a tick; all
-// starts; all stops; a directory of a word for each hundred but the last. How many there are follows from the size.
+// Records of the quaternion at the span's start, the rate in the reference frame [rad/s] and the seconds per
+// tick; then all starts; all stops; a directory with a word for each hundred starts except the last. The
+// number of records follows from the size.
 class ConstantRates final : public CkSegment {
   public:
     ConstantRates(const CkSummary& about, std::vector<double> words)
         : CkSegment(about), words_(std::move(words), about.where) {
-        // size = 10 n + (n - 1) / 100 in whole numbers.
+        // size = 10 n + (n - 1) / 100, in integers.
         count_ = (100 * words_.size() + 100) / 1001;
         while (count_ > 0 && size_for(count_) > words_.size()) --count_;
         if (count_ == 0 || size_for(count_) != words_.size())

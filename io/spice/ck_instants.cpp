@@ -1,4 +1,5 @@
-// CK types 1 and 3: attitudes at instants; in type 3 a structure turns at a constant rate from one to the next.
+// CK types 1 and 3: attitudes at instants. In type 3 a structure rotates at a constant rate from one to the
+// next.
 
 #include <cmath>
 
@@ -7,9 +8,9 @@
 namespace hilcam {
 namespace {
 
-// Records of a quaternion and perhaps a rate in the reference frame [rad/s], their times, every hundredth of these (in
-// type 1 the middle between two); in type 3 then the intervals' first times, every hundredth of these, how many
-// intervals; how many records.
+// Records of a quaternion and, optionally, a rate in the reference frame [rad/s]; their times; every
+// hundredth of these (in type 1 the middle between two). Type 3 then has the intervals' first times, every
+// hundredth of these, and the number of intervals. The last word is the number of records.
 class Instants final : public CkSegment {
   public:
     Instants(const CkSummary& about, std::vector<double> words)
@@ -42,7 +43,7 @@ class Instants final : public CkSegment {
         const auto samples = intervals_.at(times(), ticks);
         if (!samples) return {};
         if (samples->end - samples->first == 1) return CkPointing{a, kept_rate(i)};
-        // The turn from one attitude to the next, about an axis in the reference frame.
+        // The rotation from one attitude to the next, about an axis in the reference frame.
         const std::size_t from = i + 1 < samples->end ? i : i - 1;
         const Quat start = from_naif(words_.piece(from * record_, 4));
         Quat step = from_naif(words_.piece((from + 1) * record_, 4)) * conjugate(start);

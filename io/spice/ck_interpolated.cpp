@@ -10,10 +10,11 @@
 namespace hilcam {
 namespace {
 
-// Packets: subtype 0 quaternion and derivative, 1 quaternion, 2 quaternion, derivative, rate and its derivative, 3
-// quaternion and rate. Derivatives are by seconds. Then the times with every hundredth, the intervals' first times with
-// every hundredth, the seconds of a tick, subtype, window, how many intervals, how many packets. Rates are taken from the
-// quaternions, which are what is shown.
+// Packets of subtype 0 have a quaternion and its derivative, 1 a quaternion, 2 a quaternion, its derivative,
+// the rate and its derivative, 3 a quaternion and the rate. Derivatives are per second. Then come the times
+// with every hundredth, the intervals' first times with every hundredth, the seconds per tick, subtype,
+// window, number of intervals, number of packets. Rates are computed from the quaternions, so that they agree
+// with the attitudes shown.
 class Interpolated final : public CkSegment {
   public:
     Interpolated(const CkSummary& about, std::vector<double> words)
@@ -52,7 +53,7 @@ class Interpolated final : public CkSegment {
         for (std::size_t i = 0; i < w.count; ++i) {
             Node<4>& node = nodes[i];
             Quat q = quaternion(w.first + i);
-            // Neighbours have the same sign, so that what lies between them is the short way.
+            // Neighbours get the same sign, so that the interpolation goes the short way.
             const double sign =
                 q.w * before.w + q.x * before.x + q.y * before.y + q.z * before.z < 0 ? -1 : 1;
             q = {sign * q.w, sign * q.x, sign * q.y, sign * q.z};

@@ -1,5 +1,6 @@
 #pragma once
-// The data types of CK segments, each in a ck_*.cpp. Each takes a segment's words, checks them and throws InputError.
+// The data types of CK segments, each in a ck_*.cpp. Each function takes a segment's words, checks them, and
+// throws InputError.
 
 #include <span>
 
@@ -17,20 +18,21 @@ std::unique_ptr<CkSegment> make_ck_chebyshev(const CkSummary& about, std::vector
 // Type 5.
 std::unique_ptr<CkSegment> make_ck_interpolated(const CkSummary& about, std::vector<double> words);
 
-// NAIF's quaternion of four words, normalised, as a rotation from the structure to the reference. One of length 0 is
-// refused when a segment is made.
+// Returns NAIF's quaternion of four words, normalised, as the rotation from the structure to the reference.
+// Segments with one of length 0 are refused when they are made.
 inline Quat from_naif(std::span<const double> q) {
     return conjugate(normalized(Quat{q[0], q[1], q[2], q[3]}));
 }
 
-// Samples in order of time, parted into intervals inside of which they may be interpolated (types 3 and 5).
+// Samples in time order, divided into intervals within which they may be interpolated (types 3 and 5).
 class CkIntervals {
   public:
-    // times: of the samples; starts: of the intervals, each that of a sample. Throws InputError by `words`.
+    // times: of the samples; starts: of the intervals, each the time of a sample. Throws InputError through
+    // `words`.
     CkIntervals(const SegmentWords& words, std::span<const double> times, std::span<const double> starts);
 
     std::vector<TickSpan> spans(std::span<const double> times) const;
-    // The samples of the interval that a time lies in, [first, end); none: in no interval. Loop.
+    // The samples [first, end) of the interval that contains a time; nothing when none does. Loop.
     struct Samples {
         std::size_t first = 0, end = 0;
     };

@@ -45,7 +45,7 @@ class DynamicReader {
     std::string code_, name_, where_;
     DynamicFrame out_;
 
-    // The variable's whole name, by the frame's code or name.
+    // Returns the variable's full name, with the frame's code or its name.
     std::optional<std::string> find(const std::string& item) const {
         for (const std::string& owner : {code_, name_})
             if (const std::string key = "FRAME_" + owner + "_" + item; pool_.find(key)) return key;
@@ -61,7 +61,7 @@ class DynamicReader {
         const std::string key = require(item);
         throw InputError(pool_.find(key)->where + ": " + key + ": " + what);
     }
-    // Upper case, without blanks.
+    // Returns a word in upper case without blanks.
     std::string word(const std::string& item) const {
         const std::string given = pool_.text(require(item)).value();
         std::string out;
@@ -118,7 +118,7 @@ class DynamicReader {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::string item = "ANGLE_" + std::to_string(i + 1) + "_COEFFS";
             const auto coefficients = pool_.numbers(require(item));
-            constexpr std::size_t kMax = 20;  // NAIF's reader takes as many
+            constexpr std::size_t kMax = 20;  // the limit of NAIF's reader
             if (!coefficients || coefficients->size() > kMax)
                 fail(item, "accepted: 1 to " + std::to_string(kMax) + " numbers");
             for (const double c : *coefficients) out_.angles_rad[i].push_back(unit * c);
@@ -203,7 +203,8 @@ std::optional<Mat3d> two_vector_axes(const DynamicFrame& f, Vec3d primary, Vec3d
     if (!(apart_rad > f.min_angle_rad && kPi - apart_rad > f.min_angle_rad)) return {};
     std::array<Vec3d, 3> axes;
     axes[first.axis] = normalized(p);
-    // The third axis, right-handed: first x second where they follow each other, else the other way around.
+    // The third axis makes the frame right-handed: first x second where they follow each other cyclically,
+    // else the reverse.
     const std::size_t third = 3 - first.axis - second.axis;
     const double sign = (first.axis + 1) % 3 == second.axis ? 1 : -1;
     axes[third] = sign * normalized(cross(p, s));

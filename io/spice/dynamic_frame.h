@@ -1,8 +1,9 @@
 #pragma once
-// Dynamic frames of frames kernels, class 5 (NAIF, "Frames Required Reading", section "Dynamic Frame Classes"): axes by two
-// vectors, by the Earth's equator or ecliptic of date, or by Euler's angles as polynomials of the time.
+// Dynamic frames of frames kernels, class 5 (NAIF, "Frames Required Reading", section "Dynamic Frame
+// Classes"): axes from two vectors, from the Earth's equator or ecliptic of date, or from Euler angles that
+// are polynomials of time.
 //
-// Not read: vectors to the nearest point of a body, aberration of vectors, product frames.
+// Not supported: vectors to the nearest point of a body, aberration of vectors, product frames.
 
 #include <array>
 #include <memory>
@@ -15,20 +16,21 @@
 
 namespace hilcam {
 
-// A vector that an axis of a frame is along, or towards.
+// A vector that an axis of a frame follows, exactly or as nearly as possible.
 struct FrameVector {
     enum class Kind { kPosition, kVelocity, kConstant } kind = Kind::kConstant;
-    std::size_t axis = 0;          // 0 to 2: x, y, z
-    double sign = 1;               // -1: the axis points away from it
-    int observer = 0, target = 0;  // bodies; positions and velocities of the target about the observer
-    int frame = 1;                 // the frame that velocities are measured in, and constants stand in
+    std::size_t axis = 0;  // 0 to 2: x, y, z
+    double sign = 1;       // -1: the axis points the opposite way
+    // Bodies; positions and velocities are the target's relative to the observer.
+    int observer = 0, target = 0;
+    int frame = 1;  // frame in which velocities are measured and constants are given
     Vec3d constant;
 };
 
 struct DynamicFrame {
     enum class Family { kTwoVector, kEarth, kEuler } family = Family::kEuler;
-    std::optional<double> frozen_et_s;  // the instant whose turn against the base it has for ever
-    bool inertial = false;              // turns with the time, but its rate is left out
+    std::optional<double> frozen_et_s;  // time at which the rotation to the base is frozen
+    bool inertial = false;              // rotates with time, but its rate is ignored
     // kTwoVector
     std::array<FrameVector, 2> vectors;
     double min_angle_rad = 1e-3;  // between the vectors; NAIF's value
@@ -45,9 +47,10 @@ std::shared_ptr<const DynamicFrame> read_dynamic_frame(const KernelPool& pool, c
                                                        const std::string& name,
                                                        const std::string& frame_where);
 
-// Returns the turn by Euler's angles from the frame into its base's axes, with its rate. Loop.
+// Returns the rotation from the frame into its base's axes by Euler angles, with its rate. Loop.
 FrameTurn euler_turn(const DynamicFrame& frame, double et_s);
-// Returns the axes by two vectors, in theirs; none where the vectors are too near to each other. Loop.
+// Returns the axes from two vectors, in the vectors' axes; nothing when these are too close to parallel.
+// Loop.
 std::optional<Mat3d> two_vector_axes(const DynamicFrame& frame, Vec3d primary, Vec3d secondary);
 
 }  // namespace hilcam

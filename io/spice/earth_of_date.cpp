@@ -26,7 +26,8 @@ Mat3d j2000_from(EarthAxes axes, double et_s) {
 }  // namespace
 
 FrameTurn earth_of_date(EarthAxes axes, double et_s) {
-    // The fastest term that matters goes around in 5.5 days: an hour leaves 4e-4 of it.
+    // The fastest term that matters has a period of 5.5 days; a step of an hour leaves an error of 4e-4 of
+    // it.
     constexpr double kStep_s = 3600;
     const Mat3d now = j2000_from(axes, et_s);
     return {now,

@@ -1,6 +1,7 @@
 #pragma once
-// The Earth's axes of date by the models that kernels name: precession of the IAU of 1976 (Lieske et al., Astron.
-// Astrophys. 58, 1, 1977) and nutation of 1980 (Seidelmann, Celest. Mech. 27, 79, 1982), without the frame bias.
+// The Earth's axes of date in the models that kernels name: the IAU's precession of 1976 (Lieske et al.,
+// Astron. Astrophys. 58, 1, 1977) and nutation of 1980 (Seidelmann, Celest. Mech. 27, 79, 1982), without the
+// frame bias.
 
 #include "io/spice/body_orientation.h"
 
@@ -10,10 +11,10 @@ enum class EarthAxes {
     kMeanEquator,   // mean equator and equinox of date
     kTrueEquator,   // true equator and equinox of date
     kMeanEcliptic,  // mean ecliptic and equinox of date
-    kTeme           // true equator; x is the mean equinox, as far as it lies in that plane: SGP4's axes
+    kTeme           // true equator; x is the mean equinox, projected onto it: SGP4's axes
 };
 
-// Returns the axes against J2000 with the rate at which they turn. Loop.
+// Returns the axes relative to J2000, with their rate. Loop.
 FrameTurn earth_of_date(EarthAxes axes, double et_s);
 
 }  // namespace hilcam

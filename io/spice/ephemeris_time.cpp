@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// J2000 as TAI, were it a date of TAI: 2000-01-01T12:00:00, 10957.5 days after TimeTai's epoch.
+// J2000's date and time read as TAI: 2000-01-01T12:00:00, 10957.5 days after TimeTai's epoch.
 constexpr TimeTai kNoonTai{946'728'000 * kSecond_ns};
 
 double periodic_s(const EphemerisTime& c, double seconds) {
@@ -20,7 +20,7 @@ double periodic_s(const EphemerisTime& c, double seconds) {
 }  // namespace
 
 double EphemerisTime::et_s(TimeTai time) const {
-    // Seconds and nanoseconds apart keep the digits of both.
+    // Seconds and nanoseconds are kept apart, to lose no digits of either.
     const std::int64_t ns = time - kNoonTai;
     const double tai_s =
         static_cast<double>(ns / kSecond_ns) + static_cast<double>(ns % kSecond_ns) * kSecondsPerNs;
@@ -29,7 +29,7 @@ double EphemerisTime::et_s(TimeTai time) const {
 }
 
 TimeTai EphemerisTime::tai(double et_s) const {
-    // int64 reaches from 1678 to 2262.
+    // int64 covers 1678 to 2262.
     constexpr double kReach_s = 8e9;
     if (!(et_s > -kReach_s)) et_s = -kReach_s;
     if (et_s > kReach_s) et_s = kReach_s;
@@ -38,7 +38,7 @@ TimeTai EphemerisTime::tai(double et_s) const {
     return kNoonTai + (static_cast<std::int64_t>(whole) * kSecond_ns + std::llround((tai_s - whole) * 1e9));
 }
 
-// The periodic part moves by 1e-13 s over its own size.
+// The periodic part changes by 1e-13 s over a time as long as itself.
 double EphemerisTime::tt_s(double et_s) const { return et_s - periodic_s(*this, et_s); }
 
 EphemerisTime ephemeris_time(const KernelPool& pool) {
@@ -50,7 +50,7 @@ EphemerisTime ephemeris_time(const KernelPool& pool) {
         const auto m = pool.require_numbers("DELTET/M", 2, "a leap-second kernel");
         out.m0_rad = m[0], out.m1_rad_s = m[1];
     }
-    // TDB is TT but for 2 ms, and TT - TAI is 32.184 s by definition.
+    // TDB is within 2 ms of TT, and TT - TAI is 32.184 s by definition.
     if (!(std::abs(out.delta_t_a_s - 32.184) < 1e-6) || !(std::abs(out.k_s) < 0.01) ||
         !(std::abs(out.eb) < 0.1) || !(std::abs(out.m0_rad) < 100) || !(std::abs(out.m1_rad_s) < 1e-3))
         throw InputError(

@@ -24,10 +24,11 @@ Mat3d turned_axes(int axis, double angle_rad) {
 
 namespace {
 
-// Codes of the frames IAU_<body> begin here, in a range that NAIF has for nobody; the planets' have NAIF's own codes, 10010
-// for the Sun's and on.
+// First code of the frames IAU_<body>, in a range that NAIF does not use. The Sun, planets and their moons
+// have NAIF's own codes, from 10010 on.
 constexpr int kIauBase = 1'200'000'000;
-// Bodies of the frames 10010 to 10080: the Sun, the planets, the Moon, then moons in the order of their codes.
+// Returns the body of the frames 10010 to 10080: the Sun, the planets, the Moon, then moons in the order of
+// their codes.
 std::optional<int> iau_body(int frame) {
     constexpr std::array kFirst = {10, 199, 299, 399, 499, 599, 699, 799, 899, 999, 301};
     constexpr std::array<std::pair<int, int>, 6> kMoons = {
@@ -50,8 +51,8 @@ std::string upper(std::string_view text) {
     return out;
 }
 
-// Axes of older ephemerides against those of DE-400, 402 and 403, which are J2000's: the appendix of "Frames Required
-// Reading".
+// Axes of older ephemerides relative to those of DE-400, 402 and 403, which are J2000's: appendix of "Frames
+// Required Reading".
 struct OldFrame {
     const char* name;
     int code;
@@ -82,12 +83,12 @@ std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     };
     const auto is = [&](const char* text, int number) { return name == text || code == number; };
     if (is("J2000", kJ2000Frame) || name == "ICRF") return made(kJ2000Frame, "J2000", {});
-    // Both lie within 0.03 arcsec of J2000; NAIF takes them for the same.
+    // Both are within 0.03 arcsec of J2000; NAIF treats them as J2000.
     if (is("DE-200", 14)) return made(14, "DE-200", {});
     if (is("DE-202", 15)) return made(15, "DE-202", {});
     // The obliquity of the ecliptic at J2000, Lieske 1979.
     if (is("ECLIPJ2000", 17)) return made(17, "ECLIPJ2000", turned_axes(1, 84381.448 * kArcsecond_rad));
-    // The frames before J2000, as "Frames Required Reading" has them in its appendix.
+    // The frames before J2000, from the appendix of "Frames Required Reading".
     const Mat3d b1950 = turned_axes(3, 1152.84248596724 * kArcsecond_rad) *
                         turned_axes(2, -1002.26108439117 * kArcsecond_rad) *
                         turned_axes(3, 1153.04066200330 * kArcsecond_rad);
@@ -95,7 +96,8 @@ std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     if (is("B1950", 2)) return made(2, "B1950", b1950);
     if (is("FK4", 3)) return made(3, "FK4", fk4);
     if (is("DE-118", 4)) return made(4, "DE-118", turned_axes(3, 0.53155 * kArcsecond_rad) * b1950);
-    // Mars's mean equator of J2000 and its node on the Earth's (pole: Davies et al., Celest. Mech. 46, 1989, 187).
+    // Mars's mean equator of J2000 and its node on the Earth's (pole: Davies et al., Celest. Mech. 46, 1989,
+    // 187).
     if (is("MARSIAU", 16))
         return made(
             16, "MARSIAU",
@@ -153,7 +155,7 @@ class FrameReader {
     int code_;
     std::string id_;
 
-    // A key of the offset, by the frame's code or name.
+    // Returns a key of the offset, with the frame's code or its name.
     std::string key(const FrameDefinition& frame, const char* item) const {
         for (const std::string& owner : {id_, frame.name})
             if (const std::string name = "TKFRAME_" + owner + "_" + item; pool_.find(name)) return name;
@@ -210,7 +212,7 @@ class FrameReader {
         }
         return out;
     }
-    // Kernels have rotations with few digits: they are made exact, within reason.
+    // Kernels give rotation matrices with few digits: they are orthonormalized if the error is small.
     static void check(FrameDefinition& f) {
         const Mat3d& m = f.relative_from_frame;
         const double error = std::max({std::abs(dot(m.x, m.x) - 1), std::abs(dot(m.y, m.y) - 1),

@@ -1,6 +1,6 @@
 #pragma once
-// The "generic segments" of SPK types 10 and 14: constants, packets of one size, and the times at which they begin, with
-// 17 numbers at the end that say where all of these lie; a place counts from the segment's first word.
+// The "generic segments" of SPK types 10 and 14: constants, packets of one size, and the times at which these
+// begin. The last 17 numbers give the addresses of the parts, counted from the segment's first word.
 
 #include <algorithm>
 
@@ -9,13 +9,14 @@
 namespace hilcam {
 
 struct GenericSegment {
-    // The place from the end of the number that says how the packet of a time is found; 3: the last that has begun.
+    // Position, from the end, of the rule that selects the packet of a time; 3: the last packet that has
+    // begun.
     static constexpr std::size_t kIndexKindFromEnd = 13;
 
     std::size_t constants = 0, times = 0, count = 0, packets = 0, packet_words = 0, words_before = 0;
 
-    // Throws InputError for a segment whose parts do not lie in it. constant_count: as many as its type has; least: the
-    // smallest packet.
+    // Throws InputError when a part is outside the segment. constant_count: the number that its type has;
+    // least: the smallest packet.
     GenericSegment(const SegmentWords& words, double constant_count, double least) {
         constexpr std::size_t kItems = 17;
         words.count_from_end(1, "items at its end", kItems, kItems);
@@ -33,7 +34,7 @@ struct GenericSegment {
             {constants + constants_there, times + count, packets + count * (packet_words + words_before)}));
         words.require_rising(times, count, "time");
     }
-    // Returns the place of a packet's first word.
+    // Returns the index of a packet's first word.
     std::size_t packet(std::size_t i) const {
         return packets + i * (packet_words + words_before) + words_before;
     }

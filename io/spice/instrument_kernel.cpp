@@ -66,7 +66,7 @@ class InstrumentReader {
     std::string prefix_;
 };
 
-// The unit is the one in which the number is a pixel's size.
+// The unit is the one in which the number is plausible for a pixel.
 std::optional<double> pitch_of(const InstrumentReader& r) {
     if (const auto pitch = r.number("PIXEL_PITCH", 1e-3, 0.1)) return *pitch * 1e-3;
     const auto size = r.number("PIXEL_SIZE", 1e-6, 100);

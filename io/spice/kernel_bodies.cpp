@@ -40,7 +40,7 @@ void KernelBodies::require(int body, const std::string& key) {
                          "; accepted: with a kernel that has it");
     for (const auto& segment : list) {
         frames_->require(segment->about().frame, segment->about().where);
-        // A centre without segments is where a chain may end: two bodies about it can still be compared.
+        // A chain may end at a centre without segments; two bodies relative to it can still be compared.
         if (has(segment->about().center)) require(segment->about().center, segment->about().where);
     }
 }
@@ -65,10 +65,10 @@ bool KernelBodies::step(int& body, double et_s, StateVector& out) const {
 }
 
 bool KernelBodies::state(int body, int center, double et_s, StateVector& out) const {
-    // The way from the centre up to where nothing more is known, then from the body until a place of that way.
+    // Follows the chain from the centre to its end, then from the body until it meets a place of that chain.
     struct Place {
         int body;
-        StateVector from_center;  // the centre's state about this place
+        StateVector from_center;  // the centre's state relative to this place
     };
     std::array<Place, kDeepestChain> way;
     std::size_t count = 0;
@@ -120,7 +120,7 @@ std::vector<EtSpan> known_spans(std::vector<double> at, const std::function<bool
             out.push_back({start, stop});
     };
     for (std::size_t i = 0; i < at.size(); ++i) {
-        // An instant that is known by itself.
+        // A known single instant.
         if (known(at[i]) && (out.empty() || out.back().stop_s != at[i])) add(at[i], at[i]);
         if (i + 1 < at.size() && known(at[i] + 0.5 * (at[i + 1] - at[i]))) add(at[i], at[i + 1]);
     }

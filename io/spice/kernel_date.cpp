@@ -45,7 +45,7 @@ std::optional<double> kernel_date_s(std::string_view text) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < text.size();) {
         const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-        // A T between digits parts date and time.
+        // A T between digits separates date and time.
         if (is_separator(text[i]) || ((text[i] == 'T' || text[i] == 't') && i > 0 && digit(text[i - 1]))) {
             ++i;
             continue;
@@ -64,7 +64,7 @@ std::optional<double> kernel_date_s(std::string_view text) {
         i = end;
     }
     if (count < 2) return {};
-    // Which of the first parts are year, month and day.
+    // Decides which of the first parts are year, month and day.
     const auto whole = [&](std::size_t i) {
         return i < count && parts[i].number && *parts[i].number == std::floor(*parts[i].number) &&
                        *parts[i].number < 1e5

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kDeepestFrame = 16;
 
-// Counts dynamic frames that are asked for by each other, through the places of bodies, too: in a circle they are not known.
+// Counts nested requests of dynamic frames, also through the states of bodies. Frames that depend on each
+// other in a circle are not known.
 class DynamicDepth {
   public:
     DynamicDepth() { ++depth_; }
@@ -42,7 +43,7 @@ int KernelFrames::require(std::string_view name, const std::string& key) {
 }
 
 void KernelFrames::require(int code, const std::string& key) {
-    // Under the code that was asked for as well: the planets' have two.
+    // Stored under the requested code as well, because the planets' frames have two codes.
     FrameDefinition frame = frame_coded(kernels_->pool, code, key);
     frame.code = code;
     require(frame, key);
@@ -74,7 +75,7 @@ void KernelFrames::require_dynamic(const FrameDefinition& frame) {
         require(v.frame, key);
         if (v.kind == FrameVector::Kind::kConstant) continue;
         if (!places_) throw InputError(key + ": stands on places of bodies, which are not asked for here");
-        // One of the two may be a centre without segments of its own, where the other's end.
+        // One of the two may be a centre without segments, at which the other's chain ends.
         if (!places_->has(v.observer) && !places_->has(v.target)) places_->require(v.target, key);
         for (const int body : {v.observer, v.target})
             if (places_->has(body)) places_->require(body, key);
@@ -84,7 +85,7 @@ void KernelFrames::require_dynamic(const FrameDefinition& frame) {
 void KernelFrames::require_body(const FrameDefinition& frame, const std::string& key) {
     auto& list = bodies_[frame.class_code];
     if (!list.empty()) return;
-    // Binary kernels go before text; the last loaded is the first.
+    // Binary kernels take precedence over text; the last loaded comes first.
     for (std::size_t k = kernels_->binaries.size(); k-- > 0;) {
         const DafFile& file = *kernels_->binaries[k];
         if (file.kind() != "PCK") continue;
@@ -115,7 +116,7 @@ void KernelFrames::require_structure(const FrameDefinition& frame, const std::st
     if (s.segments.empty())
         throw InputError(key + ": frame " + in_quotes(frame.name) + ": no C-kernel has the structure " +
                          std::to_string(frame.class_code) + "; accepted: with a CK that has it");
-    // Some kernels have the clock as a text, which NAIF's readers take for none.
+    // Some kernels give the clock as text, which NAIF's readers ignore.
     const std::string clock_key = "CK_" + std::to_string(frame.class_code) + "_SCLK";
     const KernelVariable* named = kernels_->pool.find(clock_key);
     const int clock =
@@ -125,7 +126,8 @@ void KernelFrames::require_structure(const FrameDefinition& frame, const std::st
         for (const TickSpan& span : segment->spans()) s.spans.push_back({span, segment.get()});
     std::stable_sort(s.spans.begin(), s.spans.end(),
                      [](const auto& a, const auto& b) { return a.ticks.start < b.ticks.start; });
-    // A segment may stand in a frame that is not to be had, as a dynamic one: what it covers is then not known.
+    // A segment may refer to a frame that is not available, such as a dynamic one; the times that it covers
+    // are then unknown.
     for (std::size_t i = 0; i < s.segments.size(); ++i) try {
             require(s.segments[i]->about().frame, s.segments[i]->about().where);
         } catch (const InputError& error) {
@@ -193,7 +195,7 @@ bool KernelFrames::moving_turn(const FrameDefinition& frame, double et_s, FrameT
     if (dynamic.family == DynamicFrame::Family::kEuler)
         return turn_in(frame.relative, et_s, euler_turn(dynamic, et_s), out, depth);
     if (!vector_axes(dynamic, et_s, out.reference_from_frame, depth)) return false;
-    // Where the kernels begin or end, there is one side only.
+    // At the beginning and the end of the kernels, only one side exists.
     constexpr double kStep_s = 1;
     Mat3d before = out.reference_from_frame, after = before;
     const double span_s = (vector_axes(dynamic, et_s - kStep_s, before, depth) ? kStep_s : 0) +
@@ -229,7 +231,7 @@ bool KernelFrames::vector_of(const FrameVector& vector, double et_s, Vec3d& out,
 }
 
 bool KernelFrames::structure_turn(const Structure& s, double et_s, FrameTurn& out, int depth) const {
-    // A structure whose kernels were refused has none.
+    // The kernels of this structure were refused.
     if (!s.clock) return false;
     const double ticks = s.clock->ticks(et_s), seconds_per_tick = s.clock->seconds_per_tick(et_s);
     const auto from = [&](const CkSegment& segment, const CkPointing& p) {
@@ -241,7 +243,7 @@ bool KernelFrames::structure_turn(const Structure& s, double et_s, FrameTurn& ou
         if (const auto p = segment->at(ticks, seconds_per_tick)) return from(*segment, *p);
     }
     if (!(tolerance_s_ > 0)) return false;
-    // The nearest end of a span, where the structure then stands.
+    // Uses the nearest end of a span, with the attitude held.
     const double tolerance = tolerance_s_ / seconds_per_tick;
     const auto after =
         std::upper_bound(s.spans.begin(), s.spans.end(), ticks,
@@ -253,7 +255,7 @@ bool KernelFrames::structure_turn(const Structure& s, double et_s, FrameTurn& ou
         if (away <= nearest) nearest = away, where = end, best = &span;
     };
     if (after != s.spans.end()) look(*after);
-    // Spans may overlap: of those before, some few are looked at.
+    // Spans may overlap, so a few earlier ones are examined.
     for (auto at = after; at != s.spans.begin() && after - at < 8;) look(*--at);
     if (!best) return false;
     auto p = best->segment->at(where, seconds_per_tick);

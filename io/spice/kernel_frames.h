@@ -1,7 +1,8 @@
 #pragma once
-// The turns of the frames of a set of kernels at any time: fixed offsets, bodies, structures with attitudes, dynamic frames.
+// Rotations of the frames in a set of kernels at any time: fixed offsets, bodies, structures with attitudes,
+// dynamic frames.
 //
-// What is asked for in the loop is named beforehand by require(), which reads its kernels.
+// Frames that the loop needs are named beforehand by require(), which reads what they depend on.
 
 #include <map>
 #include <memory>
@@ -17,12 +18,12 @@
 
 namespace hilcam {
 
-// A span of SPICE's time; both ends count.
+// A span of SPICE's time; both ends belong to it.
 struct EtSpan {
     double start_s = 0, stop_s = 0;
 };
 
-// The places of bodies, which axes by two vectors follow.
+// The states of bodies, on which axes from two vectors depend.
 class FrameBodies {
   public:
     virtual ~FrameBodies() = default;
@@ -35,39 +36,43 @@ class FrameBodies {
 
 class KernelFrames {
   public:
-    // The set outlives it. tolerance_s: how far from an attitude's instant or span it still stands for the time.
+    // kernels: must outlive this. tolerance_s: time beyond an attitude's instant or span for which the
+    // attitude is still used.
     explicit KernelFrames(const KernelSet& kernels, double tolerance_s = 0)
         : kernels_(&kernels), tolerance_s_(tolerance_s) {}
 
-    // Axes by vectors between bodies ask here; null: there are none. The bodies outlive it.
+    // Sets where axes from vectors between bodies get states; null: there are none. The bodies must outlive
+    // this.
     void set_bodies(FrameBodies* bodies) { places_ = bodies; }
 
-    // Reads what a frame needs, back to J2000, and returns its code. Throws InputError; key: what asks, for messages.
+    // Reads what a frame needs, back to J2000, and returns its code. Throws InputError; key: what asks, for
+    // messages.
     int require(std::string_view name, const std::string& key);
     void require(int code, const std::string& key);
 
-    // Puts the frame's axes in J2000's; false: the kernels do not know it then, or require() was not called. Loop.
+    // Gets the rotation of the frame's axes into J2000's; false when the kernels do not have it at that time,
+    // or require() was not called. Loop.
     bool turn(int code, double et_s, FrameTurn& j2000_from_frame) const;
-    // Returns what of attitudes cannot be used and why, a line each; what that covers is not known.
+    // Returns which attitudes cannot be used and why, a line each; their times are not known.
     const std::vector<std::string>& left_out() const { return left_out_; }
-    // Adds to a list the times at which a frame may begin or cease to be known.
+    // Appends the times at which a frame's rotation may become known or unknown.
     void add_boundaries(int code, std::vector<double>& et_s) const;
 
   private:
     struct Structure {
-        std::vector<std::unique_ptr<CkSegment>> segments;  // the first that knows a time counts
+        std::vector<std::unique_ptr<CkSegment>> segments;  // the first that knows a time is used
         std::unique_ptr<SpacecraftClock> clock;
         struct Span {
             TickSpan ticks;
             const CkSegment* segment;
         };
-        std::vector<Span> spans;  // by their start; for the nearest within the tolerance
+        std::vector<Span> spans;  // by their start, to find the nearest within the tolerance
     };
     const KernelSet* kernels_;
     double tolerance_s_;
     std::map<int, FrameDefinition> frames_;
-    std::map<int, std::vector<std::unique_ptr<BodyOrientation>>>
-        bodies_;  // by class code; the first that covers counts
+    // Orientations by class code; the first that covers a time is used.
+    std::map<int, std::vector<std::unique_ptr<BodyOrientation>>> bodies_;
     std::map<int, Structure> structures_;
     std::vector<std::string> left_out_;
     FrameBodies* places_ = nullptr;
@@ -78,7 +83,8 @@ class KernelFrames {
     void require_structure(const FrameDefinition& frame, const std::string& key);
     bool turn(int code, double et_s, FrameTurn& out, int depth) const;
     bool turn_in(int reference, double et_s, const FrameTurn& inner, FrameTurn& out, int depth) const;
-    // The turn of a dynamic frame: against J2000, without what is frozen or left out of it.
+    // Both get a dynamic frame's rotation relative to J2000. moving_turn() computes it with its rate;
+    // dynamic_turn() then freezes it, or ignores the rate, as the frame's definition says.
     bool dynamic_turn(const FrameDefinition& frame, double et_s, FrameTurn& out, int depth) const;
     bool moving_turn(const FrameDefinition& frame, double et_s, FrameTurn& out, int depth) const;
     bool vector_axes(const DynamicFrame& frame, double et_s, Mat3d& out, int depth) const;

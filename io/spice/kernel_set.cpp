@@ -14,10 +14,11 @@ namespace {
 
 constexpr std::uintmax_t kMaxTextBytes = 256u << 20;
 constexpr int kDeepestMetaKernel = 8;
-// A mission's meta-kernels name some hundred files by a few symbols. A name is no longer than a path of Linux (PATH_MAX).
+// A mission's meta-kernels name some hundred files with a few symbols. No name is longer than a path of Linux
+// (PATH_MAX).
 constexpr std::size_t kMaxNamedKernels = 10'000, kMaxSymbols = 1000, kLongestPath = 4096;
 
-// The first bytes of a file say what it is.
+// The first bytes of a file identify its kind.
 enum class KernelKind { kBinary, kShape, kText, kMeta };
 KernelKind kind_of(const std::filesystem::path& file) {
     const InputFile in = open_input_file(file, {std::uintmax_t{1} << 34, "a SPICE kernel"});
@@ -34,7 +35,7 @@ KernelKind kind_of(const std::filesystem::path& file) {
     return KernelKind::kText;
 }
 
-// Puts the paths that a meta-kernel has for its symbols in their places.
+// Replaces a meta-kernel's symbols with their paths.
 class Symbols {
   public:
     explicit Symbols(const KernelPool& own, std::string where) : where_(std::move(where)) {
@@ -45,7 +46,7 @@ class Symbols {
                              std::to_string(values.size()) +
                              " PATH_VALUES; accepted: one value for each symbol, at most 1000");
         for (std::size_t i = 0; i < symbols.size(); ++i) paths_.push_back({"$" + symbols[i], values[i]});
-        // The longest symbol first: one may begin as another.
+        // The longest symbol comes first, because one may be the beginning of another.
         std::stable_sort(paths_.begin(), paths_.end(),
                          [](const Path& a, const Path& b) { return a.symbol.size() > b.symbol.size(); });
     }
@@ -67,12 +68,12 @@ class Symbols {
     std::vector<Path> paths_;
 };
 
-// Says what a file of a set is; each is looked at once, however often it is named.
+// Determines what a file of a set is, once per file however often it is named.
 struct Looked {
     std::filesystem::path file;
     KernelKind kind = KernelKind::kText;
-    std::vector<std::filesystem::path> named;  // by a meta-kernel
-    KernelPool own;                            // its own variables that count for all
+    std::vector<std::filesystem::path> named;  // named by a meta-kernel
+    KernelPool own;                            // its own variables that apply to all kernels
 };
 
 std::vector<std::filesystem::path> names_of(const std::filesystem::path& file, const KernelPool& own) {
@@ -88,7 +89,7 @@ std::vector<std::filesystem::path> names_of(const std::filesystem::path& file, c
     };
     const std::span<const std::string> parts = own.texts("KERNELS_TO_LOAD").value();
     for (const std::string& part : parts) {
-        // A name that ends with + goes on in the next one.
+        // A name that ends with + continues in the next one.
         const bool goes_on = part.ends_with('+');
         name.append(part, 0, part.size() - (goes_on ? 1 : 0));
         require_short();
@@ -115,14 +116,14 @@ Looked look_at(const std::filesystem::path& file) {
     if (!own.find("KERNELS_TO_LOAD")) return out;
     out.kind = KernelKind::kMeta;
     out.named = names_of(file, own);
-    // Those of a meta-kernel alone hold for it alone.
+    // A meta-kernel's own keywords apply to it only.
     for (const auto& [name, variable] : own.all())
         if (name != "KERNELS_TO_LOAD" && name != "PATH_SYMBOLS" && name != "PATH_VALUES")
             out.own.assign(name, variable, false);
     return out;
 }
 
-// The files of a set in the order in which they count. One that is named again counts where it is named last.
+// The files of a set in order of precedence. A file that is named again counts at its last place.
 class KernelList {
   public:
     void add(const std::filesystem::path& file, int depth = 0) {
@@ -133,7 +134,7 @@ class KernelList {
             throw InputError(
                 file.string() +
                 ": meta-kernels name each other's files more than 10000 times; accepted: each file once");
-        std::error_code no_such_file;  // which look_at() tells
+        std::error_code no_such_file;  // a missing file is reported by look_at()
         const std::filesystem::path path = std::filesystem::canonical(file, no_such_file);
         const std::string key = no_such_file ? file.string() : path.string();
         auto at = looked_.find(key);
@@ -163,7 +164,7 @@ class KernelList {
 
 void load(const Looked& looked, KernelSet& set) {
     set.files.push_back(looked.file.string());
-    // A mission's meta-kernel names shapes beside the rest.
+    // A mission's meta-kernel may name shapes as well.
     if (looked.kind == KernelKind::kShape) return;
     if (looked.kind == KernelKind::kBinary)
         set.binaries.push_back(std::make_unique<DafFile>(looked.file));

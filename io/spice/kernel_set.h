@@ -1,10 +1,11 @@
 #pragma once
-// A set of SPICE kernels in the order in which they were named: what comes later goes before what came earlier, as NAIF,
-// "Kernel Required Reading" has it.
+// A set of SPICE kernels in the order of their names: later kernels take precedence over earlier ones (NAIF,
+// "Kernel Required Reading").
 //
-// A meta-kernel names others in KERNELS_TO_LOAD, with $SYMBOL in place of a path (PATH_SYMBOLS, PATH_VALUES). Paths that
-// are not absolute start at the folder of the meta-kernel, not at where the program was started. A file that is named more
-// than once is loaded once, where it is named last, as a kernel that NAIF's toolkit loads again goes before all others.
+// A meta-kernel names others in KERNELS_TO_LOAD, with $SYMBOL for a path (PATH_SYMBOLS, PATH_VALUES).
+// Relative paths start at the meta-kernel's folder, not at the working directory. A file that is named
+// several times is loaded once, at the last place, because a kernel that NAIF's toolkit loads again takes
+// precedence over all others.
 
 #include <filesystem>
 #include <memory>
@@ -20,13 +21,13 @@ namespace hilcam {
 
 struct KernelSet {
     KernelPool pool;
-    std::vector<std::unique_ptr<DafFile>> binaries;  // in the order of their loading
+    std::vector<std::unique_ptr<DafFile>> binaries;  // in loading order
     std::vector<std::string> files;                  // all of them, for reports
     EphemerisTime time;
 };
 
-// Throws InputError, one line, for a file that is missing, no kernel, cut short, or a meta-kernel that names itself or names more
-// than 10 000 files. Shape kernels (DSK) are meshes, not part of a set: refused. Owner thread.
+// Throws InputError, one line, for a file that is missing, truncated or no kernel, and for a meta-kernel that
+// names itself or more than 10 000 files. Refuses shape kernels (DSK): they are meshes. Owner thread.
 KernelSet load_kernels(std::span<const std::filesystem::path> files);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// The samples that an interpolation of SPK types 8, 9, 12, 13, 18 and CK type 5 takes around a time.
+// The samples that an interpolation of SPK types 8, 9, 12, 13, 18 and CK type 5 uses at a time.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,9 +10,9 @@ struct SampleWindow {
     std::size_t first = 0, count = 0;
 };
 
-// Returns `size` samples of `count`: as many on either side of the time where the size is even, those around the nearest
-// sample where it is odd. after: the number of samples that are not later than the time. Near an end the window is moved
-// inwards or, truncated, loses what lies outside.
+// Returns `size` of `count` samples. For an even size, half are before and half after the time; for an odd
+// size they are centred on the nearest sample. after: number of samples not later than the time. Near an end
+// the window is moved inwards or, if truncated, loses the samples outside.
 inline SampleWindow sample_window(std::size_t after, bool next_is_nearer, std::size_t size, std::size_t count,
                                   bool truncated) {
     // The time of the last sample belongs to the interval before it.

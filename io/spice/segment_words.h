@@ -1,5 +1,5 @@
 #pragma once
-// The words of a kernel's segment, with what its readers check of them.
+// The words of a kernel's segment, with the checks that all readers of segments use.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-// Directories are every hundredth of the times before them.
+// Directories have every hundredth of the times before them.
 inline constexpr std::size_t kDirectoryStep = 100;
 
 class SegmentWords {
@@ -26,16 +26,16 @@ class SegmentWords {
         return std::span(words_).subspan(from, count);
     }
     const std::string& where() const { return where_; }
-    // "file: segment 3 ('NAME'): what"
+    // Throws InputError, "file: segment 3 ('NAME'): what".
     [[noreturn]] void fail(const std::string& what) const { throw InputError(where_ + ": " + what); }
 
-    // The word so far from the end, 1 for the last. InputError when there is none.
+    // Returns the word at this distance from the end, 1 for the last. Throws InputError when there is none.
     double from_end(std::size_t back) const {
         if (back > words_.size())
             fail("has " + std::to_string(words_.size()) + " words; accepted: a whole segment");
         return words_[words_.size() - back];
     }
-    // The same as a whole number in a range.
+    // Returns the same as an integer in a range.
     std::size_t count_from_end(std::size_t back, const char* what, double least, double most) const {
         const double value = from_end(back);
         if (!(value >= least && value <= most) || value != std::floor(value))
@@ -43,7 +43,7 @@ class SegmentWords {
                  plain(least) + " to " + plain(most));
         return static_cast<std::size_t>(value);
     }
-    // Refuses a segment that has fewer words than its counts ask for. More than so many are no fault.
+    // Refuses a segment with fewer words than its counts require. More words are accepted.
     void require_size(std::size_t words) const {
         if (words_.size() < words)
             fail("has " + std::to_string(words_.size()) + " words; its counts ask for " +
@@ -61,10 +61,10 @@ class SegmentWords {
     std::string where_;
 };
 
-// The largest count that a segment can have; products of such counts stay far below the range of sizes.
+// The largest count in a segment; products of such counts are far below the range of std::size_t.
 inline constexpr double kMaxRecords = 1e9;
 
-// The number of times that are not above t.
+// Returns the number of times that are not above t.
 inline std::size_t times_up_to(std::span<const double> times, double t) {
     return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());
 }

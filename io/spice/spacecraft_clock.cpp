@@ -65,7 +65,7 @@ double SpacecraftClock::et_s(double ticks) const {
     const Piece& p = after == pieces_.begin() ? pieces_.front() : *(after - 1);
     const double parallel = p.parallel_s + (ticks - p.ticks) * p.seconds_per_tick;
     if (!parallel_is_tt_) return parallel;
-    // The difference of 2 ms changes by 1e-13 s over its own size.
+    // The difference of 2 ms changes by 1e-13 s over a time as long as itself.
     double et = parallel;
     for (int i = 0; i < 2; ++i) et += parallel - time_.tt_s(et);
     return et;

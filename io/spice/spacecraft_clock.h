@@ -1,8 +1,9 @@
 #pragma once
-// A spacecraft's clock: its ticks against SPICE's time, from an SCLK kernel of type 1 (NAIF, "SCLK Required Reading").
+// Converts between a spacecraft's clock ticks and SPICE's time with an SCLK kernel of type 1 (NAIF, "SCLK
+// Required Reading").
 //
-// The kernel has triples of ticks, a parallel time (TDB or TT) and the seconds of a count of the clock's first field; from
-// one triple to the next the clock runs evenly. Ticks count on over resets ("encoded SCLK").
+// The kernel has triples of ticks, a parallel time (TDB or TT) and the seconds per count of the clock's first
+// field; between triples the clock runs at a constant rate. Ticks continue over resets ("encoded SCLK").
 
 #include <vector>
 
@@ -12,12 +13,12 @@ namespace hilcam {
 
 class SpacecraftClock {
   public:
-    // clock: NAIF's code of the clock, below 0 (the spacecraft's). Throws InputError when the pool has no such clock, or
-    // one of another type.
+    // clock: NAIF's code of the clock, negative (the spacecraft's). Throws InputError when the pool has no
+    // such clock, or one of another type.
     SpacecraftClock(const KernelPool& pool, int clock, const EphemerisTime& time);
 
-    // Fractions of a tick count, as NAIF's continuous ticks. Before the first triple and after the last one the clock
-    // runs as beside them. Loop, all.
+    // Ticks may be fractional, as NAIF's continuous ticks. Before the first triple and after the last, the
+    // clock runs at the adjacent rate. Loop, all.
     double ticks(double et_s) const;
     double et_s(double ticks) const;
     double seconds_per_tick(double et_s) const;

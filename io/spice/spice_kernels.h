@@ -12,7 +12,7 @@ struct SpiceKernels {
     KernelFrames frames;
     KernelBodies bodies;
 
-    // tolerance_s: as of KernelFrames. Throws InputError.
+    // tolerance_s: see KernelFrames. Throws InputError.
     explicit SpiceKernels(std::span<const std::filesystem::path> files, double tolerance_s = 0)
         : set(load_kernels(files)), frames(set, tolerance_s), bodies(set, frames) {}
     SpiceKernels(const SpiceKernels&) = delete;

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// Types 2 and 3: x, y, z [km] and, in type 3, their rates [km/s]; type 2's velocity is the derivative.
+// Types 2 and 3: x, y, z [km] and, in type 3, their rates [km/s]; the velocity of type 2 is the derivative.
 class ChebyshevStates final : public SpkSegment {
   public:
     ChebyshevStates(const SpkSummary& about, std::vector<double> words)
@@ -29,9 +29,9 @@ class ChebyshevStates final : public SpkSegment {
     bool own_rates_;
 };
 
-// Type 20: a record is, for each of x, y, z, the coefficients of the velocity and the position at the span's middle.
-// After the records: units of length [km] and time [s], the first one's begin as a Julian date in two parts, the length
-// of each in days, the words of each, how many.
+// Type 20: a record has, for each of x, y, z, the coefficients of the velocity and the position at the middle
+// of the span. After the records come the units of length [km] and time [s], the beginning of the first as a
+// Julian date in two parts, the length of each in days, the words of each, and their number.
 class ChebyshevVelocities final : public SpkSegment {
   public:
     ChebyshevVelocities(const SpkSummary& about, std::vector<double> words)
@@ -72,8 +72,9 @@ class ChebyshevVelocities final : public SpkSegment {
     double begin_et_s_ = 0, length_s_ = 0, unit_m_ = 0, unit_m_s_ = 0;
 };
 
-// Type 14, a generic segment (generic_segment.h): the degree, packets of the middle and half the length of a span [s] and coefficients of
-// x, y, z [km] and their rates [km/s]. A packet holds until the next one begins.
+// Type 14, a generic segment (generic_segment.h): the degree, then packets with the middle and half the
+// length of a span [s] and the coefficients of x, y, z [km] and their rates [km/s]. A packet holds until the
+// next one begins.
 class ChebyshevPackets final : public SpkSegment {
   public:
     ChebyshevPackets(const SpkSummary& about, std::vector<double> words)

@@ -1,4 +1,4 @@
-// SPK types 1 and 21: modified difference arrays, the steps of JPL's integrator as it took them.
+// SPK types 1 and 21: modified difference arrays, which are the steps of JPL's integrator.
 
 #include <numeric>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kPoints = 16;
 
-// Gauss and Legendre's points and weights on [0, 1], exact for polynomials up to degree 31 (Press et al., Numerical
+// Gauss-Legendre points and weights on [0, 1], exact for polynomials up to degree 31 (Press et al., Numerical
 // Recipes, 3rd ed., 2007, section 4.6: Newton's steps to the roots of the polynomial).
 struct Quadrature {
     std::array<double, kPoints> point{}, weight{};
@@ -34,14 +34,14 @@ struct Quadrature {
     }
 };
 
-// A record of m terms: the time of the step's end, m spans G back to earlier steps, then x, x', y, y', z, z' there [km,
-// km/s], 3 m differences of the acceleration, one more than the highest order, and the number of differences of each
-// axis. It is valid up to its epoch, which is kept in a list after the records (with every hundredth, and in type 21 the
-// words of a record, before the number of records).
+// A record of m terms has the time of the step's end, m spans G back to earlier steps, then x, x', y, y', z,
+// z' there [km, km/s], 3 m differences of the acceleration, the highest order plus one, and the number of
+// differences per axis. It is valid up to its epoch. The epochs are in a list after the records, with every
+// hundredth; in type 21 the words per record follow; the last word is the number of records.
 //
-// The differences are those of Krogh's modified form: at the time tau after the step the acceleration is the sum of D_j
-// times the product of (tau + G_(i-1)) / G_i over i < j, G_0 = 0. Its integrals are taken by quadrature that is exact
-// for such polynomials.
+// The differences are those of Krogh's modified form: at the time tau after the step, the acceleration is the
+// sum of D_j times the product of (tau + G_(i-1)) / G_i over i < j, G_0 = 0. It is integrated by a quadrature
+// that is exact for these polynomials.
 class Differences final : public SpkSegment {
   public:
     Differences(const SpkSummary& about, std::vector<double> words)
@@ -62,7 +62,7 @@ class Differences final : public SpkSegment {
 
     StateVector at(double et_s) const override {
         const auto epochs = words_.piece(count_ * record_, count_);
-        // The first whose epoch is not below the time.
+        // The first record with an epoch not before the time.
         const auto found = std::lower_bound(epochs.begin(), epochs.end(), et_s) - epochs.begin();
         const std::size_t i = std::min(static_cast<std::size_t>(found), count_ - 1);
         const auto r = words_.piece(i * record_, record_);

@@ -1,5 +1,5 @@
-// SPK types 8, 9, 12, 13 and 18: states at instants, interpolated in a window around the time; type 19: several such
-// series, each for a span of its own.
+// SPK types 8, 9, 12, 13 and 18: states at instants, interpolated in a window around the time. Type 19:
+// several such series, each for its own span.
 
 #include "io/spice/sample_window.h"
 #include "io/spice/segment_words.h"
@@ -9,10 +9,11 @@
 namespace hilcam {
 namespace {
 
-// Packets of six words, x, y, z, x', y', z' [km, km/s], of subtype 0 of type 18 twelve, in which position with velocity
-// and velocity with acceleration are apart. A series of type 19 is as a segment of type 18, with a subtype 2 as type 13 has
-// it. Then, with even steps (8, 12), the first time and the step, else all times
-// with every hundredth; then the degree (8, 9), the window less 1 (12, 13) or subtype and window (18); how many.
+// Packets of six words, x, y, z, x', y', z' [km, km/s]; in subtype 0 of type 18 twelve, which separate
+// position with velocity from velocity with acceleration. A series of type 19 is like a segment of type 18,
+// with a subtype 2 like type 13. Then come, for even steps (8, 12), the first time and the step, else all
+// times with every hundredth; then the degree (8, 9), the window minus 1 (12, 13), or subtype and window
+// (18); and the number of packets.
 class Discrete final : public SpkSegment {
   public:
     Discrete(const SpkSummary& about, std::vector<double> words)
@@ -64,7 +65,7 @@ class Discrete final : public SpkSegment {
         }
         const auto out = polynomial_at<6>({nodes.data(), w.count}, hermite_, (et_s - middle_s) / half_s);
         const Vec3d slope{out.rate[0], out.rate[1], out.rate[2]};
-        // Hermite's velocity is the derivative of the position, unless it has nodes of its own.
+        // The velocity of Hermite is the derivative of the position, unless it has nodes of its own.
         const Vec3d velocity_km_s =
             hermite_ && !apart_ ? slope / half_s : Vec3d{out.value[3], out.value[4], out.value[5]};
         return {kKilometre_m * Vec3d{out.value[0], out.value[1], out.value[2]}, kKilometre_m * velocity_km_s};
@@ -98,9 +99,9 @@ class Discrete final : public SpkSegment {
     }
 };
 
-// Type 19: the series one behind the other; then where the span of each begins, and where the last one ends [s], with
-// every hundredth; where each series begins, counted from the segment's first word, and 1 past the last; 1 where an
-// instant between two spans belongs to the later one, else 0; how many.
+// Type 19: the series one after the other; the start of each span and the end of the last [s], with every
+// hundredth; the start of each series, counted from the segment's first word, and 1 past the last; 1 if an
+// instant between two spans belongs to the later one, else 0; the number of series.
 class Piecewise final : public SpkSegment {
   public:
     Piecewise(const SpkSummary& about, std::vector<double> words) : SpkSegment(about) {

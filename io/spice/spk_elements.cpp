@@ -1,4 +1,4 @@
-// SPK types 15 and 17: orbits by elements that precess evenly.
+// SPK types 15 and 17: orbits with elements that precess at constant rates.
 
 #include <array>
 
@@ -15,11 +15,12 @@ Vec3d turned(Vec3d v, Vec3d axis, double angle_rad) {
     return c * v + s * cross(axis, v) + (1 - c) * dot(axis, v) * axis;
 }
 
-// Type 15: the time of a passage of the periapsis, the orbit's pole, the direction of the periapsis, semi-latus rectum
-// [km], eccentricity, a flag (1: only the node precesses, 2: only the periapsis, 3: neither; others: both), the central
-// body's pole, its gravity [km^3/s^2], J2 and radius [km]. Node and periapsis go with the true anomaly at J2's mean rates:
-// -3/2 J2 (R/p)^2 cos i and 3/4 J2 (R/p)^2 (5 cos^2 i - 1) (Danby, Fundamentals of Celestial Mechanics, 2nd ed., 1988, section
-// 11.15), where the orbit is an ellipse above the body.
+// Type 15: the time of a periapsis passage, the orbit's pole, the direction of the periapsis, semi-latus
+// rectum [km], eccentricity, a flag (1: only the node precesses, 2: only the periapsis, 3: neither; others:
+// both), the central body's pole, its gravity [km^3/s^2], J2 and radius [km]. When the orbit is an ellipse
+// above the body, node and periapsis precess with the true anomaly at J2's mean rates: -3/2 J2 (R/p)^2 cos i
+// and 3/4 J2 (R/p)^2 (5 cos^2 i - 1) (Danby, Fundamentals of Celestial Mechanics, 2nd ed., 1988, section
+// 11.15).
 class PrecessingConic final : public SpkSegment {
   public:
     PrecessingConic(const SpkSummary& about, std::vector<double> given) : SpkSegment(about) {
@@ -46,7 +47,7 @@ class PrecessingConic final : public SpkSegment {
         gravity_km3_s2_ = above(13, "gravity", 0);
         const double radius_km = words[15];
         if (!(radius_km >= 0)) words.fail("radius: found " + plain(radius_km) + "; accepted: 0 and above");
-        // NAIF's readers refuse blunders alone.
+        // NAIF's readers refuse gross errors only.
         if (constexpr double kUpright = 1e-5; std::abs(dot(pole_, periapsis)) > kUpright)
             words.fail("periapsis: does not lie in the orbit's plane");
         const double near_km = semi_latus_km / (1 + eccentricity);
@@ -76,9 +77,9 @@ class PrecessingConic final : public SpkSegment {
     Vec3d pole_, body_pole_;
     StateVector start_;  // [km, km/s]
     double mean_motion_rad_s_ = 0;
-    double node_rate_ = 0, periapsis_rate_ = 0;  // radians for each radian of true anomaly
+    double node_rate_ = 0, periapsis_rate_ = 0;  // radians per radian of true anomaly
 
-    // Counts whole turns, by the mean anomaly's.
+    // Includes whole turns, from the mean anomaly.
     double true_anomaly(Vec3d position, double since_s) const {
         const double mean_rad = mean_motion_rad_s_ * since_s, within = std::remainder(mean_rad, kTurn_rad);
         const double apart = angle_between_rad(start_.position_m, position);
@@ -86,10 +87,11 @@ class PrecessingConic final : public SpkSegment {
     }
 };
 
-// Type 17, equinoctial elements against the equator of a body: their time, semi-major axis [km], h = e sin(longitude of
-// the periapsis), k = e cos of it, mean longitude, p = tan(i/2) sin(node), q = tan(i/2) cos(node), rates of the longitude of
-// the periapsis, the mean longitude and the node [rad/s], right ascension and declination of the equator's pole. The x axis
-// is the equator's node on the frame's. (Broucke & Cefola, Celest. Mech. 5, 303, 1972.)
+// Type 17, equinoctial elements relative to a body's equator: their time, semi-major axis [km], h = e
+// sin(longitude of periapsis), k = e cos of it, mean longitude, p = tan(i/2) sin(node), q = tan(i/2)
+// cos(node), rates of the longitude of periapsis, the mean longitude and the node [rad/s], right ascension
+// and declination of the equator's pole. The x axis is the equator's node on the frame's. (Broucke & Cefola,
+// Celest. Mech. 5, 303, 1972.)
 class Equinoctial final : public SpkSegment {
   public:
     Equinoctial(const SpkSummary& about, std::vector<double> given) : SpkSegment(about) {
@@ -105,7 +107,7 @@ class Equinoctial final : public SpkSegment {
         if (w_[kMeanRate] == 0) words.fail("rate of the mean longitude: found 0; accepted: another number");
     }
 
-    // Longitudes are in the orbit's plane, from the node's own origin of the elements.
+    // Longitudes are in the orbit's plane, from the origin that the elements define by the node.
     StateVector at(double et_s) const override {
         const double since_s = et_s - w_[kEpoch];
         const auto moved = [](double sine, double cosine, double angle) {
@@ -119,7 +121,7 @@ class Equinoctial final : public SpkSegment {
         const double a_m = kKilometre_m * w_[kAxis], beta = 1 / (1 + std::sqrt(1 - h * h - k * k));
         const double x = a_m * ((1 - beta * h * h) * c + h * k * beta * s - k),
                      y = a_m * ((1 - beta * k * k) * s + h * k * beta * c - h);
-        // The periapsis turns with the ellipse; the rest of the mean longitude's rate is the anomaly's.
+        // The periapsis rotates the ellipse; the remaining rate of the mean longitude is the mean anomaly's.
         const double nearer = h * s + k * c, rate = (w_[kMeanRate] - w_[kPeriapsisRate]) * a_m / (1 - nearer);
         const double along = w_[kPeriapsisRate] - w_[kNodeRate];
         const double vx = rate * (-s + h * beta * nearer) - along * y,
@@ -149,7 +151,7 @@ class Equinoctial final : public SpkSegment {
         kPoleDeclination,
         kWords
     };
-    static constexpr double kMaxEccentric = 0.9;  // NAIF's reader takes as much
+    static constexpr double kMaxEccentric = 0.9;  // the limit of NAIF's reader
     std::array<double, kWords> w_{};
 
     Mat3d frame_from_equator() const {
@@ -157,7 +159,8 @@ class Equinoctial final : public SpkSegment {
                      sd = std::sin(w_[kPoleDeclination]), cd = std::cos(w_[kPoleDeclination]);
         return {{-sa, -ca * sd, ca * cd}, {ca, -sa * sd, sa * cd}, {0, cd, sd}};
     }
-    // Kepler's equation F + h cos F - k sin F = mean, which rises with F, by Newton's steps inside a bracket.
+    // Solves Kepler's equation F + h cos F - k sin F = mean, which rises with F, by Newton's steps inside a
+    // bracket.
     static double eccentric_longitude(double mean, double h, double k) {
         double low = mean - 1, high = mean + 1, f = mean;
         for (int i = 0; i < 100; ++i) {

@@ -1,9 +1,10 @@
 #pragma once
-// A segment of an SPK: where a body is about a centre over a span of time, by one of the data types of NAIF, "SPK
-// Required Reading".
+// A segment of an SPK: the state of a body relative to a centre over a span of time, by one of the data types
+// of NAIF, "SPK Required Reading".
 //
-// Types: 1, 21 (modified difference arrays), 2, 3, 14, 20 (Chebyshev polynomials), 5 (two bodies between states), 8, 9,
-// 12, 13, 18, 19 (interpolated states), 10 (two-line elements), 15, 17 (elements that precess). What NAIF's document says of a type stands in that type's source.
+// Types: 1, 21 (modified difference arrays), 2, 3, 14, 20 (Chebyshev polynomials), 5 (two-body motion between
+// states), 8, 9, 12, 13, 18, 19 (interpolated states), 10 (two-line elements), 15, 17 (precessing elements).
+// Each type's source has the details from NAIF's document.
 
 #include <memory>
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace hilcam {
 
-// A segment's summary. Codes are NAIF's; times are TDB seconds since J2000 and count at both ends.
+// A segment's summary, with NAIF's codes. Times are TDB seconds since J2000; both ends belong to the span.
 struct SpkSummary {
     int target = 0, center = 0, frame = 0, type = 0;
     double start_et_s = 0, stop_et_s = 0;
@@ -29,16 +30,16 @@ class SpkSegment {
     virtual ~SpkSegment() = default;
 
     const SpkSummary& about() const { return about_; }
-    // Returns the geometric state about the centre in the segment's frame, at a time inside the span. Loop: no
-    // allocation. Finite for a segment that could be made.
+    // Returns the geometric state relative to the centre in the segment's frame, at a time inside the span;
+    // always finite. Loop: no allocation.
     virtual StateVector at(double et_s) const = 0;
 
   private:
     SpkSummary about_;
 };
 
-// Reads a segment. Throws InputError that names it when its type is none of those above or its numbers do not fit each
-// other.
+// Reads a segment. Throws InputError that names it when its type is none of those above, or when its numbers
+// are inconsistent.
 std::unique_ptr<SpkSegment> load_spk_segment(const DafFile& file, const DafArray& array);
 
 }  // namespace hilcam

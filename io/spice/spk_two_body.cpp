@@ -1,4 +1,4 @@
-// SPK type 5: the motion of two bodies from the states before and after, one fading into the other.
+// SPK type 5: two-body motion from the states before and after, blended from one to the other.
 
 #include "io/orbits/two_body.h"
 #include "io/spice/segment_words.h"
@@ -8,7 +8,8 @@
 namespace hilcam {
 namespace {
 
-// States of six words [km, km/s], their times, every hundredth of these, the centre's gravity [km^3/s^2], how many.
+// States of six words [km, km/s], their times, every hundredth of these, the centre's gravity [km^3/s^2],
+// number of states.
 class TwoBody final : public SpkSegment {
   public:
     TwoBody(const SpkSummary& about, std::vector<double> words)
@@ -32,7 +33,8 @@ class TwoBody final : public SpkSegment {
             const std::size_t i = after == 0 ? 0 : count_ - 1;
             out = two_body_state(state(i), gravity_km3_s2_, et_s - times[i]);
         } else {
-            // The weight of the state before falls from 1 to 0 as a cosine; its rate is in the velocity.
+            // The weight of the earlier state falls from 1 to 0 as a cosine; the velocity includes the rate
+            // of the weight.
             const double span_s = times[after] - times[after - 1];
             const double angle = kPi * (et_s - times[after - 1]) / span_s;
             const double weight = 0.5 + 0.5 * std::cos(angle), rate = -0.5 * std::sin(angle) * kPi / span_s;

@@ -1,4 +1,4 @@
-// SPK type 10: satellites of the Earth by two-line element sets and SGP4, one set fading into the next.
+// SPK type 10: Earth satellites by two-line element sets and SGP4, blended from one set to the next.
 
 #include "io/orbits/sgp4.h"
 #include "io/spice/earth_of_date.h"
@@ -11,8 +11,8 @@
 namespace hilcam {
 namespace {
 
-// The theory's constants as a segment has them: J2, J3, J4, the root of the gravity [er^1.5/min], the bounds of the
-// atmosphere [km], the Earth's radius [km], units of length in it.
+// The theory's constants in the order of a segment: J2, J3, J4, the square root of the gravity [er^1.5/min],
+// the limits of the atmosphere [km], the Earth's radius [km], and length units in it.
 struct Constant {
     const char* name;
     double value;
@@ -28,8 +28,8 @@ std::array<Constant, 8> constants_of_theory() {
              {"AE", 1}}};
 }
 
-// A packet's words: rates of the mean motion, which SGP4 does not use, then these, then angles and rates of the nutation,
-// which NAIF's reader works out anew.
+// A packet's words: rates of the mean motion, which SGP4 does not use, then these, then angles and rates of
+// the nutation, which NAIF's reader computes anew.
 enum PacketWord : std::size_t {
     kBstar = 2,
     kInclination,
@@ -43,7 +43,7 @@ enum PacketWord : std::size_t {
 };
 
 double days_1950(double et_s) {
-    // UTC, which julian_ut1() gives without a difference to it.
+    // UTC: julian_ut1() without a difference between the two.
     constexpr double kDay0 = 2433281.5;  // 1949-12-31
     const JulianDate utc = julian_ut1(EphemerisTime{}.tai(et_s), 0);
     return utc.day - kDay0 + utc.fraction;
@@ -60,7 +60,7 @@ class TwoLine final : public SpkSegment {
         for (std::size_t i = 0; i < parts.count; ++i) {
             const auto packet = all.piece(parts.packet(i), kMinWords);
             epochs_et_s_.push_back(packet[kEpoch]);
-            // Times from 1950 to 2200 have a UTC here.
+            // UTC is known here for 1950 to 2200.
             if (!(packet[kEpoch] > -1.57e9 && packet[kEpoch] < 6.3e9))
                 all.fail("packet " + std::to_string(i + 1) + ": its epoch is " + plain(packet[kEpoch]) +
                          " s; accepted: the years 1950 to 2200");
@@ -78,7 +78,8 @@ class TwoLine final : public SpkSegment {
         if (after == 0 || after == sets_.size()) {
             teme = state(after == 0 ? 0 : after - 1, et_s);
         } else {
-            // The weight of the set before falls from 1 to 0 as a cosine; its rate is in the velocity.
+            // The weight of the earlier set falls from 1 to 0 as a cosine; the velocity includes the rate of
+            // the weight.
             const double from = epochs_et_s_[after - 1], span_s = epochs_et_s_[after] - from;
             const double angle = kPi * (et_s - from) / span_s;
             const double weight = 0.5 + 0.5 * std::cos(angle), rate = -0.5 * std::sin(angle) * kPi / span_s;
@@ -98,7 +99,7 @@ class TwoLine final : public SpkSegment {
     std::vector<Sgp4> sets_;
 
     static void check_constants(const SegmentWords& words, const GenericSegment& parts) {
-        // Kernels round them; others than WGS 72's would be another theory.
+        // Kernels round the constants. Values other than those of WGS 72 would be another theory.
         constexpr double kSame = 1e-5;
         const auto theory = constants_of_theory();
         for (std::size_t i = 0; i < theory.size(); ++i) {
@@ -117,10 +118,10 @@ class TwoLine final : public SpkSegment {
             words.fail("packet " + std::to_string(number) + ": " + error.what());
         }
     }
-    // The theory is no good for so long; its resonances are summed up by half days.
+    // The theory is not valid for so long, and its resonances are integrated in steps of half a day.
     static constexpr double kMaxAway_s = 20 * 365.25 * 86400;
 
-    // A set must work wherever it is asked: to its neighbours, or to the ends of the span.
+    // A set must work wherever it is used: up to its neighbours, or to the ends of the span.
     void check_orbit(const SegmentWords& words, std::size_t i) const {
         const double first = i > 0 ? epochs_et_s_[i - 1] : about().start_et_s,
                      last = i + 1 < sets_.size() ? epochs_et_s_[i + 1] : about().stop_et_s;
@@ -134,7 +135,7 @@ class TwoLine final : public SpkSegment {
                            ": its elements are no orbit above the ground at " + plain(et_s) + " s");
         }
     }
-    // What fails between the times that were tried stands where it was at its epoch.
+    // Where the theory fails between the tested times, the satellite stays where it was at the set's epoch.
     StateVector state(std::size_t i, double et_s) const {
         StateVector out;
         if (sets_[i].at((et_s - epochs_et_s_[i]) / 60, out) != Sgp4Status::kOk) sets_[i].at(0, out);

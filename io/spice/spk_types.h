@@ -1,6 +1,6 @@
 #pragma once
-// The data types of SPK segments, each group in a spk_*.cpp. Each takes a segment's words, checks them and throws
-// InputError.
+// The data types of SPK segments, each group in a spk_*.cpp. Each function takes a segment's words, checks
+// them, and throws InputError.
 
 #include <vector>
 

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// One variable has no more; KernelPool has the bounds of all together.
+// Limits of one variable; KernelPool limits all together.
 constexpr std::size_t kMaxKernelValues = 10'000'000, kMaxTextsOfValue = 2'000'000;
 
 // The numbers of kernels may have Fortran's exponents.
@@ -22,7 +22,7 @@ std::optional<double> kernel_number(std::string_view text) {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool ends_word(char c) { return is_blank(c) || c == ',' || c == '(' || c == ')' || c == '='; }
 
-// The reader of what stands in data blocks, one after another.
+// Reads the assignments of data blocks, one after another.
 class Assignments {
   public:
     Assignments(std::string_view text, const std::string& name, KernelPool& pool)
@@ -61,7 +61,7 @@ class Assignments {
             i = read_token(line, i);
         }
     }
-    // Takes the token at i, and says where the next begins.
+    // Reads the token at i and returns where the next begins.
     std::size_t read_token(std::string_view line, std::size_t i) {
         const char c = line[i];
         switch (expect_) {

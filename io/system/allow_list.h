@@ -1,6 +1,6 @@
 #pragma once
-// The list of those who may talk to a listening socket: IPv4 addresses and networks. Loopback needs no list;
-// any other address does, so that nobody opens a camera to a network by leaving a line out.
+// The IPv4 addresses and networks that may talk to a listening socket. A socket on a loopback address needs
+// no list. Any other address does, so that a missing line never opens a camera to a network.
 
 #include <cstdint>
 #include <string>
@@ -12,12 +12,12 @@ namespace hilcam {
 
 class AllowList {
   public:
-    // Entries: "10.0.0.5", "10.0.0.0/8", "any". Empty: any sender that reaches the socket, for loopback
-    // addresses only. `key` names the transport in messages ("commands.udp"). Throws InputError, mostly a KeyError
-    // whose key begins with `key`.
+    // Entries: "10.0.0.5", "10.0.0.0/8", "any". An empty list is allowed for loopback addresses only and
+    // admits every sender that reaches the socket. key: the transport's name in messages ("commands.udp").
+    // Throws InputError, mostly a KeyError with a key that begins with `key`.
     AllowList(const std::vector<std::string>& entries, const std::string& address, const std::string& key);
 
-    // Host order. Any thread.
+    // True when this address may send. Host order. Any thread.
     bool allows(std::uint32_t address) const;
 
   private:
@@ -28,9 +28,9 @@ class AllowList {
     bool any_ = false;
 };
 
-// "127.0.0.0/8", host order.
+// True for an address in 127.0.0.0/8. Host order.
 bool is_loopback(std::uint32_t address);
-// The list as a key of a transport's configuration.
+// Returns the list as a key of a transport's configuration.
 Field allow_field(std::vector<std::string>& allow);
 
 }  // namespace hilcam

@@ -1,7 +1,7 @@
 #pragma once
-// A queue of fixed length from any number of threads to one: no lock, no allocation, nobody waits. After
-// D. Vyukov, "Bounded MPMC queue" (1024cores.net, 2010): each cell carries the turn in which it may be
-// written or read.
+// A queue of fixed length from any number of threads to one, without locks, allocation or waiting. After D.
+// Vyukov, "Bounded MPMC queue" (1024cores.net, 2010): each cell holds the turn in which it may be written or
+// read.
 
 #include <array>
 #include <atomic>
@@ -18,7 +18,7 @@ class BoundedQueue {
     BoundedQueue() {
         for (std::size_t i = 0; i < kLength; ++i) cells_[i].turn.store(i, std::memory_order_relaxed);
     }
-    // Any thread. False: full.
+    // Returns false when the queue is full. Any thread.
     bool push(const T& value) noexcept {
         std::size_t at = head_.load(std::memory_order_relaxed);
         while (true) {
@@ -34,7 +34,7 @@ class BoundedQueue {
             at = head_.load(std::memory_order_relaxed);
         }
     }
-    // One thread. False: empty.
+    // Returns false when the queue is empty. One thread.
     bool pop(T& value) noexcept {
         Cell& cell = cells_[tail_ % kLength];
         if (cell.turn.load(std::memory_order_acquire) != tail_ + 1) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Big-endian numbers in byte buffers: the order of CCSDS packets and of GigE Vision.
+// Big-endian numbers in byte buffers, the byte order of CCSDS packets and of GigE Vision.
 
 #include <bit>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// Reads front to back; past the end it gives zeros and `ok()` turns false.
+// Reads front to back. Past the end it returns zeros, and `ok()` turns false.
 class ByteReader {
   public:
     explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -42,7 +42,7 @@ class ByteReader {
     bool ok_ = true;
 };
 
-// Writes front to back into a buffer that the caller made large enough.
+// Writes front to back into a buffer that the caller has made large enough.
 class ByteWriter {
   public:
     explicit ByteWriter(std::span<std::uint8_t> bytes) : bytes_(bytes) {}

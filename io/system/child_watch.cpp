@@ -39,7 +39,7 @@ void limit_own_memory(std::uint64_t bytes) {
     if (mapped == 0) return;
     rlimit space{};
     getrlimit(RLIMIT_AS, &space);
-    // Half of the machine's memory at most, since what is found is copied once on its way out.
+    // At most half of the machine's memory, because the result is copied once on its way out.
     const std::uint64_t half = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) / 2 * page_bytes();
     space.rlim_max = std::min<rlim_t>(space.rlim_max, mapped + half);
     space.rlim_cur = std::min<rlim_t>(space.rlim_max, mapped + bytes);
@@ -55,7 +55,7 @@ double cpu_s_of(pid_t process) {
 
 bool wait_while_it_works(pid_t child, int fd, unsigned waiting_s) {
     constexpr int kLook_ms = 500;
-    // A thread that only looks at the clock now and then, as a sanitizer's does, is no work.
+    // A thread that only reads the clock now and then, as a sanitizer's does, does no work.
     constexpr double kMinWork_s = 1e-3;
     double worked_s = 0, idle_s = 0;
     for (;;) {
@@ -71,7 +71,7 @@ bool wait_while_it_works(pid_t child, int fd, unsigned waiting_s) {
 }
 
 int end_of_child(pid_t child) {
-    // One that is on its way out already keeps the end that it has.
+    // A child that is ending already keeps its own exit status.
     kill(child, SIGKILL);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -1,6 +1,6 @@
 #pragma once
-// Parents and their children that work on bytes which nobody vouches for (confined.h, helper_process.h) have this in common: a child's
-// limits, how its parent waits for it, and what its end means.
+// The common part of confined.h and helper_process.h, which work on untrusted bytes in a child process: the
+// child's limits, how the parent waits, and what the child's end means.
 
 #include <sys/types.h>
 
@@ -9,21 +9,23 @@
 
 namespace hilcam {
 
-// The status with which such a child ends. Others are those of libraries and sanitizers.
+// The exit status of such a child. Other values come from libraries and sanitizers.
 enum class ChildStatus : int { kDone = 0, kRefused = 100, kMemory = 101, kDevice = 102, kBroken = 103 };
 
-// Limits this process: so much address space beyond what it has, half of the machine's memory at most, no core dump. The work may ask
-// for more later (allow_more()).
+// Limits the memory of this process to `bytes` of address space beyond what it has, and to half of the
+// machine's memory at most; switches core dumps off. The work may ask for more later (allow_more()).
 void limit_own_memory(std::uint64_t bytes);
 
-// Returns the processor time that a process has taken so far.
+// Returns the processor time that a process has used [s].
 double cpu_s_of(pid_t process);
-// Waits until `fd` can be read or its other end is closed, which the child's death does. False: for so long the child took next to no
-// processor time, so it only waits, which a limit of processor time does not see. It is not ended here.
+// Waits until `fd` can be read or its other end is closed, as when the child dies. Returns false when the
+// child used next to no processor time for waiting_s: it hangs, which a limit of processor time does not
+// catch. Does not end the child.
 bool wait_while_it_works(pid_t child, int fd, unsigned waiting_s);
-// Ends a child that has no more to say, and returns how it ended (waitpid()).
+// Ends a child with nothing more to say, and returns its status as waitpid() gives it.
 int end_of_child(pid_t child);
-// Says what a child's end means for the file that it read. worked: it was not ended because it waited.
+// Returns what a child's end means for the file that it read. worked: false when it was ended because it
+// hung.
 std::string reason_of_end(int status, bool worked);
 
 }  // namespace hilcam

@@ -44,8 +44,8 @@ void limit_child(const ConfinedLimits& limits) {
     _exit(static_cast<int>(status));
 }
 
-// Leaves the child what it works with: /dev/null in the terminal's place, its results, and the pipe's end by
-// which its death is seen.
+// Leaves the child with what it needs: /dev/null for the terminal, the file for its results, and the end of
+// the pipe that shows its death.
 void keep_only(int results, int alive) {
     const int nowhere = open("/dev/null", O_RDWR);
     for (const int terminal : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, terminal);
@@ -56,8 +56,10 @@ void keep_only(int results, int alive) {
                            std::span<const std::filesystem::path> readable,
                            const std::function<void(ConfinedOutput&)>& work) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(static_cast<int>(Status::kBroken));  // it died before it was asked for
-    // No handler of the parent's (a sanitizer's, a test's) shall take an abort for its own.
+    // The parent died before the request for its signal.
+    if (getppid() != parent) _exit(static_cast<int>(Status::kBroken));
+    // Resets the parent's handlers (a sanitizer's, a test's), which would handle the child's abort as their
+    // own.
     for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGXCPU})
         std::signal(signal, SIG_DFL);
     keep_only(fd, alive);
@@ -86,7 +88,7 @@ void ConfinedOutput::write(const void* from, std::size_t size) {
     while (size > 0) {
         const ssize_t written = ::write(fd_, bytes, size);
         if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) throw std::bad_alloc();  // the file is memory
+        if (written <= 0) throw std::bad_alloc();  // the file is in memory
         bytes += written, size -= static_cast<std::size_t>(written);
     }
 }
@@ -121,7 +123,7 @@ ConfinedResult run_confined(const std::string& name, const ConfinedLimits& limit
     const pid_t child = results && pipe2(ends.data(), O_CLOEXEC) == 0 ? fork() : -1;
     const Fd alive(ends[0]);
     if (child == 0) be_child(parent, results.get(), ends[1], limits, readable, work);
-    Fd(ends[1]).reset();  // the child alone holds it
+    Fd(ends[1]).reset();  // only the child holds it
     if (child < 0) throw DeviceError("no process can be made to read " + name);
     const bool worked = wait_while_it_works(child, alive.get(), limits.waiting_s);
     const int status = end_of_child(child);

@@ -1,12 +1,12 @@
 #pragma once
-// Work on bytes that nobody vouches for, in a child process with limits.
+// Runs work on untrusted bytes in a child process with limits.
 //
 // Libraries that read pictures and meshes allocate what a header promises, compute for minutes, or abort. In
-// a child such a file costs a bounded amount and ends in a message. The child has limits of memory (of its
-// address space), of processor time, and of the time that it may wait for anything; it dies with its parent
-// and says nothing on the terminal. Of the parent's descriptors it has none, and as far as the kernel can see
-// to it (confinement.h) it reads what it is given to read and nothing else, writes nowhere, and makes neither
-// sockets nor processes. What it found comes back as bytes.
+// a child, such a file costs a bounded amount and ends in a message. The child has limits of memory (address
+// space), of processor time, and of time without any processor time. It dies with its parent, prints nothing,
+// and inherits none of its parent's descriptors. As far as the kernel supports it (confinement.h), the child
+// reads only what it is given, writes no file, and creates no socket or process. Its result comes back as
+// bytes.
 
 #include <cstdint>
 #include <cstring>
@@ -22,12 +22,11 @@
 
 namespace hilcam {
 
-// The resources that the child may take from the start. The work asks for more as it learns of more
-// (allow_more()).
+// The child's resources at its start. The work asks for more when it learns of more (allow_more()).
 struct ConfinedLimits {
-    std::uint64_t memory_bytes;  // beyond what the program has when the child begins
+    std::uint64_t memory_bytes;  // beyond what the program has when the child starts
     double cpu_s;                // processor time
-    unsigned waiting_s = 30;     // without any processor time
+    unsigned waiting_s = 30;     // longest time without any processor time
 };
 
 // Takes the results of the work, in the child.
@@ -52,11 +51,11 @@ class ConfinedOutput {
     void write(const void* from, std::size_t size);
 };
 
-// The results, in the order in which they were written. The child may have been broken by what it read, so
-// they are not believed: a value that is not there throws InputError.
+// The results, in the order in which they were written. What the child read may have corrupted it, so nothing
+// is trusted: a value that is missing throws InputError.
 class ConfinedResult {
   public:
-    // `name` stands for what was read in messages.
+    // name: stands for the file in messages.
     ConfinedResult(const Fd& file, std::string name);
 
     template <class T>
@@ -89,16 +88,16 @@ class ConfinedResult {
     const std::uint8_t* take(std::uint64_t count, std::uint64_t size_each);
 };
 
-// Does the work in a child, which may read below these folders, and returns what it wrote. An InputError of the work is thrown here with the same
-// words; InputError that begins with `name`, too, when it takes more than it may or ends otherwise. Owner
-// thread.
+// Does the work in a child, which may read below these folders, and returns what it wrote. An InputError of
+// the work is thrown here with the same words. Throws an InputError that begins with `name` when the work
+// exceeds a limit or the child ends in another way. Owner thread.
 ConfinedResult run_confined(const std::string& name, const ConfinedLimits& limits,
                             std::span<const std::filesystem::path> readable,
                             const std::function<void(ConfinedOutput&)>& work);
 
-// Raises the limits of the child that calls it, since there is reason for more: a header that promises so
-// many texels, another file of so many bytes. Memory goes up to half of what the machine has. Does nothing
-// where there is no limit.
+// Raises the limits of the child that calls it, for a good reason: a header that promises that many texels,
+// another file of that size. Memory is bounded by half of the machine's. Does nothing where there is no
+// limit.
 void allow_more(std::uint64_t memory_bytes, double cpu_s);
 
 }  // namespace hilcam

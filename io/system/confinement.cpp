@@ -23,7 +23,8 @@
 namespace hilcam {
 namespace {
 
-// linux/landlock.h, whose older versions lack some of it. Numbers of calls and bits are the kernel's interface and stay.
+// From linux/landlock.h, of which older versions lack some parts. The numbers of calls and bits are the
+// kernel's stable interface.
 constexpr long kCreateRuleset = 444, kAddRule = 445, kRestrictSelf = 446;
 constexpr unsigned kAskVersion = 1;
 constexpr int kPathBeneath = 1;
@@ -43,7 +44,7 @@ int landlock_version() {
     return version > 0 ? static_cast<int>(version) : 0;
 }
 
-// Everything that a version can forbid, but none of what later ones can.
+// Returns everything that a version can forbid; the kernel refuses bits of later versions.
 LandlockRules all_of(int version) {
     int bits = 13;                // 1: execute, write, read, list, remove, make
     if (version >= 2) bits = 14;  // move to another folder
@@ -67,7 +68,7 @@ void allow_to_read(int rules, const std::filesystem::path& path) {
 
 class Filter {
   public:
-    // What is not allowed fails as if the process had no right to it.
+    // Calls that are not allowed fail as if the process had no right to them.
     Filter() : context_(seccomp_init(SCMP_ACT_ERRNO(EPERM))) {}
     ~Filter() {
         if (context_) seccomp_release(context_);
@@ -81,7 +82,7 @@ class Filter {
     void allow_if(int call, std::initializer_list<scmp_arg_cmp> conditions) {
         add(SCMP_ACT_ALLOW, call, conditions);
     }
-    // As on a kernel that does not have the call yet: libraries then take an older one.
+    // Fails as on a kernel without the call, so that libraries use an older one.
     void deny_as_unknown(int call) { add(SCMP_ACT_ERRNO(ENOSYS), call, {}); }
     bool load() {
         if (!context_ || !good_) return false;
@@ -147,7 +148,7 @@ void allow_computing(Filter& filter) {
     filter.allow_if(SCMP_SYS(mmap), {without(2, PROT_EXEC)});
     filter.allow_if(SCMP_SYS(mprotect), {without(2, PROT_EXEC)});
     filter.allow_if(SCMP_SYS(prlimit64), {equal(0, 0)});
-    // Threads of its own, and no processes; the newer call hides its flags from the filter.
+    // Allows threads and no processes. The newer clone3() hides its flags from the filter.
     filter.allow_if(SCMP_SYS(clone), {with(0, CLONE_THREAD)});
     filter.deny_as_unknown(SCMP_SYS(clone3));
     // abort() signals its own thread.
@@ -168,7 +169,8 @@ void allow_reading(Filter& filter) {
     filter.deny_as_unknown(SCMP_SYS(openat2));
 }
 
-// Answers go to what is open, the results' memory and the helper's socket, as nothing else can be opened for it.
+// Answers go to open descriptors, the results' memory and the helper's socket; nothing else can be opened for
+// writing.
 void allow_answering(Filter& filter) {
     filter.allow({SCMP_SYS(write), SCMP_SYS(writev), SCMP_SYS(pwrite64), SCMP_SYS(ftruncate)});
     filter.allow_if(SCMP_SYS(recvfrom), {equal(4, 0)});

@@ -6,7 +6,7 @@
 
 namespace hilcam {
 
-// The checksum of bytes that follow those which gave `before`.
+// Returns the checksum of `bytes`, continued from `before`, the checksum of the bytes in front of them.
 std::uint32_t crc32_of(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
 
 }  // namespace hilcam

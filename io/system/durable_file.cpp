@@ -21,7 +21,7 @@ constexpr const char* kUnfinishedMark = ".unfinished-";
     throw DeviceError(file.string() + " cannot be written: " + std::strerror(error));
 }
 
-// Machines that share a folder have processes of the same numbers.
+// The host's name is part of the name: machines that share a folder may have processes with the same number.
 std::filesystem::path unfinished_name(const std::filesystem::path& file) {
     std::array<char, 65> host{};
     if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';

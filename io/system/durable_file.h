@@ -1,8 +1,8 @@
 #pragma once
-// Files that are there whole or not at all, whatever ends the program or the machine: written under another
-// name beside their place, brought to the disk, then renamed.
+// Files that are complete or absent, even if the program or the machine stops: a file is written under
+// another name in the same folder, synced to the disk, then renamed.
 //
-// Names of unfinished files begin with a dot and end as the file does. Any thread.
+// Names of unfinished files begin with a dot and keep the file's ending. Any thread.
 
 #include <filesystem>
 #include <string>
@@ -12,28 +12,28 @@
 
 namespace hilcam {
 
-// DeviceError when it cannot be written; then what was there before is still there.
+// Writes a file. Throws DeviceError when that fails; then the old file is still there.
 void write_durably(const std::filesystem::path& file, std::string_view text);
 
-// Several files that are written by others and take their places together.
+// Several files, written by others, that take their places together.
 class DurableFiles {
   public:
     DurableFiles() = default;
-    // Removes what did not take its place.
+    // Removes files that were not committed.
     ~DurableFiles();
     DurableFiles(const DurableFiles&) = delete;
     DurableFiles& operator=(const DurableFiles&) = delete;
 
-    // Returns the name under which the file is to be written now; its folder is made.
+    // Returns the name under which the file has to be written first; creates its folder.
     std::filesystem::path begin(const std::filesystem::path& file);
-    // Brings all to the disk and to their places. DeviceError.
+    // Syncs all files to the disk and renames them. Throws DeviceError.
     void commit();
 
   private:
     std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;  // unfinished, final
 };
 
-// Removes what a program that was killed has left in a folder. Nobody else may be writing there.
+// Removes the unfinished files of a killed program from a folder. Nothing else may be writing there.
 void remove_unfinished(const std::filesystem::path& folder);
 
 }  // namespace hilcam

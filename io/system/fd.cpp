@@ -48,7 +48,7 @@ sockaddr_in parse_endpoint(const std::string& text) {
 
 namespace {
 
-// Binds, or says who has the port and what to do. `kind`: "UDP", "TCP".
+// Binds, or throws an error with the process that has the port and what to do. kind: "UDP", "TCP".
 void bind_to(const Fd& fd, std::uint32_t address, std::uint16_t port, const std::string& kind) {
     const sockaddr_in where = socket_address(address, port);
     if (bind(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) == 0) return;
@@ -80,7 +80,7 @@ Fd open_udp(std::uint32_t address, std::uint16_t port, bool reuse) {
 Fd listen_tcp(std::uint32_t address, std::uint16_t port) {
     Fd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     if (!fd) throw DeviceError(std::string("no TCP socket: ") + std::strerror(errno));
-    reuse_address(fd);  // connections of a run before may linger
+    reuse_address(fd);  // connections of an earlier run may linger
     bind_to(fd, address, port, "TCP");
     if (listen(fd.get(), 16) != 0)
         throw DeviceError("TCP " + format_ipv4(address) + ":" + std::to_string(port) +

@@ -33,24 +33,24 @@ class Fd {
     int fd_ = -1;
 };
 
-// Host order. Throws InputError unless the text is a dotted quad.
+// Returns the address in host order. Throws InputError unless the text is a dotted quad.
 std::uint32_t parse_ipv4(const std::string& text, const std::string& key);
 std::string format_ipv4(std::uint32_t address);
 sockaddr_in socket_address(std::uint32_t address, std::uint16_t port);
-// "HOST:PORT" with a numeric host.
+// Parses "HOST:PORT" with a numeric host. Throws InputError.
 sockaddr_in parse_endpoint(const std::string& text);
 
-// A UDP socket bound to an address. DeviceError says who has the port and what to do. `reuse` lets several
-// sockets share a broadcast address.
+// Returns a UDP socket bound to an address. A DeviceError says which process has the port and what to do.
+// reuse: several sockets may share a broadcast address.
 Fd open_udp(std::uint32_t address, std::uint16_t port, bool reuse = false);
-// A non-blocking listening TCP socket, with the same errors.
+// Returns a non-blocking listening TCP socket, with the same errors.
 Fd listen_tcp(std::uint32_t address, std::uint16_t port);
-// Throws InputError when the path does not fit.
+// Throws InputError when the path is too long.
 sockaddr_un unix_address(const std::string& path);
-// An eventfd that wakes a poll().
+// Returns an eventfd that wakes a poll().
 Fd open_wakeup();
 void wake(const Fd& wakeup);
-// Empties the wakeup; after it, poll() waits again.
+// Empties the wakeup, so that the next poll() waits.
 void drain(const Fd& wakeup);
 
 }  // namespace hilcam

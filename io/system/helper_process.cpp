@@ -20,7 +20,7 @@
 namespace hilcam {
 namespace {
 
-// Memory that can neither shrink nor grow: an access never meets its end.
+// Returns memory that can neither shrink nor grow, so that no access runs past its end.
 Fd sealed_memory(std::size_t bytes) {
     Fd fd(memfd_create("hilcam-helper", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     if (!fd || ftruncate(fd.get(), static_cast<off_t>(bytes)) != 0 ||
@@ -29,10 +29,11 @@ Fd sealed_memory(std::size_t bytes) {
     return fd;
 }
 
-// A copy above the descriptors that the helper wants to have, so that none of them takes another's place.
+// Returns a copy above the descriptors that the helper expects, so that neither overwrites the other.
 Fd moved_up(const Fd& fd) { return Fd(fcntl(fd.get(), F_DUPFD_CLOEXEC, kHelperMemory + 1)); }
 
-// Starts the program with its two descriptors, no terminal, and no signal blocked or ignored; -1: it cannot be.
+// Starts the program with its two descriptors, no terminal, and no signal blocked or ignored. Returns -1 on
+// failure.
 pid_t started(const std::filesystem::path& program, int socket, int memory) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -88,7 +89,7 @@ bool HelperProcess::is_own() const { return owner_ == getpid(); }
 std::string HelperProcess::ask(std::span<const std::uint8_t> request, std::span<std::uint8_t> answer,
                                Limits limits) {
     HILCAM_CHECK(is_own() && process_ > 0);
-    // The kernel keeps this limit, even if nobody waits any more.
+    // The kernel enforces this limit even when nobody waits any more.
     rlimit cpu{};
     if (prlimit(process_, RLIMIT_CPU, nullptr, &cpu) == 0) {
         cpu.rlim_cur =

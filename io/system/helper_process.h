@@ -1,6 +1,6 @@
 #pragma once
-// A program of hilcam's own (program_files.h) that works for it in a process of its own: it takes one request at a time, answers it,
-// and has a piece of memory in common with whoever asks. It ends with whoever started it, and nothing that it says is believed.
+// Runs one of hilcam's own programs (program_files.h) as a helper process. It answers one request at a time
+// and shares a piece of memory with its parent. It ends with its parent, and nothing that it says is trusted.
 
 #include <sys/types.h>
 
@@ -13,30 +13,31 @@
 
 namespace hilcam {
 
-// The descriptors at which the helper finds its socket (SOCK_SEQPACKET, a message each way for a request) and the memory.
+// The helper's descriptors: a socket (SOCK_SEQPACKET, one message each way per request) and the shared
+// memory.
 inline constexpr int kHelperSocket = 3, kHelperMemory = 4;
 
 // One thread at a time.
 class HelperProcess {
   public:
-    // The time that a request may take before the helper is ended.
+    // The time after which a request ends the helper.
     struct Limits {
         double cpu_s;
-        unsigned waiting_s;  // without any processor time
+        unsigned waiting_s;  // longest time without any processor time
     };
 
-    // Throws DeviceError when no process can be made of the program.
+    // Throws DeviceError when the program cannot be started.
     HelperProcess(const std::filesystem::path& program, std::size_t memory_bytes);
     ~HelperProcess();
     HelperProcess(const HelperProcess&) = delete;
     HelperProcess& operator=(const HelperProcess&) = delete;
 
-    // True in the process that started the helper, which alone may ask it: a forked one starts another.
+    // True in the process that started the helper. Only this one may ask it; a forked process starts its own.
     bool is_own() const;
     // Both processes may write here at any time.
     std::span<std::uint8_t> memory() const { return {memory_, memory_bytes_}; }
-    // Sends a request and waits for an answer of exactly that size. Returns why there is none, after which the helper is ended and
-    // may not be asked any more; empty: there is one.
+    // Sends a request and waits for an answer of exactly that size. Returns empty on success. Otherwise it
+    // returns the reason; the helper is then ended and cannot be asked again.
     std::string ask(std::span<const std::uint8_t> request, std::span<std::uint8_t> answer, Limits limits);
 
   private:

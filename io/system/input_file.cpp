@@ -38,8 +38,8 @@ InputFile open_input_file(const std::filesystem::path& file, const InputKind& ki
         if (result != 0) refuse(file, std::string("cannot be read: ") + std::strerror(errno), kind);
         if (!S_ISREG(found.st_mode)) refuse(file, "cannot be read: it is " + kind_of(found.st_mode), kind);
     };
-    // Asked before it is opened, since to open a device can have effects, and after, since what is there may
-    // have changed in between. O_NONBLOCK: no pipe that has just come keeps the program.
+    // Checked before opening, because opening a device can have effects, and again after, because the file
+    // may have been replaced in between. O_NONBLOCK: a pipe that has just replaced it does not block.
     require_regular(stat(file.c_str(), &found));
     InputFile out{Fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)), 0};
     require_regular(out.fd ? fstat(out.fd.get(), &found) : -1);
@@ -96,7 +96,7 @@ class InputStream::Buffer final : public std::streambuf {
 InputStream::InputStream(const std::filesystem::path& file, const InputKind& kind)
     : std::istream(nullptr), buffer_(std::make_unique<Buffer>(file, kind)) {
     rdbuf(buffer_.get());
-    // Exceptions of the buffer are thrown on: an istream keeps them to itself otherwise.
+    // Makes exceptions of the buffer pass through; an istream swallows them otherwise.
     exceptions(std::ios::badbit);
 }
 

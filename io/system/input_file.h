@@ -1,9 +1,9 @@
 #pragma once
-// Files that somebody gives, by whatever key or option: how each of them is opened and read.
+// Opens and reads the files that users name, by whatever key or option.
 //
-// Only regular files are opened (a symlink to one is as good): a pipe may never speak and a device may never
-// end. Nothing waits, each kind of file has a largest size, and a file holds what it held when it was opened:
-// bytes that are added while it is read are left out, and one that loses bytes meanwhile is refused.
+// Only regular files and symlinks to them are opened: a pipe may never deliver, and a device may never end.
+// Opening does not block, and each kind of file has a largest size. A file counts as it was when it was
+// opened: bytes added later are ignored, and a file that becomes shorter is refused.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,27 +17,27 @@ namespace hilcam {
 
 struct InputKind {
     std::uintmax_t max_bytes;
-    std::string accepted;  // ends the message "...; accepted: "
+    std::string accepted;  // end of the message "...; accepted: "
 };
 
 struct InputFile {
     Fd fd;
-    std::uintmax_t bytes;  // its size when it was opened
+    std::uintmax_t bytes;  // size when it was opened
 };
 
-// Throws InputError, one line that names the file, when it is missing, no regular file, not readable or too
-// large.
+// Throws InputError, one line that names the file, when it is missing, not a regular file, not readable or
+// too large.
 InputFile open_input_file(const std::filesystem::path& file, const InputKind& kind);
-// The whole file. InputError as above, and when it became shorter meanwhile.
+// Returns the whole file. Throws InputError as above, and when the file became shorter meanwhile.
 std::string read_input_file(const std::filesystem::path& file, const InputKind& kind);
 
-// Reads bytes [from, from + size) of a file that was opened, all of them; `file` names it in messages. Throws InputError
-// when the file became shorter meanwhile.
+// Reads the bytes [from, from + size) of an open file, all of them. file: its name in messages. Throws
+// InputError when the file became shorter meanwhile.
 void read_input_piece(const InputFile& in, const std::filesystem::path& file, std::uintmax_t from, char* to,
                       std::size_t size);
 
-// The same piece by piece, for files that are not worth holding in memory whole. A read throws InputError
-// when the file became shorter meanwhile.
+// Reads a file piece by piece, for files that need not be in memory whole. A read throws InputError when the
+// file became shorter meanwhile.
 class InputStream final : public std::istream {
   public:
     InputStream(const std::filesystem::path& file, const InputKind& kind);

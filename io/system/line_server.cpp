@@ -47,7 +47,7 @@ void LineServer::notify(std::string_view line) {
             waiting |= client.gone || !client.output.empty();
         }
     }
-    // The thread then waits for room in the sockets, too.
+    // The thread then also waits for room in the sockets.
     if (waiting) wake(wakeup_);
 }
 
@@ -65,7 +65,7 @@ void LineServer::run() {
         if (stopping_) break;
         if (watched[0].revents) drain(wakeup_);
         {
-            // None was added or removed since: only this thread does.
+            // The list is unchanged since: only this thread adds and removes clients.
             const std::lock_guard lock(mutex_);
             auto at = watched.begin() + 2;
             for (Client& client : clients_) serve(client, (at++)->revents);
@@ -81,7 +81,7 @@ void LineServer::run() {
     drop_gone();
 }
 
-// Reads from a client and throws it away.
+// Reads from a client and discards the bytes.
 void LineServer::serve(Client& client, short events) {
     if (events & POLLOUT) client.gone |= !client.output.flush(client.socket.get());
     if (!(events & ~POLLOUT)) return;
@@ -93,7 +93,7 @@ void LineServer::serve(Client& client, short events) {
 void LineServer::accept_client() {
     Fd socket(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!socket) {
-        // Out of descriptors: the caller would be back at once.
+        // Without a free descriptor, accept() would fail again at once: pause.
         if (errno != EAGAIN && errno != ECONNABORTED) poll(nullptr, 0, 10);
         return;
     }

@@ -1,6 +1,7 @@
 #pragma once
-// A TCP port whose clients all get the same lines of text and are not listened to. One thread serves them and
-// never waits for one: a client for which more than kMaxWaiting_bytes wait is cut off and counted.
+// A TCP server that sends the same lines of text to all its clients and ignores what they send. One thread
+// serves them without waiting for any: a client with more than kMaxWaiting_bytes pending is disconnected and
+// counted.
 
 #include <atomic>
 #include <cstdint>
@@ -22,7 +23,7 @@ struct LineServerSetup {
     std::uint16_t port = 0;
     std::vector<std::string> allow;
     std::size_t max_clients = 8;
-    std::string key;  // key of the configuration, for messages
+    std::string key;  // the configuration's key, for messages
 };
 
 class LineServer {
@@ -33,10 +34,10 @@ class LineServer {
     explicit LineServer(const LineServerSetup& setup);
     ~LineServer() { stop(); }
 
-    // Throws DeviceError when the port is taken. Owner thread, as stop().
+    // Opens the port. Throws DeviceError when it is taken. Owner thread, as stop().
     void start();
     void stop() noexcept;
-    // Sends to every client; `line` ends with a newline. Any thread but the loop.
+    // Sends a line to every client; `line` ends with a newline. Any thread but the loop.
     void notify(std::string_view line);
 
     // Any thread.

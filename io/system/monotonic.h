@@ -16,13 +16,13 @@ inline timespec timespec_of(std::int64_t ns) {
     return {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
 }
 inline std::int64_t monotonic_ns() { return clock_ns(CLOCK_MONOTONIC); }
-// Returns when it is that late, however often a signal comes.
+// Sleeps until that time; signals do not end it early.
 inline void sleep_until_monotonic_ns(std::int64_t ns) {
     const timespec t = timespec_of(ns);
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) != 0) {
     }
 }
-// Returns how long the process's threads have had a processor, all together.
+// Returns the processor time of all threads of the process.
 inline std::int64_t processor_ns() { return clock_ns(CLOCK_PROCESS_CPUTIME_ID); }
 
 }  // namespace hilcam

@@ -8,7 +8,7 @@ namespace hilcam {
 
 bool OutputQueue::put(std::span<const std::uint8_t> packet) {
     if (bytes() + packet.size() > max_bytes_) return false;
-    // The part that was sent is cut off when it is the larger part: each byte moves once, on average.
+    // Removes the sent part once it is the larger one, so each byte is moved once on average.
     if (begin_ > bytes_.size() / 2) {
         bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(begin_));
         begin_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// Packets that a client's socket has no room for yet. Bounded; the owner decides what to do when it is full.
+// A bounded queue of packets for which a client's socket has no room yet. The owner decides what happens when
+// it is full.
 
 #include <cstdint>
 #include <deque>
@@ -10,13 +11,13 @@ namespace hilcam {
 
 class OutputQueue {
   public:
-    // `whole_packets`: one send() for each packet, as sockets with message boundaries want it.
+    // whole_packets: sends each packet with its own send(), as sockets with message boundaries require.
     explicit OutputQueue(std::size_t max_bytes, bool whole_packets = false)
         : max_bytes_(max_bytes), whole_packets_(whole_packets) {}
 
-    // False, and nothing is queued, when it would hold more than its most.
+    // Returns false, and queues nothing, when the packet would exceed max_bytes.
     bool put(std::span<const std::uint8_t> packet);
-    // Sends what the socket takes, without waiting. False when the connection is broken.
+    // Sends what the socket accepts, without waiting. Returns false when the connection is broken.
     bool flush(int socket);
     std::size_t bytes() const { return bytes_.size() - begin_; }
     bool empty() const { return bytes() == 0; }
@@ -27,7 +28,7 @@ class OutputQueue {
     std::size_t max_bytes_;
     bool whole_packets_;
     std::vector<std::uint8_t> bytes_;
-    std::deque<std::size_t> sizes_;  // sizes of packets, when they are sent whole
+    std::deque<std::size_t> sizes_;  // packet sizes, if packets are sent whole
     std::size_t begin_ = 0;
 };
 

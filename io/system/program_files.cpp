@@ -31,7 +31,7 @@ fs::path program_file_by(const fs::path& link) {
     std::error_code error;
     fs::path file = fs::read_symlink(link, error);
     if (!error) return file;
-    // A relative path is that of the working directory at the start, which is when this is asked first.
+    // A relative path refers to the working directory at the start; the first call is then.
     const auto* const asked_for = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
     if (asked_for == nullptr) return {};
     file = fs::canonical(asked_for, error);

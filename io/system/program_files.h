@@ -1,34 +1,35 @@
 #pragma once
-// The files that belong to the program: those that are shipped with it, and the programs that it starts.
+// Finds the files that belong to the program: shipped data and helper programs.
 //
-// They are sought from where the running program lies, so that an installed tree may be moved; then in the
-// prefix that it was configured for. A build tree has a link to the source tree's configs in the place of
-// the installed folder. Any thread; touches nothing but the file system.
+// The search begins at the running program, so that an installed tree may be moved, and goes on in the
+// configured prefix. A build tree links to the source tree's configs where an installed tree has its folder.
+// Any thread; touches nothing but the file system.
 
 #include <filesystem>
 #include <string>
 
 namespace hilcam {
 
-// The running program's file: what /proc says; where there is no /proc, as in a bare chroot, what the kernel was asked
-// to run. Empty: neither tells.
+// Returns the file of the running program, from /proc; without /proc, as in a bare chroot, from the path that
+// the kernel was asked to run. Empty when neither is known.
 std::filesystem::path program_file();
-// The same where `link` stands for /proc/self/exe.
+// Returns the same, with `link` in place of /proc/self/exe.
 std::filesystem::path program_file_by(const std::filesystem::path& link);
-// A path by which the program starts itself once more: the file that runs, even where another has taken its place since.
+// Returns a path by which the program can start itself again: the running file, even if another has replaced
+// it since.
 std::filesystem::path own_program();
 
-// The folder of scenarios/, cameras/, stars/ ...; empty: there is none.
+// Returns the folder that holds scenarios/, cameras/, stars/ ...; empty: there is none.
 std::filesystem::path data_folder();
 
-// A shipped file by its path in that folder, "cameras/lorri.yaml", as it may be written from the source tree,
-// too ("configs/cameras/lorri.yaml"); empty: there is no such file.
+// Returns a shipped file by its path in that folder, "cameras/lorri.yaml". The path in the source tree,
+// "configs/cameras/lorri.yaml", works too. Empty: there is no such file.
 std::filesystem::path shipped_file(const std::filesystem::path& name);
-// True of a file's folder that lies in the data folder, where runs must not write.
+// True for a folder inside the data folder, where runs must not write.
 bool is_shipped(const std::filesystem::path& folder);
 
-// A program that hilcam starts, beside it or in its own folder (libexec/hilcam). Beside it, when there is
-// none.
+// Returns the path of a program that hilcam starts: beside hilcam, or in its own folder (libexec/hilcam).
+// When there is none, the path beside hilcam.
 std::filesystem::path helper_program(const std::string& name);
 
 }  // namespace hilcam

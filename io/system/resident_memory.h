@@ -1,15 +1,15 @@
 #pragma once
-// Measures how much of the machine's memory this process holds: its resident set.
+// Measures the resident set of this process.
 
 #include "io/system/fd.h"
 
 namespace hilcam {
 
-// Reading it allocates nothing.
+// Reading allocates nothing.
 class ResidentMemory {
   public:
     ResidentMemory();
-    // [10^6 bytes]; 0 when the kernel does not tell.
+    // Returns the resident set [10^6 bytes]; 0 when the kernel does not say.
     double megabytes() const;
 
   private:

@@ -70,7 +70,8 @@ std::string beginning_of(const fs::path& file) {
     return text;
 }
 
-// The words of a comment's line; none, where the line is no comment, is empty or is set in like a command.
+// Returns the words of a comment line; empty for other lines, empty comments and indented ones, which are
+// commands.
 std::string_view comment_words(std::string_view line) {
     for (const std::string_view mark : {"# ", "comment "})
         if (line.starts_with(mark) && line.size() > mark.size() && line[mark.size()] != ' ')
@@ -89,7 +90,7 @@ std::string first_sentence(std::string text) {
     return text;
 }
 
-// A CONFIG of the command line names one of these.
+// A CONFIG on the command line names one of these.
 const std::array kConfigKinds = {&kShippedKinds[0], &kShippedKinds[1]};
 
 }  // namespace
@@ -140,7 +141,7 @@ std::string first_sentence_of(std::string_view text) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
-        // The head of a PLY comes before its comments.
+        // The header of a PLY comes before its comments.
         if (out.empty() && (line == "ply" || line.starts_with("format "))) continue;
         if (line.starts_with("# yaml-language-server")) continue;
         const std::string_view words = comment_words(line);

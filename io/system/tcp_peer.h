@@ -1,5 +1,5 @@
 #pragma once
-// The peer that has connected to a listening TCP socket of ours.
+// The peer that has connected to one of our listening TCP sockets.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace hilcam {
 
-// True when the peer of an accepted socket may stay; gives "ADDRESS:PORT". Prepares the socket: small packets
-// leave at once, and a peer that vanished without a word is noticed within half a minute.
+// Returns true when the peer of an accepted socket may stay; sets `peer` to "ADDRESS:PORT". Prepares the
+// socket: small packets leave at once, and a peer that vanished silently is noticed within half a minute.
 bool admit_tcp(const AllowList& allow, int socket, std::string& peer);
 
 }  // namespace hilcam

@@ -7,7 +7,8 @@
 namespace hilcam {
 namespace {
 
-// True for a text whose first two letters have 16 bits or more each: a mark of either order, or a letter beside a zero twice.
+// True for a text with first two letters of 16 bits or more: a mark in either byte order, or two letters each
+// beside a zero.
 bool has_wide_letters(std::string_view text) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
     if (text.size() < 4) return false;

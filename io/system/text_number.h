@@ -1,5 +1,5 @@
 #pragma once
-// A text that is a number and nothing else: no blank, no unit, nothing after it. Any thread.
+// Parses a text that is a number and nothing else: no blank, no unit, nothing after it. Any thread.
 
 #include <charconv>
 #include <cmath>
@@ -10,7 +10,8 @@
 
 namespace hilcam {
 
-// Nothing for what is no such number, or too large for it. A floating-point number may be infinite or NaN.
+// Returns the number; nothing when the text is not one or when it is out of range. A floating-point number
+// may be infinite or NaN.
 template <class Number>
 std::optional<Number> parsed_as(std::string_view text) {
     Number value{};
@@ -19,14 +20,14 @@ std::optional<Number> parsed_as(std::string_view text) {
     return value;
 }
 
-// A finite number; a plus sign may stand before it.
+// Returns a finite number, with an optional plus sign.
 inline std::optional<double> number_of(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     const auto value = parsed_as<double>(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// The same, with Fortran's D of a double's exponent as well: "1.5D+03".
+// Returns the same, and accepts a Fortran exponent with D: "1.5D+03".
 inline std::optional<double> fortran_number_of(std::string_view text) {
     const std::size_t at = text.find_first_of("Dd");
     if (at == std::string_view::npos) return number_of(text);

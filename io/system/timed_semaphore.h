@@ -1,8 +1,8 @@
 #pragma once
-// A counting semaphore whose waits end at their instant: a futex with a deadline of the monotonic clock. libstdc++ 12's own
-// (std::counting_semaphore::try_acquire_until) yields and sleeps before it asks the kernel, each time for half as long as it has
-// waited, and on a loaded machine ended 6 to 24 ms late. glibc's sem_clockwait() would do, but ThreadSanitizer does not know it.
-// Linux.
+// A counting semaphore with waits that end on time: a futex with a deadline on the monotonic clock.
+// std::counting_semaphore::try_acquire_until of libstdc++ 12 yields and sleeps before it asks the kernel,
+// each time for half as long as it has waited, and ends 6 to 24 ms late on a loaded machine. glibc's
+// sem_clockwait() would do, but ThreadSanitizer does not know it. Linux only.
 
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -23,7 +23,7 @@ class TimedSemaphore {
         count_.fetch_add(1, std::memory_order_release);
         call(FUTEX_WAKE, 1, nullptr);
     }
-    // True when there was one to take. Loop, any thread.
+    // Returns true when it has taken one. Loop, any thread.
     bool try_acquire() {
         std::uint32_t count = count_.load(std::memory_order_relaxed);
         while (count > 0)
@@ -32,18 +32,18 @@ class TimedSemaphore {
                 return true;
         return false;
     }
-    // True when one was taken, at once where there is one; false when it is that late.
+    // Returns true when it has taken one, at once if possible; false at the deadline.
     bool try_acquire_until(std::int64_t monotonic_ns_then) {
         while (!try_acquire()) {
             if (monotonic_ns() >= monotonic_ns_then) return false;
             const timespec then = timespec_of(monotonic_ns_then);
-            // A release that comes before this sleeps, a signal and the deadline all come back here.
+            // Returns here when a release comes before the sleep, on a signal and at the deadline.
             call(FUTEX_WAIT_BITSET, 0, &then);
         }
         return true;
     }
     bool try_acquire_for(std::int64_t ns) { return try_acquire_until(monotonic_ns() + ns); }
-    // Takes all there are: what they tell is looked at once.
+    // Takes all; for an owner that looks at everything that they announce in one go.
     void take_all() { count_.exchange(0, std::memory_order_acquire); }
 
   private:

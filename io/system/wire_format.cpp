@@ -11,13 +11,13 @@
 namespace hilcam {
 namespace {
 
-// PFNC's order of mosaics is also that of its codes.
+// The codes of PFNC have the patterns in this order.
 constexpr std::array<BayerPattern, 4> kPatterns = {"GRBG", "RGGB", "GBRG", "BGGR"};
 
 struct Format {
     WireFormat format;
-    std::string_view name;  // Bayer's: what follows "BayerRG"
-    std::uint32_t code;     // Bayer's: of GRBG (PFNC 2.4; the "Packed" ones: GigE Vision 1.2)
+    std::string_view name;  // Bayer: the part after "BayerRG"
+    std::uint32_t code;     // Bayer: of GRBG (PFNC 2.4; the "Packed" ones: GigE Vision 1.2)
     int bits;               // bits of a sample
     bool mosaic = false;
 };
@@ -96,7 +96,8 @@ void write_words(const PixelSource& s, std::uint16_t* row, std::uint8_t* out) {
     }
 }
 
-// Pixels go on without a gap from row to row: those that fill no whole group of bytes wait for the next row.
+// Pixels continue without a gap from row to row; those that do not fill a group of bytes wait for the next
+// row.
 void write_packed(const PixelSource& s, const PixelLayout& layout, std::uint16_t* row,
                   std::span<std::uint8_t> out) {
     const std::size_t group = layout.packing == Packing::kPfnc && layout.bits == 10 ? 4 : 2;
@@ -121,9 +122,9 @@ constexpr int mirrored(int at, int size) {
     return at < 0 ? -at : at >= size ? 2 * size - 2 - at : at;
 }
 
-// Three rows of a mosaic around the one that is wanted, each with a pixel to the left and to the right; past
-// the frame's edges the mosaic is mirrored, which keeps its phase. The crop's neighbours are real ones: its
-// colours are those of the whole frame.
+// Three rows of a mosaic around the row in work, with a pixel more on either side. Beyond the frame's edges
+// the mosaic is mirrored, which keeps its phase. At a crop's edges the neighbours are real pixels, so its
+// colours are the whole frame's.
 class Neighbours {
   public:
     Neighbours(const PixelSource& source, std::span<std::uint16_t> scratch) : s_(source) {
@@ -140,7 +141,7 @@ class Neighbours {
             row[s_.crop.width + 1] = in[static_cast<std::size_t>(mirrored(right, width))];
         }
     }
-    // The pixel to the left of x; i: the row above, x's own, the row below.
+    // Returns the pixel to the left of x. i: 0 for the row above, 1 for x's own, 2 for the row below.
     const std::uint16_t* before(std::size_t x, std::size_t i) const { return rows_[i] + x; }
 
   private:
@@ -155,8 +156,8 @@ struct Block {
     std::size_t pixels = 0;
 };
 
-// Bilinear interpolation; halves are rounded up. `same` becomes the colour that shares the row with green,
-// `other` that of the rows above and below.
+// Interpolates bilinearly and rounds halves up. `same` becomes the colour that shares the row with green,
+// `other` the colour in the rows above and below.
 void interpolate(const Neighbours& n, std::size_t x0, bool green_first, Shift shift, std::size_t pixels,
                  std::uint16_t* same, std::uint16_t* green, std::uint16_t* other) {
     const std::uint16_t *const up = n.before(x0, 0), *const here = n.before(x0, 1),
@@ -225,7 +226,7 @@ std::uint8_t red_difference(int r, int g, int b) {
 void write_yuyv(const PixelSource& s, BayerPattern pattern, std::span<std::uint16_t> scratch,
                 std::uint8_t* out) {
     each_block(s, pattern, scratch, [&out](Block& c) {
-        // A row's last pixel without a partner is its own.
+        // The last pixel of an odd row is its own partner.
         if (c.pixels % 2 != 0)
             for (auto* const colour : {&c.r, &c.g, &c.b}) (*colour)[c.pixels] = (*colour)[c.pixels - 1];
         std::array<std::uint8_t, Block::kPixels> luma_of, difference;
@@ -252,13 +253,14 @@ std::string bayer_pattern_of(std::string_view rows) {
 
 BayerPattern shifted(BayerPattern pattern, int offset_x, int offset_y) {
     if (pattern.empty()) return pattern;
-    // In kPatterns' order a column further swaps 0 with 1 and 2 with 3, a row further 0 with 3 and 1 with 2.
+    // In kPatterns' order, one column further swaps 0 with 1 and 2 with 3; one row further swaps 0 with 3 and
+    // 1 with 2.
     const std::uint32_t moved =
         place_of(pattern) ^ (offset_x % 2 != 0 ? 1u : 0u) ^ (offset_y % 2 != 0 ? 3u : 0u);
     return kPatterns[moved];
 }
 
-// Only whether an offset is odd counts.
+// Only the parity of an offset matters.
 std::string bayer_pattern_of(const CameraModel& camera) {
     if (camera.binning_x > 1 || camera.binning_y > 1) return {};
     const PixelRectangle window = window_of(camera);

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-// Niceness above the threads that make frames; the preview's threads are nicer still.
+// Added to the nice value of the threads that make frames; the preview's threads have a higher one still.
 constexpr int kNicer = 10;
 // The bytes that an IPv4 datagram holds: 65535 less the headers of IP and UDP.
 constexpr std::size_t kMaxTruthBytes = 65507;
@@ -34,7 +34,7 @@ TruthSink::TruthSink(const TruthConfig& config, const TruthSource& source,
     if (config.port != 0) server_ = std::make_unique<LineServer>(port_of(config));
     for (const std::string& to : config.udp_to) destinations_.push_back(parse_endpoint(to));
     if (fates_) fates_->listen([this] { news_.release(); });
-    // A listener can miss one: it wants a few frames a second.
+    // A listener may miss a frame, because it wants only a few per second.
     const std::size_t count = config.layers.empty() && has_outputs() ? kSlots : kFewerSlots;
     for (std::size_t i = 0; i < count; ++i) {
         slots_.push_back(std::make_unique<Slot>());
@@ -59,7 +59,7 @@ void TruthSink::start() {
         nice_.release();
         run();
     });
-    nice_.acquire();  // whoever raises threads later leaves this one as it is
+    nice_.acquire();  // so that a later change of the other threads' priority leaves this one alone
 }
 
 FrameTruth* TruthSink::begin(const FrameRecord& record, bool wanted) noexcept {
@@ -86,14 +86,14 @@ FrameTruth* TruthSink::begin(const FrameRecord& record, bool wanted) noexcept {
 void TruthSink::publish(const DnImage&, const FrameRecord& record) noexcept {
     const std::size_t ready = ready_.load(std::memory_order_relaxed);
     Slot& slot = *slots_[ready % slots_.size()];
-    // The slot of a frame without truth holds another's: an earlier one's, or that of the frame after it.
+    // Without truth for this frame, the slot belongs to an earlier frame or to the next one.
     if (slot.frame.load(std::memory_order_relaxed) != record.id) return;
     slot.record = record;
     ready_.store(ready + 1, std::memory_order_release);
     news_.release();
 }
 
-// Lockstep asks before it publishes: with this much room neither stage will find the slots taken.
+// Lockstep asks before it publishes. With this many free slots, neither stage finds all of them taken.
 bool TruthSink::has_room() const noexcept {
     if (!open_.load(std::memory_order_relaxed)) return true;
     const std::size_t waiting =
@@ -101,7 +101,7 @@ bool TruthSink::has_room() const noexcept {
     return waiting + kInLoop < slots_.size();
 }
 
-// News are of a frame's truth, of a frame's file, or of the end.
+// A signal means a frame's truth, the fate of a frame's file, or the end.
 void TruthSink::run() {
     while (true) {
         news_.acquire();
@@ -114,7 +114,7 @@ void TruthSink::run() {
     write_settled_lines(true);
 }
 
-// Counts what the action delivers, and as lost what throws.
+// Counts what the action delivers, or a loss when it throws.
 template <class Action>
 void TruthSink::count(const Action& action) {
     try {
@@ -138,7 +138,7 @@ void TruthSink::take_next() {
     done_.store(done + 1, std::memory_order_release);
 }
 
-// The stream first: files take longer.
+// The stream comes first, because files take longer.
 void TruthSink::deliver(const Slot& slot) {
     std::string line = document_.line(slot.truth, slot.record);
     if (slot.for_listener) listener_->take_truth(slot.record.id, line);
@@ -150,7 +150,7 @@ void TruthSink::deliver(const Slot& slot) {
     held_lines_.push_back({slot.record.id, std::move(line)});
 }
 
-// In the frames' order, up to the first whose file may still come; all: no file comes any more.
+// Writes lines in the order of frames, up to the first with an undecided file. all: no more files will come.
 void TruthSink::write_settled_lines(bool all) {
     while (!held_lines_.empty()) {
         const auto fate = fates_ ? fates_->of(held_lines_.front().frame) : FrameFates::Fate::kNoFile;
@@ -175,7 +175,7 @@ void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& recor
             not_sent_.fetch_add(1, std::memory_order_relaxed);
 }
 
-// Stops the thread; what was handed over is still delivered.
+// Stops the thread after it has delivered what was handed over.
 void TruthSink::stop() noexcept {
     if (!thread_.joinable()) return;
     open_.store(false);

@@ -1,14 +1,14 @@
 #pragma once
-// The truth of a camera's frames on its way out: from the loop through slots allocated beforehand to a thread
-// that turns it into text and pictures and sends it, to clients of a TCP port, as datagrams, and into files.
+// Sends out the truth of a camera's frames. The loop fills preallocated slots; a thread turns them into text
+// and pictures for clients of a TCP port, UDP destinations and files.
 //
-// The loop's first stage takes a slot for a frame and has the renderer fill it; its second stage, publishing
-// the frame, hands it over. When all slots are taken the truth of a frame is dropped and counted, never the
-// frame; where the folder's truth must be whole, the loop waits (when_slow.h). Its thread is nicer than those that make
-// frames.
+// The loop's first stage takes a slot for a frame and the renderer fills it; the second stage publishes the
+// frame and hands the slot over. When all slots are taken, a frame's truth is dropped and counted, never the
+// frame. If the folder needs all truth, the loop waits instead (when_slow.h). The thread has a higher nice
+// value than those that make frames.
 //
-// A frame's line goes into the folder once it is known what has become of the frame's own file (frame_fates.h): the line
-// of a frame whose file was lost says "file": false.
+// A frame's line is written to the folder once the fate of the frame's own file is known (frame_fates.h): the
+// line says "file": false when that file was lost.
 
 #include <netinet/in.h>
 
@@ -35,29 +35,31 @@
 
 namespace hilcam {
 
-// The name by which `top -H` shows it.
+// Name in `top -H`.
 inline constexpr const char* kTruthThreadName = "truth";
 
-// The other outputs of the camera as far as they matter to its truth; all of it outlives the sink.
+// The camera's other outputs, as far as truth needs them. All of it outlives the sink.
 struct TruthSurroundings {
-    TruthListener* listener =
-        nullptr;                   // gets the lines of the frames that it wants, whatever outputs.truth says
-    FrameFates* fates = nullptr;   // knows what becomes of frames' files; null: there are none
-    bool has_live_output = false;  // another output hands frames to clients while they are made
+    // Gets the lines of the frames that it wants, whatever outputs.truth says; may be null.
+    TruthListener* listener = nullptr;
+    FrameFates* fates = nullptr;   // has the fates of frames' files; null: there are none
+    bool has_live_output = false;  // another output sends the same frames to clients during the run
 };
 
 class TruthSink : public FrameSink {
   public:
-    // make_slot: gives a record with room for any frame; asked several times. Throws InputError. Owner thread.
+    // make_slot: returns a record with room for any frame; called several times. Throws InputError. Owner
+    // thread.
     TruthSink(const TruthConfig& config, const TruthSource& source,
               const std::function<FrameTruth()>& make_slot, const TruthSurroundings& surroundings = {});
     ~TruthSink() override { stop(); }
 
     void start() override;
-    // The record for this frame, its raster set, to be filled before the frame is published; null: its truth
-    // is not asked for, or dropped. wanted: the listener wants this one. Loop, the thread that renders.
+    // Returns the record for this frame, with its raster set, to be filled before the frame is published.
+    // Null when its truth is not wanted or was dropped. wanted: the listener wants this one. Loop, rendering
+    // thread.
     FrameTruth* begin(const FrameRecord& record, bool wanted = false) noexcept;
-    // Hands over what was begun for the frame. Loop, the thread that publishes.
+    // Hands over the record that was begun for the frame. Loop, publishing thread.
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     bool has_room() const noexcept override;
     bool must_be_waited_for() const noexcept override { return waits_; }
@@ -69,18 +71,19 @@ class TruthSink : public FrameSink {
     struct Slot {
         FrameTruth truth;
         FrameRecord record;
-        std::atomic<std::uint64_t> frame{0};  // begun for; both of the loop's threads look at it
+        // Frame that it was begun for; read by both of the loop's threads.
+        std::atomic<std::uint64_t> frame{0};
         bool for_outputs = false, for_listener = false;
     };
-    // Both stages of the loop may hold one, and a third is written meanwhile.
+    // The loop's two stages may hold one each while a third is written.
     static constexpr std::size_t kSlots = 8, kFewerSlots = 4, kInLoop = 2;
 
-    // The line of a frame that is written once its file is there, or lost.
+    // A line that waits until the frame's file is written or lost.
     struct HeldLine {
         std::uint64_t frame;
         std::string text;
     };
-    static constexpr std::size_t kMaxHeld = 256;  // a folder that stands still does not fill the memory
+    static constexpr std::size_t kMaxHeld = 256;  // bounds memory while a folder is not written
 
     bool has_outputs() const;
     bool loss_is_fault() const { return !config_.folder.empty() && config_.when_slow != WhenSlow::kDrop; }
@@ -99,14 +102,14 @@ class TruthSink : public FrameSink {
     bool waits_;
     std::vector<std::unique_ptr<Slot>> slots_;
     std::uint64_t offered_ = 0;
-    // Slots taken, handed over, and free again; taken - done <= the number of slots.
+    // Numbers of slots taken, handed over and freed; taken - done <= the number of slots.
     std::atomic<std::size_t> taken_{0}, ready_{0}, done_{0};
     std::counting_semaphore<> news_{0};
     std::binary_semaphore nice_{0};
     std::atomic<bool> open_{false};
-    std::atomic<std::uint64_t> written_{0}, dropped_{0};  // dropped: what no file had room for, too
+    std::atomic<std::uint64_t> written_{0}, dropped_{0};  // dropped includes what no file had room for
     std::atomic<std::uint64_t> not_sent_{0};              // datagrams that the system did not take
-    std::atomic<std::uint64_t> told_{0};                  // frames whose truth the thread has dealt with
+    std::atomic<std::uint64_t> told_{0};                  // frames that the thread has finished
     std::atomic<double> took_ms_{0};                      // sum over these
 
     std::unique_ptr<LineServer> server_;

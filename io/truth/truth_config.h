@@ -1,5 +1,5 @@
 #pragma once
-// Says who gets the truth of a camera's frames, and which truth (docs/truth.md).
+// Configures which truth of a camera's frames is sent, and where to (docs/truth.md).
 
 #include <cstdint>
 #include <filesystem>
@@ -31,15 +31,15 @@ struct TruthConfig {
     double ground_px = 0;  // 0: no craters and boulders
     std::int64_t every_nth = 1;
     bool overwrite = false;
-    WhenSlow when_slow = WhenSlow::kAuto;  // treatment of truth that comes too fast for the folder
+    WhenSlow when_slow = WhenSlow::kAuto;  // when truth comes too fast for the folder
 };
 Fields fields(TruthConfig& config);
 void validate(const TruthConfig& config);
 std::vector<ListeningPort> listening(const TruthConfig& config);
 
-// Returns the part of its folder that must not be mixed with another run; the folder is not empty.
+// Returns the folder, which must not be mixed with another run's. The folder must not be empty.
 RunFolder run_folder(const TruthConfig& config);
-// Returns what the renderer is asked for; thing_of_object is left empty.
+// Returns what the renderer has to report; thing_of_object is left empty.
 TruthRequest request_of(const TruthConfig& config);
 
 }  // namespace hilcam

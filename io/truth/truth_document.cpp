@@ -9,12 +9,12 @@
 namespace hilcam {
 namespace {
 
-// Keys stay in the order in which they are written here.
+// Keeps keys in the order in which they are written here.
 using OrderedJson = nlohmann::ordered_json;
 
-// Rounds to a millionth of a pixel: more digits say nothing.
+// Rounds to a millionth of a pixel; further digits have no meaning.
 double tidy_px(double px) { return std::round(px * 1e6) / 1e6; }
-// Rounds to the digits of single precision, without the tail.
+// Rounds to 1e-4, without the tail of digits that a float has as a double.
 double tidy(float value) { return std::round(static_cast<double>(value) * 1e4) / 1e4; }
 
 OrderedJson of(Vec3d v) { return OrderedJson::array({v.x, v.y, v.z}); }
@@ -34,7 +34,7 @@ std::string_view name_of_body(std::uint32_t id) {
     if (id == kSunId) return "sun";
     for (std::size_t i = 0; i < kBodyCount; ++i)
         if (truth_id(static_cast<BodyId>(i)) == id) return kBodyNames[i];
-    // Those of the scenario's own, in its order.
+    // Names of the scenario's own bodies, in order.
     constexpr std::array<std::string_view, kMaxOwnBodies> kOwn = {"body_1", "body_2", "body_3", "body_4",
                                                                   "body_5", "body_6", "body_7", "body_8"};
     for (std::size_t i = 0; i < kMaxOwnBodies; ++i)
@@ -99,7 +99,7 @@ OrderedJson body_of(const SeenThing& thing, const TruthRequest& request) {
     return out;
 }
 
-// figure: what the kind of thing calls its second figure.
+// figure: name of the thing's second figure.
 OrderedJson ground_list(const std::vector<SeenGroundThing>& things, const char* figure) {
     OrderedJson out = OrderedJson::array();
     for (const SeenGroundThing& thing : things)
@@ -201,7 +201,7 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
         out["stars"] = std::move(stars);
         out["stars_left_out"] = t.stars_left_out + (with_stars ? 0 : t.stars.size());
     }
-    // Names may be any bytes: what is no UTF-8 is replaced.
+    // Names may have any bytes; invalid UTF-8 is replaced.
     return out.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 

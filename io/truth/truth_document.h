@@ -1,5 +1,5 @@
 #pragma once
-// The truth of a frame as one line of JSON; docs/truth.md has every key, its frame and unit.
+// The truth of a frame as one line of JSON; docs/truth.md has every key with its frame and unit.
 
 #include <cstdint>
 #include <memory>
@@ -15,24 +15,24 @@
 
 namespace hilcam {
 
-// A label tells one run's labels from another's.
+// Identifies a run.
 struct RunLabel {
-    std::string id;        // no other run's
+    std::string id;        // different in every run
     std::string scenario;  // its name
     std::int64_t seed = 0;
     std::string program;  // "hilcam 0.1.0"
 };
 
-// The source of the truth; the same for all frames of a run.
+// Facts that are the same for all frames of a run.
 struct TruthSource {
     RunLabel run{};
-    int camera = 1;  // its number on the bench
+    int camera = 1;  // number on the bench
     CameraModel model;
     int oversampling = 1;  // oversampling of the radiance image
     SpectralGrid grid{{0.4, 0.7}};
     std::vector<std::string> things;              // names of the objects, by number from 1
     std::vector<std::string> parts;               // names of the renderer's objects
-    std::shared_ptr<const GroundTruth> ground{};  // finds craters and boulders; null: nobody asked
+    std::shared_ptr<const GroundTruth> ground{};  // finds craters and boulders; null: not wanted
 };
 
 class TruthDocument {
@@ -40,11 +40,11 @@ class TruthDocument {
     explicit TruthDocument(const TruthSource& source)
         : source_(source), electrons_(source.model, source.grid) {}
 
-    // The first line of a file of lines: whose they are. Without a newline. Any thread.
+    // Returns the first line of a file of lines, which identifies the run. Without a newline. Any thread.
     std::string header() const;
-    // Returns a line without a newline. What is unknown or not finite is null. Any thread.
+    // Returns a frame's line, without a newline. Values that are unknown or not finite are null. Any thread.
     std::string line(const FrameTruth& truth, const FrameRecord& record, bool with_stars = true) const;
-    // "1 target", "1000399 earth": of the object layer's numbers, those that this frame can have.
+    // Returns the names for the object layer's numbers that this frame can have: "1 target", "1000399 earth".
     std::vector<std::string> legend(const FrameTruth& truth) const;
     const TruthSource& source() const { return source_; }
 

@@ -27,7 +27,7 @@ class Layers {
 
     void add(const char* channel, Imf::PixelType type, const void* values, int width) {
         header_.channels().insert(channel, Imf::Channel(type));
-        // OpenEXR's slices are for reading too, hence not const; writing does not touch them.
+        // OpenEXR uses slices for reading as well, so they are not const; writing does not change the values.
         char* base = static_cast<char*>(const_cast<void*>(values));
         buffer_.insert(channel, Imf::Slice(type, base, 4, 4 * static_cast<std::size_t>(width)));
     }
@@ -84,7 +84,7 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
         out.setFrameBuffer(buffer);
         out.writePixels(raster.height_px);
     } catch (const std::exception& error) {
-        // A picture that ends half-way is worse than none.
+        // Removes the incomplete file.
         std::error_code ignored;
         std::filesystem::remove(file, ignored);
         throw DeviceError(file.string() + ": cannot be written: " + error.what());
@@ -136,7 +136,7 @@ void write_object_mask(const std::filesystem::path& file, const FrameTruth& trut
                    {"object.names", "", names, ""}});
 }
 
-// O_EXCL: of two runs that begin at once, one gets the file.
+// O_EXCL: when two runs begin at once, only one gets the file.
 TruthFiles::TruthFiles(const std::filesystem::path& folder, std::string_view header) : folder_(folder) {
     const std::filesystem::path file = folder / kTruthLines;
     lines_ = Fd(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
@@ -144,7 +144,7 @@ TruthFiles::TruthFiles(const std::filesystem::path& folder, std::string_view hea
     add_line(header);
 }
 
-// All of it or nothing: what is begun and does not fit is taken back.
+// Writes the whole line or nothing: a line that does not fit is removed again.
 void TruthFiles::add_line(std::string_view line) {
     const std::string text = std::string(line) + '\n';
     std::size_t done = 0;

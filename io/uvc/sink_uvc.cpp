@@ -65,8 +65,8 @@ void UvcSink::note_fault(const std::string& text) noexcept {
     fault_ = text;
 }
 
-// Binds the gadget and opens its video device; false as long as the controller or a command function on the
-// same cable is not ready.
+// Binds the gadget and opens its video device. Returns false while the controller, or a command function on
+// the same cable, is not ready.
 bool UvcSink::open_video() {
     if (!gadget_.bind() && errno != EBUSY) {
         note_fault("uvc " + gadget_.udc() + ": the gadget cannot be bound: " + std::strerror(errno));
@@ -106,7 +106,7 @@ void UvcSink::answer_host() {
         if (waits[1].revents & POLLPRI)
             take_event();
         else if (waits[1].revents & (POLLERR | POLLHUP) && !streaming_)
-            poll(waits, 1, kBindRetry_ms);  // f_uvc says POLLERR while no buffers are there
+            poll(waits, 1, kBindRetry_ms);  // f_uvc signals POLLERR while there are no buffers
     }
     end_stream();
     video_.reset();
@@ -143,9 +143,9 @@ void UvcSink::answer_setup(const v4l2_event& event) {
         answer = data_is_for_stream_ ? stream_.setup(selector, request.bRequest, request.wLength)
                                      : controls_.setup(unit, selector, request.bRequest);
     uvc_request_data response{};
-    response.length = -EL2HLT;  // a stall, in the kernel's words
+    response.length = -EL2HLT;  // the kernel's code for a stall
     if (answer) {
-        // To a SET_CUR the "answer" is how many bytes we take.
+        // The answer to SET_CUR is the number of bytes that we accept.
         const bool takes = request.bRequest == UVC_SET_CUR;
         const std::size_t size = takes ? std::size_t{request.wLength} : answer->size;
         response.length =
@@ -166,7 +166,7 @@ void UvcSink::take_data(const v4l2_event& event) {
     } else if (const auto interval = stream_.data(bytes)) {
         SettingsChange change;
         change.frame_rate_hz = 1e7 / *interval;
-        // A camera that sets its own rate keeps it; the host then gets its frames when they come.
+        // A camera that sets its own rate keeps it; the host then gets frames at that rate.
         context_.camera.change(change);
     }
     changes_.store(controls_.changes());
@@ -224,7 +224,7 @@ void UvcSink::feed() {
 bool UvcSink::deliver(const FrameMailbox::Item& item) {
     const std::int64_t begun_ns = monotonic_ns();
     v4l2_buffer buffer = output_buffer(static_cast<std::uint32_t>(queued_));
-    // Not one is back: the host is slower than the camera.
+    // No buffer is free: the host is slower than the camera.
     if (queued_ >= buffers_.size() && v4l2_ioctl(video_.get(), VIDIOC_DQBUF, &buffer) < 0) return false;
     const std::size_t bytes = stream_.shape().frame_bytes();
     if (buffer.index >= buffers_.size() || buffers_.memory(buffer.index).size() < bytes) return false;

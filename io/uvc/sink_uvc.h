@@ -1,11 +1,11 @@
 #pragma once
-// A USB camera: a UVC gadget of this machine's device controller, fed with YUYV pictures.
+// A USB camera: a UVC gadget on this machine's USB device controller that sends YUYV pictures.
 //
-// A host that opens it sees the camera's picture size, its rates and (uvc_controls.h) its settings. One
-// thread answers the host's requests, one feeds pictures; a host too slow for them loses some. The gadget is
-// made at start and removed at stop.
+// A host sees the camera's picture size, its rates and its settings (uvc_controls.h). One thread answers the
+// host's requests, another feeds pictures; a slow host loses some. The gadget is created at start and removed
+// at stop.
 //
-// Isochronous pictures need real hardware: virtual controllers carry requests only (docs/devices.md).
+// Isochronous pictures need real hardware, because virtual controllers carry requests only (docs/devices.md).
 
 #include <memory>
 #include <mutex>
@@ -27,7 +27,7 @@ std::unique_ptr<FrameSink> make_sink(const UvcConfig& config, const SinkContext&
 
 class UvcSink : public FrameSink {
   public:
-    // Throws InputError: an odd width.
+    // Throws InputError for an odd width.
     UvcSink(const UvcConfig& config, int width, int height, const SinkContext& context);
     ~UvcSink() override { stop(); }
 
@@ -65,7 +65,7 @@ class UvcSink : public FrameSink {
     std::atomic<bool> stopping_{false};
     std::thread answering_, feeding_;
 
-    std::mutex buffers_mutex_;  // the stream's begin and end against pictures
+    std::mutex buffers_mutex_;  // serializes the stream's start and end with pictures
     V4l2Buffers buffers_;
     std::size_t queued_ = 0;
     bool streaming_ = false;

@@ -32,7 +32,7 @@ UvcControls::Numbers UvcControls::numbers_of(Control control) const {
     switch (control) {
         case Control::kAutoExposure: {
             const auto mode = [](bool automatic) { return automatic ? kAperturePriority : kManual; };
-            // GET_RES of this one is the set of modes there are.
+            // GET_RES of this control is the set of supported modes.
             const std::int64_t modes = l.has_automatic_exposure ? kManual | kAperturePriority : kManual;
             return {mode(s.automatic_exposure), kManual, modes, modes, mode(initial_.automatic_exposure), 1,
                     l.has_automatic_exposure};
@@ -50,7 +50,7 @@ UvcControls::Numbers UvcControls::numbers_of(Control control) const {
                     !l.exposure_is_own};
         }
         case Control::kGain:
-            // Unsigned: a gain below the camera file's own is not offered.
+            // The control is unsigned: a gain below the camera file's own is not offered.
             return {std::max<std::int64_t>(0, std::llround(s.gain_db / kGainUnit_db)),
                     std::max<std::int64_t>(0, up(l.min_gain_db / kGainUnit_db)),
                     std::max<std::int64_t>(0, down(l.max_gain_db / kGainUnit_db)),

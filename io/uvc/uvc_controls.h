@@ -1,13 +1,13 @@
 #pragma once
-// USB Video Class controls (UVC 1.1, USB-IF 2005, 4.2.2) as the camera's settings: class requests in, answers
-// out. Pure but for the CameraControl; no device here.
+// Maps USB Video Class controls (UVC 1.1, USB-IF 2005, 4.2.2) to the camera's settings: class requests in,
+// answers out. It calls CameraControl and no device.
 //
-//   auto-exposure mode          1 manual, 8 aperture priority: the camera's automatic exposure
-//   exposure time, absolute     [100 us]
-//   gain                        [0.1 dB]
-//   brightness                  black level [DN]
+//  auto-exposure mode          1 manual, 8 aperture priority: the camera's automatic exposure
+//  exposure time, absolute     [100 us]
+//  gain                        [0.1 dB]
+//  brightness                  black level [DN]
 //
-// Kernels before 6.4 show hosts the first and the last only (uvc_gadget.h). All numbers are little-endian.
+// Kernels before 6.4 show hosts only the first and the last (uvc_gadget.h). All numbers are little-endian.
 
 #include <array>
 #include <cstdint>
@@ -31,10 +31,11 @@ class UvcControls {
   public:
     explicit UvcControls(CameraControl& camera) : camera_(camera) {}
 
-    // A request to a unit of the control interface (0: the interface itself). An answer of no bytes to
-    // SET_CUR: its data is awaited by data(). Nothing: the request is refused (a stall), error() says why.
+    // Handles a request to a unit of the control interface (0: the interface itself). An empty answer to
+    // SET_CUR means that the data follow through data(). Nothing: the request is refused (a stall), and the
+    // Request Error Code Control has the reason.
     std::optional<UvcAnswer> setup(std::uint8_t unit, std::uint8_t selector, std::uint8_t request);
-    // The data of the SET_CUR before. False: refused, and nothing has changed.
+    // Takes the data of the last SET_CUR. False: refused, and nothing has changed.
     bool data(std::span<const std::uint8_t> bytes);
 
     std::uint64_t changes() const { return changes_; }

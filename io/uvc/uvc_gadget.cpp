@@ -25,7 +25,7 @@ std::string hex(std::int64_t value) {
     return text;
 }
 
-// One write() with the whole content, as configfs wants it. False: errno.
+// Writes the whole content with one write(), as configfs requires. False: see errno.
 bool write_file(const fs::path& path, const std::string& content) {
     const Fd fd(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     const std::string line = content + "\n";
@@ -69,7 +69,7 @@ std::vector<ConfigfsStep> uvc_gadget_tree(const UvcConfig& c, const UvcStreamSha
     folder(kGadget);
     file(kGadget / "idVendor", hex(c.vendor_id));
     file(kGadget / "idProduct", hex(c.product_id));
-    // Several interfaces make one function: the class of devices with association descriptors.
+    // 0xEF: several interfaces form one function, as association descriptors say.
     file(kGadget / "bDeviceClass", "0xEF");
     file(kGadget / "bDeviceSubClass", "0x02");
     file(kGadget / "bDeviceProtocol", "0x01");
@@ -82,7 +82,7 @@ std::vector<ConfigfsStep> uvc_gadget_tree(const UvcConfig& c, const UvcStreamSha
     file(kUvc / "streaming_maxpacket", std::to_string(c.packet_bytes));
     file(kUvc / "streaming_interval", "1");
     // Camera terminal: bit 1 automatic exposure, bit 3 exposure time. Processing unit: bit 0 brightness, bit
-    // 9 gain. A byte a line. (Kernels before 6.4 show the first of each and refuse.)
+    // 9 gain. One byte per line. (Kernels before 6.4 refuse this and show the first of each.)
     try_file(kUvc / "control/terminal/camera/default/bmControls", "0x0a\n0\n0");
     try_file(kUvc / "control/processing/default/bmControls", "0x01\n0x02");
 
@@ -194,7 +194,7 @@ void UvcGadget::remove() noexcept {
     if (!made_) return;
     made_ = false;
     write_file(root() / kGadget / "UDC", "");
-    // The last thing that was made goes first; the kernel's own files go with their folders.
+    // Steps are undone in reverse order; the kernel's own files are removed with their folders.
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
         if (step->kind == ConfigfsStep::Kind::kLink) ::unlink((root() / step->path).c_str());
         if (step->kind == ConfigfsStep::Kind::kFolder) ::rmdir((root() / step->path).c_str());

@@ -1,9 +1,10 @@
 #pragma once
-// A USB camera made of the kernel's UVC function (f_uvc) in configfs: which folders, files and links, in
-// which order; made on a machine with a USB device controller (UDC) and taken down again.
+// Builds a USB camera from the kernel's UVC function (f_uvc) in configfs: which folders, files and links, in
+// which order. make() creates the gadget on a machine with a USB device controller (UDC), remove() takes it
+// down.
 //
-// The controls that hosts see are fixed in kernels before 6.4 (automatic exposure, brightness); later ones
-// are told to show exposure time and gain too.
+// Kernels before 6.4 show hosts a fixed set of controls (automatic exposure, brightness). Later kernels show
+// exposure time and gain as well.
 
 #include <filesystem>
 #include <string>
@@ -22,7 +23,7 @@ struct UvcConfig {
 
     std::string udc;                   // empty: the only one
     std::int64_t vendor_id = 0x1209;   // pid.codes
-    std::int64_t product_id = 0x0001;  // its number for tests
+    std::int64_t product_id = 0x0001;  // its test number
     std::string serial = "1";
     std::string manufacturer = "hilcam";
     std::string product = "hilcam camera";
@@ -38,7 +39,7 @@ struct ConfigfsStep {
     std::string content;         // content of a file; target of a link, relative as well
     bool optional = false;       // older kernels refuse it
 };
-// The whole tree but for binding it to a controller.
+// Returns the whole tree, without the binding to a controller.
 std::vector<ConfigfsStep> uvc_gadget_tree(const UvcConfig& config, const UvcStreamShape& shape);
 
 class UvcGadget {
@@ -46,19 +47,21 @@ class UvcGadget {
     UvcGadget(UvcConfig config, UvcStreamShape shape);
     ~UvcGadget() { remove(); }
 
-    // Throws DeviceError: no controller, no configfs, no right, a gadget of that name that will not go.
+    // Throws DeviceError: no controller, no configfs, no permission, or a gadget of that name that cannot be
+    // removed.
     void make();
-    // Gives it to the controller. False: errno (with a command function: until that is ready).
+    // Binds the gadget to the controller. False: see errno. With a command function, it fails until that one
+    // is ready.
     bool bind();
-    // Idempotent. Also takes down what a killed run has left.
+    // Takes the gadget down, also one that a killed run has left. Idempotent.
     void remove() noexcept;
 
     const std::string& udc() const { return udc_; }
-    // Returns the path of the video device that takes the pictures, "/dev/video0"; empty: not there (yet).
+    // Returns the video device that takes the pictures, "/dev/video0"; empty: not there (yet).
     std::filesystem::path video_device() const;
     // True when hosts see exposure time and gain.
     bool shows_exposure() const { return shows_exposure_; }
-    // Number of the interface that carries the pictures; composite gadgets shift it.
+    // Returns the number of the interface that carries the pictures; composite gadgets shift it.
     int streaming_interface() const;
 
   private:
@@ -71,7 +74,7 @@ class UvcGadget {
     bool made_ = false, shows_exposure_ = false;
 };
 
-// Names of the machine's USB device controllers.
+// Returns the names of the machine's USB device controllers.
 std::vector<std::string> usb_device_controllers();
 
 }  // namespace hilcam

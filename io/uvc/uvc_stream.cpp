@@ -36,7 +36,7 @@ UvcStream::UvcStream(UvcStreamShape shape) : shape_(std::move(shape)) {
 UvcAnswer UvcStream::control(std::uint32_t interval_100ns) const {
     UvcAnswer answer;
     answer.size = kBytes;
-    put(answer, 0, 1, 2);  // bmHint: the interval is kept
+    put(answer, 0, 1, 2);  // bmHint: the interval is fixed
     put(answer, 2, 1, 1);  // format
     put(answer, 3, 1, 1);  // frame
     put(answer, 4, interval_100ns, 4);
@@ -94,7 +94,7 @@ std::optional<std::uint32_t> UvcStream::data(std::span<const std::uint8_t> bytes
     if (selector == 0 || bytes.size() < 8) return std::nullopt;
     std::uint32_t wanted = 0;
     for (std::size_t i = 0; i < 4; ++i) wanted |= std::uint32_t{bytes[4 + i]} << (8 * i);
-    // The slowest of the camera's rates that is at least as fast as asked for.
+    // Chooses the slowest of the camera's rates that is at least as fast as requested.
     const auto& list = shape_.intervals_100ns;
     const auto after = std::upper_bound(list.begin(), list.end(), wanted);
     const std::uint32_t chosen = after == list.begin() ? list.front() : *(after - 1);

@@ -1,6 +1,6 @@
 #pragma once
-// The agreement of a UVC host and the camera before pictures flow: probe and commit of one uncompressed
-// format and one frame size (UVC 1.1, 4.3.1.1). Pure.
+// The negotiation of a UVC host with the camera before pictures flow: probe and commit of one uncompressed
+// format and one frame size (UVC 1.1, 4.3.1.1). It uses no device.
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ struct UvcStreamShape {
         return static_cast<std::uint32_t>(2 * width) * static_cast<std::uint32_t>(height);
     }
 };
-// The camera's own rate, and what UVC hosts like to choose from below its highest.
+// Returns the camera's own rate, and the rates up to the highest that UVC hosts usually offer, as intervals.
 std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double max_frame_rate_hz);
 std::uint32_t uvc_interval(double frame_rate_hz);
 
@@ -29,15 +29,15 @@ class UvcStream {
   public:
     explicit UvcStream(UvcStreamShape shape);
 
-    // A request to the streaming interface; as UvcControls::setup.
+    // Handles a request to the streaming interface, as UvcControls::setup().
     std::optional<UvcAnswer> setup(std::uint8_t selector, std::uint8_t request, std::uint16_t length);
-    // Takes what the host wants; gives the frame interval to go with when it was a commit.
+    // Takes the host's choice. After a commit, returns the frame interval to stream with.
     std::optional<std::uint32_t> data(std::span<const std::uint8_t> bytes);
 
     const UvcStreamShape& shape() const { return shape_; }
 
   private:
-    static constexpr std::size_t kBytes = 34;  // bytes of the control in UVC 1.1
+    static constexpr std::size_t kBytes = 34;  // size of the control in UVC 1.1
     UvcAnswer control(std::uint32_t interval_100ns) const;
 
     UvcStreamShape shape_;

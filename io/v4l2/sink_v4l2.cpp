@@ -69,7 +69,7 @@ V4l2Sink::V4l2Sink(const V4l2Config& config, int width, int height, double frame
     use(config.format);
     check_metadata_row(config, pixels_.bytes_per_pixel * static_cast<std::size_t>(width));
     row_.resize(3 * static_cast<std::size_t>(width) + 8);
-    // Half a period: jitter of the loop passes, a burst without pauses does not.
+    // Half a period lets the loop's jitter pass, but no burst without pauses.
     const double fastest_hz = std::max(frame_rate_hz, context.camera.limits().max_frame_rate_hz);
     min_interval_ns_ = std::max(kMinInterval_ns, static_cast<std::int64_t>(std::llround(0.5e9 / fastest_hz)));
 }
@@ -120,7 +120,7 @@ bool V4l2Sink::reopen() noexcept {
     }
 }
 
-// Back to the format it had when the device does not take the other one.
+// Returns to the previous format when the device does not accept the other one.
 void V4l2Sink::flip_format() noexcept {
     const V4l2Format before = format_;
     device_.close();

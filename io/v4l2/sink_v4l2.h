@@ -1,11 +1,11 @@
 #pragma once
-// Frames into a V4L2 output device, the writing side of v4l2loopback 0.12.7 and later.
+// Writes frames to a V4L2 output device, the writing side of v4l2loopback 0.12.7 and later.
 //
-// Frames go out as they come, by a thread of its own and never closer together than kMinInterval: a writer
-// without pauses panics the kernel of old modules. `io: mmap` passes the exposure's CLOCK_MONOTONIC time (its
-// middle) to readers; with `io: write` the module gives times of its own, but every version counts frames.
-// Pixels: wire_format.h. A device that fails is reported, closed and tried again every half second; frames
-// are dropped meanwhile. Readers and the emulator may come and go in any order.
+// A thread writes frames as they come, at least 1 ms and half the shortest frame period apart: a writer
+// without pauses makes the kernel panic with old modules. With `io: mmap`, readers get the CLOCK_MONOTONIC
+// time of mid-exposure; with `io: write`, the module assigns its own times, but every version counts frames.
+// Pixels are those of wire_format.h. A device that fails is reported, closed and tried again every half
+// second; frames are dropped meanwhile. Readers and the emulator may start and stop in any order.
 //
 // Faults: v4l2_stall, v4l2_restart, v4l2_format_flip (fault.h).
 
@@ -42,7 +42,7 @@ std::unique_ptr<FrameSink> make_sink(const V4l2Config& config, const SinkContext
 
 class V4l2Sink : public FrameSink {
   public:
-    // Throws InputError: a format that the camera has not, a metadata row that does not fit.
+    // Throws InputError for a format that does not suit the camera, and for a metadata row that does not fit.
     V4l2Sink(const V4l2Config& config, int width, int height, double frame_rate_hz,
              const SinkContext& context);
     ~V4l2Sink() override { stop(); }

@@ -40,7 +40,7 @@ bool V4l2Buffers::request(int fd, unsigned count) {
 bool V4l2Buffers::map_existing(int fd, unsigned most) {
     for (std::uint32_t i = 0; i < most; ++i) {
         v4l2_buffer buffer = output_buffer(i);
-        // Past the last one the module begins again with the first.
+        // Beyond the last buffer, the module starts again with the first.
         if (v4l2_ioctl(fd, VIDIOC_QUERYBUF, &buffer) < 0 || at_offset(buffer.m.offset) < size()) break;
         if (!map(fd, buffer)) return false;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Frame memory that a V4L2 output device shares with this process.
+// Frame memory shared between a V4L2 output device and this process.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@ struct v4l2_buffer;
 
 namespace hilcam {
 
-// ioctl, again when a signal came between.
+// Calls ioctl() again as long as a signal interrupts it.
 int v4l2_ioctl(int fd, unsigned long request, void* argument);
 
 class V4l2Buffers {
@@ -19,15 +19,15 @@ class V4l2Buffers {
     V4l2Buffers(const V4l2Buffers&) = delete;
     V4l2Buffers& operator=(const V4l2Buffers&) = delete;
 
-    // REQBUFS; maps what it gives. False: errno.
+    // Requests buffers (REQBUFS) and maps them. False: see errno.
     bool request(int fd, unsigned count);
-    // Maps the buffers that the device has without asking for any. False: errno.
+    // Maps the buffers that the device already has, at most `most`. False: see errno.
     bool map_existing(int fd, unsigned most);
     void release() noexcept;
 
     std::size_t size() const { return buffers_.size(); }
     std::span<std::uint8_t> memory(std::size_t index) const { return buffers_[index].memory; }
-    // The mapped buffer at an offset of the device's memory; size() when there is none.
+    // Returns the index of the buffer mapped at an offset of the device's memory; size() when there is none.
     std::size_t at_offset(std::uint32_t offset) const;
 
   private:
@@ -40,7 +40,7 @@ class V4l2Buffers {
     std::vector<Buffer> buffers_;
 };
 
-// An output buffer as ioctls take it.
+// Returns an output buffer as ioctls take it.
 v4l2_buffer output_buffer(std::uint32_t index);
 
 }  // namespace hilcam

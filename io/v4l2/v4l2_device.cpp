@@ -23,7 +23,7 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// The pixel formats that the device takes now: one alone when it is held.
+// Returns the pixel formats that the device accepts at present; a single one when a reader holds the format.
 std::vector<std::uint32_t> offered_formats(int fd) {
     std::vector<std::uint32_t> list;
     v4l2_fmtdesc format{};
@@ -74,8 +74,8 @@ void V4l2Output::check_output() {
     shared_queue_ = module_.shared_queue();
 }
 
-// Asked before S_FMT, because old modules answer an unknown format with another one and remember that. New
-// ones take more than they list, and refuse honestly.
+// Checked before S_FMT, because old modules answer an unknown format with another one and keep that. New ones
+// accept more than they list, and refuse correctly.
 void V4l2Output::check_offered() const {
     if (!shared_queue_) return;
     const std::vector<std::uint32_t> offered = offered_formats(fd_.get());
@@ -133,7 +133,7 @@ void V4l2Output::set_format() {
     rate.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
     rate.parm.output.timeperframe = {1000,
                                      static_cast<std::uint32_t>(std::lround(request_.frame_rate_hz * 1000))};
-    // Readers see it as the frame rate. Not every module takes it, and nothing depends on it.
+    // Readers see it as the frame rate. Not every module accepts it, and nothing depends on it.
     static_cast<void>(v4l2_ioctl(fd_.get(), VIDIOC_S_PARM, &rate));
 }
 
@@ -146,9 +146,10 @@ void V4l2Output::prepare_buffers() {
     queued_ = 0;
     next_index_ = 0;
     if (shared_queue_) {
-        // STREAMON before write() too: else the device would not be an output again once we are gone.
+        // STREAMON is needed for write(), too; without it the device would not be an output again after we
+        // are gone.
         if (v4l2_ioctl(fd_.get(), VIDIOC_STREAMON, &type) < 0) refuse("does not start");
-        // REQBUFS would unmap the buffers under readers that already stream.
+        // REQBUFS would unmap the buffers of readers that are streaming.
         if (!buffers_.map_existing(fd_.get(), kMaxBuffers)) refuse("gives no buffers");
         in_use_ = buffers_.size();
     } else if (request_.mapped) {
@@ -162,7 +163,7 @@ void V4l2Output::prepare_buffers() {
             throw DeviceError(request_.device + ": its buffers are smaller than a frame");
 }
 
-// Counts how many buffers go round now: a reader may have taken some away.
+// Counts the buffers in use, because a reader may have removed some.
 void V4l2Output::recount() {
     std::size_t distinct = 0;
     for (std::uint32_t i = 0; i < buffers_.size(); ++i) {

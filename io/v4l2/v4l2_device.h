@@ -1,6 +1,6 @@
 #pragma once
-// A V4L2 output device that is fed frames: v4l2loopback's writing side, with its versions' traps
-// (v4l2_module.h). Knows ioctls; when a frame is due is its user's business.
+// A V4L2 output device that takes frames: v4l2loopback's writing side, with workarounds for its versions
+// (v4l2_module.h). It knows ioctls; the caller decides when a frame is due.
 
 #include <cstdint>
 #include <span>
@@ -27,16 +27,16 @@ class V4l2Output {
 
     ~V4l2Output() { close(); }
 
-    // Throws DeviceError that says what is wrong and what to do: no such device, no right, not an output,
-    // busy, a format that it has not or that a reader holds another one of.
+    // Throws DeviceError that says what is wrong and what to do: no such device, no permission, not an
+    // output, busy, or a format that it does not support or that a reader blocks.
     void open(const Request& request);
     void close() noexcept;
     bool is_open() const { return static_cast<bool>(fd_); }
 
-    // Returns where the next frame is to be drawn; empty when the device fails (errno). No allocation.
+    // Returns the memory for the next frame; empty when the device fails (errno). No allocation.
     std::span<std::uint8_t> next() noexcept;
-    // Gives that frame to the readers. `timestamp_ns`: CLOCK_MONOTONIC, mapped only; 0: the module's own.
-    // False: errno.
+    // Gives that frame to the readers. timestamp_ns: CLOCK_MONOTONIC, only if mapped; 0: the module's own.
+    // False: see errno.
     bool submit(std::int64_t timestamp_ns) noexcept;
 
     const LoopbackModule& module() const { return module_; }

@@ -58,7 +58,7 @@ V4l2Format flipped(V4l2Format format) {
         case V4l2Format::kGrey:
         case V4l2Format::kYuyv:
         case V4l2Format::kRgb24:
-        case V4l2Format::kBayer8:  // its 16-bit form by content: old modules have no Bayer above 8 bits
+        case V4l2Format::kBayer8:  // Y16 carries its mosaic: old modules have no Bayer above 8 bits
             return V4l2Format::kY16;
         case V4l2Format::kBayer10:
         case V4l2Format::kBayer12:

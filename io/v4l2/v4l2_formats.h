@@ -1,5 +1,5 @@
 #pragma once
-// The V4L2 pixel formats that hilcam can give, and what each makes of a frame.
+// The V4L2 pixel formats that hilcam can write, and how each represents a frame.
 
 #include <cstdint>
 #include <string>
@@ -17,13 +17,13 @@ struct V4l2Pixels {
     std::size_t bytes_per_pixel = 2;
 };
 
-// GREY and Y16 of a camera with a colour filter array carry its mosaic as it is. Throws InputError: a mosaic
-// of a camera without one, YUYV of an odd width.
+// Returns the pixels of a format. GREY and Y16 carry the raw mosaic of a camera with a colour filter array.
+// Throws InputError for a Bayer format of a monochrome camera, and for YUYV with an odd width.
 V4l2Pixels pixels_of(V4l2Format format, BayerPattern pattern, int width);
-// The format of the same kind with the other bit depth: what the fault v4l2_format_flip opens with.
+// Returns the format of the same kind with the other bit depth, which the fault v4l2_format_flip uses.
 V4l2Format flipped(V4l2Format format);
 
-// "Y16 ", "BA81"; bytes that are not printable become dots.
+// Returns a fourcc as text, "Y16 " or "BA81"; bytes that are not printable become dots.
 std::string fourcc_text(std::uint32_t fourcc);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// Finds which v4l2loopback is loaded, and what that version must not be asked.
+// Finds the version of the loaded v4l2loopback, and what must be avoided with it.
 
 #include <cstdint>
 #include <optional>
@@ -12,27 +12,26 @@ struct LoopbackVersion {
     int major = 0, minor = 0, patch = 0;
     friend auto operator<=>(const LoopbackVersion&, const LoopbackVersion&) = default;
 };
-// "0.15.0"; nothing for other text.
+// Parses "0.15.0"; nothing for other text.
 std::optional<LoopbackVersion> parse_loopback_version(std::string_view text);
 
 struct LoopbackModule {
     bool loaded = false;
-    // Modules before 0.13 do not tell theirs.
+    // Nothing for modules before 0.13, which do not report their version.
     std::optional<LoopbackVersion> version;
 
-    // True before 0.14, where the module's queue is one for all programs. Then
-    //  - DQBUF hands a writer the newest frame, which a reader may be reading: we choose the buffer
-    //  ourselves;
-    //  - any reader that asks for fewer buffers takes them from all, for good, and renumbers them: we ask
-    //  where
-    //    a buffer is before each frame;
-    //  - write() races with that: a list entry may be removed while a frame is copied, which panics the
-    //  kernel
-    //    (measured: an unpaced writer and a reader, within a second).
+    // True before 0.14, where all programs share one queue in the module. Then:
+    // - DQBUF gives a writer the newest frame, which a reader may be reading, so we choose the buffer
+    //   ourselves.
+    // - A reader that requests fewer buffers removes them for everybody, permanently, and renumbers the rest,
+    //   so we ask for a buffer's place before each frame.
+    // - write() races with that: an entry may be removed from a list while a frame is copied, and the kernel
+    //   panics (measured: within a second, with an unpaced writer and a reader).
     bool shared_queue() const { return loaded && (!version || *version < LoopbackVersion{0, 14, 0}); }
-    // False before 0.13: frames queued by mmap are not counted, nor their times marked as the producer's.
+    // False before 0.13: frames queued through mmap are not counted, and their times are not marked as the
+    // producer's.
     bool counts_mapped_frames() const { return !loaded || version.has_value(); }
-    // "0.15.0", "before 0.13", "none".
+    // Returns "0.15.0", "before 0.13" or "none".
     std::string name() const;
 };
 

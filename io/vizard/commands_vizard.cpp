@@ -17,15 +17,15 @@
 namespace hilcam {
 namespace {
 
-// Twice what is read of a SIM_UPDATE (vizard_message.h), so that one too large is answered.
+// Twice the limit of a SIM_UPDATE (vizard_message.h), so that one above the limit still gets an answer.
 constexpr std::int64_t kMaxMessageBytes = 16 << 20;
 constexpr std::size_t kMaxMessageParts = 1000;
-// A process of Basilisk's leaves 145 connections behind before it has no descriptor left itself (of 1024).
-// Three descriptors each (the guard's two, ZeroMQ's one) fit into 1024 here, too.
+// A process of Basilisk leaves 145 connections behind before it runs out of its own 1024 descriptors. Each
+// takes three descriptors (the frontend's two, ZeroMQ's one), which fit into 1024 here as well.
 constexpr std::size_t kMaxPeers = 200;
 constexpr std::uint64_t kMaxHeldBytes = 8 * kMaxMessageBytes;
-constexpr std::size_t kMaxParts = 16;  // most parts of a request; further ones are left out
-// The time from the frame rendered (the command's answer) to the frame published: the sensor's part.
+constexpr std::size_t kMaxParts = 16;  // most parts of a request; further ones are ignored
+// Longest time from the rendered frame (the command's answer) to the published frame: the sensor's part.
 constexpr std::chrono::seconds kPatience{60};
 constexpr std::chrono::milliseconds kStopStep{50};
 
@@ -80,7 +80,7 @@ class VizardReceiver : public CommandReceiver {
     VizardWorld world_;
     VizardConversation conversation_;
     std::unique_ptr<ReplySocket> socket_;
-    std::unique_ptr<ZmqFrontend> frontend_;  // stands before connections by TCP
+    std::unique_ptr<ZmqFrontend> frontend_;  // protects TCP connections
     Fd wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false}, over_{false};
     std::thread thread_;
@@ -102,8 +102,8 @@ void VizardReceiver::start() {
     thread_ = std::thread([this] { run(); });
 }
 
-// Listens behind a guard. The file system decides who may connect to a Unix socket's file; by TCP comes
-// whoever reaches the port.
+// Listens behind a frontend. The file system decides which programs may connect to a Unix socket's file; over
+// TCP, anyone who reaches the port may.
 void VizardReceiver::listen_behind_guard() {
     const pid_t own = getpid();
     ZmqFrontendSetup setup{config_.address,
@@ -112,10 +112,10 @@ void VizardReceiver::listen_behind_guard() {
                            {kMaxMessageBytes, kMaxMessageParts},
                            kMaxHeldBytes,
                            [this](const std::string& why) {
-                               // Once: whoever does it may go on and on.
+                               // Only once, because the peer may do it again and again.
                                if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);
                            }};
-    socket_->admit_only(own);  // others would pass the guard by
+    socket_->admit_only(own);  // others would bypass the frontend
     socket_->listen("ipc://@" + setup.inner);
     frontend_ = std::make_unique<ZmqFrontend>(std::move(setup));
     frontend_->start();

@@ -1,10 +1,11 @@
 #pragma once
-// Pictures for Basilisk's vizInterface in Vizard's place: the simulator tells the world and asks for images
+// Takes Vizard's place for Basilisk's vizInterface. The simulator sends its world and asks for images
 // (ZeroMQ, REQ there, REP here); each image is one `expose` in lockstep. docs/vizard.md.
 //
-// Nothing is authenticated: bind to loopback, or to a network of the bench alone. By TCP there are 200
-// connections at most, and a message above 16 MiB or 1000 parts ends its own (zmq_frontend.h). Several
-// simulators may be connected; each request is answered in its turn, and all speak of the same world.
+// Nothing is authenticated: bind to loopback, or to a network with nothing but the bench. Over TCP, at most
+// 200 connections are accepted, and a message above 16 MiB or 1000 parts ends its connection
+// (zmq_frontend.h). Several simulators may be connected; requests are answered in turn, and all simulators
+// act on the same world.
 
 #include <memory>
 #include <vector>
@@ -17,9 +18,8 @@
 
 namespace hilcam {
 
-// The way in which a frame's numbers become a PNG's. kDeep: 16 bits, the number in the most significant ones;
-// kBytes: its upper 8 bits, as readers of 8 bits take them from the other. A camera with a mosaic gives
-// interpolated colours of 8 bits.
+// The way in which a frame becomes a PNG. kDeep: 16 bits, with the DN in the most significant bits. kBytes: 8
+// bits, the upper 8 of kDeep. A camera with a colour filter array gives interpolated colours of 8 bits.
 enum class VizardDepth { kDeep, kBytes };
 
 struct VizardConfig {
@@ -33,13 +33,13 @@ struct VizardConfig {
 Fields fields(VizardConfig& config);
 void validate(const VizardConfig& config);
 
-// A camera that takes pictures for it: where its frames come, and how they are read.
+// A camera that takes pictures for the simulator: where its frames arrive, and their colours.
 struct VizardCameraPart {
     VizardSink* sink = nullptr;   // outlives the receiver
-    std::string color_pattern{};  // colour pattern as in CameraLimits
+    std::string color_pattern{};  // CameraLimits::color_pattern
 };
 
-// `remark` may be called from the receiver's thread. `handler` outlives the receiver.
+// remark: may be called on the receiver's thread. handler: outlives the receiver.
 std::unique_ptr<CommandReceiver> make_vizard_receiver(const VizardConfig& config, VizardBench bench,
                                                       std::vector<VizardCameraPart> cameras,
                                                       CommandHandler& handler, VizardWorld::Remark remark);

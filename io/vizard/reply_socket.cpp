@@ -11,10 +11,10 @@
 namespace hilcam {
 namespace {
 
-// ABI 5, which all releases since 4.1 (2014) have.
+// ABI 5 is that of all releases since 4.1 (2014).
 constexpr const char* kLibrary = "libzmq.so.5";
 
-// The functions that are used, by the names that the library gives them.
+// The functions that are used, by the library's names.
 struct Library {
     decltype(&zmq_ctx_new) ctx_new;
     decltype(&zmq_ctx_term) ctx_term;
@@ -69,12 +69,12 @@ const Library& library() {
     return loaded;
 }
 
-// Throws what the library says of a call that failed.
+// Throws the library's message when a call has failed.
 void require(bool done) {
     if (!done) throw DeviceError(library().strerror(library().last_errno()));
 }
 
-// Repeats a call that a signal has interrupted, and returns what it returns.
+// Repeats a call that a signal interrupts, and returns its result.
 template <class Call>
 int persistently(const Call& call) {
     int result = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The answering end of ZeroMQ's request and reply. The library is looked for when the first socket is made: it brings a dozen others
-// into the process, which a camera without Basilisk has no use for.
+// The replying end of ZeroMQ's request-reply pattern. The library is loaded when the first socket is made: it
+// brings a dozen others into the process, which a camera without Basilisk does not need.
 
 #include <sys/types.h>
 
@@ -11,20 +11,21 @@
 
 namespace hilcam {
 
-// One thread at a time. Where the library refuses, DeviceError has its words.
+// One thread at a time. A DeviceError carries the library's message.
 class ReplySocket {
   public:
-    // Messages above `max_bytes` end their connection. Throws InputError, which says what to install, where there is no ZeroMQ.
+    // Messages above `max_bytes` end their connection. Throws InputError, which says what to install, when
+    // ZeroMQ is missing.
     explicit ReplySocket(std::int64_t max_bytes);
     ~ReplySocket();
 
-    // Listens at an address of ZeroMQ's own form.
+    // Listens on an address in ZeroMQ's form.
     void listen(const std::string& address);
-    // From then on, of those that come by Unix sockets, only this process is let in.
+    // From then on, accepts connections over Unix sockets from this process only.
     void admit_only(pid_t process);
-    // Waits until there is a request (true), or something else: `wakeup` was woken, or a signal came.
+    // Waits until there is a request (true), `wakeup_fd` is woken, or a signal comes (false).
     bool wait(int wakeup_fd);
-    // Returns a request's parts, the first `most` of them: all of a message arrive together.
+    // Returns the first `most` parts of a request. The parts of a message arrive together.
     std::vector<std::string> receive(std::size_t most);
     void send(const std::vector<std::string>& parts);
     void close() noexcept;

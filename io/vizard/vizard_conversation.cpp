@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-// With a camera's number behind a "_", or alone.
+// Followed by "_" and a camera's number, or alone.
 constexpr std::string_view kImageRequest = "REQUEST_IMAGE";
 constexpr std::size_t kUpdateParts = 4;
 

@@ -1,18 +1,18 @@
 #pragma once
-// The conversation of Basilisk's vizInterface with Vizard, whose place hilcam takes: what is asked, what is
-// answered. ZeroMQ messages of several parts; the sockets are commands_vizard.h's.
+// The protocol between Basilisk's vizInterface and Vizard, in which hilcam takes Vizard's place: requests and
+// replies as ZeroMQ messages of several parts. The sockets are in commands_vizard.h.
 //
-//     asked                                          answered
-//     PING                                           PONG
-//     SIM_UPDATE | empty | empty | VizMessage        OK        (ERROR: the simulator stops)
-//     REQUEST_IMAGE_<cameraID>                       length of the picture, 32 bits big-endian | picture
-//     REQUEST_IMAGE (until Basilisk 2.1.4)           the same, of the message's first camera
-//     REQUEST_INPUT                                  VIZARD_INPUT | VizInput, without input
-//     anything else                                  ERROR
+//    request                                        reply
+//    PING                                           PONG
+//    SIM_UPDATE | empty | empty | VizMessage        OK        (ERROR: the simulator stops)
+//    REQUEST_IMAGE_<cameraID>                       length of the picture, 32 bits big-endian | picture
+//    REQUEST_IMAGE (until Basilisk 2.1.4)           the same, of the message's first camera
+//    REQUEST_INPUT                                  VIZARD_INPUT | VizInput, without input
+//    anything else                                  ERROR
 //
-// Without a picture (an unknown camera, a missing spacecraft, nothing rendered) length and picture are 0 and
-// empty, which Basilisk takes for an image that is not valid. A message that cannot be read is answered
-// ERROR, and there are no pictures until one comes that can.
+// When there is no picture (an unknown camera, a missing spacecraft, nothing rendered), length 0 and an empty
+// picture are sent, which Basilisk treats as an invalid image. A message that cannot be read is answered
+// ERROR, and no pictures are given until a readable one comes.
 
 #include <functional>
 #include <string>
@@ -27,7 +27,7 @@ using VizardParts = std::vector<std::string>;
 
 class VizardConversation {
   public:
-    // Takes the picture and gives it encoded; empty when that fails, with the reason.
+    // An encoded picture; empty when it could not be taken, with the reason.
     struct Picture {
         std::string bytes;
         std::string trouble;
@@ -38,10 +38,10 @@ class VizardConversation {
 
     struct Answer {
         VizardParts parts;     // one at least
-        bool refused = false;  // the message does not hold what was asked for
+        bool refused = false;  // the request could not be fulfilled
     };
     Answer answer(const VizardParts& asked);
-    // The simulator has said that it ends, and wants Vizard to.
+    // True when the simulator has announced its end, at which Vizard would end.
     bool is_over() const { return over_; }
 
   private:

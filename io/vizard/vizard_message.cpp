@@ -18,14 +18,14 @@
 namespace hilcam {
 namespace {
 
-// 50 years: with any epoch that parse_utc() takes, the sum stays inside TimeTai.
+// 50 years: added to any epoch that parse_utc() accepts, the sum stays inside TimeTai.
 constexpr double kLongest_ns = 1.6e18;
 constexpr double kRotationTolerance = 1e-6;
 // Basilisk's messages have some kilobytes.
 constexpr std::size_t kMaxBytes = 8u << 20;
 constexpr std::size_t kMaxThings = 10'000, kMaxCameras = 255, kMaxResolutions = 1000;
 
-// A list of numbers of a message; `what` names it in a refusal.
+// A list of numbers in a message; `what` names it in a refusal.
 struct Numbers {
     const google::protobuf::RepeatedField<double>& values;
     std::string what;
@@ -40,7 +40,7 @@ struct Numbers {
             throw InputError(what + ": found a number that is not finite, or above " + plain(most));
         return v;
     }
-    // Three numbers are MRPs, nine a matrix; nine zeros are what an ephemeris without attitudes gives.
+    // Three numbers are MRPs, nine a matrix. An ephemeris without attitudes sends nine zeros.
     std::optional<Quat> attitude() const {
         if (values.empty()) return {};
         Quat q;
@@ -91,9 +91,9 @@ VizardCamera camera_of(const hilcam_vizard::CameraConfig& m) {
     return camera;
 }
 
-// Fields that are not set have protobuf's zero; the protocol's defaults stand for those that cannot be one.
+// An unset field has protobuf's zero; where zero is not possible, the protocol's default replaces it.
 TimeTai epoch_of(const hilcam_vizard::EpochDateTime& e) {
-    // Cut, not rounded, to nanoseconds: 59.9999999999 must not become 60.
+    // Truncated to nanoseconds, because rounding could turn 59.9999999999 into 60.
     const double seconds = e.seconds() >= 0 && e.seconds() < 61 ? std::floor(e.seconds() * 1e9) * 1e-9 : 99;
     char text[128];
     std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d:%012.9f", e.year() == 0 ? 2019 : e.year(),
@@ -108,10 +108,10 @@ std::int64_t elapsed_of(double ns) {
     return std::llround(ns);
 }
 
-// --- before anything is built of a message
+// --- checks before anything is built from a message
 
-// Calls see(field, bytes) for each field of a message; a number has no bytes. False: these bytes are none.
-// (Protobuf's groups, wire types 3 and 4, are not in proto3.)
+// Calls see(field, bytes) for each field of a message; a number has no bytes. Returns false when the bytes
+// are no message. (Protobuf's groups, wire types 3 and 4, do not exist in proto3.)
 template <class See>
 bool walk(std::span<const std::uint8_t> message, const See& see) {
     google::protobuf::io::CodedInputStream in(message.data(), static_cast<int>(message.size()));
@@ -153,8 +153,9 @@ void check_number(const char* what, std::size_t found, std::size_t most) {
                          std::to_string(most));
 }
 
-// Two bytes of a message can become a spacecraft of a hundred in memory, one byte a camera's resolution of
-// eight: both are counted before there is any. False: the bytes are no message. Throws InputError.
+// Two bytes of a message can become a spacecraft of a hundred bytes in memory, one byte a camera's resolution
+// of eight. So both are counted before they are built. Returns false when the bytes are no message. Throws
+// InputError.
 bool numbers_fit(std::span<const std::uint8_t> message) {
     using hilcam_vizard::CameraConfig, hilcam_vizard::VizMessage;
     std::size_t spacecraft = 0, bodies = 0, cameras = 0, resolutions = 0;
@@ -166,7 +167,7 @@ bool numbers_fit(std::span<const std::uint8_t> message) {
         spacecraft += field == VizMessage::kSpacecraftFieldNumber;
         bodies += field == VizMessage::kCelestialBodiesFieldNumber;
         cameras += field == VizMessage::kCamerasFieldNumber;
-        // One that is broken is left to the parser.
+        // A malformed one is left to the parser.
         if (field == VizMessage::kCamerasFieldNumber) walk(bytes, in_camera);
     });
     if (!good) return false;
@@ -177,7 +178,7 @@ bool numbers_fit(std::span<const std::uint8_t> message) {
     return true;
 }
 
-// --- what it says
+// --- contents
 
 VizardUpdate update_of(const hilcam_vizard::VizMessage& m) {
     VizardUpdate update;
@@ -196,7 +197,7 @@ VizardUpdate update_of(const hilcam_vizard::VizMessage& m) {
 }  // namespace
 
 DecodedVizardUpdate decode_vizard_update(std::span<const std::uint8_t> bytes) {
-    // The library would print to standard error what is told in the refusal.
+    // Stops the library from printing to standard error what the refusal says.
     static const bool quiet = (google::protobuf::SetLogHandler(nullptr), true);
     static_cast<void>(quiet);
     const std::string size = std::to_string(bytes.size()) + " bytes";

@@ -8,7 +8,7 @@ namespace hilcam {
 void VizardSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
     State wanted = State::kWanted;
     if (!state_.compare_exchange_strong(wanted, State::kCopying, std::memory_order_acq_rel)) return;
-    // Others may ask for frames too (commands over UDP): the number alone could be one of theirs.
+    // Others may ask for frames, too (commands over UDP), and use the same number.
     if (record.trigger_sequence != sequence_ || record.exposure_mid != time_)
         return state_.store(State::kWanted, std::memory_order_release);
     frame_.reshape(frame.width(), frame.height());
@@ -27,7 +27,7 @@ void VizardSink::expect(std::uint32_t trigger_sequence, TimeTai exposure_mid) {
 
 bool VizardSink::wait_for(std::chrono::nanoseconds patience) {
     const std::int64_t until_ns = monotonic_ns() + patience.count();
-    do {  // a release may be that of a frame that was forgotten
+    do {  // a release may be that of a cancelled request
         if (!full_.try_acquire_until(until_ns)) return false;
     } while (state_.load(std::memory_order_acquire) != State::kFull);
     return true;
@@ -35,7 +35,7 @@ bool VizardSink::wait_for(std::chrono::nanoseconds patience) {
 
 void VizardSink::forget() {
     State state = State::kWanted;
-    // A copy takes no longer than a memcpy.
+    // The wait is short, because a copy takes no longer than a memcpy.
     while (!state_.compare_exchange_strong(state, State::kIdle, std::memory_order_acq_rel) &&
            state == State::kCopying) {
         state = State::kWanted;

@@ -1,9 +1,9 @@
 #pragma once
-// Keeps that frame of a camera which the Vizard side has asked for: it is copied in the loop, and read by who
-// waits.
+// Keeps the one frame of a camera that the simulator has asked for. The loop copies it; the asking thread
+// reads it.
 //
-// Two threads share it without a lock: expect() hands the buffer to the loop, the loop hands it back with
-// the frame in it. The loop never waits.
+// The two threads share it without a lock: expect() gives the buffer to the loop, and the loop gives it back
+// with the frame. The loop never waits.
 
 #include <atomic>
 #include <chrono>
@@ -17,7 +17,7 @@ namespace hilcam {
 
 class VizardSink : public FrameSink {
   public:
-    // The largest frame's size.
+    // width, height: of the largest frame.
     VizardSink(std::string name, int width, int height) : name_(std::move(name)), frame_(width, height) {}
 
     void start() override {}
@@ -25,17 +25,18 @@ class VizardSink : public FrameSink {
     void stop() noexcept override {}
     SinkReport report() const override;
 
-    // The frame of the `expose` with this sequence number, at this instant. Asking thread, as the rest.
+    // Requests the frame of the `expose` with this sequence number and mid-exposure. Asking thread, as all
+    // below.
     void expect(std::uint32_t trigger_sequence, TimeTai exposure_mid);
-    // True when it is there; then frame() and record() are, until the next expect().
+    // Returns true when it has come; frame() and record() are then valid until the next expect().
     bool wait_for(std::chrono::nanoseconds patience);
-    // It is not wanted any more.
+    // Cancels the request of expect().
     void forget();
     const DnImage& frame() const { return frame_; }
     const FrameRecord& record() const { return record_; }
 
   private:
-    // kIdle and kFull: the asking thread owns the buffer; kWanted: nobody; kCopying: the loop.
+    // Owner of the buffer: kIdle and kFull: the asking thread; kWanted: none; kCopying: the loop.
     enum class State : std::uint8_t { kIdle, kWanted, kCopying, kFull };
 
     std::string name_;

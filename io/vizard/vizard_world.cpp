@@ -14,14 +14,15 @@
 namespace hilcam {
 namespace {
 
-// The greatest number of remarks of a run, and of all runs: a flood of them says no more.
+// Largest number of remarks in a run, and in all runs, because a flood of them does not help.
 constexpr std::size_t kMaxRemarks = 100, kMaxRemarksInAll = 1000;
-constexpr std::size_t kMaxNamed = 10;  // that are not shown: a constellation's leave room for other remarks
+// Names of things that are not shown; a constellation's leave room for other remarks.
+constexpr std::size_t kMaxNamed = 10;
 constexpr std::size_t kNoCamera = SIZE_MAX;
-// Tolerance between the fields of view: pitch and focal length of data sheets are rounded.
+// Tolerance between fields of view, because data sheets round pitch and focal length.
 constexpr double kViewTolerance_ratio = 0.01;
 
-// "mars barycenter", "Mars", "mars_planet_data": mars.
+// Returns "mars" for "mars barycenter", "Mars" and "mars_planet_data".
 std::string body_word(const std::string& name) {
     std::string word;
     for (const char c : name) {
@@ -76,7 +77,7 @@ void VizardWorld::take(VizardUpdate update) {
     if (update.epoch) {
         epoch_known_ = true;
         if (rules_.time == VizardTime::kMessage) start_ = *update.epoch;
-        // Some scripts send it every step: a run begins where time goes back, too.
+        // Some scripts send the epoch at every step, so a run also begins where time goes back.
         if (start_ + update.elapsed_ns < before) said_.clear();
     }
     if (!epoch_known_ && rules_.time == VizardTime::kMessage)
@@ -116,7 +117,7 @@ bool VizardWorld::shot(std::int64_t id, VizardShot& shot) {
     const Quat world_from_camera = spacecraft.pose.world_from_body * camera->body_from_camera;
     check_bodies(bodies, shift, camera_world_m);
 
-    // The body that carries the bench's camera: its mount undone.
+    // The pose of the body that carries the bench's camera: removes the mount.
     const Pose& mount = bench_.cameras[own].body_from_camera;
     PoseCommand carrier;
     carrier.alone = true;
@@ -147,13 +148,12 @@ const VizardThing* VizardWorld::parent_of(const VizardCamera& camera) const {
 }
 
 VizardWorld::Shift VizardWorld::shift_at(TimeTai time, const Bodies& bodies) {
-    // In free space the message's own frame is the world's.
+    // In free space, the message's frame is the world's.
     if (!bench_.origin.center()) return {};
     const BodyId center = *bench_.origin.center();
     Shift shift{bodies[center].world_m, {}};
     if (bench_.origin.turns()) {
-        // The origin's place turns about the body as a difference over two seconds says, good to a part in
-        // 1e9.
+        // The origin's velocity about the body is a difference over two seconds, accurate to 1e-9.
         constexpr std::int64_t kStep_ns = 1'000'000'000;
         const Vec3d before = bodies_at(time + -kStep_ns, bench_.origin)[center].world_m;
         const Vec3d after = bodies_at(time + kStep_ns, bench_.origin)[center].world_m;

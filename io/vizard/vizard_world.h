@@ -1,25 +1,24 @@
 #pragma once
-// A simulator's messages as commands of this bench: which time it is, where the camera and the objects are.
+// Turns a simulator's messages into commands of this bench: the time, and the poses of camera and objects.
 //
 // World: the message's frame N has the world's axes (ICRF; "J2000" is within 0.02 arcsec of it) and another
-// origin. The scenario's central body is in both: world = N - body_N + body_world. Without that body in the
-// message, N's origin is taken for its centre. With an origin in free space N is the world.
+// origin. Both contain the scenario's central body: world = N - body_N + body_world. When the message lacks
+// that body, its centre is assumed at N's origin. With an origin in free space, N is the world.
 //
-// Time: epoch of the run's first message + elapsed time, or with `time: scenario` the scenario's start +
+// Time: the epoch in the run's first message + elapsed time, or with `time: scenario` the scenario's start +
 // elapsed time.
 //
-// Camera: the message's own place and direction on its spacecraft count, not the scenario's mount: the body
-// that the camera is fixed to is put so that the camera is where the message has it. Its optics and its
-// detector are the scenario's; where the message says another field of view or size, a remark does.
+// Camera: the message's position and direction on the spacecraft replace the scenario's mount. The body that
+// carries the camera is placed so that the camera is where the message says. Optics and detector are the
+// scenario's; a remark reports a field of view or size in the message that differs.
 //
-// Objects: spacecraft and celestial bodies of the message that have the name of an object of the scenario.
-// Others are not shown; objects that the message does not name stay where they are.
+// Objects: spacecraft and celestial bodies in the message with the name of an object of the scenario. Others
+// are not shown; objects that the message does not name keep their poses.
 //
-// Sun and planets are the scenario's own (render/sky/bodies.h), as light time, aberration and turning are in
-// them. Where the message has one elsewhere than they do, by more than the tolerance and as the camera sees
-// it, a remark says so.
+// Sun and planets are the scenario's own (render/sky/bodies.h), with light time, aberration and rotation. A
+// remark reports a body that the message puts elsewhere, as the camera sees it, by more than the tolerance.
 //
-// Motion during an exposure: the message's velocity, and no turning, as rates are not in it.
+// Motion during an exposure: the message's velocity and no rotation, because the message has no rates.
 
 #include <array>
 #include <functional>
@@ -35,7 +34,7 @@
 
 namespace hilcam {
 
-// Says which of the simulator's cameras is which of the bench's.
+// Maps a camera of the simulator to one of the bench.
 struct VizardCameraConfig {
     std::int64_t id = 1;
     std::int64_t camera = 1;
@@ -44,7 +43,7 @@ Fields fields(VizardCameraConfig& config);
 
 enum class VizardTime { kMessage, kScenario };
 
-// The bench's offer: what a simulator may use.
+// The part of the bench that a simulator may use.
 struct VizardBench {
     struct Camera {
         Pose body_from_camera;  // pose of its mount on the body that object 0's poses move
@@ -72,16 +71,17 @@ class VizardWorld {
         std::vector<VizardCameraConfig> cameras{};  // empty: in the messages' order
     };
     using Remark = std::function<void(const std::string&)>;
-    // `remark` gets each remark once in a run of the simulator.
+    // remark: gets each remark once per run of the simulator.
     VizardWorld(const Rules& rules, VizardBench bench, Remark remark);
 
-    // The world as it is from now on.
+    // Sets the world from a message.
     void take(VizardUpdate update);
-    // The world is not known any more: what came could not be read.
+    // Forgets the world, because a message could not be read.
     void lose() { known_ = false; }
-    // Finds what camera `id` of the simulator shows now. False, with a remark, when there is nothing to show.
+    // Finds what camera `id` of the simulator shows. Returns false, with a remark, when there is nothing to
+    // show.
     bool shot(std::int64_t id, VizardShot& shot);
-    // The simulator's first camera; none before a SIM_UPDATE that can be read.
+    // Returns the simulator's first camera; none before a readable SIM_UPDATE.
     std::optional<std::int64_t> first_camera() const {
         if (!known_ || update_.cameras.empty()) return {};
         return update_.cameras.front().id;
@@ -94,7 +94,7 @@ class VizardWorld {
     struct Shift {
         Vec3d position_m, velocity_m_s;
     };
-    // Those of one topic once, whatever their figures.
+    // Passes on the first remark of each topic, whatever its figures.
     void remark_once(const std::string& topic, const std::string& text);
     bool refuse(const std::string& reason);
     std::size_t bench_camera(std::size_t place, std::int64_t id) const;

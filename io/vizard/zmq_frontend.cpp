@@ -20,7 +20,7 @@
 namespace hilcam {
 namespace {
 
-// Reads an address as ZeroMQ takes it: an address, an interface's name, or all of them.
+// Returns the address for ZeroMQ's notation: an address, an interface's name, or * for all.
 std::uint32_t address_named(const std::string& host) {
     in_addr numeric{};
     if (host == "*") return INADDR_ANY;
@@ -72,7 +72,7 @@ void ZmqFrontend::run() {
     std::vector<pollfd> watched;
     while (!stopping_) {
         watched.assign({{wakeup_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}});
-        // Read where there is room, written where there is something.
+        // A connection is read while there is room, and written while there is something to write.
         const auto events = [](const Way& from, const Way& to) {
             return static_cast<short>((from.empty() ? POLLIN : 0) | (to.empty() ? 0 : POLLOUT));
         };
@@ -81,7 +81,7 @@ void ZmqFrontend::run() {
             watched.push_back({c.inner.get(), events(c.out, c.in), 0});
         }
         if (poll(watched.data(), watched.size(), -1) < 0) continue;
-        // One that is accepted below comes behind those that were watched.
+        // Connections accepted below come after those that were watched.
         auto at = watched.begin() + 2;
         for (Connection& c : connections_) {
             const short outer = (at++)->revents, inner = (at++)->revents;
@@ -103,7 +103,7 @@ std::size_t ZmqFrontend::peers() const {
         std::count_if(connections_.begin(), connections_.end(), std::mem_fn(&Connection::is_peer)));
 }
 
-// The oldest connection stands first.
+// The list begins with the oldest connection.
 void ZmqFrontend::make_room_for_a_stranger() {
     if (connections_.size() - peers() < kMaxStrangers) return;
     connections_.erase(
@@ -135,14 +135,14 @@ void ZmqFrontend::bound_memory() {
 void ZmqFrontend::accept_connection() {
     Fd outer(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     if (!outer) {
-        // Out of descriptors: the caller would be back at once.
+        // Without a free descriptor, accept() would fail again at once: pause.
         if (errno != EAGAIN && errno != ECONNABORTED) poll(nullptr, 0, 10);
         return;
     }
     make_room_for_a_stranger();
     Fd inner = connect_abstract(setup_.inner);
     if (!inner) return;
-    const int yes = 1;  // a stream that comes in pieces goes on in pieces
+    const int yes = 1;  // pieces are passed on without delay
     setsockopt(outer.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
     connections_.push_back({std::move(outer),
                             std::move(inner),
@@ -152,15 +152,14 @@ void ZmqFrontend::accept_connection() {
                             ZmtpMeter(ZmtpMeter::kNoLimits)});
 }
 
-// A side that has ended is noticed once all that it sent is passed on: before that it is not read.
+// A side that has ended is noticed only after all that it sent is passed on, because it is not read before.
 void ZmqFrontend::serve(Connection& c, short outer_events, short inner_events) {
     if (c.gone) return;
     if (c.in.empty() && (outer_events & ~POLLOUT)) take_from_outside(c);
     if (c.out.empty() && (inner_events & ~POLLOUT)) take_from_inside(c);
     if (c.gone) return;
     c.gone |= !write_from(c.in, c.inner) || !write_from(c.out, c.outer);
-    // A connection that cannot pass anything on now never will; poll() would come back with it at once, again
-    // and again.
+    // A connection that cannot pass anything on any more would make poll() return at once, again and again.
     const bool stuck =
         (!c.in.empty() && (outer_events & POLLHUP)) || (!c.out.empty() && (inner_events & POLLHUP));
     c.gone |= stuck || ((outer_events | inner_events) & (POLLERR | POLLNVAL)) != 0;
@@ -187,7 +186,7 @@ void ZmqFrontend::take_from_inside(Connection& c) {
         c.settled_bytes = c.asked.announced_bytes() - c.asked.unfinished_bytes();
 }
 
-// False: the other side has ended.
+// Returns false when the other side has ended.
 bool ZmqFrontend::read_into(Way& way, const Fd& from) {
     const ssize_t got = recv(from.get(), way.bytes.data(), way.bytes.size(), MSG_DONTWAIT);
     if (got < 0 && (errno == EAGAIN || errno == EINTR)) return true;

@@ -1,19 +1,19 @@
 #pragma once
-// Stands before a ZeroMQ socket that listens: passes connections on to it, byte by byte, but ends those whose
-// messages are too large. ZeroMQ itself bounds a message's single parts (ZMQ_MAXMSGSIZE) and the number of
-// whole messages that wait (ZMQ_RCVHWM), but neither the parts of one message nor connections: a peer that
-// goes on with one more part takes all memory there is.
+// A proxy before a listening ZeroMQ socket: it forwards connections byte by byte and ends those with messages
+// that are too large. ZeroMQ itself limits the size of a message's parts (ZMQ_MAXMSGSIZE) and the number of
+// whole messages that wait (ZMQ_RCVHWM), but neither the number of parts nor of connections: a peer that
+// keeps adding parts would use up all memory.
 //
-// A connection that has brought no whole message is a stranger's. Strangers take no peer's place: there may be
-// kMaxStrangers of them besides, and for one more the oldest is ended.
+// A connection without a whole message so far is a stranger. Strangers do not count as peers. There may be
+// kMaxStrangers of them; for one more, the oldest is ended.
 //
-// Basilisk leaves the connection of each of its runs open until its process ends, so that most peers are
-// silent for good: there may be many, and for one more the one whose last message is the oldest is ended. (It
-// comes back by itself, as a stranger, and stays that.) What bounds memory is the sum of what all have sent
-// and have no answer to yet; above it, the connection with the most is ended.
+// Basilisk leaves the connection of each run open until its process ends, so most peers are silent for good.
+// Many are allowed; for one more, the peer with the oldest last message is ended. (It reconnects by itself,
+// as a stranger, and stays one.) The memory limit is on the sum of what all have sent and not got an answer
+// to; above it, the connection with the most is ended.
 //
-// Connections come in by TCP and go on to an abstract Unix socket of this process. A thread of its own passes
-// on; for each connection it holds 2 x 64 KiB.
+// Connections come in over TCP and go on to an abstract Unix socket of this process. A thread forwards; each
+// connection has 2 x 64 KiB of buffers.
 
 #include <atomic>
 #include <functional>
@@ -30,11 +30,12 @@ namespace hilcam {
 
 struct ZmqFrontendSetup {
     std::string address;  // "tcp://ADDRESS:PORT", with an address or interface of this machine, or *
-    std::string inner;    // the abstract Unix socket's name, without ZeroMQ's "@"
+    std::string inner;    // name of the abstract Unix socket, without ZeroMQ's "@"
     std::size_t max_peers = 8;
-    ZmtpMeter::Limits limits{};                     // bound one message
-    std::uint64_t max_held_bytes{};                 // bounds all messages together that have no answer yet
-    std::function<void(const std::string&)> ended;  // told, in its thread, why a connection was ended
+    ZmtpMeter::Limits limits{};      // limits of one message
+    std::uint64_t max_held_bytes{};  // limit of all messages without an answer yet, together
+    // Gets the reason why a connection was ended; called on its thread.
+    std::function<void(const std::string&)> ended;
 };
 
 class ZmqFrontend {
@@ -44,12 +45,12 @@ class ZmqFrontend {
     explicit ZmqFrontend(ZmqFrontendSetup setup) : setup_(std::move(setup)) {}
     ~ZmqFrontend() { stop(); }
 
-    // Throws InputError, DeviceError. Owner thread, as is stop().
+    // Throws InputError and DeviceError. Owner thread, as stop().
     void start();
     void stop() noexcept;
 
   private:
-    // Bytes on their way from one socket to another.
+    // Bytes on their way from one socket to the other.
     struct Way {
         std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(64 * 1024);
         std::size_t begin = 0, end = 0;
@@ -60,8 +61,8 @@ class ZmqFrontend {
         Fd outer, inner;
         Way in, out;
         ZmtpMeter asked, answered;
-        std::uint64_t settled_bytes = 0;  // asked bytes that have their answer
-        std::uint64_t last_message = 0;   // its place among all peers' messages, from 1; 0: it sent none
+        std::uint64_t settled_bytes = 0;  // request bytes that have their answer
+        std::uint64_t last_message = 0;   // number of its last message among all peers', from 1; 0: none yet
         bool gone = false;
 
         bool is_peer() const { return !gone && last_message > 0; }

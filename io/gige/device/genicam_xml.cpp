@@ -45,7 +45,7 @@ std::string optional_tag(const char* name, const std::string& value) {
 std::string node(const char* type, const std::string& name, const std::string& content) {
     return std::string("<") + type + " Name=\"" + name + "\">\n" + content + "</" + type + ">\n";
 }
-// The schema's names are identifiers.
+// Returns an identifier, as the schema requires for names.
 std::string identifier(const std::string& text) {
     std::string out;
     for (const char c : text) out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
@@ -58,7 +58,7 @@ const char* access_of(const Feature& f) {
     return f.access == Feature::Access::kWrite ? "WO" : "RW";
 }
 
-// The order of elements in these functions is the schema's.
+// Elements in these functions are in the schema's order.
 std::string head_of(const Feature& f) {
     return optional_tag("ToolTip", f.meaning) + optional_tag("Visibility", f.visibility) +
            optional_tag("pIsLocked", f.lock) + (f.is_constant ? tag("ImposedAccessMode", "RO") : "");
@@ -66,7 +66,8 @@ std::string head_of(const Feature& f) {
 std::string place_of(const Feature& f) {
     return tag("Address", hex(f.address)) + optional_tag("pAddress", f.address_feature) +
            tag("Length", std::to_string(f.bytes)) + tag("AccessMode", access_of(f)) + tag("pPort", f.port) +
-           // Commands, other clients and the camera itself change values: what was read is old at once.
+           // Commands, other clients and the camera itself change values, so what was read is outdated at
+           // once.
            (f.port == "Device" ? tag("Cachable", "NoCache") : "");
 }
 std::string bound_tag(const char* name, const Bound& bound) {
@@ -86,7 +87,7 @@ std::string register_node(const Feature& f) {
     const std::string integer =
         tag("Sign", f.is_signed ? "Signed" : "Unsigned") + tag("Endianess", "BigEndian");
     if (f.high_bit < 0) return node("IntReg", name, place_of(f) + integer);
-    // In a big-endian register bit 0 is the highest.
+    // In a big-endian register bit 0 is the most significant.
     const int last = static_cast<int>(8 * f.bytes) - 1;
     const std::string bits = f.high_bit == f.low_bit ? tag("Bit", std::to_string(last - f.low_bit))
                                                      : tag("LSB", std::to_string(last - f.low_bit)) +

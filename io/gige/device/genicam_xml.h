@@ -1,5 +1,5 @@
 #pragma once
-// GenICam description (GenApi schema 1.1) of the camera, generated from its feature table.
+// Writes the camera's GenICam description (GenApi schema 1.1) from its feature table.
 
 #include <cstdint>
 #include <string>

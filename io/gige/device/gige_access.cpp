@@ -19,7 +19,7 @@ constexpr std::uint32_t kHeartbeat_ms = 3000;
 
 GigeAccess::GigeAccess(GigeCore& core, Effects effects) : core_(core), effects_(std::move(effects)) {
     GigeRegisterFile& r = core.registers;
-    // It is no secret who has the camera, even when nothing else may be read.
+    // Any application may read which one is in control, even when nothing else is readable.
     r.add(
         {.address = b::kControl,
          .read = [this] { return privilege_; },
@@ -43,7 +43,7 @@ bool GigeAccess::may_read(const Endpoint& from, std::uint32_t address, std::size
 }
 
 bool GigeAccess::may_write(const Endpoint& from, std::uint32_t address) const {
-    // write_privilege() knows who may.
+    // write_privilege() decides which application may.
     return from == controller_ || address == b::kControl;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-// Decides who has control of the camera: the control channel privilege (CCP), its heartbeat, its hand-over.
+// Decides which application controls the camera: the control channel privilege (CCP), its heartbeat, its
+// switch-over.
 //
-// The first application to write a non-zero privilege becomes the controller until it writes 0 or stays
-// silent longer than the heartbeat time-out. Others (monitors) may read, unless the privilege is exclusive,
-// and get ACCESS_DENIED for writes. A controller that has enabled the switch-over (CCP bit 2, with control
-// access) is replaced by an application that writes the privilege with the switch-over key in the upper 16
-// bits; the stream goes on.
+// The first application to write a non-zero privilege is the controller, until it writes 0 or is silent for
+// longer than the heartbeat time-out. Others (monitors) may read, unless the privilege is exclusive, and get
+// ACCESS_DENIED for writes. If the controller has enabled switch-over (CCP bit 2, with control access),
+// another application takes its place by writing the privilege with the switch-over key in the upper 16 bits;
+// the stream continues.
 
 #include <functional>
 
@@ -16,9 +17,9 @@ namespace hilcam {
 class GigeAccess {
   public:
     struct Effects {
-        // Is called before the controller changes by a switch-over: the one before is still to be told.
+        // Called before a switch-over changes the controller, so that the old one can be notified.
         std::function<void()> switched{};
-        std::function<void()> released{};  // nobody has control any more
+        std::function<void()> released{};  // no application has control any more
     };
     GigeAccess(GigeCore& core, Effects effects);
 
@@ -27,10 +28,10 @@ class GigeAccess {
     bool may_read(const Endpoint& from, std::uint32_t address, std::size_t bytes) const;
     bool may_write(const Endpoint& from, std::uint32_t address) const;
 
-    void heard() { last_heard_ns_ = core_.now_ns; }  // the controller spoke
-    // Ends the control of an application that fell silent.
+    void heard() { last_heard_ns_ = core_.now_ns; }  // the controller sent something
+    // Ends the control of a silent application.
     void tick();
-    std::int64_t deadline_ns() const;  // deadline of the heartbeat; INT64_MAX: none
+    std::int64_t deadline_ns() const;  // end of the heartbeat time-out; INT64_MAX: none
     void release();
     void reset();  // returns to the state after power-up
 

@@ -101,14 +101,14 @@ Status GigeAcquisition::set_automatic(std::uint64_t mode) {
     return status;
 }
 
-// Once ends when the exposure has been the same to a fiftieth for four frames, or after 64, whatever it is then: the control needs some ten
-// frames for a scene that stands, and never comes to rest on one that moves.
+// Once ends when the exposure has been the same to 1/50 for four frames, or after 64 frames with whatever it
+// is then. The control needs some ten frames for a static scene, and never settles on a moving one.
 void GigeAcquisition::on_event(const CameraEvent& event) {
     if (!finding_ || event.kind != CameraEvent::Kind::kExposureStart) return;
     constexpr double kSame = 0.02;
     constexpr int kSteadyFrames = 4, kMaxFrames = 64;
     const CameraSettings now = core_.camera.settings();
-    finding_ = now.automatic_exposure;  // or somebody else has ended it
+    finding_ = now.automatic_exposure;  // or automatic exposure was switched off elsewhere
     if (!finding_) return;
     steady_ = std::abs(now.exposure_s - found_s_) <= kSame * found_s_ ? steady_ + 1 : 0;
     found_s_ = now.exposure_s;
@@ -118,7 +118,7 @@ void GigeAcquisition::on_event(const CameraEvent& event) {
 
 // --- frame rate
 
-// Adds the frame rate; without AcquisitionFrameRateEnable the camera is as fast as it can be.
+// Adds the frame rate. Without AcquisitionFrameRateEnable, the camera runs as fast as it can.
 void GigeAcquisition::add_frame_rate() {
     GigeRegisterFile& r = core_.registers;
     r.number(

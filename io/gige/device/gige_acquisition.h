@@ -1,5 +1,5 @@
 #pragma once
-// Starting and stopping the stream of frames, and what frames are taken with: exposure, gain, rate.
+// Starts and stops the stream of frames, and sets exposure, gain and rate.
 
 #include <functional>
 
@@ -13,11 +13,11 @@ class GigeAcquisition {
     explicit GigeAcquisition(GigeCore& core);
 
     void stop();
-    // Is called when a stream of frames has ended, whoever ended it.
+    // Sets the function that is called whenever a stream of frames has ended.
     void on_end(std::function<void()> tell) { ended_ = std::move(tell); }
-    // A frame's exposure has begun: automatic exposure that was to find its value once may have found it.
+    // Takes the start of a frame's exposure; with ExposureAuto Once, the value may now be found.
     void on_event(const CameraEvent& event);
-    // The stream side has delivered a counted acquisition's last frame.
+    // Says that the stream side has delivered the last frame of a counted acquisition.
     void finished(std::uint32_t epoch) {
         if (epoch == core_.stream.epoch) stop();
     }
@@ -35,7 +35,8 @@ class GigeAcquisition {
     enum ExposureAuto : std::uint64_t { kOff, kContinuous, kOnce };
     GigeCore& core_;
     std::function<void()> ended_;
-    // ExposureAuto Once: the exposure of the frame before, and how many frames it has been steady, of how many.
+    // For ExposureAuto Once: exposure of the previous frame, number of frames for which it has been steady,
+    // and number of frames examined.
     bool finding_ = false;
     double found_s_ = 0;
     int steady_ = 0, looked_at_ = 0;

@@ -13,8 +13,8 @@ using gvcp::Status;
 
 namespace {
 
-// The camera takes triggers with a time of their own. Given to it so much ahead, the instant does not hang on
-// when this thread wakes; kept here until then, a later stop or reset still cancels them.
+// The camera accepts triggers with a time of their own. Passing them on this early makes the instant
+// independent of when this thread wakes; keeping them until then lets a stop or reset cancel them.
 constexpr std::int64_t kAhead_ns = 20'000'000;
 
 }  // namespace
@@ -23,7 +23,7 @@ GigeActions::GigeActions(GigeCore& core, std::function<void()> late) : core_(cor
     GigeRegisterFile& r = core.registers;
     r.constant(b::kActionSignals, 1);
     r.constant(b::kActionQueue, kQueue);
-    // The device key is a secret between the controller and who sends actions.
+    // The device key is a secret between the controller and the senders of actions.
     r.number(
         b::kActionDeviceKey, [] { return 0u; },
         [this](std::uint64_t key) {
@@ -68,7 +68,7 @@ void GigeActions::tick() {
     }
 }
 
-// Triggers the action; the camera says with an event whether it takes it.
+// Triggers the camera, which reports with an event whether it takes the trigger.
 void GigeActions::trigger(std::int64_t at_monotonic_ns) {
     TriggerOrder order;
     order.source = TriggerSource::kAction1;
@@ -79,7 +79,7 @@ void GigeActions::trigger(std::int64_t at_monotonic_ns) {
 std::int64_t GigeActions::deadline_ns() const {
     if (count_ == 0) return std::numeric_limits<std::int64_t>::max();
     const std::uint64_t next = queue_[0];
-    // A time past the range of the clock never comes.
+    // A time beyond the range of the clock never comes.
     if (next > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
         return std::numeric_limits<std::int64_t>::max();
     return static_cast<std::int64_t>(next) - core_.stream.clock_offset_ns - kAhead_ns;

@@ -1,10 +1,10 @@
 #pragma once
-// ACTION commands: one datagram that triggers many cameras at once, now or at a time of the device's clock.
+// ACTION commands: one datagram triggers many cameras at once, now or at a time of the device's clock.
 //
-// An action is the camera's when its device key and group key are those set and the group masks have a bit in
-// common; other cameras' actions get no answer. It needs a controller unless the client has enabled
-// unconditional actions. Scheduled ones wait in a queue of kQueue; one that comes after its time is answered
-// ACTION_LATE, raises that event and is not carried out; a full queue answers OVERFLOW.
+// An action is for this camera when its device key and group key match and the group masks have a bit in
+// common; other cameras' actions get no answer. It needs a controller, unless the client has enabled
+// unconditional actions. Scheduled actions wait in a queue of kQueue. One that comes after its time is
+// answered ACTION_LATE, raises that event and is not carried out. A full queue answers OVERFLOW.
 
 #include <array>
 
@@ -18,9 +18,9 @@ class GigeActions {
 
     GigeActions(GigeCore& core, std::function<void()> late);
 
-    // Nothing: not this camera's.
+    // Returns the status, or nothing when the action is for other cameras.
     std::optional<gvcp::Status> run(const gvcp::Action& action, bool controlled);
-    // Hands actions to the camera shortly before they are due.
+    // Passes actions to the camera shortly before they are due.
     void tick();
     std::int64_t deadline_ns() const;  // INT64_MAX: none
     void reset();

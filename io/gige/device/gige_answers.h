@@ -1,6 +1,6 @@
 #pragma once
-// Answers that are kept: those given to the latest requests that change something, for when the request is
-// repeated, and those held back by a fault.
+// Keeps answers: those to the latest requests that change something, for repeated requests, and those that a
+// fault delays.
 
 #include <array>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace hilcam {
 
 class GigeAnswers {
   public:
-    // Says whether a request was seen before (the same bytes from the same application, not long ago), and
-    // its answer's size; 0: it got none.
+    // Tells whether a request was seen before (the same bytes from the same application, not long ago), and
+    // the size of its answer; 0: it got none.
     struct Found {
         bool known = false;
         std::size_t bytes = 0;
@@ -24,19 +24,20 @@ class GigeAnswers {
     void keep(std::span<const std::uint8_t> request, const Endpoint& from, std::int64_t now_ns,
               std::span<const std::uint8_t> answer);
 
-    // --- Answers to come.
-    // False: too many wait already.
+    // --- Delayed answers.
+    //
+    // Holds an answer until it is due. False: too many wait already.
     bool hold(const Endpoint& to, std::span<const std::uint8_t> answer, std::int64_t due_ns);
     // Returns when the request's answer is due; 0: none waits.
     std::int64_t held_until_ns(const Endpoint& to, std::uint16_t request_id) const;
-    // One whose time has come, once; empty: none. Valid until the next call.
+    // Returns an answer that is due, once; empty: none. Valid until the next call.
     std::span<const std::uint8_t> take_due(std::int64_t now_ns, Endpoint& to);
     std::int64_t deadline_ns() const;  // INT64_MAX: none
     void forget();
 
   private:
     static constexpr std::size_t kKept = 16, kHeld = 16;
-    // Aravis gives up after 2.5 s; ids come again much later.
+    // Aravis gives up after 2.5 s; ids recur much later.
     static constexpr std::int64_t kMemory_ns = 10'000'000'000;
     struct Entry {
         bool used = false;

@@ -11,11 +11,11 @@ using gvcp::Status;
 
 namespace {
 
-// GEV 2.0: the newest version all of whose mandatory parts are here.
+// GEV 2.0, the newest version with all its mandatory parts implemented here.
 constexpr std::uint32_t kVersion = 2u << 16 | 0;
 constexpr std::uint32_t kBigEndianTransmitterUtf8 = 1u << 31 | 1u;
-constexpr std::uint32_t kPersistent = 1, kLinkLocal = 4;  // ways to an address
-constexpr std::uint32_t kPendingTimeout_ms = 60'000;      // the slowest answer that a fault can ask for
+constexpr std::uint32_t kPersistent = 1, kLinkLocal = 4;  // ways to get an address
+constexpr std::uint32_t kPendingTimeout_ms = 60'000;      // the slowest answer that a fault can cause
 
 constexpr std::uint32_t kGvcpCan =
     b::gvcp_can::kUserName | b::gvcp_can::kSerial | b::gvcp_can::kHeartbeatDisable |
@@ -53,8 +53,8 @@ void GigeBootstrap::add_identity() {
     r.text(b::kUserName, 16, id.user_name, true);
 }
 
-// The address is the machine's: how it came by it is not ours to choose. Clients may still set a persistent
-// address; the choice is kept, and told, until the program ends.
+// The address is the machine's, and how the machine got it is not ours to choose. Clients may still set a
+// persistent address; the choice is kept, and readable, until the program ends.
 void GigeBootstrap::add_addresses() {
     GigeRegisterFile& r = core_.registers;
     GigeIdentity& id = core_.identity;

@@ -1,6 +1,6 @@
 #pragma once
-// The registers that say what the device is: version, identity, addresses, where its description lies, what
-// it can do.
+// The registers that describe the device: version, identity, addresses, the place of its description,
+// capabilities.
 
 #include "io/gige/device/gige_core.h"
 
@@ -10,7 +10,8 @@ class GigeBootstrap {
   public:
     GigeBootstrap(GigeCore& core, std::function<void(std::uint32_t before)> config_changed);
 
-    // The description, plain and zipped; both must outlive the register file. The sizes are in the URLs.
+    // Adds the description, plain and zipped; both must outlive the register file. Its URLs contain the
+    // sizes.
     void add_description(std::span<const std::uint8_t> xml, std::span<const std::uint8_t> zip);
     void reset();
 

@@ -22,14 +22,14 @@ std::int64_t read_ns(clockid_t clock) {
     return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
 
-// Two clocks cannot be read at one instant; differences below this are the reading's.
+// Two clocks cannot be read at the same instant; smaller differences are reading errors.
 constexpr std::int64_t kReadingError_ns = 2'000;
 
 }  // namespace
 
 GigeSystemClock read_system_clock() {
     GigeSystemClock clock;
-    // The best of several readings is the one that took the least time.
+    // The best of several readings is the fastest.
     std::int64_t min_ns = std::numeric_limits<std::int64_t>::max();
     for (int i = 0; i < 3; ++i) {
         const std::int64_t before_ns = read_ns(CLOCK_MONOTONIC);
@@ -54,7 +54,7 @@ GigeClock::GigeClock(GigeCore& core) : core_(core) {
         b::kTimestampControl, [] { return 0u; },
         [this](std::uint64_t value) {
             if (value & 1) {
-                if (ptp()) return Status::kAccessDenied;  // TAI is not ours to reset
+                if (ptp()) return Status::kAccessDenied;  // TAI cannot be reset
                 set_offset(-core_.now_ns);
             }
             if (value & 2) latched_ = core_.device_ns(core_.now_ns);

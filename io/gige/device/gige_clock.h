@@ -1,11 +1,11 @@
 #pragma once
-// The device's clock: 1 tick is 1 ns. It is CLOCK_MONOTONIC since the last reset of the time stamp, or, with
-// PTP enabled, the machine's CLOCK_TAI. The camera does not speak PTP itself: the machine's clock is kept by
-// a daemon (ptp4l with phc2sys, or chrony), and PtpStatus says what the kernel says of it:
-//   Disabled      PTP is not enabled
-//   Listening     the kernel's clock is not synchronised (adjtimex: STA_UNSYNC)
-//   Uncalibrated  it is, but CLOCK_TAI has no offset to UTC: times are UTC, not TAI
-//   Slave         it is, and CLOCK_TAI is TAI
+// The device's clock, with 1 tick = 1 ns. It is CLOCK_MONOTONIC since the last reset of the time stamp or,
+// with PTP enabled, the machine's CLOCK_TAI. The camera does not implement PTP: a daemon (ptp4l with phc2sys,
+// or chrony) keeps the machine's clock, and PtpStatus reports the kernel's state:
+//  Disabled      PTP is not enabled
+//  Listening     the kernel's clock is not synchronised (adjtimex: STA_UNSYNC)
+//  Uncalibrated  it is, but CLOCK_TAI has no offset to UTC: times are UTC, not TAI
+//  Slave         it is, and CLOCK_TAI is TAI
 // With PTP the clock steps when the machine's does.
 
 #include "io/gige/device/gige_core.h"

@@ -1,4 +1,4 @@
-// GigeDevice's side of the conversation: from a datagram to its answer.
+// GigeDevice: from a datagram to its answer.
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ using gvcp::Status;
 
 namespace {
 
-// The bytes that fit into a datagram of 576 bytes with its IP and UDP headers, in the registers' own bytes:
-// 135 read or 67 written.
+// The payload that fits into a datagram of 576 bytes after its IP and UDP headers; in registers, 135 read or
+// 67 written.
 constexpr std::size_t kMaxPayloadBytes = gvcp::kMaxDatagramBytes - 28 - gvcp::kHeaderBytes;
 constexpr std::uint32_t kEverybody = 0xFFFFFFFF;  // 255.255.255.255
 
@@ -66,7 +66,7 @@ std::size_t GigeDevice::answered(const Header& header, std::span<const std::uint
         resend(header, datagram.subspan(gvcp::kHeaderBytes));
         return 0;  // answered on the stream
     }
-    // An answer to this request may be on its way already.
+    // The answer to this request may be delayed already.
     const bool announce = core.gvcp_config & b::gvcp_config::kPendingAnswer;
     const auto pending = [&](std::int64_t due_ns) {
         const std::int64_t ms = (due_ns - core.now_ns) / 1'000'000 + 1;
@@ -95,7 +95,7 @@ std::size_t GigeDevice::answered(const Header& header, std::span<const std::uint
     else
         a = answer(header, payload, out.subspan(gvcp::kHeaderBytes)), ran = true;
     if (a.silent) return 0;
-    // Codes of GEV 2.0 are for clients that know them.
+    // Status codes of GEV 2.0 are for clients that know them.
     if (a.status >= Status::kNoReferenceTime && a.status <= Status::kLeaderTrailerOverflow &&
         !(core.gvcp_config & b::gvcp_config::kExtendedStatus20))
         a.status = Status::kGenericError;
@@ -184,7 +184,7 @@ GigeDevice::Answer GigeDevice::write_registers(std::span<const std::uint8_t> pay
                      : Status::kAccessDenied;
         if (status == Status::kSuccess) ++done;
     }
-    // The number written, which is also the index of the one that failed.
+    // The number of registers written, which is also the index of the one that failed.
     ByteWriter(out).u16(0).u16(done);
     return {status, 4};
 }
@@ -222,7 +222,7 @@ GigeDevice::Answer GigeDevice::force_ip(std::span<const std::uint8_t> payload) {
     if (!wanted) return {Status::kInvalidParameter};
     if (wanted->mac != core.identity.mac) return {Status::kSuccess, 0, true};
     if (parts_->access.controlled()) return {Status::kAccessDenied};
-    if (wanted->ip == 0) return {};  // configure anew: the machine's address is what it is
+    if (wanted->ip == 0) return {};  // configure anew: the machine's address stays
     const std::uint32_t first = wanted->ip >> 24, holes = ~wanted->mask & (~wanted->mask + 1);
     if (first == 0 || first >= 224 || wanted->mask == 0 || holes != 0) return {Status::kInvalidParameter};
     if (wanted->ip != core.identity.ip &&
@@ -233,9 +233,9 @@ GigeDevice::Answer GigeDevice::force_ip(std::span<const std::uint8_t> payload) {
     return {};
 }
 
-// Packets are sent again to the stream's receiver, whoever asks: so only the receiver and the controller may. Aravis asks
-// from the socket that the stream goes to, others from the one that has control. Of a multicast group any member may
-// ask from the group's port.
+// Packets are resent to the stream's receiver, whoever asks; so only the receiver and the controller may ask.
+// Aravis asks from the socket that receives the stream, other clients from the one in control. In a multicast
+// group, any member may ask from the group's port.
 bool GigeDevice::may_ask_again() const {
     const GigeCore& core = parts_->core;
     const Endpoint& receiver = core.stream.destination;

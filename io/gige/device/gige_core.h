@@ -1,6 +1,6 @@
 #pragma once
-// The parts of a GigE Vision camera's control side share this: the camera behind it, its registers, what the
-// stream side is told. One thread: the one that serves the control port.
+// The state that all parts of a GigE Vision camera's control side share: the camera behind it, its registers,
+// and the state of the stream side. One thread: the one that serves the control port.
 
 #include <cstdint>
 #include <functional>
@@ -21,73 +21,73 @@ struct GigeIdentity {
     std::uint32_t ip = 0, mask = 0, gateway = 0;
     std::uint64_t mac = 0;
     std::uint32_t packet_bytes = 1500;
-    std::uint32_t link_speed_mbit_s = 0;  // 0: not known
-    bool multipart = false;  // announce multipart payloads, as some clients test what is announced
-    std::vector<std::string> more_lines{};  // names of the trigger input beside Line0
+    std::uint32_t link_speed_mbit_s = 0;  // 0: unknown
+    bool multipart = false;  // announce multipart payloads, for clients that test the announcement
+    std::vector<std::string> more_lines{};  // names of the trigger input besides Line0
 };
 
-// The counters of the stream side, which features show.
+// Counters of the stream side, shown as features.
 struct GigeStreamStatistics {
     std::uint64_t frames = 0;           // delivered
-    std::uint64_t frames_dropped = 0;   // frames that were not sent: too slow, or a fault
+    std::uint64_t frames_dropped = 0;   // not sent: too slow, or a fault
     std::uint64_t packets = 0;          // sent for the first time
     std::uint64_t packets_dropped = 0;  // by faults
     std::uint64_t resend_requests = 0;
     std::uint64_t packets_resent = 0;
-    std::uint64_t packets_refused = 0;  // asked for again and not to be had
+    std::uint64_t packets_refused = 0;  // asked for again and not available
     std::uint64_t events_dropped = 0;   // camera events that found their ring full
 };
 
-// The kernel's idea of time.
+// The kernel's clocks.
 struct GigeSystemClock {
     std::int64_t tai_minus_monotonic_ns = 0;
     bool synchronised = false;      // by a PTP or NTP daemon (adjtimex: no STA_UNSYNC)
     bool tai_offset_known = false;  // CLOCK_TAI differs from UTC
 };
 
-// The effects of control messages. Called from inside handle(), tick() and happened() of GigeDevice, by their
-// thread. Any of them may be empty.
+// The effects of control messages. GigeDevice calls them on its thread, inside handle(), tick() and
+// on_event(). Any may be empty.
 struct GigeEffects {
     std::function<void(const GigeStreamState&)> stream_changed{};
-    // Packets asked for again. To be answered on the stream's socket; to the requester only when
-    // GigeStreamState::resend_to_requester, else to the stream's destination.
+    // Resends packets through the stream's socket: to the requester if GigeStreamState::resend_to_requester
+    // is set, else to the stream's destination.
     std::function<void(const gvcp::ResendRequest&, Endpoint requester)> resend{};
-    // Send one datagram of this many payload bytes to the stream's destination.
+    // Sends one datagram with this many payload bytes to the stream's destination.
     std::function<void(const GigeStreamState&, std::size_t)> test_packet{};
-    // Send a datagram from the message channel's socket (its port is given with set_ports()).
+    // Sends a datagram from the message channel's socket (set_ports() gives its port).
     std::function<void(std::span<const std::uint8_t>, Endpoint)> send_message{};
-    // Send an answer that handle() did not give at once, from the control socket: a PENDING_ACK, an answer
-    // that was held back, or one for 255.255.255.255 (the socket needs SO_BROADCAST).
+    // Sends an answer that handle() did not return, from the control socket: a PENDING_ACK, a delayed answer,
+    // or one to 255.255.255.255 (the socket needs SO_BROADCAST).
     std::function<void(std::span<const std::uint8_t>, Endpoint)> send_answer{};
-    // The device has restarted: frames kept for resends are forgotten, block ids begin anew. stream_changed
-    // has been called: the stream is closed.
+    // The device has restarted: drop the frames kept for resends and restart the block ids. stream_changed()
+    // has been called already, with the stream closed.
     std::function<void()> reset{};
-    // The camera is to live on another address. False: this machine has no such address, or its port is
-    // taken; nothing has changed then. True: sockets listen there from now on.
+    // Moves the camera to another address. False, with nothing changed: this machine has no such address, or
+    // its port is taken. True: sockets listen there from now on.
     std::function<bool(std::uint32_t ip, std::uint32_t mask, std::uint32_t gateway)> change_address{};
-    // Empty: the machine's own (gige_clock.h).
+    // Empty: the machine's own clocks (gige_clock.h).
     std::function<GigeSystemClock()> system_clock{};
 };
 
 enum class AcquisitionMode : std::uint32_t { kContinuous, kSingleFrame, kMultiFrame };
 
-// The settings that user sets keep, beside CameraSettings.
+// The settings that user sets keep besides CameraSettings.
 struct GigeSettings {
     std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
     WireFormat format = WireFormat::kMono8;
     AcquisitionMode mode = AcquisitionMode::kContinuous;
-    std::uint32_t frame_count = 1;  // MultiFrame's
-    std::uint32_t burst_count = 1;  // FrameBurstStart's
-    bool burst_trigger = false;     // true: FrameBurstStart is the trigger when one is on; false: FrameStart
-    bool acquisition_trigger =
-        false;               // AcquisitionStart's trigger is on; the camera waits for it, or has had it
-    std::uint32_t line = 0;  // name by which the trigger input was chosen; 0: Line0
+    std::uint32_t frame_count = 1;  // for MultiFrame
+    std::uint32_t burst_count = 1;  // for FrameBurstStart
+    bool burst_trigger = false;     // true: when a trigger is on, it is FrameBurstStart; false: FrameStart
+    // The trigger AcquisitionStart is on: the camera waits for it, or has got it.
+    bool acquisition_trigger = false;
+    std::uint32_t line = 0;  // name under which the trigger input was selected; 0: Line0
     bool rate_enabled = true;
-    double rate_hz = 0;  // while not enabled: what to go back to
+    double rate_hz = 0;  // while not enabled: the rate to return to
     bool chunk_mode = false;
     std::uint32_t chunks = 0;                                      // bits by Chunk
     std::uint32_t components = bit_of(GigeComponent::kIntensity);  // parts of multipart frames
-    std::uint32_t events = 0;                                      // bits by place in kGigeEvents
+    std::uint32_t events = 0;                                      // bits by index in kGigeEvents
     bool throughput_limited = false;
     std::uint64_t throughput_limit_bytes_s = 0;
 };
@@ -113,23 +113,23 @@ struct GigeCore {
     GigeStreamStatistics statistics;
     std::uint64_t events_lost = 0;  // no room, or not acknowledged
     std::uint32_t gvcp_config = 0;  // bootstrap::gvcp_config
-    // The time of the message being handled.
+    // Time and sender of the message being handled.
     std::int64_t now_ns = 0;
     Endpoint from;
-    // A host has locked the geometry by TLParamsLocked.
+    // A host has locked the geometry with TLParamsLocked.
     bool host_locked = false;
 
-    // A fault can take the network away: nothing comes in, nothing goes out.
+    // False while a fault cuts the network: nothing is received and nothing is sent.
     bool link_is_up() const { return !faults.would_strike(FaultKind::kLinkDown, 0); }
     bool locked() const { return stream.acquiring || host_locked; }
-    // Device time of an instant on CLOCK_MONOTONIC.
+    // Returns the device's time at an instant of CLOCK_MONOTONIC.
     std::uint64_t device_ns(std::int64_t monotonic_ns) const {
         return static_cast<std::uint64_t>(monotonic_ns + stream.clock_offset_ns);
     }
     gvcp::Status change(const SettingsChange& wanted) {
         return camera.change(wanted) ? gvcp::kSuccess : gvcp::kInvalidParameter;
     }
-    // Brings what the stream side knows up to the settings, and tells it.
+    // Updates the stream side's state from the settings, and reports it.
     void publish_stream();
 };
 

@@ -63,7 +63,7 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
 void GigeDevice::Parts::add_device_registers() {
     GigeRegisterFile& r = core.registers;
     r.command(reg::kDeviceReset, [this] {
-        reset_wanted = true;  // once the answer is written
+        reset_wanted = true;  // after the answer is written
         return Status::kSuccess;
     });
     for (const std::uint32_t selector :

@@ -66,7 +66,7 @@ FaultOrder GigeFaultRegisters::shown() const {
     if (edited_[selector_]) return draft;
     std::optional<FaultOrder> order = core_.faults.order_of(kAllFaults[selector_]);
     if (!order) return draft;
-    // The order is kept as it was asked for: an "at once" is one again when it is enabled once more.
+    // The draft keeps the order as it was requested: "at once" means so again when it is enabled again.
     order->from_frame = draft.from_frame;
     return *order;
 }
@@ -75,12 +75,12 @@ Status GigeFaultRegisters::set_frames(std::uint64_t FaultOrder::*member, std::ui
     return value <= kMaxFrames ? set(member, value) : Status::kInvalidParameter;
 }
 
-// The value's range depends on the kind: FaultEnable checks the whole order.
+// The range of the value depends on the kind, so FaultEnable checks the whole order.
 template <class T>
 Status GigeFaultRegisters::set(T FaultOrder::*member, T value) {
     FaultOrder draft = shown();
     draft.*member = value;
-    // With a rate of 0 all but the rate and the value's range is checked.
+    // Checks all but the rate and the value's range, with a rate of 0.
     const bool rate_fits = draft.rate >= 0 && draft.rate <= 1;
     FaultOrder rest = draft;
     rest.rate = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Faults on demand as features: what a client has set up takes effect with FaultEnable.
+// Faults on demand as features: FaultEnable puts the order that a client has set up into force.
 
 #include <array>
 
@@ -7,26 +7,26 @@
 
 namespace hilcam {
 
-// "packet_drop" as PacketDrop.
+// Returns the feature's name, PacketDrop for "packet_drop".
 std::string fault_feature_name(FaultKind kind);
 
 class GigeFaultRegisters {
   public:
-    // Bounds of FaultValue, and of FaultFromFrame and FaultFrames.
+    // Limits of FaultValue, and of FaultFromFrame and FaultFrames.
     static constexpr double kMaxValue = 1e9;
     static constexpr std::uint64_t kMaxFrames = 9'200'000'000'000'000'000u;
 
     explicit GigeFaultRegisters(GigeCore& core);
 
   private:
-    // The order in force, unless the client has begun to set up another.
+    // Returns the order in force, or the client's draft when there is one.
     FaultOrder shown() const;
     template <class T>
     gvcp::Status set(T FaultOrder::*member, T value);
     gvcp::Status set_frames(std::uint64_t FaultOrder::*member, std::uint64_t value);
 
     GigeCore& core_;
-    std::uint32_t selector_ = 0;  // place in kAllFaults
+    std::uint32_t selector_ = 0;  // index in kAllFaults
     std::array<FaultOrder, kAllFaults.size()> drafts_;
     std::array<bool, kAllFaults.size()> edited_{};
 };

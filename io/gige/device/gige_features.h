@@ -1,7 +1,6 @@
 #pragma once
-// The camera's features, once: their SFNC names, registers, access and limits. The GenICam description is
-// generated from this table. What reading and writing a register does is said in the gige_*.cpp of its
-// concept; a test holds the two together.
+// The table of the camera's features: SFNC names, registers, access and limits. The GenICam description is
+// generated from it. The gige_*.cpp of each concept implements reading and writing; a test compares the two.
 
 #include <cstdint>
 #include <string>
@@ -21,7 +20,7 @@ struct EnumEntry {
     std::uint64_t value;
 };
 
-// A limit: a number, or the name of the feature that has it.
+// A limit: a number, or the name of the feature that holds it.
 struct Bound {
     Bound() = default;
     template <class Number>
@@ -39,7 +38,7 @@ struct Feature {
     std::string meaning{};
     std::uint32_t address = 0;
     std::uint32_t bytes = 4;
-    bool is_constant = false;  // its value is `value`, it has no register
+    bool is_constant = false;  // the feature is `value` and has no register
     std::uint64_t value = 0;
     bool limited = false;
     Bound least{}, most{};
@@ -53,7 +52,7 @@ struct Feature {
     std::string port = "Device";
     std::string address_feature{};  // added to the address
 
-    // --- so that a table reads as one
+    // --- modifiers, which make a table readable
     Feature&& between(Bound low, Bound high) && {
         limited = true, least = std::move(low), most = std::move(high);
         return std::move(*this);
@@ -113,7 +112,7 @@ inline Feature enumeration(const char* name, std::uint32_t address, std::vector<
             .address = address,
             .entries = std::move(entries)};
 }
-// Values 0, 1, 2, ...
+// Returns entries with the values 0, 1, 2, ...
 std::vector<EnumEntry> counted(std::initializer_list<const char*> names);
 inline Feature fixed_number(const char* name, std::uint64_t value, const char* meaning) {
     Feature f = integer(name, 0, meaning).read_only();
@@ -127,14 +126,14 @@ inline Feature fixed_entry(const char* name, const char* only, const char* meani
     return f;
 }
 
-// A port that is not the device: a chunk of a frame, or an event's data.
+// A port other than the device: a chunk of a frame, or an event's data.
 struct FeaturePort {
     std::string name;
     std::uint32_t chunk = 0;  // id; 0: none
     std::uint16_t event = 0;  // id; 0: none
 };
 
-// A number that features refer to: one expression of one register's bits.
+// A number that features refer to: an expression of some bits of one register.
 struct FeatureFormula {
     std::string name, formula, variable, feature;
 };
@@ -152,11 +151,11 @@ struct FeatureTable {
     void add(const char* category, std::vector<Feature> rows);
 };
 
-// Returns the features in the order of the description. more_lines: names of the trigger input beside Line0.
+// Returns the features in the order of the description. more_lines: names of the trigger input besides Line0.
 FeatureTable gige_features(const CameraLimits& limits, bool multipart,
                            const std::vector<std::string>& more_lines = {});
 
-// Its parts.
+// Each adds the features of one concept.
 void add_device_features(FeatureTable& table);
 void add_image_features(FeatureTable& table);
 void add_acquisition_features(FeatureTable& table);

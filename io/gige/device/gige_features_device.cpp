@@ -1,4 +1,4 @@
-// Features of the device as such: who it is, its sets of settings, its faults on demand.
+// Features of the device itself: identity, user sets, faults on demand.
 
 #include "io/gige/device/gige_fault_registers.h"
 #include "io/gige/device/gige_features.h"

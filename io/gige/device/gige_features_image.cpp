@@ -1,4 +1,4 @@
-// Features of the picture and of how it is taken.
+// Features of the image and its acquisition.
 
 #include "io/gige/device/gige_features.h"
 #include "io/gige/device/gige_image.h"
@@ -18,7 +18,7 @@ std::vector<EnumEntry> pixel_formats(const CameraLimits& l) {
     return entries;
 }
 
-// Software, the trigger input by its first name, the action; then the input's other names.
+// Returns Software, the trigger input by its first name, the action; then the input's other names.
 std::vector<EnumEntry> trigger_sources(const std::vector<std::string>& lines) {
     std::vector<EnumEntry> entries = counted({"Software", "Line0", "Action1"});
     for (std::size_t i = 1; i < lines.size(); ++i) entries.push_back({lines[i], entries.size()});
@@ -195,7 +195,7 @@ void add_line_features(FeatureTable& t) {
 
 namespace {
 
-// Chunk, its name in ChunkSelector, its value's feature.
+// Chunk, its name in ChunkSelector, the feature with its value.
 struct ChunkRow {
     Chunk chunk;
     const char* selector;

@@ -171,7 +171,8 @@ void add_channels(FeatureTable& t) {
                 .unit("B")
                 .bits(15, 0)
                 .locked(),
-            // Read and written as the features beside it, or clients send the size as 0 with it.
+            // Readable and writable like the features beside it; otherwise clients write the size as 0 with
+            // it.
             command("GevSCPSFireTestPacket", b::kPacketSize, "Sends a packet of that size")
                 .bit(31)
                 .writable(),
@@ -203,7 +204,7 @@ void add_event_features(FeatureTable& t) {
             enumeration("EventNotification", r::kEventNotification, counted({"Off", "On"}),
                         "Whether it is told on the message channel"),
         });
-    // Where an item has its time, and its data behind it, depends on the block ids' length.
+    // The place of an item's time, and of its data, depends on the length of the block ids.
     t.formulas.push_back({"EventTimePlace", "(LONG = 1) ? 16 : 8", "LONG", "GevGVSPExtendedIDModeReg"});
     t.formulas.push_back({"EventDataPlace", "(LONG = 1) ? 24 : 16", "LONG", "GevGVSPExtendedIDModeReg"});
     for (const GigeEvent& event : kGigeEvents) {

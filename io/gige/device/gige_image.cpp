@@ -64,7 +64,7 @@ void GigeImage::follow_binning() {
     if (core_.locked()) return;
     const CameraSettings now = core_.camera.settings();
     if (now.binning_x == core_.stream.binning_x && now.binning_y == core_.stream.binning_y) return;
-    // A whole picture stays whole.
+    // A window that covered the whole image still does.
     for (const Span& s : {columns(), rows()})
         if (s.size == s.most) s.size = ~0u;
     fit();
@@ -128,7 +128,7 @@ void GigeImage::add_window() {
     r.number(reg::kPayloadSize, [this] { return payload_bytes(); });
 }
 
-// --- what the camera itself does
+// --- settings of the camera itself
 
 Status GigeImage::write_binning(std::uint64_t x, std::uint64_t y) {
     SettingsChange change;
@@ -202,7 +202,7 @@ void GigeImage::add_chunks() {
         When::kUnlocked);
 }
 
-// Clients switch all components off before they switch on the ones they want: a frame of none has its
+// Clients switch all components off before they switch on those they want; a frame without any has its
 // intensity.
 void GigeImage::add_components() {
     GigeRegisterFile& r = core_.registers;

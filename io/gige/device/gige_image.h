@@ -1,8 +1,8 @@
 #pragma once
-// The picture's format: window, binning, pixel format, mirroring, test pattern, chunks, parts. The window
-// always lies on the (binned) sensor; of a camera with colour filters it begins on even pixels and has even
-// sizes, so that its mosaic stays that of its pixel format. A window that does not fit is refused: clients
-// set the offsets to 0 first, as with other cameras.
+// The image format: window, binning, pixel format, mirroring, test pattern, chunks, parts. The window is
+// always inside the (binned) sensor. With a colour filter array it begins on even pixels and has even sizes,
+// so that its pattern stays that of the pixel format. A window that does not fit is refused: clients set the
+// offsets to 0 first, as with other cameras.
 
 #include "io/gige/device/gige_core.h"
 
@@ -12,13 +12,13 @@ class GigeImage {
   public:
     explicit GigeImage(GigeCore& core);
 
-    // Steps of offsets and sizes.
+    // Returns the step of offsets and sizes.
     static std::uint32_t step(const CameraLimits& limits) { return limits.color_pattern.empty() ? 1 : 2; }
     void reset();  // the whole sensor in the camera's own format, no chunks
-    // Follows a change of binning that came from elsewhere. While the geometry is locked the window stays;
-    // frames of another binning do not belong to the stream then.
+    // Follows a change of binning from elsewhere. While the geometry is locked, the window stays, and frames
+    // with another binning are not part of the stream.
     void follow_binning();
-    // Makes the window fit the binned sensor.
+    // Fits the window into the binned sensor.
     void fit();
 
   private:

@@ -88,7 +88,7 @@ void GigeMessages::send(const gvcp::Event& event, std::span<const std::uint8_t> 
     if (count_++ == 0) next();
 }
 
-// Sends the oldest for the first time.
+// Sends the oldest message for the first time.
 void GigeMessages::next() {
     if (count_ == 0) return;
     tries_left_ = retries_;

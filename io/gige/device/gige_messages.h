@@ -1,9 +1,9 @@
 #pragma once
 // The message channel: events to the application that opened it. Each is repeated until it is acknowledged,
-// MCRC times at intervals of MCTT; with MCTT 0 no acknowledgement is asked for. A short queue waits for one
-// acknowledgement after the other, in order; events that find it full are counted as dropped.
+// MCRC times at intervals of MCTT; with MCTT 0 no acknowledgement is requested. A short queue waits for
+// acknowledgements one by one, in order; an event that finds it full is dropped and counted.
 //
-// Camera events are EVENTDATA: behind the item, the frame's id and the device's time, both 64 bits.
+// Camera events are EVENTDATA: the item is followed by the frame's id and the device's time, 64 bits each.
 
 #include <array>
 
@@ -35,7 +35,7 @@ class GigeMessages {
     void on_event(gvcp::Event::Id id);
     void acknowledged(std::uint16_t request_id, const Endpoint& from);
     void tick();
-    std::int64_t deadline_ns() const;  // deadline of the next repetition; INT64_MAX: none
+    std::int64_t deadline_ns() const;  // time of the next repetition; INT64_MAX: none
     void close();                      // closes the channel and forgets what waits
     void reset();
 
@@ -58,10 +58,10 @@ class GigeMessages {
     std::uint32_t timeout_ms_ = 0, retries_ = 0;
     std::uint32_t selector_ = 0;
     std::uint16_t next_id_ = 1;
-    // Unacknowledged ones, the oldest first.
+    // Unacknowledged messages, the oldest first.
     std::array<Message, kMaxWaiting> waiting_;
     std::size_t first_ = 0, count_ = 0;
-    std::uint32_t tries_left_ = 0;  // number of tries left for the oldest
+    std::uint32_t tries_left_ = 0;  // for the oldest
     std::int64_t due_ns_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a GigeDevice. Only for its own .cpp files.
+// The parts of a GigeDevice, only for its own .cpp files.
 
 #include <string>
 #include <vector>
@@ -38,7 +38,7 @@ struct GigeDevice::Parts {
     GigeTrigger trigger;
     GigeActions actions;
     GigeFaultRegisters faults;
-    GigeUserSets user_sets;  // after all that have settings
+    GigeUserSets user_sets;  // after all parts with settings
     GigeAnswers answers;
     std::string xml;
     std::vector<std::uint8_t> zip;
@@ -47,7 +47,7 @@ struct GigeDevice::Parts {
     bool reset_wanted = false;
     std::uint64_t foreign_resend_requests = 0;
     std::uint32_t only = 0;  // for selectors with one entry
-    // The latest request, for faults that strike some attempts and not others.
+    // The latest request and its attempts, for faults that strike some attempts only.
     Endpoint last_from;
     std::uint16_t last_id = 0;
     std::uint64_t attempt = 0;
@@ -55,7 +55,7 @@ struct GigeDevice::Parts {
     Parts(const GigeIdentity& id, CameraControl& camera, FaultBoard& board, GigeEffects effects);
     void add_device_registers();
     void left();  // the controller is gone
-    // Returns the number of a request, for faults: made of its id and how often it has been tried.
+    // Returns a request's index for faults, from its id and its number of attempts.
     std::uint64_t fault_index(std::uint16_t request_id);
     bool in_subnet(const Endpoint& from) const {
         return ((from.ip ^ core.identity.ip) & core.identity.mask) == 0;

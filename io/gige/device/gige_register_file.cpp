@@ -98,7 +98,7 @@ Status GigeRegisterFile::read(std::uint32_t address, std::span<std::uint8_t> out
     std::fill(out.begin(), out.end(), std::uint8_t{0});
     for (const Memory& m : memories_) {
         if (address < m.address || address - m.address >= m.bytes.size()) continue;
-        // Clients read a description in fixed pieces; the part past its end reads as zeros.
+        // Clients read a description in pieces of fixed size; the part beyond its end reads as zeros.
         const auto from = m.bytes.subspan(address - m.address);
         std::copy_n(from.begin(), std::min(from.size(), out.size()), out.begin());
         return Status::kSuccess;
@@ -149,7 +149,7 @@ Status GigeRegisterFile::write_one(Register& r, std::uint32_t offset, std::span<
     }
     if (!r.write) return Status::kWriteProtect;
     if (r.when == When::kUnlocked && locked) return Status::kWriteProtect;
-    // Half a number has no meaning of its own.
+    // Part of a number has no meaning.
     if (data.size() != r.bytes) return Status::kInvalidParameter;
     ByteReader in(data);
     return r.write(r.bytes == 8 ? in.u64() : in.u32());

@@ -1,6 +1,6 @@
 #pragma once
-// A device's address space as a table: what is at an address, who may write it, and what reading and writing
-// it does. Numbers are big-endian. One thread.
+// A device's address space as a table: what is at an address, which clients may write it, and what reading
+// and writing do. Numbers are big-endian. One thread.
 
 #include <cstdint>
 #include <functional>
@@ -26,7 +26,7 @@ class GigeRegisterFile {
         Read read{};    // reads a number; empty: `text`
         Write write{};  // empty: read only
         When when = When::kAlways;
-        bool open = false;  // anyone may read it, whoever has control
+        bool open = false;  // readable also under exclusive control
         std::string text{};
         bool text_writable = false;
     };
@@ -38,25 +38,27 @@ class GigeRegisterFile {
     void number64(std::uint32_t address, Read read, Write write = {});
     void real(std::uint32_t address, std::function<double()> read, std::function<Status(double)> write = {},
               When when = When::kAlways);
-    // A number that only has to lie within limits; `changed` may be empty.
+    // Adds a number with limits and no other rule; `changed` may be empty.
     struct Limits {
         std::uint32_t least = 0, most = 0xFFFFFFFF;
     };
     void variable(std::uint32_t address, std::uint32_t& value, Limits limits,
                   std::function<void()> changed = {}, When when = When::kAlways);
-    // Reads as 0; a write of an odd number runs it.
+    // Adds a command: it reads as 0, and writing an odd number runs it.
     void command(std::uint32_t address, std::function<Status()> run);
     void text(std::uint32_t address, std::uint32_t bytes, const std::string& value, bool writable = false);
     void set_text(std::uint32_t address, const std::string& value);
     std::string text_at(std::uint32_t address) const;
-    // A stretch of memory that can only be read.
+    // Adds read-only memory.
     void memory(std::uint32_t address, std::span<const std::uint8_t> bytes);
 
     // --- Access. Addresses and sizes must be multiples of 4 (BAD_ALIGNMENT).
-    // Gaps between registers of the range read as zeros; a range without a register is INVALID_ADDRESS.
+    //
+    // Gaps between the registers of a range read as zeros; a range without any register gives
+    // INVALID_ADDRESS.
     Status read(std::uint32_t address, std::span<std::uint8_t> out) const;
-    // Register by register; stops at the first that refuses. `done` counts the bytes written. Numbers are
-    // written whole, texts may be in part.
+    // Writes register by register and stops at the first that refuses. done: number of bytes written. Numbers
+    // are written whole; texts may be written in part.
     Status write(std::uint32_t address, std::span<const std::uint8_t> data, bool locked, std::size_t& done);
     const Register* find(std::uint32_t address) const;  // the one that covers the address
 

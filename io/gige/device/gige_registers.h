@@ -1,5 +1,5 @@
 #pragma once
-// The map of the camera's address space: the bootstrap registers of GigE Vision 2.x, and the camera's own.
+// The camera's address space: the bootstrap registers of GigE Vision 2.x, and the camera's own.
 
 #include <cstdint>
 
@@ -32,7 +32,7 @@ inline constexpr std::uint32_t kStreamPort = 0x0D00, kPacketSize = 0x0D04, kPack
                                kStreamChannelCapability = 0x0D20, kStreamConfig = 0x0D24;
 inline constexpr std::uint32_t kActionGroupKey = 0x9800, kActionGroupMask = 0x9804;
 
-// Bits of kGvcpCapability and, where a client switches them on, of kGvcpConfig.
+// Bits of kGvcpCapability and, where a client can switch them on, of kGvcpConfig.
 namespace gvcp_can {
 inline constexpr std::uint32_t kUserName = 1u << 31, kSerial = 1u << 30, kHeartbeatDisable = 1u << 29,
                                kLinkSpeed = 1u << 28, kPrimaryApplication = 1u << 27,
@@ -54,9 +54,9 @@ inline constexpr std::uint32_t kExtendedIds = 1u << 30;                         
 inline constexpr std::uint32_t kFireTest = 1u << 31, kDoNotFragment = 1u << 30;  // bits of kPacketSize
 }  // namespace bootstrap
 
-// The camera's own. Registers of 8 bytes: doubles and 64-bit numbers; the others are 32-bit numbers.
+// The camera's own registers. Those of 8 bytes are doubles or 64-bit integers, the others 32-bit integers.
 namespace feature_register {
-// The picture.
+// Image.
 inline constexpr std::uint32_t kWidth = 0xA000, kHeight = 0xA004, kOffsetX = 0xA008, kOffsetY = 0xA00C;
 inline constexpr std::uint32_t kPixelFormat = 0xA010, kPayloadSize = 0xA014, kSensorWidth = 0xA018,
                                kSensorHeight = 0xA01C, kWidthMax = 0xA020, kHeightMax = 0xA024;

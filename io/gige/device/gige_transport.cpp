@@ -86,7 +86,7 @@ Status GigeTransport::write_packet_size(std::uint64_t value) {
     const auto size = static_cast<std::uint32_t>(value & 0xFFFF);
     if (size < kMinPacketBytes || size > kMaxPacketBytes || size % kPacketStep != 0)
         return Status::kInvalidParameter;
-    // Receivers compute a packet's place from the size: it must not change inside a stream.
+    // Receivers compute a packet's place from the size, so it must not change during a stream.
     if (s.acquiring && size != s.packet_bytes) return Status::kWriteProtect;
     s.packet_bytes = size;
     s.do_not_fragment = value & b::kDoNotFragment;
@@ -108,7 +108,8 @@ void GigeTransport::fire_test_packet(std::uint32_t packet_bytes) {
 
 Status GigeTransport::write_config(std::uint64_t value) {
     namespace c = b::stream_config;
-    // Aravis asks every camera for multipart, announced or not: where it is not, the bit stays 0.
+    // Aravis requests multipart from every camera, announced or not; where it is not supported, the bit stays
+    // 0.
     if (value & ~std::uint64_t{stream_can(core_.identity) | c::kMultipart}) return Status::kInvalidParameter;
     GigeStreamState& s = core_.stream;
     const bool multipart = core_.identity.multipart && (value & c::kMultipart);

@@ -1,6 +1,6 @@
 #pragma once
-// The stream channel's registers: where packets go, how large they are, how fast, in which form. And the
-// test packet, by which a client finds out what its path lets through.
+// The stream channel's registers: destination, size, rate and form of packets. Also the test packet, by which
+// a client finds out which size its path carries.
 
 #include "io/gige/device/gige_core.h"
 
@@ -10,7 +10,7 @@ class GigeTransport {
   public:
     static constexpr std::uint32_t kMinPacketBytes = 576, kMaxPacketBytes = 16384, kPacketStep = 4;
 
-    // `closed` is called when a client sets the stream's port to 0.
+    // closed: called when a client sets the stream's port to 0.
     GigeTransport(GigeCore& core, std::function<void()> closed);
 
     void set_source_port(std::uint16_t port) { source_port_ = port; }

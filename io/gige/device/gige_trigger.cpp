@@ -34,7 +34,7 @@ GigeTrigger::GigeTrigger(GigeCore& core) : core_(core) {
     add_lines();
 }
 
-// The trigger input under each of its names. Its pulses have no length, so that its level always is low.
+// Adds the trigger input under each of its names. Its pulses have no length, so its level is always low.
 void GigeTrigger::add_lines() {
     GigeRegisterFile& r = core_.registers;
     const auto names = static_cast<std::uint32_t>(core_.identity.more_lines.size());
@@ -44,7 +44,7 @@ void GigeTrigger::add_lines() {
     r.constant(reg::kLineStatusAll, 0);
 }
 
-// Sources beyond the camera's own are other names of its line.
+// Sources beyond the camera's own are further names of its line.
 std::uint64_t GigeTrigger::source() const {
     const auto own = static_cast<std::uint64_t>(core_.camera.settings().trigger_source);
     return own == kLine0 && core_.settings.line > 0 ? kLastSource + core_.settings.line : own;
@@ -116,8 +116,9 @@ Status GigeTrigger::set_burst_count(std::uint64_t count) {
     return Status::kSuccess;
 }
 
-// A trigger that comes too early is taken by the register and missed by the camera, which says so with an
-// event. One that the camera does not listen to is refused, and one for a stream that has not begun.
+// A trigger that comes too early is accepted by the register, and the camera reports with an event that it
+// missed it. A trigger from a source that the camera does not listen to is refused, as is one for a stream
+// that has not begun.
 Status GigeTrigger::software_trigger() {
     if (core_.settings.acquisition_trigger && !core_.stream.acquiring) return Status::kAccessDenied;
     TriggerOrder order;

@@ -1,9 +1,10 @@
 #pragma once
-// Triggers as clients see them. The camera has one trigger input: TriggerMode can be on for FrameStart (each
-// trigger takes a frame), for FrameBurstStart (each takes AcquisitionBurstFrameCount frames) or for AcquisitionStart (the first one after the
-// stream's begin takes a frame, and the camera runs freely from there to the stream's end); switching one on switches the others off.
+// Triggers as clients see them. The camera has one trigger input. TriggerMode can be on for FrameStart (each
+// trigger takes a frame), FrameBurstStart (each takes AcquisitionBurstFrameCount frames) or AcquisitionStart
+// (the first trigger after the stream's start takes a frame, and the camera then runs freely until the stream
+// ends). Switching one on switches the others off.
 //
-// The input is Line0, and has the other names that the identity gives it.
+// The input is Line0, with the additional names in the identity.
 
 #include "io/contract/frame_sink.h"
 #include "io/gige/device/gige_core.h"
@@ -15,9 +16,10 @@ class GigeTrigger {
     explicit GigeTrigger(GigeCore& core);
 
     enum Selector : std::uint32_t { kFrameStart, kFrameBurstStart, kAcquisitionStart };
-    // An exposure that has begun was triggered: an acquisition that waited for it goes on by itself.
+    // Takes the start of a triggered exposure; an acquisition that waited for the trigger then continues by
+    // itself.
     void on_event(const CameraEvent& event);
-    // Has the next acquisition wait again. Is called when one has ended, and when settings were loaded.
+    // Makes the next acquisition wait again. Called when one has ended, and when settings were loaded.
     void rearm();
 
   private:

@@ -25,7 +25,7 @@ Status GigeUserSets::save(std::size_t set) {
 
 Status GigeUserSets::load(std::size_t set) {
     const Set& wanted = sets_[set];
-    // Only what differs: a camera may refuse to be told what it sets itself.
+    // Only the differences, because a camera may refuse a value that it sets itself.
     SettingsChange change = difference(core_.camera.settings(), wanted.camera);
     change.running.reset();
     if (core_.limits.exposure_is_own || wanted.camera.automatic_exposure) change.exposure_s.reset();

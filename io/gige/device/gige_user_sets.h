@@ -1,6 +1,6 @@
 #pragma once
-// User sets: settings by name, kept as long as the program runs. "Default" is the camera as its files
-// configure it and cannot be overwritten. UserSetDefault is what a DeviceReset begins with.
+// User sets: named settings, kept while the program runs. "Default" is the camera as its files configure it,
+// and cannot be overwritten. DeviceReset loads the set in UserSetDefault.
 
 #include <array>
 
@@ -12,12 +12,12 @@ class GigeUserSets {
   public:
     static constexpr std::size_t kSets = 3;  // Default, UserSet1, UserSet2
 
-    // `loaded`: the settings have been replaced and are to be made to fit. After all other parts: the present
-    // settings are the default set.
+    // loaded: called when settings have been replaced, to make the rest fit. To be constructed after all
+    // other parts: the settings at that moment are the default set.
     GigeUserSets(GigeCore& core, std::function<void()> loaded);
 
     gvcp::Status load(std::size_t set);
-    // Loads the default; what of it the camera refuses stays as it is.
+    // Loads the default set; values that the camera refuses stay as they are.
     void reset();
 
   private:

@@ -29,7 +29,7 @@ class Bytes {
     }
 };
 
-// Compresses without zlib's own header and checksum.
+// Compresses without zlib's header and checksum.
 std::vector<std::uint8_t> deflated(const std::string& content) {
     z_stream stream{};
     HILCAM_CHECK(deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) ==

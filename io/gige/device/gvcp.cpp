@@ -109,7 +109,7 @@ std::size_t write_event(const Event& event, bool extended, bool acknowledge, std
     header.request_id = request_id;
     write_header(header, out);
     ByteWriter item(out.subspan(kHeaderBytes));
-    // Short items have no size of their own.
+    // Items with short ids have no size field of their own.
     item.u16(extended ? bytes : 0).u16(event.id).u16(event.channel);
     if (extended)
         item.u16(0).u64(event.block);

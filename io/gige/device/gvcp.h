@@ -1,9 +1,9 @@
 #pragma once
-// GigE Vision Control Protocol: the bytes of commands and answers. Pure functions; all numbers big-endian.
+// GigE Vision Control Protocol: the bytes of commands and answers, all numbers big-endian. Pure functions.
 // Layouts: GigE Vision 2.x as Wireshark's packet-gvcp dissector and Aravis decode it.
 //
-// A reader gives nothing for a payload of the wrong length or with values that no such command can have; the
-// device answers those with INVALID_PARAMETER.
+// A reader returns nothing for a payload of the wrong length or with impossible values; the device answers
+// these with INVALID_PARAMETER.
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +15,7 @@ inline constexpr std::uint16_t kPort = 3956;
 inline constexpr std::size_t kHeaderBytes = 8;
 inline constexpr std::size_t kMaxDatagramBytes = 576;  // every GVCP message fits
 inline constexpr std::size_t kDiscoveryBytes = 248;    // registers 0x00 to 0xF7
-// A READMEM's answer has the address before the data.
+// The answer to READMEM has the address before the data.
 inline constexpr std::size_t kMaxMemoryBytes = kMaxDatagramBytes - 28 - kHeaderBytes - 4;
 
 enum Command : std::uint16_t {
@@ -58,20 +58,21 @@ enum Status : std::uint16_t {
 struct Header {
     static constexpr std::uint8_t kKey = 0x42;
     static constexpr std::uint8_t kAcknowledgeFlag = 0x01;
-    static constexpr std::uint8_t kExtendedFlag = 0x10;  // flag of PACKETRESEND, EVENT, EVENTDATA: 64-bit ids
-    static constexpr std::uint8_t kBroadcastAnswerFlag = 0x10;  // flag of DISCOVERY, FORCEIP
-    static constexpr std::uint8_t kScheduledFlag = 0x80;        // flag of ACTION
+    static constexpr std::uint8_t kExtendedFlag = 0x10;         // PACKETRESEND, EVENT, EVENTDATA: 64-bit ids
+    static constexpr std::uint8_t kBroadcastAnswerFlag = 0x10;  // DISCOVERY, FORCEIP
+    static constexpr std::uint8_t kScheduledFlag = 0x80;        // ACTION
 
     std::uint8_t flags = 0;
     std::uint16_t command = 0;
     std::uint16_t length = 0;  // length of the payload
     std::uint16_t request_id = 0;
 };
-// Nothing for what is no GVCP command: wrong key, too short, id 0.
+// Returns nothing when it is not a GVCP command: wrong key, too short, id 0.
 std::optional<Header> read_header(std::span<const std::uint8_t> datagram);
 void write_header(const Header& header, std::span<std::uint8_t> out);
 
-// An answer's 8 bytes. Its code is the command's plus one, but for PENDING_ACK, which has no command.
+// The 8 bytes before an answer. The code is the command's plus one, except for PENDING_ACK, which has no
+// command.
 struct AnswerHeader {
     std::uint16_t status = kSuccess;
     std::uint16_t code = 0;
@@ -80,7 +81,7 @@ struct AnswerHeader {
 };
 std::optional<AnswerHeader> read_answer_header(std::span<const std::uint8_t> datagram);
 void write_answer_header(const AnswerHeader& header, std::span<std::uint8_t> out);
-// Gives the datagram's size.
+// Returns the datagram's size.
 std::size_t write_pending_answer(std::uint16_t request_id, std::uint16_t ms, std::span<std::uint8_t> out);
 
 struct ForceIp {
@@ -95,7 +96,7 @@ struct ResendRequest {
     std::uint64_t block = 0;
     std::uint32_t first_packet = 0;
     std::uint32_t last_packet = 0;
-    bool extended = false;  // asked for with 64-bit ids
+    bool extended = false;  // requested with 64-bit ids
 };
 std::optional<ResendRequest> read_resend(std::span<const std::uint8_t> payload, bool extended);
 
@@ -111,7 +112,7 @@ struct Action {
 };
 std::optional<Action> read_action(std::span<const std::uint8_t> payload, bool scheduled);
 
-// One item of an EVENT, with its data an EVENTDATA.
+// An item of an EVENT or, with data, of an EVENTDATA.
 struct Event {
     enum Id : std::uint16_t { kPrimarySwitch = 0x0007, kLinkSpeed = 0x0008, kActionLate = 0x0009 };
     static constexpr std::uint16_t kFirstOfDevice = 0x9000;
@@ -123,7 +124,7 @@ struct Event {
     std::uint64_t timestamp = 0;
 };
 constexpr std::size_t event_item_bytes(bool extended) { return extended ? 24 : 16; }
-// A whole datagram; gives its size. With data it is an EVENTDATA.
+// Writes a whole datagram, with data an EVENTDATA; returns its size.
 std::size_t write_event(const Event& event, bool extended, bool acknowledge, std::uint16_t request_id,
                         std::span<const std::uint8_t> data, std::span<std::uint8_t> out);
 

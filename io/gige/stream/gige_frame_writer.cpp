@@ -70,7 +70,7 @@ GigeFrameWriter::Outcome GigeFrameWriter::write(const DnImage& frame, const Fram
     const bool repeat = before_ && before_->frame.payload.size() == f.payload.size() &&
                         faults_.strikes(FaultKind::kFrameRepeat, record.id);
     if (repeat) {
-        // The sender may be reading that one; nobody writes it.
+        // The sender may be reading that slot, but no thread writes it.
         f.timestamp_ns = before_->frame.timestamp_ns;
         std::copy(before_->frame.payload.begin(), before_->frame.payload.end(), slot->bytes.begin());
     } else {

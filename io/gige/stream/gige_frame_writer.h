@@ -1,6 +1,6 @@
 #pragma once
-// Takes the loop's frames into the ring of a GigE Vision stream: which of them, under which block id, with
-// which time stamp, and with the faults that befall whole frames.
+// Writes the loop's frames into the ring of a GigE Vision stream: it decides which frames, with which block
+// id and time stamp, and applies the faults of whole frames.
 
 #include <atomic>
 #include <optional>
@@ -15,18 +15,18 @@ namespace hilcam {
 
 class GigeFrameWriter {
   public:
-    // pattern: of the colour filter array, empty: none. width: the widest frame.
+    // pattern: of the colour filter array; empty: monochrome. width: of the widest frame.
     GigeFrameWriter(GigeRing& ring, FaultBoard& faults, std::string pattern, int width);
 
     struct Outcome {
         bool written = false;   // the sender has something to do
         bool finished = false;  // the last frame of the acquisition will not be sent
     };
-    // Loop, once for each frame: the block id that it has from here on; 0: it is not to be sent. A frame
-    // whose size is not the stream's (the binning has just changed) is not.
+    // Returns the frame's block id; 0 when it will not be sent. A frame with another size than the stream's
+    // is not sent (the binning has just changed). Loop, once for each frame.
     std::uint64_t admit(const DnImage& frame, const FrameRecord& record, const GigeStreamNow& now) noexcept;
-    // Loop, after admit() of the same: no lock, no allocation. A frame that finds the ring full, or is to be
-    // lost, leaves a gap in the block ids.
+    // Writes the frame after admit(). When the ring is full or a fault drops the frame, its block id is a
+    // gap. Loop: no lock, no allocation.
     Outcome write(const DnImage& frame, const FrameRecord& record, const GigeStreamNow& now,
                   std::uint64_t block) noexcept;
 
@@ -44,7 +44,7 @@ class GigeFrameWriter {
     std::uint32_t frames_ = 0;  // frames of this acquisition
     BlockIds ids_;
     StampClock clock_;
-    const GigeSlot* before_ = nullptr;  // the frame before, of this acquisition
+    const GigeSlot* before_ = nullptr;  // the previous frame of this acquisition
     std::atomic<std::uint64_t> dropped_{0}, of_other_size_{0}, unwanted_{0};
 };
 

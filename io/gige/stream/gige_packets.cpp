@@ -10,7 +10,7 @@ namespace {
 // PFNC 2.4.
 constexpr std::uint32_t kConfidence8 = 0x010800C6;
 
-// Payload bytes of a full packet.
+// Returns the payload bytes of a full packet.
 std::size_t piece_bytes(const GigeStreamState& s) {
     return s.packet_bytes - gvsp::overhead_bytes(s.long_ids()) - (s.multipart ? gvsp::kPartPrefixBytes : 0);
 }
@@ -24,8 +24,7 @@ gvsp::Image image_of(const GigeFrame& f) {
     return {pfnc_code(s.format, seen), s.width, s.height, s.offset_x, s.offset_y};
 }
 
-// Returns the sizes of the parts, in the order of the payload's bytes; 0: not there. A plain stream is one of
-// a single part.
+// Returns the sizes of the parts, in the order of the payload; 0: absent. A plain stream has a single part.
 std::array<std::size_t, gvsp::kMaxParts> part_bytes(const GigeStreamState& s) {
     if (!s.multipart) return {s.payload_bytes()};
     return {s.image_bytes(), s.confidence_bytes(), s.chunk_data_bytes()};
@@ -47,7 +46,7 @@ std::size_t write_parts_leader(const GigeFrame& f, const gvsp::PacketHeader& hea
     return gvsp::write_multipart_leader(header, s.chunk_mode, f.timestamp_ns, {parts.begin(), end}, out);
 }
 
-// A layout id names the set of chunks; 0 is reserved for "not told".
+// A layout id names the set of chunks; 0 is reserved for "unknown".
 gvsp::ChunkTail chunk_tail(const GigeStreamState& s) {
     return {static_cast<std::uint32_t>(s.payload_bytes()), s.chunks + 1};
 }
@@ -176,7 +175,7 @@ void write_gige_payload(const DnImage& frame, const FrameRecord& record, const G
     }
 }
 
-// Packets hold bytes of one part each.
+// A packet holds bytes of one part only.
 std::uint32_t trailer_id(const GigeStreamState& s) {
     std::uint32_t count = 0;
     for (const std::size_t bytes : part_bytes(s)) count += pieces(bytes, s);
@@ -193,7 +192,7 @@ GigePacket packet_of(const GigeFrame& f, std::uint32_t id, gvsp::Status status) 
     GigePacket p;
     const auto parts = part_bytes(s);
     std::size_t begin = 0, i = 0;
-    std::uint8_t part = 0;         // among those that are there
+    std::uint8_t part = 0;         // among the parts present
     std::uint32_t place = id - 1;  // in the part
     for (; place >= pieces(parts[i], s); ++i) {
         place -= pieces(parts[i], s);

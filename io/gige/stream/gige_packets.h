@@ -1,11 +1,11 @@
 #pragma once
-// A frame as the packets of a GigE Vision stream. Pure: every packet is a function of the frame and the
-// packet's id, so that what is sent again is what was sent.
+// A frame as the packets of a GigE Vision stream. Pure: a packet is a function of the frame and the packet's
+// id, so a packet that is sent again equals the first.
 //
-// The payload is the image and, in chunk mode, each chunk's data followed by its id and length, first such a
-// tail of all that is before: clients walk from the end backwards. A multipart block has the image as one
-// part, which of its pixels can be believed as another (Confidence8: 0 where the DN is 0 or full scale, and
-// so only a bound of the signal; else 255), and the chunks as the last.
+// The payload is the image. In chunk mode, each chunk's data are followed by its id and length, first for the
+// image itself: clients walk from the end backwards. A multipart block has the image as one part; a
+// confidence map as another (Confidence8: 0 where the DN is 0 or full scale, and so only a bound of the
+// signal, else 255); and the chunks as the last.
 
 #include <array>
 #include <cstdint>
@@ -17,26 +17,26 @@
 
 namespace hilcam {
 
-// The contents from which the packets of a frame are made. Refers to the payload, does not own it.
+// Everything from which a frame's packets are made. It refers to the payload and does not own it.
 struct GigeFrame {
     GigeStreamState stream;  // state when the frame was taken
-    BayerPattern pattern;    // pattern of the camera's colour filter array; empty: none
+    BayerPattern pattern;    // the camera's colour filter array; empty: monochrome
     std::uint64_t block = 0;
     std::uint64_t timestamp_ns = 0;
     std::int32_t size_y_error = 0;  // added to the height in the trailer
     std::span<const std::uint8_t> payload;
 };
 
-// The largest payload of such a camera, whatever the format, the chunks and, if it has them, the parts.
+// Returns the largest payload of such a camera, for any format, any chunks and, if it has them, any parts.
 std::size_t max_payload_bytes(int width, int height, BayerPattern pattern, bool multipart);
 
-// The frame's window and its chunks: exactly stream.payload_bytes() bytes of `out`. `scratch`: at least
+// Writes the frame's window and its chunks to `out`, exactly stream.payload_bytes() bytes. scratch: at least
 // 3 * stream.width + 8 numbers. The frame must contain the window. Loop.
 void write_gige_payload(const DnImage& frame, const FrameRecord& record, const GigeStreamState& stream,
                         BayerPattern pattern, std::uint64_t timestamp_ns, std::span<std::uint16_t> scratch,
                         std::span<std::uint8_t> out);
 
-// The id of the last packet, the trailer.
+// Returns the id of the last packet, the trailer.
 std::uint32_t trailer_id(const GigeStreamState& stream);
 
 struct GigePacket {
@@ -46,9 +46,9 @@ struct GigePacket {
 
     std::size_t bytes() const { return head_bytes + data.size(); }
 };
-// id: 0 to trailer_id(). Any thread, no allocation.
+// Returns a packet. id: 0 to trailer_id(). Any thread, no allocation.
 GigePacket packet_of(const GigeFrame& frame, std::uint32_t id, gvsp::Status status);
-// The answer to a request that cannot be met: a header with the reason.
+// Returns the answer to a request that cannot be fulfilled: a header with the reason.
 GigePacket refusal_of(bool extended, std::uint64_t block, std::uint32_t id, gvsp::Status reason);
 
 }  // namespace hilcam

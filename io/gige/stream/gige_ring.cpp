@@ -22,7 +22,7 @@ GigeSlot* GigeRing::claim() noexcept {
         Use kept = Use::kKept;
         if (oldest->use_.compare_exchange_strong(kept, Use::kWriting, std::memory_order_acquire))
             return oldest;
-        after = oldest->turn_;  // the sender reads it: the next older one
+        after = oldest->turn_;  // the sender is reading it: take the next older one
     }
 }
 

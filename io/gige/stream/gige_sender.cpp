@@ -14,16 +14,16 @@
 namespace hilcam {
 namespace {
 
-// A batch takes at most a third of a client's default receive buffer.
+// A batch fills at most a third of a client's default receive buffer.
 constexpr std::size_t kBatchRoom = 70'000;
-// A frame that has time is spread, but a cable of gigabit Ethernet would not have made it slower than this.
+// A frame with time to spare is spread, but not more slowly than gigabit Ethernet would carry it.
 constexpr double kGigabit_bytes_s = 125e6;
 constexpr std::int64_t kCatchUpSeen_ns = 50'000'000;
-// The share of the stream's rate that packets sent again get while a frame is on its way. A stream that loses
-// p asks for p / (1 - p) of its packets: a quarter of them at 20 %. Twice that, for who waits too long asks
-// again.
+// Share of the stream's rate for resent packets while a frame is being sent. A stream that loses p needs p /
+// (1 - p) of its packets again: a quarter of them at 20 %. It is twice that, because a client that waits too
+// long asks again.
 constexpr double kResendShare = 0.5;
-// Refusals: a thousand a second, a hundred at once. Whoever asks for more has had the answer.
+// Refusals: a thousand a second, a hundred at once. A client that asks for more has had its answer.
 constexpr Pace kRefusalPace{.delay_ns = 1'000'000, .catch_up_ns = 100'000'000};
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
@@ -45,10 +45,10 @@ GigeSender::GigeSender(GigeRing& ring, FaultBoard& faults, DeliveryListener* lis
 
 void GigeSender::open(std::uint32_t address) {
     Fd fresh = open_udp(address, 0);
-    // A full network card must not hold the thread for good.
+    // A full network card must not block the thread for good.
     const timeval patience{0, 100'000};
     setsockopt(fresh.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-    // Streams to a group stay on the link they start on, and listeners on this machine hear them too.
+    // Multicast streams stay on the local link, and receivers on this machine get them, too.
     const int one = 1;
     const in_addr own{htonl(address)};
     setsockopt(fresh.get(), IPPROTO_IP, IP_MULTICAST_TTL, &one, sizeof one);
@@ -86,7 +86,7 @@ bool GigeSender::order(const GigeOrder& order) noexcept {
 }
 
 void GigeSender::run() {
-    // The kernel lets sleeps run 50 us over by default; pacing is finer.
+    // By default the kernel lets sleeps overrun by 50 us; pacing is finer.
     prctl(PR_SET_TIMERSLACK, 1000);
     make_thread_urgent();
     while (!stopping_.load(std::memory_order_relaxed)) {
@@ -130,8 +130,8 @@ void GigeSender::take_frame() {
     if (next_begin_ns_ > now_ns) give_up_late_frames();
 }
 
-// A frame that waits for its turn makes way for newer ones. Its turn is the next one's then. An acquisition's last frame has
-// none behind it.
+// Gives up a waiting frame when there are newer ones, and the next one takes its turn. An acquisition's last
+// frame has none behind it.
 void GigeSender::give_up_late_frames() {
     while (ring_.queued() > FrameSpacing::kMaxQueued && wanted(*next_)) {
         counts_.frames_given_up.fetch_add(1, std::memory_order_relaxed);
@@ -212,7 +212,7 @@ void GigeSender::transmit(std::uint32_t packet_bytes, Pacer& pacer, bool wait) {
 void GigeSender::set_do_not_fragment(bool on) {
     if (on == do_not_fragment_) return;
     do_not_fragment_ = on;
-    // PROBE: whatever was heard of the path's MTU; packets longer than the interface's own are refused.
+    // PROBE: ignores what was learned of the path's MTU; packets longer than the interface's own are refused.
     const int discover = on ? IP_PMTUDISC_PROBE : IP_PMTUDISC_DONT;
     setsockopt(socket_.get(), IPPROTO_IP, IP_MTU_DISCOVER, &discover, sizeof discover);
 }
@@ -222,18 +222,18 @@ Pace GigeSender::pace_of(const GigeSlot& slot) {
     const double asked = s.throughput_limit_bytes_s;
     double rate = asked > 0 ? asked : pace_config_.rate_bytes_s;
     const double hz = frame_rate_hz_.load(std::memory_order_relaxed);
-    // A client that sets a delay or a limit says how fast; else a frame takes the time it has.
+    // When the client sets a delay or a limit, that is the pace; else a frame takes the time it has.
     if (asked <= 0 && s.packet_delay_ns == 0 && pace_config_.spread_fraction > 0) {
         const double bytes = static_cast<double>(trailer_id(s)) * s.packet_bytes;
         rate = std::min(rate, std::max(kGigabit_bytes_s, bytes * hz / pace_config_.spread_fraction));
     }
     if (const auto cap_mb_s = faults_.strikes(FaultKind::kBandwidthCap, slot.record.id))
         rate = std::min(rate, *cap_mb_s * 1e6);
-    // A receiver whose buffer can be seen is not overrun by a sender that makes up for lost time.
+    // A receiver with an observable buffer is not overrun by a sender that catches up.
     return {rate, s.packet_delay_ns, receiver_seen(slot) ? kCatchUpSeen_ns : Pace{}.catch_up_ns};
 }
 
-// --- what is asked for
+// --- requests
 
 bool GigeSender::serve_orders() {
     const std::int64_t now_ns = monotonic_ns();
@@ -253,7 +253,7 @@ bool GigeSender::serve_orders() {
     return true;
 }
 
-// One batch of the packets that resend_ asks for.
+// Sends one batch of the packets that resend_ asks for.
 void GigeSender::serve_resend() {
     GigeOrder& r = *resend_;
     std::uint64_t oldest = 0;
@@ -305,12 +305,12 @@ void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t m
     budget_.spend(resent + refused);
     counts_.packets_resent.fetch_add(resent, std::memory_order_relaxed);
     counts_.packets_refused.fetch_add(refused, std::memory_order_relaxed);
-    // The stream waits for its own receiver alone: another one's buffer is that one's to read.
+    // The stream waits only for its own receiver; another requester has to read its buffer in time.
     transmit(r.packet_bytes, resend_pacer_, r.to == slot.frame.stream.destination);
 }
 
-// Refuses what resend_ asks for, up to `last`. This is said of its first packets, for clients give up the
-// block then.
+// Refuses what resend_ asks for, up to `last`. Only its first packets get the answer, because clients then
+// give up the block.
 void GigeSender::refuse(gvsp::Status reason, std::uint32_t last) {
     const GigeOrder& r = *resend_;
     counts_.packets_refused.fetch_add(std::uint64_t{last} - r.next + 1, std::memory_order_relaxed);
@@ -345,7 +345,7 @@ void GigeSender::give_back(GigeSlot* slot) {
     if (slot != current_) ring_.keep(*slot);
 }
 
-// --- packets held back
+// --- delayed packets
 
 void GigeSender::delay(const GigeSlot& slot, std::uint32_t id, gvsp::Status status, const PacketFate& fate,
                        const sockaddr_in& to) {
@@ -373,7 +373,7 @@ void GigeSender::serve_delayed(std::int64_t now_ns) {
         delayed_.erase(delayed_.begin() + static_cast<std::ptrdiff_t>(i));
         std::uint64_t oldest = 0;
         GigeSlot* const slot = borrow(d.acquisition, d.block, oldest);
-        if (!slot) {  // later than the ring reaches back: lost
+        if (!slot) {  // older than the ring's frames: lost
             counts_.packets_dropped.fetch_add(1, std::memory_order_relaxed);
             continue;
         }
@@ -399,7 +399,7 @@ void GigeSender::pause_until(std::int64_t due_ns) {
     }
 }
 
-// Sleeps until then, or until something is asked for.
+// Sleeps until then, or until there is an order.
 void GigeSender::sleep_until(std::int64_t due_ns) {
     pollfd watched{wakeup_.get(), POLLIN, 0};
     const std::int64_t left_ns = std::max<std::int64_t>(0, due_ns - monotonic_ns());

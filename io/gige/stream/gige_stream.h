@@ -1,6 +1,6 @@
 #pragma once
-// The state that the control side of a GigE Vision camera gives its stream side. It changes only by control
-// messages.
+// The state that the control side of a GigE Vision camera sets for its stream side. Only control messages
+// change it.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Endpoint {
 };
 
 // Chunks that may follow a frame's pixels; bits of GigeStreamState::chunks. A chunk's id is kChunkIdBase plus
-// its place. Numbers are big-endian, floats IEEE 754.
+// its value. Numbers are big-endian, floats IEEE 754.
 enum class Chunk : std::uint8_t {
     kFrameId,          // u64
     kTimestamp,        // u64, ns
@@ -30,10 +30,10 @@ enum class Chunk : std::uint8_t {
     kHeight,           // u32
     kPixelFormat,      // u32
     kPoseSequence,     // u32: of the newest command that the frame shows
-    kPoseTime,         // i64: that command's time tag, simulated TAI ns
+    kPoseTime,         // i64: time tag of that command, simulated TAI ns
     kExposureMid,      // i64: middle of the exposure, simulated TAI ns
     kTriggerSequence,  // u32
-    kFaults,           // u64: bits of fault.h
+    kFaults,           // u64: FrameRecord::faults
 };
 inline constexpr int kChunks = 15;
 inline constexpr std::uint32_t kChunkIdBase = 0x48430001;  // "HC", from 1 on
@@ -53,8 +53,7 @@ constexpr std::uint32_t chunk_bytes(Chunk chunk) {
     }
 }
 
-// The parts of a frame that a multipart stream can show; ids as the SFNC 2.7 (4.13 ComponentIDValue) numbers
-// components.
+// The parts of a frame in a multipart stream, with the ids of SFNC 2.7 (4.13 ComponentIDValue).
 enum class GigeComponent : std::uint8_t { kIntensity, kConfidence };
 constexpr std::uint32_t bit_of(GigeComponent component) { return 1u << static_cast<unsigned>(component); }
 constexpr std::uint16_t id_of(GigeComponent component) {
@@ -64,17 +63,17 @@ constexpr std::uint16_t id_of(GigeComponent component) {
 struct GigeStreamState {
     bool open = false;               // a destination is set
     bool acquiring = false;          // between AcquisitionStart and Stop
-    bool unconditional = false;      // goes on when the controller is gone (SCCFG b1)
+    bool unconditional = false;      // continues without a controller (SCCFG b1)
     std::uint32_t epoch = 0;         // counts AcquisitionStarts
     std::uint32_t frames = 0;        // frames of this acquisition; 0: endless
     Endpoint destination;            // may be a multicast group
     std::uint32_t packet_bytes = 0;  // IP, UDP and GVSP headers included
     bool do_not_fragment = false;
-    bool extended_ids = false;         // 64-bit block ids, 20-byte headers, where the client asked for them
-    bool multipart = false;            // every block is of parts; brings 64-bit ids with it
+    bool extended_ids = false;         // 64-bit block ids, 20-byte headers; on the client's request
+    bool multipart = false;            // every block has parts; implies 64-bit ids
     bool resend_to_requester = false;  // SCCFG b3: else to the destination
-    // Added to CLOCK_MONOTONIC it gives the device's clock, which all time stamps on the wire are of: 0
-    // unless a client reset the clock or enabled PTP (then it leads to CLOCK_TAI).
+    // Added to CLOCK_MONOTONIC to get the device's clock, in which all time stamps are sent. 0, unless a
+    // client has reset the clock or enabled PTP (then the sum is CLOCK_TAI).
     std::int64_t clock_offset_ns = 0;
     std::uint32_t packet_delay_ns = 0;
     double throughput_limit_bytes_s = 0;  // 0: the configuration's
@@ -86,7 +85,7 @@ struct GigeStreamState {
     // Components of a multipart stream, at least one.
     std::uint32_t components = bit_of(GigeComponent::kIntensity);
 
-    // A short header has no room for the number of parts.
+    // True when block ids are long; a short header has no room for the number of parts.
     bool long_ids() const { return extended_ids || multipart; }
     bool shows(GigeComponent component) const {
         return multipart ? components & bit_of(component) : component == GigeComponent::kIntensity;
@@ -97,7 +96,7 @@ struct GigeStreamState {
     std::size_t confidence_bytes() const {
         return shows(GigeComponent::kConfidence) ? std::size_t{width} * height : 0;
     }
-    // Counts a chunk's 8 bytes of id and length behind each, and behind the image.
+    // Includes the 8 bytes of id and length behind each chunk and behind the image.
     std::size_t chunk_data_bytes() const {
         if (!chunk_mode) return 0;
         std::size_t bytes = 8;

@@ -5,14 +5,14 @@
 namespace hilcam::gvsp {
 namespace {
 
-// Extended flags: the packet was asked for again.
+// Extended flags: the packet is a resent one.
 constexpr unsigned kResendFlag = 0x0001;
 
 ByteWriter& put_header(ByteWriter& out, const PacketHeader& h) {
     if (!h.extended)
         return out.u16(h.status).u16(h.block & 0xFFFF).u32(std::uint32_t{h.format} << 24 | h.packet);
     out.u16(h.status).u16(h.status == kResent ? kResendFlag : 0u);
-    // Bit 7: extended ids. The low byte of the former packet id counts the parts of a multipart leader.
+    // Bit 7: extended ids. The low byte of the former packet id is the number of parts of a multipart leader.
     return out.u32((0x80u | h.format) << 24 | h.parts).u64(h.block).u32(h.packet);
 }
 

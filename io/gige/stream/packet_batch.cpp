@@ -12,12 +12,12 @@ void PacketBatch::add(const GigePacket& packet, const PacketFate& fate, bool ext
         const auto id = static_cast<std::uint32_t>(gvsp::packet_id(m.packet.head, extended) + fate.id_error);
         gvsp::overwrite_packet_id(m.packet.head, extended, id);
     }
-    // Something is left of every packet.
+    // At least one byte is left of every packet.
     std::size_t parts = 0, left = packet.bytes() - std::min(packet.bytes() - 1, fate.cut_bytes);
     bytes_ += left + 28;
     const auto put = [&](const std::uint8_t* data, std::size_t size) {
         const std::size_t taken = std::min(size, left);
-        // sendmmsg() reads only.
+        // sendmmsg() only reads.
         if (taken > 0) m.parts[parts++] = {const_cast<std::uint8_t*>(data), taken};
         left -= taken;
     };
@@ -45,7 +45,7 @@ std::size_t PacketBatch::send(int socket) noexcept {
     for (std::size_t at = 0; at < count_;) {
         const int taken = sendmmsg(socket, headers_.data() + at, static_cast<unsigned>(count_ - at), 0);
         if (taken < 0 && errno == EINTR) continue;
-        // An error is the first remaining packet's.
+        // An error belongs to the first remaining packet.
         at += taken > 0 ? static_cast<std::size_t>(taken) : 1;
         if (taken <= 0) ++lost;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Some packets for one system call, with the damage that faults do to them. The frame's payload is not
-// copied, and not touched: a byte that is to be wrong goes out from a place of its own.
+// Some packets for one system call, with the damage that faults do to them. The frame's payload is neither
+// copied nor changed: a corrupted byte is sent from a separate place.
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -16,17 +16,18 @@ class PacketBatch {
   public:
     static constexpr std::size_t kMaxPackets = 32;
 
-    // Forgets the packets; those to come go to `to`.
+    // Removes the packets; further ones go to `to`.
     void begin(const sockaddr_in& to) { to_ = to, count_ = 0, bytes_ = 0; }
     bool full() const { return count_ == kMaxPackets; }
-    // Must not be full. Damage as `fate` says, but for what concerns when and how often it is sent.
+    // Adds a packet; the batch must not be full. fate: its damage is applied here, but not when and how often
+    // it is sent.
     void add(const GigePacket& packet, const PacketFate& fate, bool extended);
     std::size_t count() const { return count_; }
     std::size_t bytes() const { return bytes_; }  // UDP and IP headers included
     const sockaddr_in& to() const { return to_; }
 
-    // Gives the number of packets that the kernel did not take: longer than the link's MTU and not to be
-    // cut up, or no way to the destination. They are lost as on a wire.
+    // Returns how many packets the kernel did not accept: larger than the link's MTU with fragmentation off,
+    // or no route to the destination. They are lost, as on a wire.
     std::size_t send(int socket) noexcept;
 
   private:

@@ -32,7 +32,7 @@ Request request_for(const sockaddr_in& from, const sockaddr_in& to) {
     request.socket.sdiag_protocol = IPPROTO_UDP;
     request.socket.idiag_ext = 1u << (INET_DIAG_SKMEMINFO - 1);
     request.socket.idiag_states = ~0u;
-    // The lookup is that of a datagram on its way: its source, its destination.
+    // The kernel looks the socket up as for a datagram, by source and destination.
     request.socket.id.idiag_sport = from.sin_port;
     request.socket.id.idiag_dport = to.sin_port;
     request.socket.id.idiag_src[0] = from.sin_addr.s_addr;
@@ -41,7 +41,7 @@ Request request_for(const sockaddr_in& from, const sockaddr_in& to) {
     return request;
 }
 
-// The memory figures in an answer; nothing when it is an error or something else.
+// Returns the free bytes by the memory figures in an answer; nothing for an error or another message.
 std::optional<std::size_t> free_bytes_in(const std::uint8_t* bytes, std::size_t size) {
     nlmsghdr header;
     constexpr std::size_t kFixed = NLMSG_LENGTH(sizeof(inet_diag_msg));
@@ -66,7 +66,7 @@ std::optional<std::size_t> free_bytes_in(const std::uint8_t* bytes, std::size_t 
 
 ReceiverRoom::ReceiverRoom() : netlink_(socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG)) {
     if (!netlink_) return;
-    const timeval patience{0, 1000};  // the kernel answers inside the request; this is for one that does not
+    const timeval patience{0, 1000};  // the kernel answers during the request; this is for one that does not
     setsockopt(netlink_.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
 }
 

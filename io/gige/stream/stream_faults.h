@@ -1,6 +1,6 @@
 #pragma once
-// Applies faults on demand (fault.h) to a stream's packets and time stamps. Only what goes onto the wire is
-// struck: frames that are kept for resends stay as they are.
+// Applies faults on demand (fault.h) to a stream's packets and time stamps. Only what is sent is damaged:
+// frames kept for resends stay intact.
 
 #include <cstdint>
 #include <optional>
@@ -13,16 +13,16 @@ struct PacketFate {
     bool lost = false;
     bool twice = false;
     bool corrupt = false;                  // one byte of the payload inverted
-    std::optional<std::int64_t> delay_ns;  // sent so much later
+    std::optional<std::int64_t> delay_ns;  // sent this much later
     std::int64_t id_error = 0;             // added to the packet id
-    std::size_t cut_bytes = 0;             // off the end
+    std::size_t cut_bytes = 0;             // removed from the end
 };
 // Returns the fate of a packet that is sent for the first time.
 PacketFate fate_of_packet(FaultBoard& faults, std::uint64_t frame, std::uint32_t id, std::uint32_t trailer);
-// Returns the fate of one that is sent again: `lost` means refused.
+// Returns the fate of a resent packet: `lost` means refused.
 PacketFate fate_of_resend(FaultBoard& faults, std::uint64_t frame, std::uint32_t id);
 
-// Packet ids 0 to `last` in the order they are sent: rising, but for pairs that change places.
+// Packet ids 0 to `last` in sending order: rising, except for pairs that are swapped.
 class PacketOrder {
   public:
     explicit PacketOrder(std::uint32_t last) : last_(last) {}
@@ -34,10 +34,10 @@ class PacketOrder {
     std::optional<std::uint32_t> held_;
 };
 
-// The device's clock, as it is and as faults make it. One thread.
+// The device's clock, true and as faults make it. One thread.
 class StampClock {
   public:
-    // `faults_seen` gets the bits of the faults that struck.
+    // Returns the time stamp. faults_seen: gets the bits of the faults that struck.
     std::uint64_t stamp(FaultBoard& faults, std::uint64_t frame, std::int64_t monotonic_ns,
                         std::int64_t clock_offset_ns, std::uint64_t& faults_seen);
 
