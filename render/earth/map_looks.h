@@ -17,7 +17,7 @@ struct MapSize {
 // The texel width of the level that a lookup uses, relative to its own width. A texel that is a mean,
 // interpolated linearly to its neighbours, has a variance of a quarter of its squared width; a pixel has a
 // twelfth, a third of the blur. 0.58 would give equal blur but lets finer structure through; 0.7 is nearest
-// to a pixel's mean (docs/decisions.md).
+// to a pixel's mean (docs/decisions.md#the-earth-smooth-light-sharp-maps).
 inline constexpr float kTexelOfLook = 0.7f;
 
 // The ellipse with a footprint's sides as conjugate half diameters, in texels: sums of squares along and

@@ -7,7 +7,8 @@
 namespace hilcam {
 namespace {
 
-// Texels are not longer than this if finer ones exist: chosen by the error (docs/decisions.md).
+// Texels are not longer than this if finer ones exist: chosen by the error
+// (docs/decisions.md#coverage-maps-of-flat-parts).
 constexpr float kSharp_px = 0.35f;
 constexpr auto kEight = static_cast<int>(CoverageTexels::kLanes);
 

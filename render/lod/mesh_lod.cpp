@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kSmallMesh = 2000;  // triangles; smaller meshes gain nothing
 // Shaped parts may have this fraction of a level's error. With a fourth the light of `geo_inspection` from 50
-// m is off by 2.3 %, with an eighth by 1.9, with a sixteenth by 1.8 (docs/decisions.md).
+// m is off by 2.3 %, with an eighth by 1.9, with a sixteenth by 1.8
+// (docs/decisions.md#levels-of-detail-keep-borders-and-shapes).
 constexpr double kShapeFiner = 8;
 
 // The vertices of a surface's triangles, each once, in order of first use.

@@ -19,7 +19,7 @@ namespace {
 constexpr float kGoldenRatio = 0.61803399f;
 // The rotation from probe to probe, in turns: the root of a half. The number of directions of two to nine
 // neighbouring probes in a small disk then varies a third as much as with the golden section, which would map
-// the golden-angle spiral onto its own next directions (docs/decisions.md).
+// the golden-angle spiral onto its own next directions (docs/decisions.md#cached-light-in-probes).
 constexpr float kTurn = 0.70710678f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 

@@ -158,7 +158,7 @@ namespace {
 
 // The most by which texels may be coarser than a level's error. Where an object is nearest that is at most
 // four times lod_error_px, six tenths of a pixel at real time. It blurs gaps but keeps their light, while
-// samples lit from the middles of gaps lose it (docs/decisions.md).
+// samples lit from the middles of gaps lose it (docs/decisions.md#coverage-maps-of-flat-parts).
 constexpr double kTexelOverError = 4;
 
 // Places on a coverage map are computed from its ground's triangle, by the edges of that triangle.

@@ -34,7 +34,7 @@ std::vector<std::array<Vec3f, 2>> bounds_of(const ObjectSurfaces& mesh) {
 
 // Levels with smaller errors, relative to the object's size, have no coverage maps, because small panels
 // would have too many texels. Those of a satellite with wings from 20 to 40 m have larger errors
-// (docs/decisions.md).
+// (docs/decisions.md#coverage-maps-of-flat-parts).
 constexpr double kFinestCoverageMap = 1.0 / 65536;
 
 }  // namespace
