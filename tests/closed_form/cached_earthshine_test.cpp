@@ -124,6 +124,48 @@ TEST(IrradianceCache, PaintHasAllOfTheEarthsLightAtAnyHeight) {
     }
 }
 
+// Rough paint with the Earth behind the camera sends more light back than its albedo alone would.
+TEST(IrradianceCache, RoughPaintSendsTheEarthsLightByItsOwnLaw) {
+    const auto light = [](const char* model, std::size_t law, double tilt_deg, int samples) {
+        MetalStage s(model, 1, samples, 16, 0.05);
+        MaterialConfig paint = lambert(0.8);
+        paint.model = law, paint.roughness = 0.6;
+        s.add(plate(paint, s.grid), {0, 0, 4}, {kPi + tilt_deg * kDegree_rad, 0, 0});
+        s.sun({0, 0.3, 1});
+        s.render();
+        return s.mean();
+    };
+    constexpr double kTilt_deg = 60;
+    EXPECT_GT(light("cached", kModel<brdf::OrenNayar>, kTilt_deg, 1),
+              1.05 * light("cached", kModel<brdf::Lambert>, kTilt_deg, 1));
+    for (const double tilt_deg : {0.0, 30.0, kTilt_deg}) {
+        const double paths = light("path", kModel<brdf::OrenNayar>, tilt_deg, 16);
+        EXPECT_GT(paths, 0);
+        EXPECT_NEAR(light("cached", kModel<brdf::OrenNayar>, tilt_deg, 1) / paths, 1, 0.015) << tilt_deg;
+    }
+}
+
+// A plate of metal whose faces the mesh has twice, cut along different diagonals: rays from one copy do not meet the other.
+TEST(IrradianceCache, FacesThatAMeshHasTwiceAreLitAsOne) {
+    const auto light = [](bool twice) {
+        MetalStage s("cached", 0.3, 1, 32, 0.02);  // alpha 0.09
+        s.quality.visibility = "buffer";
+        SceneObject one = plate(s.metal, s.grid), other = one;
+        other.mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
+        // A wall has rays follow what the plate shows.
+        SceneObject wall = object_of({{-1, 1.1f, 0}, {1, 1.1f, 0}, {1, 1.1f, 1}, {-1, 1.1f, 1}},
+                                     {{0, 1, 2}, {0, 2, 3}}, lambert(0.5), s.grid);
+        SceneObject all = twice ? joined(one, other) : one;
+        s.add(joined(all, wall), {0.1, 0.2, 17.3}, {kPi + 0.31, 0.17, 0.05});
+        s.sun({0, 0.3, 1});
+        s.render();
+        return s.mean();
+    };
+    const double once = light(false);
+    EXPECT_GT(once, 0);
+    EXPECT_NEAR(light(true) / once, 1, 0.01);
+}
+
 // Polished metal beside the Earth's limb: the tails of its lobe, narrow against the disk, reach over it.
 TEST(IrradianceCache, PolishedMetalSeesTheEarthPastItsLimb) {
     const auto light = [](const char* model, int samples, double tilt_rad) {
