@@ -35,8 +35,8 @@ void require_lines(CameraModel& camera, int lines);
 // margin that lacks light from outside the window.
 PixelSelection lab_selection(const LabSetup& setup);
 
-// Keeps the pixels that the lens lights within 1 % of the brightest one (EMVA 1288, section 5.2 asks for 3 %);
-// others would not saturate together.
+// Keeps the pixels that the lens lights within 1 % of the brightest one (EMVA 1288, section 5.2, asks for 3
+// %); others would not saturate together.
 PixelSelection evenly_lit(const LabSetup& setup, PixelSelection selection);
 
 // Returns the photons per second on the light-sensitive area of a mean pixel of the selection, for the lamp's
