@@ -24,10 +24,8 @@ struct HazardLimits {
 struct GroundSurvey {
     enum class What { kCraters, kBoulders, kHeights, kHazards } what = What::kCraters;
     Geodetic middle;
-    double within_m =
-        // For craters and boulders: greatest distance of their centres; for heights: half the edge of the
-        // square
-        100;
+    // Greatest distance of craters' and boulders' centres; half the edge of the square of heights.
+    double within_m = 100;
     double smallest_m = 0;  // smallest diameter; 0: all
     double spacing_m = 1;   // distance between heights
     HazardLimits limits;
