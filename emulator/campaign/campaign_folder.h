@@ -2,7 +2,7 @@
 // The folder of a campaign's results: which campaign it belongs to, who works in it, and which cases it has.
 //
 //   campaign.txt       everything that the cases depend on, one entry a line
-//   (emulator/scenario/scenario_listing.h)
+//                      (emulator/scenario/scenario_listing.h)
 //   campaign.lock      locked by each process that works here
 //   cases/000001.json  record of a case (case_record.h)
 //

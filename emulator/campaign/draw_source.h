@@ -4,10 +4,8 @@
 // again.
 //
 //   random      Philox (render/vocabulary/random.h), 52 bits
-//   random      Philox (render/vocabulary/random.h), 52 bits
 //   halton      radical inverses in the bases 2, 3, 5, ... (Halton, Numerische Mathematik 2, 1960); at most
-//   24
-//               dimensions, as those with large bases stay correlated for many cases
+//               24 dimensions, as those with large bases stay correlated for many cases
 //   r_sequence  n times powers of the generalised golden ratio, modulo 1 (M. Roberts, "The unreasonable
 //               effectiveness of quasirandom sequences", extremelearning.com.au, 2018)
 //

@@ -8,8 +8,7 @@
 //   at_frame N     due once frame N - 1 has been seen, so that it acts on frame N or the first one after it
 //   after          due delay_s after each time of the other event, even while an earlier one is still due
 //   when           due when its condition becomes true between two seen frames, or is true in the first
-//   frame; a
-//                  change within again_after_s of its last time is ignored
+//                  frame; a change within again_after_s of its last time is ignored
 //
 // Each event may happen `times` times. Its time is the instant at which it was due; for at_frame and when,
 // that is the middle of the last frame seen.

@@ -38,9 +38,8 @@ const char* things_columns(GroundThings kind);
 // along the ground [m].
 //   Craters: diameter, and wear (0 fresh to CraterProfile::kMaxWorn).
 //   Boulders: greatest width, height above the ground.
-//   Heights: height above the ellipsoid, slope of the plane through the neighbours, and the largest deviation
-//   of
-//       one of these from that plane.
+//   Heights: height above the ellipsoid, slope of the plane through the neighbours, and the largest
+//       deviation of one of these from that plane.
 //   Hazards: the same, then 1 where a limit is exceeded, else 0.
 // Throws InputError where the ground has no such things, or too many.
 std::string survey_ground(const GlobeConfig& globe, const MappedBody& body, const GroundSurvey& survey);

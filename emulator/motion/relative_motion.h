@@ -2,8 +2,7 @@
 // Motion near a thing on a circular orbit, in its LVLH axes (world_frame.h), to first order in the distance:
 // Clohessy & Wiltshire, "Terminal guidance system for satellite rendezvous", J. Aerospace Sciences 27(9),
 // 1960, in the axes and closed form of Fehse, Automated Rendezvous and Docking of Spacecraft, 2003, section
-// 3.2. Neglected terms are of the order of
-// (distance / orbit radius)^2 and of the orbit's eccentricity.
+// 3.2. Neglected terms are of the order of (distance / orbit radius)^2 and of the orbit's eccentricity.
 
 #include "render/sky/bodies.h"
 
