@@ -13,7 +13,7 @@ struct TimedError {
     double error = 0;  // finite, like the time
 };
 
-// Returns the front as indices, by rising time and falling error. Of equal points, returns the first. A
+// Returns the front as indices, by rising time and falling error. The first of equal points counts. A
 // slower point must lower the error by at least min_gain (a share), so that the scatter of the clock makes no
 // front.
 std::vector<std::size_t> pareto_front(std::span<const TimedError> points, double min_gain = 0);

@@ -44,7 +44,7 @@ struct ScenarioSource {
     ScenarioConfig load(const std::vector<std::string>& more = {}) const;
 };
 
-// Joins overrides. Of two values for a key, the later one counts.
+// Joins overrides. The later of two values for a key counts.
 std::vector<std::string> joined_overrides(const std::vector<std::string>& first,
                                           const std::vector<std::string>& second);
 

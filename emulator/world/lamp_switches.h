@@ -25,7 +25,7 @@ class LampSwitches {
     LampSwitches() = default;
     explicit LampSwitches(double level) : before_(level) {}
 
-    // Inserts a switch; of two switches for the same instant, the one inserted later counts.
+    // Inserts a switch. The later call counts if two switches have the same instant.
     void insert(const LampSwitch& order);
     // Forgets all switches; the lamp keeps its latest level.
     void begin_anew();
