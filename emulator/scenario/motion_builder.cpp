@@ -60,7 +60,7 @@ class Builder {
         begin(out);
         return out;
     }
-    // What the files of build() have that is not used, each with its motion's key.
+    // Returns remarks about unused contents of the files that build() has read, each with its motion's key.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
@@ -68,8 +68,8 @@ class Builder {
     TimeTai start_;
     std::vector<std::string> names_;
     std::optional<PlaceConfig> site_;
-    std::vector<std::optional<MotionConfig>> local_;  // local source of each thing whose pose is local
-    std::vector<std::size_t> asked_;                  // things on the way to the one whose orbit is asked for
+    std::vector<std::optional<MotionConfig>> local_;  // local motion of each thing with a pose in local axes
+    std::vector<std::size_t> asked_;                  // chain of things whose orbits are being computed
     std::vector<std::string> warnings_;
 
     static std::string key_of(std::size_t thing) {
@@ -83,7 +83,7 @@ class Builder {
         }
     }
 
-    // Refuses a scenario that begins with what cannot be.
+    // Refuses a scenario that begins with an impossible state.
     void begin(const MotionSources& sources) const {
         std::vector<Motion> motions = initial_motions(scenario_, start_);
         for (std::size_t thing = 0; thing < motions.size(); ++thing)
