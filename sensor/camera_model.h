@@ -89,7 +89,7 @@ struct CameraModel {
     Curve quantum_efficiency =
         Curve::constant(0.5);  // electrons per photon on the light-sensitive area, 0..1
     double fill_factor = 1;    // light-sensitive share of the pixel
-    // Width, height; empty: a centred square with the fill factor's area
+    // Width, height; empty: a centred square with the fill factor's area.
     std::vector<double> pixel_aperture_m;
     double diffusion_m = 0;         // standard deviation of charge diffusion before collection
     double crosstalk_fraction = 0;  // share of a pixel's charge that each of its four neighbours receives

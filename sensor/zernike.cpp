@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kPupilAcross = 256;  // samples across the pupil's diameter
-// Size of the grid; the autocorrelation is twice as wide as the pupil
+// Size of the grid; the autocorrelation is twice as wide as the pupil.
 constexpr int kSize = 2 * kPupilAcross;
 constexpr double kStep = 2.0 / kPupilAcross;  // pupil radii per sample
 
@@ -87,8 +87,8 @@ PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std
     const auto scale = static_cast<float>(1 / (area * kSize * kSize));
     for (auto& value : otf_) value = std::norm(value) * scale;
     fourier_forward(otf_, kSize);
-    // Samples on the pupil's edge overlap themselves with the square of their share: right for every shift
-    // but none.
+    // A sample on the pupil's edge overlaps itself with the square of its share, which is right for every
+    // shift except zero.
     otf_[0] = 1;
 }
 

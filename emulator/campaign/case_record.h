@@ -20,7 +20,7 @@ struct CaseRecord {
     bool done = false;
     std::string reason;                                               // why it failed; empty: it did not
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();  // truth and labels of each picture
-    // Files of its pictures, with their sizes in bytes
+    // Files of its pictures, with their sizes in bytes.
     std::vector<std::pair<std::string, std::uint64_t>> files;
     nlohmann::ordered_json figures = nlohmann::ordered_json::object();  // numbers by name, for the index
     // Times of making it. They are the only part that differs when the case is made again.

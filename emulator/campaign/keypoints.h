@@ -18,7 +18,7 @@ struct KeypointSet {
     // The node of the joint that turns each point; an empty name, or an empty list, stands for the object
     // itself.
     std::vector<std::string> nodes{};
-    // Number of that part among the renderer's objects; 0: the object itself
+    // Number of that part among the renderer's objects; 0: the object itself.
     std::vector<std::uint32_t> parts{};
 };
 

@@ -16,7 +16,7 @@ namespace hilcam {
 struct LabelContext {
     const CampaignConfig& campaign;
     std::filesystem::path folder;
-    // Names of the scenario's objects, by number from 1, and of its terrain
+    // Names of the scenario's objects, by number from 1, and of its terrain.
     std::vector<std::string> objects;
     std::vector<ObjectConfig> shapes;  // the scenario's objects without its terrain
     std::vector<KeypointSet> keypoints;

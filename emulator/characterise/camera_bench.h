@@ -18,7 +18,7 @@ namespace hilcam {
 struct BenchTarget {
     double bright_albedo = 1;
     double dark_albedo = 1;  // the same as bright_albedo: no edge
-    // Angle between the image's columns and the edge, which passes through the window's middle
+    // Angle between the image's columns and the edge, which passes through the window's middle.
     double edge_tilt_rad = 0;
 };
 

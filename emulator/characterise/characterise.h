@@ -30,7 +30,7 @@ struct Characterisation {
     Measured saturation_capacity_e;  // charge at the largest temporal variance
     Measured full_well_e;            // from strongly over-exposed frames
     Linearity linearity, configured_linearity;
-    // Noise bandwidth: below 1 where charge transfer and filters narrow white noise
+    // Noise bandwidth: below 1 where charge transfer and filters narrow white noise.
     double shot_bandwidth = 1;
     Nonuniformity prnu_fraction;
 

@@ -28,7 +28,7 @@ struct LocalPlane {
 
 struct GroundSlope {
     double slope_rad = 0;  // slope of the least-squares plane through nine posts
-    // Largest distance of one of the nine from that plane, shifted to pass through the middle post
+    // Largest distance of one of the nine from that plane, shifted to pass through the middle post.
     double step_m = 0;
 };
 

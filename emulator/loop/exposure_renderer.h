@@ -34,7 +34,7 @@ namespace hilcam {
 struct ShownWorld {
     ShownWorld(TimeTai instant, double share = 1) : middle(instant), moving(share) {}
     TimeTai middle;
-    // Share of the exposure, about its middle, during which the world moves; 0: it stands still
+    // Share of the exposure, about its middle, during which the world moves; 0: it stands still.
     double moving;
 };
 

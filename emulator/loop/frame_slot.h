@@ -25,7 +25,7 @@ struct FrameSlot {
     std::vector<SideLight> beside;             // light from outside the picture
     std::vector<std::uint64_t> shown_numbers;  // newest command of each thing, for a recorder
     std::int64_t not_before_ns = 0;            // a script's earliest time of publication; 0: any time
-    // Middle and end of the exposure in the camera's time
+    // Middle and end of the exposure in the camera's time.
     std::int64_t middle_camera_ns = 0, end_camera_ns = 0;
     // Earliest time of publication, in the camera's time.
     std::int64_t leaves_camera_ns = std::numeric_limits<std::int64_t>::min();

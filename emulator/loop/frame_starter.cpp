@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// During this time before a begin, nothing else is handled
+// During this time before a begin, nothing else is handled.
 constexpr std::int64_t kLastStretch_ns = 1'000'000;
 
 // Returns when an exposure with that begin in the camera's time begins on the machine's clock; kNever_ns

@@ -36,7 +36,7 @@ struct LoopCounters {
     std::atomic<std::int64_t> waited_for_outputs_ns{
         0};  // time during which a frame was ready but an output was not
     std::atomic<std::uint64_t> motion_limited{0};  // frames with more motion than exact motion can divide
-    // Frames while time stood still; while poses were stale
+    // Frames while time stood still; while poses were stale.
     std::atomic<std::uint64_t> standing{0}, stale{0};
     // Frames in which something had an impossible value (motion_bounds.h)
     std::atomic<std::uint64_t> impossible{0};

@@ -28,7 +28,7 @@ std::unique_ptr<Trajectory> make_tle(const ElementSet& tle, double valid_s);
 struct SpicePlace {
     int object = 0;  // NAIF's codes
     int about = 0;
-    // Centre in the world that `about` stands for; empty: the world's origin
+    // Centre in the world that `about` stands for; empty: the world's origin.
     std::optional<OrbitCenter> center;
 };
 // Throws InputError for an object that the kernels do not have.

@@ -74,7 +74,7 @@ class CommandDispatch : public CommandHandler {
     PoseWatch& poses_;
     Recorder* recorder_ = nullptr;     // may be null
     EventDirector* events_ = nullptr;  // may be null
-    // Held while a command takes effect and is noted, so that both happen in the same order
+    // Held while a command takes effect and is noted, so that both happen in the same order.
     std::mutex recording_;
     std::mutex lockstep_;  // one sender's order at a time, including what events do before its frames
 };

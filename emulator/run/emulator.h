@@ -90,7 +90,7 @@ class Emulator {
     std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
     std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null
     std::vector<std::unique_ptr<CameraStation>> stations_;
-    // Gives tables to renderers; null: no table is made during the run
+    // Gives tables to renderers; null: no table is made during the run.
     std::unique_ptr<LightMaker> light_maker_;
     std::unique_ptr<CommandDispatch> dispatch_;
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;

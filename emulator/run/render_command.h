@@ -16,7 +16,7 @@ class StillCamera;
 enum class PictureStage { kRadiance, kElectrons, kFrame };
 
 struct RenderFiles {
-    // By stage: radiance .exr; mean electrons .exr, .fits; a frame .png, .tiff, .fits, .raw
+    // By stage: radiance .exr; mean electrons .exr, .fits; a frame .png, .tiff, .fits, .raw.
     std::filesystem::path out;
     std::filesystem::path view{};  // .png picture of a frame for viewing; empty: none
     // Folder for the truth, in files named after the picture, with all layers unless outputs.truth names

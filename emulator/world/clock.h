@@ -109,7 +109,7 @@ class SimulatedClock {
     struct State {
         Piece before, now;
         double scale;  // in force, or to be in force when time goes on
-        // Simulated time at which the clock stands or will stand; kNever_ns: it runs on
+        // Simulated time at which the clock stands or will stand; kNever_ns: it runs on.
         std::int64_t stand_ns;
 
         const Piece& at(std::int64_t monotonic) const { return monotonic < now.monotonic_ns ? before : now; }

@@ -9,7 +9,7 @@ namespace hilcam {
 
 struct SeenFrame {
     std::uint64_t id = 0;  // 0: none yet
-    // Begin of the exposure, CLOCK_MONOTONIC; in lockstep, as if that clock ran with simulated time
+    // Begin of the exposure, CLOCK_MONOTONIC; in lockstep, as if that clock ran with simulated time.
     std::int64_t begin_ns = 0;
     TimeTai middle;  // middle of the exposure in simulated time
     double exposure_s = 0;

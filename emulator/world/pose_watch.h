@@ -95,7 +95,7 @@ class PoseWatch {
     const std::int64_t horizon_ns_, stale_after_ns_, late_ns_;
     mutable std::mutex mutex_;
     std::map<Subject, TimeTai> newest_tags_;
-    // Arrival, or tag in lockstep, of the newest watched pose
+    // Arrival, or tag in lockstep, of the newest watched pose.
     std::atomic<std::int64_t> newest_ns_{kNone_ns};
     std::atomic<std::uint64_t> went_back_{0};
 };

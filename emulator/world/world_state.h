@@ -138,7 +138,7 @@ class WorldState {
     mutable std::atomic<TimeTai> first_held_{};
     mutable std::atomic<std::uint64_t> impossible_{0};
     mutable std::atomic<TimeTai> first_impossible_{};
-    // An index after those of the things stands for the bodies
+    // An index after those of the things stands for the bodies.
     mutable std::atomic<std::size_t> first_impossible_thing_{0};
 
     void evaluate_sources(TimeTai time) const;

@@ -18,7 +18,7 @@ namespace hilcam {
 struct SurfacePixels {
     int width = 0, height = 0;
     std::vector<std::uint8_t> smooth;  // by pixel, row by row
-    // An object is here or within kNear_px, the reach of a lens's blur
+    // An object is here or within kNear_px, the reach of a lens's blur.
     std::vector<std::uint8_t> near_object;
     static constexpr int kNear_px = 8;
 

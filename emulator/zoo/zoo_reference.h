@@ -40,8 +40,8 @@ ZooReference render_zoo_reference(StillCamera& camera, const ScenarioConfig& ref
                                   const ReferenceLimits& limits,
                                   const std::function<void(const std::string&)>& log);
 
-// Like kept_reference() and keep_reference() of reference_cache.h, with the key of reference_key(). A reference
-// without a pan has another file.
+// Like kept_reference() and keep_reference() of reference_cache.h, with the key of reference_key(). A
+// reference without a pan has another file.
 std::optional<ZooReference> kept_zoo_reference(const Cache& cache, const std::string& key);
 void keep_zoo_reference(const Cache& cache, const std::string& key, const ZooReference& reference);
 

@@ -59,7 +59,7 @@ class SubpixelLightAdder {
     struct Scratch {
         Area charge_e;  // light of the pixels
         std::array<std::array<SubpixelKind, kArea_px>, kArea_px> kinds;
-        // Pixels with light that is not smooth
+        // Pixels with light that is not smooth.
         std::array<std::array<std::uint8_t, kArea_px>, kArea_px> sharp;
         MomentKernels::Parts parts;
     };
