@@ -24,7 +24,8 @@ struct StrayTime {
 };
 // Measures how much longer the sensor takes with stray light than without, for the light of the first
 // instant. Both are timed in turns, three times each, and the shortest times count. Returns nothing for a
-// camera without stray light, or at the quality limit of frame_time(). Owner thread; the station is loaded.
+// camera without stray light, or when a frame has more rays than frame_time() accepts. Owner thread; the
+// station is loaded.
 std::optional<StrayTime> stray_time(CameraStation& station, WorldState& world, ExposureRenderer& exposures);
 
 // Returns medians of three frames, after a first one that is not counted. Returns nothing when a frame has
