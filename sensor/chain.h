@@ -4,7 +4,6 @@
 // in two halves. expose() computes the mean charge of every pixel: light (focal_plane.h: S, MTF_sys, points),
 // and each pixel's gain and dark current (fixed_pattern.h). digitise() adds noise (noise.h) and cosmic rays
 // (cosmic_rays.h), moves the charge (ccd.h) and applies the electronics (read_out.h).
-// out (ccd.h, cosmic_rays.h) and the electronics (read_out.h) make of it.
 
 #include <memory>
 #include <span>

@@ -3,7 +3,6 @@
 //
 // A switch holds from its time until the next one. Before the first known switch, the lamp has the level that
 // it had before that one arrived. The newest 8 are kept; older ones have no effect.
-// came. The newest 8 are kept: what is older than those has no effect.
 
 #include <array>
 #include <cstddef>

@@ -14,7 +14,6 @@
 //   rows_back, columns_back   undo rows_forward and columns_forward.
 // A line's result depends on no other line, and not on the processor: every level of vector instructions
 // gives the same bits.
-// instructions gives the same bits.
 
 #include <complex>
 #include <cstddef>
