@@ -176,7 +176,7 @@ Fields fields(CameraModel& c) {
 
 namespace {
 
-// unit: of the keys, in units of the values.
+// unit: the keys' unit, in units of the values.
 void check_range(double value, const std::vector<double>& range, const std::string& key,
                  const std::string& range_key, double unit = 1) {
     if (range[0] > range[1])

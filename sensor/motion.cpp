@@ -101,7 +101,7 @@ double jitter_blur_rad2(const JitterConfig& config, double exposure_s) {
 
 namespace {
 
-// Returns the frequency below which the density has this share of its variance. total: of the whole table.
+// Returns the frequency below which the density has this share of its variance. total: variance of the whole table.
 double frequency_of_share(const Table& psd, double total, double share) {
     double left = share * total;
     for (std::size_t i = 1; i < psd.x.size(); ++i) {

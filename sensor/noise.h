@@ -19,7 +19,7 @@ namespace hilcam {
 void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t first_pixel,
                  std::span<float> charge_e, std::span<float> deviates);
 
-// Draws standard normal deviates number first, first + 1, ... of a stream. Loop, any thread.
+// Draws standard normal deviates of a stream: number first, first + 1, and so on. Loop, any thread.
 void draw_normals(RandomKey key, RandomPurpose purpose, std::uint32_t index, std::uint64_t first,
                   std::span<float> deviates);
 

@@ -18,7 +18,7 @@ struct LabSetup {
     char filter = 0;          // colour plane that is measured; 0: no colour filters
     double gain_db = 0;       // gain for the measurements with light
     double dark_gain_db = 0;  // gain in the dark, raised until the noise spans the converter's steps
-    double exposure_s = 0;    // time at which at most half of the filter's light saturates
+    double exposure_s = 0;    // at which less than half of the lamp's light saturates
     bool by_light = false;    // true: levels by dimming the light at exposure_s; false: by exposure time
     double shortest_s = 0;    // shortest exposure in the dark
     double longest_s = 0;     // longest exposure in the dark; its signal is still far below saturation

@@ -44,7 +44,7 @@ struct VideoDevice {
     std::string path;
     std::string label;
     bool loopback = false;  // a v4l2loopback device
-    bool openable = false;  // by this user, and now
+    bool openable = false;  // by this user
     bool takes_frames = false;
     bool exclusive_caps = false;
     int buffers = 0;  // buffers in use now; 0: unknown

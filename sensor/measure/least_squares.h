@@ -14,8 +14,8 @@ struct Fitted {
 };
 
 // Minimises sum w_i (y_i - sum_j c_j b_ij)^2. basis: a row of `coefficients` values b_ij for each y_i.
-// variance: of each y_i, used for the covariance alone; weights need not be its inverse. HILCAM_CHECK: sizes
-// must agree. Throws InputError when the data do not determine the coefficients.
+// variance: that of each y_i, used for the covariance alone; weights need not be its inverse. HILCAM_CHECK:
+// sizes must agree. Throws InputError when the data do not determine the coefficients.
 Fitted fit_linear(std::span<const double> basis, std::span<const double> y, std::span<const double> weight,
                   std::span<const double> variance);
 

@@ -35,7 +35,7 @@ Fields fields(StrayLightConfig& config);
 // The ghost of a whole picture, on cells of 8 x 8 pixels, which suffice for its blur.
 class Ghost {
   public:
-    // geometry: of the detector's pixels. Owner thread.
+    // geometry: that of the detector's pixels. Owner thread.
     Ghost(const StrayLightConfig& config, const ImageGeometry& geometry);
 
     static constexpr int kCell_px = 8;
