@@ -23,7 +23,7 @@
 namespace hilcam {
 namespace {
 
-// True when a command that only has others below it was named without one of those.
+// True when a command that only groups subcommands was named without one.
 bool lacks_subcommand(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* last = &app;
     while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
@@ -31,7 +31,7 @@ bool lacks_subcommand(const CLI::App& app, const CLI::ParseError& error) {
            last->remaining().empty();
 }
 
-// Prints help, version or what was wrong; returns the exit status.
+// Prints help, version or the error, and returns the exit status.
 int answer(const CLI::App& app, const CLI::ParseError& error) {
     if (const std::string what = unknown_subcommand(app); !what.empty()) {
         fmt::print(stderr, "hilcam: {}\n", what);
@@ -46,7 +46,7 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
         fmt::print(stderr, "{}", app.help());
         return 2;
     }
-    // The library's words quote the command line.
+    // The library's messages quote the command line.
     std::ostringstream help, problem;
     const int status = app.exit(error, help, problem);
     fmt::print("{}", help.str());
@@ -74,7 +74,7 @@ int carry_out(const Action& action) {
 
 }  // namespace
 
-// The subcommands are added in the order of the help.
+// Adds the subcommands in the order of the help.
 void set_up_command_line(CLI::App& app, Action& action) {
     app.name("hilcam");
     app.description("hilcam: a spacecraft's camera for the test bench");

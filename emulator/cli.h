@@ -1,6 +1,6 @@
 #pragma once
-// The command line: what the user asked for, done; exit status 0, 1 (failed at run time) or 2 (wrong usage or
-// input).
+// The command line: parses it and carries out what it asks for. Exit status: 0 for success, 1 for a failure
+// at run time, 2 for wrong usage or input.
 
 #include <functional>
 
@@ -12,7 +12,8 @@ namespace hilcam {
 
 int run_command_line(int argc, char** argv);
 
-// Gives an empty `app` all options and subcommands. When it has parsed a command line, `action` is what that asks for.
+// Adds all options and subcommands to an empty `app`. Parsing a command line with it sets `action` to the
+// function that carries it out.
 void set_up_command_line(CLI::App& app, std::function<int()>& action);
 
 }  // namespace hilcam

@@ -1,7 +1,7 @@
 #pragma once
-// This file says where the pixels of the read-out array lie on the sensor. What is drawn for a pixel is keyed
-// by that place, so that a window shows the very pixels that it shows on the real sensor. Black columns and
-// rows count beyond the greatest numbers of the light-sensitive ones.
+// The position of read-out array pixels on the sensor. Random numbers of a pixel are keyed by that position,
+// so that a window shows the same pixels as the whole sensor does. Black columns and rows have numbers beyond
+// those of the light-sensitive ones.
 
 #include <cstdint>
 
@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// Key of a pixel for random numbers; neighbours in a row follow each other.
+// Returns a pixel's key for random numbers. Neighbours in a row have consecutive keys.
 inline std::uint32_t sensor_pixel(std::uint32_t column, std::uint32_t row) { return row << 15 | column; }
 
 class ArrayPlaces {

@@ -22,7 +22,7 @@ Fields fields(AutoExposureConfig& c) {
 
 double next_exposure_s(const AutoExposureConfig& c, Brightness seen, double present_s,
                        const ExposureLimits& limits) {
-    // Black is taken as a ten-thousandth of full scale: longer, but by a known step.
+    // Treats black as a ten-thousandth of full scale, so that the exposure grows by a bounded step.
     constexpr double kDarkest = 1e-4;
     const double missing_stops = std::log2(c.target_fraction / std::max(seen.fraction, kDarkest));
     double stops = c.speed * missing_stops;
@@ -53,7 +53,7 @@ DnScale dn_scale_of(const CameraModel& c, const Exposure& exposure) {
 
 namespace {
 
-// Returns the number in the middle of those that a code stands for; codes do not fall in the table.
+// Returns the mean number for a code; codes in the table never fall.
 double number_of_code(const Table& table, double code) {
     const auto at = [&](double wanted, bool last) {
         double found = last ? table.x.back() : table.x.front();

@@ -172,11 +172,11 @@ Fields fields(CameraModel& c) {
     return list;
 }
 
-// --- what cannot be
+// --- checks
 
 namespace {
 
-// unit: of the keys, in the unit of the values.
+// unit: the keys' unit, in units of the values.
 void check_range(double value, const std::vector<double>& range, const std::string& key,
                  const std::string& range_key, double unit = 1) {
     if (range[0] > range[1])
@@ -207,7 +207,7 @@ void check_settings(const CameraModel& c) {
             "sequence");
 }
 
-// The lens must not fold over: every corner of the field comes back from where it was sent.
+// Checks that the lens does not fold over: directions to every corner of the field must map back to it.
 void check_lens(const CameraModel& c) {
     if (c.projection == Projection::kFisheye && c.distortion.size() > 4)
         throw InputError("distortion: found 5 coefficients; accepted with projection fisheye: k1 to k4");
@@ -251,7 +251,7 @@ void check_detector(const CameraModel& c) {
             if (side > c.pitch_m)
                 throw refused_key("pixel_aperture_um", plain(side * 1e6),
                                   "no more than pitch_um " + plain(c.pitch_m * 1e6));
-    // The curve of charge read over charge must rise to the full well.
+    // The read charge must rise with the charge up to the full well.
     const double a2 = c.nonlinearity.empty() ? 0 : c.nonlinearity[0];
     const double a3 = c.nonlinearity.size() > 1 ? c.nonlinearity[1] : 0;
     for (int i = 0; i <= 100; ++i) {
@@ -326,7 +326,7 @@ void validate(const CameraModel& c) {
     check_electronics(c);
 }
 
-// --- what follows from the figures
+// --- derived figures
 
 double CameraModel::system_gain_dn_e(double at_gain_db) const {
     const double at_0_db = has_gain_e_dn ? 1 / gain_e_dn : gain_dn_e;
@@ -342,7 +342,7 @@ double CameraModel::read_e(double charge_e) const {
 
 double CameraModel::charge_of_read_e(double read) const {
     if (const double well_e = read_e(full_well_e); read >= well_e) return full_well_e + (read - well_e);
-    // What is read rises with charge (validate()).
+    // The read charge rises with the charge (validate()).
     double min_e = 0, max_e = full_well_e;
     for (int step = 0; step < 60; ++step) {
         const double middle_e = 0.5 * (min_e + max_e);

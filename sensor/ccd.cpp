@@ -20,13 +20,13 @@ Fields fields(CcdConfig& c) {
 
 namespace {
 
-// Columns that are worked on together: their carries stay in the first cache.
+// Number of columns processed together, so that their carries stay in the first-level cache.
 constexpr int kColumns = 256;
 
 void bloom_columns(ElectronImage& charge_e, float full_well_e, std::size_t first, std::size_t count) {
     std::array<float, kColumns> carry{};
     const int height = charge_e.height();
-    // Down: a full pixel passes half of its excess on and keeps the other half for the way up.
+    // Down: a full pixel passes on half of its excess and keeps the other half for the way up.
     for (int y = 0; y < height; ++y) {
         float* q = charge_e.row(y).data() + first;
         for (std::size_t x = 0; x < count; ++x) {

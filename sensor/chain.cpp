@@ -22,7 +22,7 @@ namespace {
 
 tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 
-// Mean charge of a row: light times each pixel's gain, plus its dark current.
+// Computes the mean charge of a row: light times each pixel's gain, plus its dark current.
 HILCAM_CLONES void to_charge(float* light, std::size_t count, const float* gain, const float* dark_e_s,
                              float uniform_dark_e, float exposure_s) {
     constexpr float kMax_e = 1e9f;
@@ -43,10 +43,10 @@ struct SensorChain::Implementation {
     ArrayPlaces places;
     ReadOut read_out;
     std::optional<ChargeTransfer> transfer;
-    bool charge_moves;       // beyond its pixel, so that rows cannot be read one by one
-    ElectronImage charge_e;  // then
+    bool charge_moves;       // true: beyond its pixel, so that rows cannot be read one by one
+    ElectronImage charge_e;  // used when charge moves
     int array_width, array_height;
-    std::vector<double> column_sums;  // frame transfer
+    std::vector<double> column_sums;  // for frame transfer
     struct Scratch {
         std::vector<float> charge, deviates, binned;
         std::vector<std::uint16_t> dn;
@@ -83,9 +83,9 @@ struct SensorChain::Implementation {
 
     // --- mean charge
 
-    // While the rows are shifted under the light, every pixel passes the places of all others in its column:
-    // on the way in before the exposure those on one side, on the way out those on the other. Each place adds by
-    // its own gain, so that what a pixel collects on its way is not by its own.
+    // Frame transfer: while rows are shifted under the light, each charge packet passes the places of all
+    // other pixels in its column, those on one side on its way in before the exposure, the others on its way
+    // out. Each place contributes with its own gain.
     void smear(ElectronImage& light_e, double exposure_s) {
         const double share = camera.shutter.line_time_s / exposure_s;
         std::fill(column_sums.begin(), column_sums.end(), 0.0);
@@ -111,9 +111,9 @@ struct SensorChain::Implementation {
                   static_cast<float>(pattern.uniform_dark_e_s * exposure_s), static_cast<float>(exposure_s));
     }
 
-    // --- chance and read-out
+    // --- noise and read-out
 
-    // Black columns have numbers of their own, so a row is drawn in two pieces.
+    // Black columns have their own random keys, so a row is drawn in two pieces.
     void draw_row(int y, std::span<const float> mean_e, RandomKey key, std::span<float> charge,
                   std::span<float> deviates) const {
         const auto black = static_cast<std::size_t>(places.black_columns());
@@ -141,7 +141,7 @@ struct SensorChain::Implementation {
             for (float& q : charge_e.all()) q = std::min(q, full_well_e);
         if (transfer) transfer->apply(charge_e);
     }
-    // A row of the array: its charge, and deviates for its noise.
+    // Computes a row of the array: its charge, and deviates for its noise.
     void fill_row(int y, const ElectronImage& mean_e, RandomKey key, Scratch& s) const {
         if (charge_moves) {
             std::copy(charge_e.row(y).begin(), charge_e.row(y).end(), s.charge.begin());
@@ -156,7 +156,7 @@ struct SensorChain::Implementation {
                              [](const TelegraphPixel& a, const TelegraphPixel& b) { return a.y < b.y; });
         return {from, to};
     }
-    // A reading is the way in which a frame's numbers come from its charge.
+    // The parameters that turn a frame's charge into numbers.
     struct Reading {
         double gain_dn_e, black_level_dn;
         int binning_x, binning_y;
@@ -186,8 +186,8 @@ struct SensorChain::Implementation {
         }
         read_out.compand(frame.row(y));
     }
-    // Charges meet before they are read: one reading's noise, and the first pixel's offset and telegraph noise for all
-    // of them.
+    // Reads charge that is binned on the chip: with the noise of one reading, and the first pixel's offset
+    // and telegraph noise for all of them.
     void read_charge_binned(int y, const ElectronImage& mean_e, const Reading& r, RandomKey key, Scratch& s,
                             std::span<std::uint16_t> dn) const {
         const int bx = r.binning_x, by = r.binning_y;

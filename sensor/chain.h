@@ -1,9 +1,9 @@
 #pragma once
-// The sensor: radiance image in, digital numbers out. Equation (2) of Peng et al. 2011,
+// The sensor: a radiance image goes in, digital numbers come out. Equation (2) of Peng et al. 2011,
 //     DN = { IFT[ FT(S(L)) MTF_sys ] + noise } G,
-// in two halves. expose(): light, up to the mean charge of every pixel (focal_plane.h: S, MTF_sys, points;
-// fixed_pattern.h: gain and dark current of each pixel). digitise(): what chance (noise.h), the charge's way
-// out (ccd.h, cosmic_rays.h) and the electronics (read_out.h) make of it.
+// in two halves. expose() computes the mean charge of every pixel: light (focal_plane.h: S, MTF_sys, points),
+// and each pixel's gain and dark current (fixed_pattern.h). digitise() adds noise (noise.h) and cosmic rays
+// (cosmic_rays.h), moves the charge (ccd.h) and applies the electronics (read_out.h).
 
 #include <memory>
 #include <span>
@@ -18,7 +18,7 @@
 
 namespace hilcam {
 
-// Milliseconds of the last frame.
+// Times of the last frame.
 struct SensorTimes {
     double collapse_ms = 0;  // S: radiance to electrons
     double convolve_ms = 0;  // FFT pair and MTF
@@ -28,30 +28,31 @@ struct SensorTimes {
 
 class SensorChain {
   public:
-    // Plans the FFT, draws the fixed patterns. `pictures`: what the camera's map files hold. InputError when
-    // a picture has another size than the sensor. Owner thread.
+    // Plans the FFT and draws the fixed patterns. pictures: contents of the camera's map files. Throws
+    // InputError when a map has another size than the sensor. Owner thread.
     SensorChain(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
                 const DetectorPictures& pictures = {});
     ~SensorChain();
 
-    // Mean charge after one exposure [e-], dark current included; finite and not negative. mean_e has the
-    // size of the read-out array. beside: light from beside the picture (outside_light.h). Loop, one thread at a
-    // time.
+    // Computes the mean charge after one exposure [e-], including dark current; finite and not negative.
+    // mean_e: as large as the read-out array. beside: light from outside the picture (outside_light.h). Loop,
+    // one thread at a time.
     void expose(const RadianceImage& radiance, std::span<const PointSource> points, const Exposure& exposure,
                 ElectronImage& mean_e, std::span<const SideLight> beside = {});
-    // Adds noise and converts; `frame` has the frame_size() of the
-    // exposure's binning. Loop, one thread at a time.
+    // Adds noise and converts to digital numbers. frame: has the frame_size() for the exposure's binning.
+    // Loop, one thread at a time.
     void digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key, DnImage& frame);
 
     const SensorTimes& times() const { return times_; }
-    // Modulus of MTF_sys as configured: everything from the lens to the converter that acts on contrast, at a
-    // frequency [cycles/px of the detector], motion apart.
+    // Returns the modulus of MTF_sys without motion: everything from the lens to the converter that affects
+    // contrast, at a frequency [cycles/px of the detector].
     double mtf(double u, double v) const;
-    // Along the rows at the Nyquist frequency (0.5 cycles/px).
+    // Returns the MTF along the rows at the Nyquist frequency (0.5 cycles/px).
     double mtf_at_nyquist() const { return mtf(0.5, 0); }
-    // Radius of the compact kernel in place of the FFT pair [px of the radiance image]; 0: the FFT pair.
+    // Returns the radius of the compact kernel that replaces the FFT pair [px of the radiance image]; 0: the
+    // FFT pair is used.
     int kernel_radius() const;
-    // Time of one bare FFT pair of the frame's size [ms]; for `hilcam bench`.
+    // Returns the time of one bare FFT pair of the frame's size [ms], for `hilcam bench`.
     double fft_pair_ms();
 
   private:

@@ -21,7 +21,7 @@ Fields fields(ColorFilterArrayConfig& c) {
 }
 
 void validate(const ColorFilterArrayConfig& c) {
-    // One row of four letters would be stripes, which nobody means by this word.
+    // Without a space, four letters would be one row, so stripes, which is never intended by these words.
     for (const std::string bayer : {"RGGB", "GRBG", "GBRG", "BGGR"})
         if (c.pattern == bayer)
             throw InputError("color_filter.pattern: found '" + bayer +

@@ -9,13 +9,13 @@
 namespace hilcam {
 
 struct ColorFilterConfig {
-    std::string name;  // one letter of the pattern
+    std::string name;  // one letter, used in the pattern
     Curve transmission = Curve::constant(1);
 };
 Fields fields(ColorFilterConfig& config);
 
 struct ColorFilterArrayConfig {
-    std::string pattern;  // rows of letters, a space between rows: "RG GB"; empty: none
+    std::string pattern;  // letters of each row, rows separated by a space: "RG GB"; empty: no array
     std::vector<ColorFilterConfig> filters;
 };
 Fields fields(ColorFilterArrayConfig& config);

@@ -21,12 +21,13 @@ Fields fields(CosmicRayConfig& c) {
 namespace {
 
 struct Track {
-    double x_px, y_px;    // place where it enters
-    double dx_px, dy_px;  // from there to where it leaves
+    double x_px, y_px;    // where it enters
+    double dx_px, dy_px;  // from entry to exit
     double electrons;
 };
 
-// The flux of an isotropic field through a plane goes with cos(theta) sin(theta): cos^2 is uniform.
+// The flux of an isotropic field through a plane is proportional to cos(theta) sin(theta), so cos^2 is
+// uniform.
 Track draw_track(const CosmicRayConfig& c, double pitch_m, RandomKey key, std::uint32_t number,
                  const ElectronImage& image) {
     const auto place = random_words(key, RandomPurpose::kCosmicRay, number, 1);
@@ -35,7 +36,8 @@ Track draw_track(const CosmicRayConfig& c, double pitch_m, RandomKey key, std::u
     const double cosine = std::sqrt(uniform(place[2]));
     const double azimuth = 2 * kPi * uniform(place[3]);
     const double sideways_px = c.depth_um * 1e-6 / pitch_m * std::sqrt(1 - cosine * cosine) / cosine;
-    // ln(x) has the variance ln(1 + spread^2) where x has the mean 1: Aitchison & Brown, The Lognormal Distribution, 1957, 2.3.
+    // ln(x) has the variance ln(1 + spread^2) if x has the mean 1: Aitchison & Brown, The Lognormal
+    // Distribution, 1957, 2.3.
     const double log_variance = std::log1p(c.spread_fraction * c.spread_fraction);
     const double deviate = static_cast<double>(normal_quantile(uniform01(kind[0])));
     const double over_mean = std::exp(std::sqrt(log_variance) * deviate - 0.5 * log_variance);
@@ -44,8 +46,8 @@ Track draw_track(const CosmicRayConfig& c, double pitch_m, RandomKey key, std::u
             c.electrons_per_um * c.depth_um / cosine * over_mean};
 }
 
-// Charge along a straight line, in equal parts a quarter of a pixel apart or closer; what leaves the image is
-// lost, and a track that grazes it is followed to its edge only.
+// Adds charge along a straight line, in equal parts at most a quarter of a pixel apart. Charge outside the
+// image is lost, and a grazing track is only followed to the edge.
 void add_track(const Track& t, ElectronImage& image) {
     const double length_px = std::hypot(t.dx_px, t.dy_px);
     const double parts = std::ceil(std::max(1.0, 4 * length_px));

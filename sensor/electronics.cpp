@@ -86,13 +86,13 @@ double RowFilter::mtf(double f) const {
 Converter::Converter(const ConverterConfig& c, int bits, std::uint64_t seed, int number_bits)
     : max_dn_(static_cast<float>((1 << bits) - 1)), inl_lsb_(static_cast<float>(c.inl_lsb)) {
     const std::uint32_t steps = std::uint32_t{1} << bits;
-    // A step's width is the difference of two edges: each has 1 / sqrt 2 of its deviation.
+    // A step's width is the difference between two edges, so each edge has 1 / sqrt 2 of its deviation.
     if (c.dnl_lsb > 0)
         for (std::uint32_t i = 0; i <= steps; ++i) {
             const auto words = random_words({seed, 0}, RandomPurpose::kConverter, i);
             const float error =
                 normal_quantile(uniform01(words[0])) * static_cast<float>(c.dnl_lsb * std::sqrt(0.5));
-            // Edges do not change places.
+            // Edges must not change their order.
             edge_error_lsb_.push_back(std::clamp(error, -0.49f, 0.49f));
         }
     if (c.companding == Companding::kNone) return;

@@ -1,8 +1,8 @@
 #pragma once
 // The electronics turn a pixel's charge into a number: filters along the row, converter errors, companding.
 //
-// Filters act on the samples of a row in the order of read-out, noise and all (f in cycles per pixel):
-//   low-pass   one pole:   y += (1 - exp(-2 pi f_c)) (x - y)
+// Filters act on a row's samples, with their noise, in the order of read-out (f in cycles per pixel):
+//   low-pass   one pole: y += (1 - exp(-2 pi f_c)) (x - y)
 //   high-pass  one pole (AC coupling, clamped to the black level before each row)
 //   boost      aperture correction: y = x + b (x - (x_before + x_after) / 2), gain 1 + b (1 - cos 2 pi f)
 
@@ -24,42 +24,43 @@ Fields fields(FilterConfig& config);
 
 enum class Companding { kNone, kSquareRoot, kTable };
 
-// Errors of the converter's steps in least significant bits: a parabola of the given greatest deviation
-// (integral) and independent Gaussian deviations of the steps' widths (differential).
+// Errors of the converter's steps in least significant bits. Integral: a parabola with the given largest
+// deviation. Differential: independent Gaussian deviations of the step widths.
 struct ConverterConfig {
     double inl_lsb = 0;
     double dnl_lsb = 0;
     Companding companding = Companding::kNone;
-    Table companding_table{};  // number, code of 8 bits; straight between its points
+    Table companding_table{};  // number, 8-bit code; linear between its points
 };
 Fields fields(ConverterConfig& config);
-// Throws KeyError for a table that falls, and for one without its use.
+// Throws KeyError for a table that falls, or one that is not used.
 void validate(const ConverterConfig& config);
 
-// Along one row, from its first sample on. Before it stand the first sample's own value (low-pass, boost) and
-// the black level 0 (high-pass). Loop, any thread.
+// Filters one row from its first sample on. The sample before the first is taken to be the first one's value
+// (low-pass, boost), or the black level 0 (high-pass). Loop, any thread.
 class RowFilter {
   public:
     explicit RowFilter(const FilterConfig& config);
     bool none() const { return low_pass_ == 1 && high_pass_ == 1 && boost_ == 0; }
     void apply(std::span<float> samples) const;
-    // Modulus of its transfer function [cycles/px].
+    // Returns the modulus of the transfer function [cycles/px].
     double mtf(double frequency_cy_px) const;
 
   private:
-    float low_pass_ = 1;   // share of a step that one sample takes; 1: none
-    float high_pass_ = 1;  // share of the output that one sample keeps; 1: none
+    float low_pass_ = 1;   // share of a step that one sample follows; 1: no filter
+    float high_pass_ = 1;  // share of the output that remains after one sample; 1: no filter
     float boost_ = 0;
 };
 
-// Voltage steps to numbers.
+// Converts voltage steps to numbers.
 class Converter {
   public:
-    // seed: of the steps' own errors. number_bits: of the numbers that are companded, where sums have more. Owner thread.
+    // seed: for the errors of the steps. number_bits: bits of the numbers to compand, if sums have more than
+    // `bits`. Owner thread.
     Converter(const ConverterConfig& config, int bits, std::uint64_t seed, int number_bits = 0);
-    // `value` in DN before rounding; numbers are not companded. Loop, any thread, as is what follows.
+    // Converts values in DN, before rounding, without companding. Loop, any thread; so is compand().
     void convert(std::span<const float> value_dn, std::span<std::uint16_t> dn) const;
-    // Compands numbers of the converter, where the camera does.
+    // Compands the converter's numbers if the camera does so.
     void compand(std::span<std::uint16_t> dn) const;
 
   private:
@@ -67,8 +68,8 @@ class Converter {
 
     float max_dn_;
     float inl_lsb_;
-    std::vector<float> edge_error_lsb_;      // error of the lower edge of each step; empty: none
-    std::vector<std::uint16_t> companding_;  // by converted number; empty: none
+    std::vector<float> edge_error_lsb_;      // error of each step's lower edge; empty: none
+    std::vector<std::uint16_t> companding_;  // code of each number; empty: no companding
 };
 
 }  // namespace hilcam

@@ -45,7 +45,7 @@ Fields fields(DefectsConfig& c) {
 
 namespace {
 
-// Standard normal deviates of a key; see normal_quantile.
+// Returns the standard normal deviate for a random word; see normal_quantile().
 float normal(std::uint32_t word) { return normal_quantile(uniform01(word)); }
 
 RandomKey key_of(const CameraModel& c) { return {static_cast<std::uint64_t>(c.fixed_pattern.seed), 0}; }
@@ -75,7 +75,7 @@ bool listed(const std::vector<double>& columns, std::uint32_t column) {
     return std::find(columns.begin(), columns.end(), static_cast<double>(column)) != columns.end();
 }
 
-// One pixel's draws turn the means into its own values.
+// Draws a pixel's own values from the means.
 class PixelDraw {
   public:
     PixelDraw(const CameraModel& c, const DetectorPictures& pictures)
@@ -97,7 +97,7 @@ class PixelDraw {
         pixel_ = sensor_pixel(x, y);
         const auto words = random_words(key_of(c_), RandomPurpose::kFixedPattern, pixel_);
         const double kind = static_cast<double>(uniform01(words[3]));
-        // One uniform number sorts the pixels: dead from 0 up, hot after them, telegraph from 1 down.
+        // One uniform number selects pixels: dead from 0 up, hot after them, telegraph from 1 down.
         const bool sensor = !black && x < column_e_.size();
         dead_ = kind < c_.defects.dead_fraction || (sensor && dead_column_[x]);
         hot_ = (!dead_ && kind < c_.defects.dead_fraction + c_.defects.hot_fraction) ||
@@ -153,7 +153,7 @@ FixedPattern draw_fixed_pattern(const CameraModel& c, const DetectorPictures& pi
     if (out.gain.width() + out.dark_e_s.width() + out.offset_e.width() == 0 && !telegraph) return out;
 
     const ArrayPlaces places(c);
-    // A line camera's lines are all of the same pixels.
+    // All lines of a line camera have the same pixels.
     const bool one_row = c.shutter.kind == ShutterKind::kLineScan;
     PixelDraw pixel(c, pictures);
     for (int y = 0; y < height; ++y) {

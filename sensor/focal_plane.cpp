@@ -22,10 +22,10 @@ namespace {
 
 tbb::blocked_range<int> image_rows(int height) { return {0, height, 16}; }
 
-constexpr float kMaxCharge_e = 1e9f;   // greatest mean charge of a pixel
-constexpr float kMaxBefore_e = 1e12f;  // greatest charge of a radiance pixel
+constexpr float kMaxCharge_e = 1e9f;   // largest mean charge of a pixel
+constexpr float kMaxBefore_e = 1e12f;  // largest charge of a radiance pixel
 
-// Factors on planes of the image, from one of them on.
+// Factors on planes of the image, beginning at one of them.
 struct Weights {
     Spectrum factor;
     int first, count;
@@ -77,7 +77,7 @@ struct FocalPlane::Implementation {
                         view.camera.full_well_e,
                         static_cast<int>(channels.size()),
                         illumination};
-    bool dark = false;  // nothing in the radiance image
+    bool dark = false;  // the radiance image contains no light
 
     static std::vector<LightChannel> make_channels(const DetectorView& view, const SpectralGrid& grid) {
         std::vector<LightChannel> out;
@@ -136,7 +136,7 @@ struct FocalPlane::Implementation {
     RayGrid rays_of(const Exposure& exposure) const {
         return exposure.ray_grid.value_or(view.sampling.samples_per_axis);
     }
-    // Null: it is not known of the frame where in its pixels light falls.
+    // Returns null when the frame has no record of where light falls within its pixels.
     const SubpixelLight* moments_of(const RadianceImage& radiance, const Exposure& exposure) const {
         const SubpixelLight* const moments = radiance.moments();
         return is_halved(rays_of(exposure)) && moments && moments->used() ? moments : nullptr;
@@ -188,8 +188,8 @@ struct FocalPlane::Implementation {
         for (const BrightPixel& pixel : bright.all().subspan(before))
             wings[number].collect(pixel.position_px.x, pixel.position_px.y, pixel.electrons);
     }
-    // Beside and below the picture, where the FFT's size is smooth: a ramp from its last pixels to its first,
-    // which for the FFT come next. A step there would ring into the picture.
+    // Fills the columns and rows that the FFT's size adds beyond the picture with a ramp from its last pixels
+    // to its first, which follow cyclically. A step there would ring into the picture.
     void close_border(LightChannel& channel) const {
         Convolver& light = *channel.convolver;
         const auto width = static_cast<std::size_t>(view.image.padded_width());
@@ -210,7 +210,7 @@ struct FocalPlane::Implementation {
             for (std::size_t x = 0; x < row.size(); ++x) row[x] = (1 - u) * last[x] + u * first[x];
         }
     }
-    // The first layer last: it holds what the others take their parts of.
+    // Computes the first layer last, because it holds the input of the others.
     void split_by_zone(LightChannel& channel, int y) {
         const auto width = static_cast<std::size_t>(channel.convolver->width());
         const float* all = channel.convolver->row(y).data();
@@ -221,7 +221,7 @@ struct FocalPlane::Implementation {
         }
     }
 
-    // Before convolution; the light of a cell of the ghost's size goes together.
+    // Collects light before convolution, combined in cells of the ghost.
     void collect_ghost(LightChannel& channel) {
         const int side = Ghost::kCell_px * view.sampling.oversampling;
         const int across = (view.image.padded_width() + side - 1) / side;
@@ -253,7 +253,7 @@ struct FocalPlane::Implementation {
             }
         }
     }
-    // Collects what points add far from them.
+    // Collects the light that points add far from themselves.
     void collect_ghosts(std::span<const PointSource> sources, double exposure_s) {
         const double m = view.sampling.oversampling;
         for (LightChannel& channel : channels) {
@@ -294,7 +294,7 @@ struct FocalPlane::Implementation {
             if (!wings[c].empty()) add(wings[c]);
         }
     }
-    // What comes from beside the picture; each pixel that of its own channel.
+    // Adds light from outside the picture; each pixel receives that of its own channel.
     void veil_row(int y, std::span<float> row) const {
         if (view.mosaic.one_color()) return outside.front().add_to_row(y, 0, 1, row);
         const auto period = static_cast<std::size_t>(view.mosaic.period(y));
@@ -302,8 +302,8 @@ struct FocalPlane::Implementation {
             outside[static_cast<std::size_t>(view.mosaic.channel(static_cast<int>(phase), y))].add_to_row(
                 y, phase, period, row);
     }
-    // Each pixel gets its own channel; under a mosaic, charge that crosses over comes from neighbours of
-    // other colours. At the window's edge a pixel is its own neighbour.
+    // Takes each pixel from its own channel. Under a colour filter array, crosstalk charge comes from
+    // neighbours of other colours. Beyond the window's edge, a pixel is its own neighbour.
     void mix_row(int y, float* out) const {
         const int m = view.sampling.oversampling, width = view.detector.width_px;
         const auto c = view.mosaic.one_color() ? 0.0f : static_cast<float>(view.camera.crosstalk_fraction);
@@ -361,7 +361,7 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
     blur.smear_px = {exposure.image_rate_px_s.x * scale, exposure.image_rate_px_s.y * scale};
     blur.sigma_px = {my.points.jitter_px() * m, my.points.jitter_px() * m};
     const bool still = blur.none();
-    // The transfer functions are those of pictures of the usual grid.
+    // The transfer functions are for pictures with the usual grid.
     const RayGrid usual = my.view.sampling.samples_per_axis, rays = my.rays_of(exposure);
     if (rays != usual)
         blur.axis = [usual, rays](double f) { return ray_grid_mtf(f, usual) / ray_grid_mtf(f, rays); };
@@ -406,7 +406,8 @@ void FocalPlane::gather(std::span<const PointSource> sources, std::span<const Si
 double FocalPlane::mtf(double u, double v) const {
     const DetectorView& view = implementation_->view;
     const double light = std::abs(implementation_->channels.front().mtfs.front().at(u, v));
-    // Under a mosaic charge crosses over after the picture was taken; of a grey picture as without one.
+    // With a colour filter array, crosstalk acts after sampling; for a grey picture the effect is the same as
+    // without.
     return view.mosaic.one_color() ? light : light * crosstalk_mtf(u, v, view.camera.crosstalk_fraction);
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-// Light on the detector: radiance image and points in, photo-electrons of every pixel out, as if all pixels
-// were alike.
+// Light on the detector: turns radiance image and points into photo-electrons of every pixel, as if all
+// pixels were alike.
 //
-// Radiance is weighted by S (optics.h), convolved by MTF_sys (system_mtf.h) and sampled at the pixels'
-// centres; where light falls in its pixel moves it (convolution/subpixel_light_adder.h); points get their PSF
-// (convolution/psf.h). A colour filter array makes a channel of each filter: an image of its own, of which only that filter's
-// pixels are read. Ringing of a band-limited edge can dip below zero and overflow could leave infinities; charge is neither, so
-// results are cut off at 0 and 1e9 e-.
+// Radiance is weighted by S (optics.h), convolved with MTF_sys (system_mtf.h) and sampled at the pixel
+// centres. Differences of light within a pixel are added (convolution/subpixel_light_adder.h), and points are
+// drawn with their PSF (convolution/psf.h). With a colour filter array, each filter is a channel: an image of
+// its own, of which only that filter's pixels are read. Ringing at a sharp edge can make values negative, and
+// overflow could make them infinite, so results are limited to 0 .. 1e9 e-.
 
 #include <memory>
 #include <span>
@@ -25,19 +25,20 @@ class FocalPlane {
     FocalPlane(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling);
     ~FocalPlane();
 
-    // These functions are called in this order each frame. Loop, one thread at a time.
+    // Call these functions in this order for each frame. Loop, one thread at a time.
     void collapse(const RadianceImage& radiance, const Exposure& exposure);
     void convolve(const RadianceImage& radiance, const Exposure& exposure);
-    // Writes into the light-sensitive part of the read-out array; black pixels get 0. beside: light from beside
-    // the picture.
+    // Writes the light-sensitive part of the read-out array, and 0 into black pixels. beside: light from
+    // outside the picture.
     void gather(std::span<const PointSource> points, std::span<const SideLight> beside,
                 const Exposure& exposure, ElectronImage& light_e);
 
-    // Modulus of MTF_sys, of the first channel in the middle of the field [cycles/px of the detector].
+    // Returns the modulus of MTF_sys for the first channel at the centre of the field [cycles/px of the
+    // detector].
     double mtf(double u, double v) const;
-    // One bare FFT pair, for benchmarks.
+    // Runs one bare FFT pair, for benchmarks.
     void run_fft_pair();
-    // The radius of the compact kernel by which the picture is convolved [px of the radiance image]; 0: by
+    // Returns the radius of the compact kernel that convolves the picture [px of the radiance image]; 0: by
     // FFT.
     int kernel_radius() const;
 

@@ -41,7 +41,7 @@ DnImage IdealSensor::take(const RadianceImage& light, Exposure exposure, const F
     exposure.binning_x = layout.binning_x, exposure.binning_y = layout.binning_y;
     const FrameRaster raster = raster_of(camera_, oversampling_, layout);
     const DnScale scale = dn_scale_of(camera_, exposure);
-    // Pixels of the image share the light of one of the detector's.
+    // The image pixels of one detector pixel share its light.
     double dn_per_rate =
         camera_.system_gain_dn_e(exposure.gain_db) * exposure.exposure_s / (oversampling_ * oversampling_);
     if (camera_.binning == BinningKind::kMean)

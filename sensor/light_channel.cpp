@@ -18,8 +18,9 @@ std::vector<LensState> lens_states(const CameraModel& c) {
     return out;
 }
 
-// The share that the halo drawn by itself has in a point's table: there, and folded in from the fields around. The latter is
-// smooth: it is worked out 2 px apart. Fields outside 25 x 25 are an even plane from the radius of that square's area on.
+// The share of a separately drawn halo that a point's table contains: its own, and that folded in from the
+// fields around. The latter is smooth, so it is computed 2 px apart. Fields outside 25 x 25 count as a
+// uniform plane beyond the radius of a circle with that square's area.
 class HaloInTable {
   public:
     explicit HaloInTable(const PointHalos& halos) : halos_(halos) {
@@ -57,15 +58,16 @@ class HaloInTable {
 
 double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
-// MTF_sys for light in parts of pixels, to 1 cycle per pixel. Its rays have averaged over halves already.
+// Returns MTF_sys for light within pixels, up to 1 cycle per pixel. Rays have already averaged over halves.
 Transfer transfer_of_halves(const SystemMtf& mtf, RayGrid rays) {
     return [&mtf, rays](double u, double v) {
         return mtf.at(u, v) / (half_rays_mtf(u, rays) * half_rays_mtf(v, rays));
     };
 }
 
-// MTF_sys at the radiance image's frequencies. Its rays have averaged over its pixels already. With an even
-// number of them to a detector pixel, that pixel's centre lies on their corner: half a pixel back.
+// Returns MTF_sys at the radiance image's frequencies. Rays have already averaged over its pixels. With an
+// even number of these across a detector pixel, the detector pixel's centre is on their corner, half a pixel
+// back.
 std::complex<double> image_transfer(const SystemMtf& mtf, int oversampling, RayGrid rays, double u,
                                     double v) {
     if (is_halved(rays)) return smooth_transfer(transfer_of_halves(mtf, rays), u, v);
@@ -107,10 +109,10 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
         for (const PointSpread& spread : spreads)
             cores.push_back(spread.less([&](double x, double y) { return in_table.at(x, y); }));
     }
-    // Light that runs over the picture's right and lower edges stays dark.
+    // Light that runs beyond the right and lower edges remains invisible.
     const int width = fft_size(view.image.padded_width()), height = fft_size(view.image.padded_height());
     convolver.emplace(width, height, transfers);
-    // A kernel's border of nothing must lie in the guard band.
+    // The kernel's surroundings count as zero, so they must be in the guard band.
     if (transfers.size() == 1 && view.image.guard_px >= CompactKernel::kMaxRadius && !sampling.always_fft) {
         std::vector<RayGrid> grids = sampling.other_grids;
         grids.push_back(sampling.samples_per_axis);

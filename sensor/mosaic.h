@@ -1,6 +1,6 @@
 #pragma once
-// The mosaic says which filter lies over each pixel of the window: the colour filter array's pattern from the
-// sensor's corner on.
+// Tells the filter over each pixel of the window, from the colour filter array's pattern, which begins at the
+// sensor's corner.
 
 #include <vector>
 
@@ -25,13 +25,13 @@ class Mosaic {
     }
 
     bool one_color() const { return rows_.empty(); }
-    // Number of the filter; x, y: of the window, up to four patterns to the left of it and above.
+    // Returns the number of the filter. x, y: in the window, or up to four patterns to its left and above.
     int channel(int x, int y) const {
         if (rows_.empty()) return 0;
         const auto& row = rows_[(static_cast<std::size_t>(y + top_) + 4 * rows_.size()) % rows_.size()];
         return row[(static_cast<std::size_t>(x + left_) + 4 * row.size()) % row.size()];
     }
-    // Columns after which a row's pattern comes again.
+    // Returns the number of columns after which a row's pattern repeats.
     int period(int y) const {
         if (rows_.empty()) return 1;
         return static_cast<int>(rows_[static_cast<std::size_t>(y + top_) % rows_.size()].size());

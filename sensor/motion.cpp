@@ -54,7 +54,7 @@ SineCosineIntegrals sine_cosine_integrals(double x) {
     return {0.5 * kPi + h.imag(), -h.real()};
 }
 
-// Integrals from 0, of 1 - sin^2 x / x^2 and of x times it, for x up to 1: the power series of the cosine.
+// Integrals, from 0 to x, of 1 - sin^2 t / t^2 and of t times it, for x up to 1: power series of the cosine.
 struct Moments {
     double zeroth, first;
 };
@@ -68,8 +68,8 @@ Moments moments_below_1(double x) {
     }
     return sum;
 }
-// The same for x from 1 on: the integral of sin^2 x / x^2 is Si(2x) - sin^2 x / x, of sin^2 x / x it is
-// (ln x - Ci(2x)) / 2; constants differ from those above.
+// The same for x above 1: the integral of sin^2 x / x^2 is Si(2x) - sin^2 x / x, that of sin^2 x / x is (ln x
+// - Ci(2x)) / 2, with other constants than above.
 Moments moments_above_1(double x) {
     const auto [si, ci] = sine_cosine_integrals(2 * x);
     const double sine = std::sin(x);
@@ -101,7 +101,7 @@ double jitter_blur_rad2(const JitterConfig& config, double exposure_s) {
 
 namespace {
 
-// The frequency below which a share of the density's variance lies. total: of the whole table.
+// Returns the frequency below which the density has this share of its variance. total: variance of the whole table.
 double frequency_of_share(const Table& psd, double total, double share) {
     double left = share * total;
     for (std::size_t i = 1; i < psd.x.size(); ++i) {
@@ -112,7 +112,7 @@ double frequency_of_share(const Table& psd, double total, double share) {
             left -= here;
             continue;
         }
-        // a u + (b - a) u^2 / 2 = left / width, in the form that does not cancel.
+        // Solves a u + (b - a) u^2 / 2 = left / width in the form without cancellation.
         const double c = std::min(left, here) / width;
         const double root = std::sqrt(std::max(0.0, a * a + 2 * (b - a) * c));
         return psd.x[i - 1] + width * (a + root > 0 ? std::min(1.0, 2 * c / (a + root)) : 0.0);
@@ -139,7 +139,7 @@ PointingJitter::PointingJitter(const JitterConfig& config, std::uint64_t seed, T
         for (std::uint32_t i = 0; i < kSinusoids; ++i) {
             const auto words = random_words({seed, 0}, RandomPurpose::kPointing, i, axis);
             const auto uniform = [&](std::size_t w) { return static_cast<double>(uniform01(words[w])); };
-            // Two Gaussian quadratures of deviation sigma are a Rayleigh amplitude and a uniform phase.
+            // Two Gaussian quadratures with deviation sigma have a Rayleigh amplitude and a uniform phase.
             axes_[axis].push_back({frequency_of_share(psd, total, (i + uniform(0)) / kSinusoids),
                                    sigma_rad * std::sqrt(-2 * std::log(uniform(1))), 2 * kPi * uniform(2)});
         }

@@ -1,15 +1,17 @@
 #pragma once
-// Jitter of the line of sight moves the picture during an exposure and from one exposure to the next.
+// Jitter of the line of sight: it blurs the picture during an exposure and displaces it between exposures.
 //
-// Gaussian of a fixed standard deviation within any exposure, or from a one-sided power spectral density S(f)
-// per axis, linear between its samples and zero outside them. Of the latter an exposure of T blurs what is
-// fast, with the variance
+// Jitter is given as a Gaussian with a fixed standard deviation within any exposure, or as a one-sided power
+// spectral density S(f) for each axis, linear between its samples and zero outside them. An exposure of
+// length T is blurred by the fast part, with the variance
 //     integral S(f) (1 - sinc^2(f T)) df,        sinc x = sin(pi x) / (pi x)
-// about the mean pointing of the exposure, and shows the rest, integral S(f) sinc^2(f T) df, as a
-// displacement of the whole picture from frame to frame (Lucke, Sirlin & San Martin, "New definitions of
-// pointing stability: AC and DC effects", J. Astronautical Sciences 40(4), 1992). Not modelled: roll;
-// that a single exposure's blur is not Gaussian when few vibrations fall into it; and that the rows of a
-// rolling shutter and the lines of a scanner are displaced one by one (they go with the frame's middle).
+// about its mean pointing. The rest, integral S(f) sinc^2(f T) df, displaces the whole picture from frame to
+// frame (Lucke, Sirlin & San Martin, "New definitions of pointing stability: AC and DC effects", J.
+// Astronautical Sciences 40(4), 1992).
+//
+// Not modelled: roll; the non-Gaussian blur of an exposure that covers only few vibrations; separate
+// displacements for the rows of a rolling shutter or the lines of a scanner, which all move with the frame's
+// middle.
 
 #include <array>
 #include <cstdint>
@@ -23,33 +25,33 @@ namespace hilcam {
 
 struct JitterConfig {
     std::vector<double> rms_rad = {0, 0};  // about the camera's x and y axes, within any exposure
-    Table psd_arcsec2_hz;                  // f [Hz], S [arcsec^2/Hz] of each axis; empty: none
+    Table psd_arcsec2_hz;                  // f [Hz], S [arcsec^2/Hz] for each axis; empty: none
 };
 Fields fields(JitterConfig& config);
-// A density needs a band: two samples. InputError.
+// Throws InputError for a density with fewer than two samples, which has no band.
 void validate(const JitterConfig& config);
 
-// Variance about each axis, within an exposure, of what the density says [rad^2]; rms_rad is not in it.
+// Returns the variance about each axis that the density causes within an exposure [rad^2], without rms_rad.
 // In closed form for each piece of the table, to 1e-12 of the density's total. Any thread.
 double jitter_blur_rad2(const JitterConfig& config, double exposure_s);
 
-// The mean pointing of exposures: a sum of sinusoids whose frequencies, Rayleigh amplitudes and phases are
-// drawn once from the seed. The band is cut into parts of equal variance with one sinusoid each, at a random
-// frequency of its part; so over seeds the variance at any instant is the integral above, exactly, and the
-// displacement is Gaussian.
+// The mean pointing of exposures: a sum of sinusoids with frequencies, Rayleigh amplitudes and phases that
+// are drawn once from the seed. The band is cut into parts of equal variance, each with one sinusoid at a
+// random frequency within it. Over seeds, the variance at any instant is then exactly the integral above, and
+// the displacement is Gaussian.
 class PointingJitter {
   public:
     static constexpr int kSinusoids = 128;  // per axis
 
-    // No displacement.
+    // Makes pointing without displacement.
     PointingJitter() = default;
     // Times are counted from `start`. Owner thread.
     PointingJitter(const JitterConfig& config, std::uint64_t seed, TimeTai start);
 
-    // Rotation about the camera's x and y axes [rad], the mean over an exposure centred at `middle`.
-    // A pure function. Loop, any thread.
+    // Returns the rotation about the camera's x and y axes [rad], as the mean over an exposure centred at
+    // `middle`. A pure function. Loop, any thread.
     Vec2d at(TimeTai middle, double exposure_s) const;
-    // The pose with that rotation.
+    // Returns the pose with that rotation.
     Pose applied(const Pose& camera, TimeTai middle, double exposure_s) const;
 
   private:

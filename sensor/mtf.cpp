@@ -15,8 +15,9 @@ double sinc(double x) {
 double pupil_otf(double shift, double e, double defocus_waves) {
     const double s = std::abs(shift);
     if (s >= 2) return 0;
-    // Two pupils shifted by -s/2 and +s/2 along x. At x they overlap for |y| < outer, less where either one's
-    // obscuration blocks |y| < inner. Their wavefronts differ by W20 ((x+s/2)^2 - (x-s/2)^2) = 2 W20 s x.
+    // Two pupils shifted by -s/2 and +s/2 along x. At x they overlap for |y| < outer, minus the part where
+    // the obscuration of either blocks |y| < inner. Their wavefronts differ by W20 ((x+s/2)^2 - (x-s/2)^2) =
+    // 2 W20 s x.
     const double reach = 1 - 0.5 * s;
     constexpr int kPieces = 2000;
     const double step = reach / kPieces;
@@ -30,7 +31,7 @@ double pupil_otf(double shift, double e, double defocus_waves) {
         const double factor = i == 0 || i == kPieces ? 1 : (i % 2 ? 4 : 2);
         sum += factor * std::max(0.0, outer - inner) * std::cos(2 * kPi * defocus_waves * 2 * s * x);
     }
-    // Both halves in x and in y; over the area of the pupil.
+    // Both halves in x and in y, divided by the area of the pupil.
     return 4 * sum * step / 3 / (kPi * (1 - e * e));
 }
 

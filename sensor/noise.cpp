@@ -13,8 +13,8 @@ namespace {
 
 constexpr float kInversionBelow_e = 32;
 constexpr std::size_t kBlock = 128;
-constexpr std::size_t kLanes = 32;  // pixels that are inverted side by side
-// P(Poisson(32) > 92) is 1e-17: no uniform number below 1 gets there.
+constexpr std::size_t kLanes = 32;  // pixels inverted side by side
+// P(Poisson(32) > 92) is 1e-17, which no uniform number below 1 reaches.
 constexpr int kMaxInverted_e = 92;
 
 // Natural logarithm of a normal positive float: mantissa in [sqrt(1/2), sqrt(2)), then the series of
@@ -35,7 +35,7 @@ constexpr int kMaxInverted_e = 92;
 // value.
 [[gnu::always_inline]] inline float fast_exp_minus(float x) {
     const float n = std::floor(-x * 1.44269504f + 0.5f);
-    // ln 2 in two parts, so that the product with n is exact in the first.
+    // ln 2 is split into two parts, so that the product of n with the first is exact.
     const float r = (-x - n * 0.693359375f) + n * 2.12194440e-4f;
     const float series =
         1.0f +
@@ -84,7 +84,8 @@ HILCAM_CLONES void fill_uniforms(RandomKey key, std::uint32_t first_pair, float*
     }
 }
 
-// Poisson by the corrected normal for every pixel, whatever its mean; small means are redone after.
+// Draws Poisson numbers by the corrected normal for every pixel, whatever its mean; small means are drawn
+// again afterwards.
 HILCAM_CLONES void shoot_large(const float* mean_e, const float* shot, float* electrons) {
     for (std::size_t i = 0; i < kBlock; ++i) {
         const float mean = mean_e[i] > 0 ? mean_e[i] : 0.0f;
@@ -100,10 +101,11 @@ HILCAM_CLONES std::int32_t count_large(const float* mean_e) {
     return large;
 }
 
-// Poisson by inversion of its distribution, exact, for the means below kInversionBelow_e among kLanes pixels:
-// all walk the distribution together until the last has found its count.
+// Draws exact Poisson numbers by inversion for the means below kInversionBelow_e among kLanes pixels. All
+// walk through the distribution together until the last has found its count.
 HILCAM_CLONES void shoot_small(const float* mean_e, const float* shot, float* electrons) {
-    // Written as vectors of eight, four at a time: compilers do not find them in a loop with an early end.
+    // Written as vectors of eight, four at a time, because compilers do not vectorise a loop with an early
+    // end.
     using Lanes [[gnu::vector_size(8 * sizeof(float))]] = float;
     using Words [[gnu::vector_size(8 * sizeof(float))]] = std::int32_t;
     constexpr std::size_t kVectors = kLanes / 8;
@@ -148,7 +150,7 @@ float normal_quantile(float u) { return quantile(u); }
 void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t first_pixel,
                  std::span<float> charge_e, std::span<float> deviates) {
     alignas(64) std::array<float, kBlock> mean, shot, read, electrons{};
-    // Blocks start at the first pixel of a pair; a row that starts with a second one leaves one place empty.
+    // Blocks begin at the first pixel of a pair; if a row begins with a second pixel, one place stays empty.
     std::size_t lead = first_pixel % 2;
     std::size_t done = 0;
     const std::size_t size = std::max(mean_e.size(), deviates.size());
@@ -158,7 +160,7 @@ void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t fir
         if (!charge_e.empty()) {
             mean.fill(0.0f);
             std::copy_n(mean_e.data() + done, count, mean.data() + lead);
-            // Most blocks of a picture of space are dark all over, many others bright all over.
+            // Most blocks of a picture of space are completely dark, and many others completely bright.
             const std::int32_t large = count_large(mean.data());
             if (large > 0) shoot_large(mean.data(), shot.data(), electrons.data());
             if (large < static_cast<std::int32_t>(kBlock))
@@ -174,7 +176,7 @@ void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t fir
 
 namespace {
 
-// Four of each call; block: number of the first call.
+// Fills four numbers for each call; block: number of the first call.
 HILCAM_CLONES void fill_uniforms(RandomKey key, RandomPurpose purpose, std::uint32_t index,
                                  std::uint32_t block, float* uniform) {
     for (std::size_t i = 0; i < kBlock / 4; ++i) {
@@ -208,7 +210,7 @@ std::uint32_t poisson_count(double mean, double uniform) {
     }
     double probability = std::exp(-mean), cumulative = probability;
     std::uint32_t count = 0;
-    // Uniform numbers end at 1 - 2^-24: no count gets near the end.
+    // Uniform numbers end at 1 - 2^-24, so no count comes near the limit.
     while (uniform > cumulative && count < 2000) {
         probability *= mean / ++count;
         cumulative += probability;

@@ -1,10 +1,11 @@
 #pragma once
-// The chance in a pixel: how many electrons come, and a normal deviate for the noise of its reading.
+// Random numbers of a pixel: the number of its electrons, and a normal deviate for its read noise.
 //
-// Shot noise: Poisson. Means below 32 e- by exact inversion; above, a normal deviate with the Cornish-Fisher
-// term for skewness (Cornish & Fisher, Rev. Inst. Int. Stat. 5, 1938), rounded: mean right to 1e-3 e-,
-// variance to 0.3 %. Uniform deviates have 23 bits, so tails end at 5.2 standard deviations. Every deviate is
-// a function of (seed, frame, pixel): any pixel can be recomputed alone, on any thread count.
+// Shot noise is Poisson: by exact inversion for means below 32 e-; above, by a normal deviate with the
+// Cornish-Fisher term for skewness (Cornish & Fisher, Rev. Inst. Int. Stat. 5, 1938), rounded; the mean is
+// right to 1e-3 e-, the variance to 0.3 %. Uniform deviates have 23 bits, so tails end at 5.2 standard
+// deviations. Every deviate is a function of (seed, frame, pixel): any pixel can be recomputed alone, with
+// any number of threads.
 
 #include <cstdint>
 #include <span>
@@ -13,20 +14,21 @@
 
 namespace hilcam {
 
-// Draws, for pixels first_pixel, first_pixel + 1, ..., the charge that a mean (0 .. 1e9 e-; a NaN counts as
-// 0) becomes, and independent standard normal deviates. An empty span: not wanted. Loop, any thread.
+// Draws for pixels first_pixel, first_pixel + 1, ... the charge, from means of 0 .. 1e9 e- (a NaN counts as
+// 0), and independent standard normal deviates. An empty span is not filled. Loop, any thread.
 void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t first_pixel,
                  std::span<float> charge_e, std::span<float> deviates);
 
-// Standard normal deviates number first, first + 1, ... of a stream. Loop, any thread.
+// Draws standard normal deviates of a stream: number first, first + 1, and so on. Loop, any thread.
 void draw_normals(RandomKey key, RandomPurpose purpose, std::uint32_t index, std::uint64_t first,
                   std::span<float> deviates);
 
-// The standard normal quantile of u in (0, 1), single precision, error below 1e-5 relative: Giles,
+// Returns the standard normal quantile of u in (0, 1) in single precision, relative error below 1e-5: Giles,
 // "Approximating the erfinv function", GPU Computing Gems Jade Edition, 2012.
 float normal_quantile(float u);
 
-// A Poisson number of events from a uniform number in (0, 1): by inversion, above 500 as draw_pixels does it.
+// Returns a Poisson number from a uniform number in (0, 1): by inversion; for means above 500, as
+// draw_pixels() does.
 std::uint32_t poisson_count(double mean, double uniform);
 
 }  // namespace hilcam

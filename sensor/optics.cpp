@@ -38,7 +38,8 @@ Spectrum electrons_per_s_per_irradiance(const CameraModel& c, const SpectralGrid
     const double area_m2 = aperture_area_m2(c);
     Spectrum out;
     for (int b = 0; b < grid.size(); ++b) {
-        // Integral of T QE lambda over the bin; Simpson on 32 pieces, curves are linear between their knots.
+        // Integral of T QE lambda over the bin, by Simpson's rule on 32 pieces; curves are linear between
+        // their knots.
         constexpr int kPieces = 32;
         const double step = grid.width_um(b) / kPieces;
         double electrons_per_joule_um = 0;
@@ -74,7 +75,7 @@ RelativeIllumination::RelativeIllumination(const CameraModel& camera, const Imag
       one_line_(camera.shutter.kind == ShutterKind::kLineScan),
       cos_power_(camera.cos_power),
       vignetting_(camera.vignetting) {
-    // The whole sensor's corners, whatever the window.
+    // Uses the corners of the whole sensor, whatever the window.
     CameraModel whole = camera;
     whole.window_px.clear();
     const double focal_length_px = camera.focal_length_m / camera.pitch_m;
@@ -100,7 +101,7 @@ double RelativeIllumination::at(double x_px, double y_px) const {
 }
 
 double RelativeIllumination::of_point(double x_px, double y_px) const {
-    // Without distortion a pixel's solid angle falls with the third power of the cosine.
+    // Without distortion, a pixel's solid angle falls with the third power of the cosine.
     if (geometry_.distortion.none() && cos_power_ == 4) {
         const double lens = vignetting_.empty() ? 1 : vignetting_.at(field_fraction(x_px, y_px));
         return lens / length(geometry_.direction_camera(x_px, on_sensor(y_px)));
@@ -108,7 +109,8 @@ double RelativeIllumination::of_point(double x_px, double y_px) const {
     return at(x_px, y_px) * axis_solid_angle_ / solid_angle(x_px, on_sensor(y_px));
 }
 
-// A pixel covers an area a of the plane z = 1, along its normal; seen from the lens that is a cos / d^2.
+// A pixel covers an area a of the plane z = 1, along its normal; from the lens its solid angle is a cos /
+// d^2.
 double RelativeIllumination::solid_angle(double x_px, double y_px) const {
     constexpr double kHalf_px = 0.5;
     const Vec3d d = geometry_.direction_camera(x_px, y_px);

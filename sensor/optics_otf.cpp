@@ -38,7 +38,7 @@ OpticsOtf::OpticsOtf(const CameraModel& c, const SpectralGrid& grid, const Spect
     };
     std::vector<Part> parts;
     for (int b = 0; b < grid.size(); ++b) {
-        // A camera that sees nothing of the grid still has a lens: all bins alike.
+        // A camera that is blind in the whole grid still has a lens: all bins then have equal weights.
         const double weight = total > 0
                                   ? static_cast<double>(response[b]) * static_cast<double>(sun[b]) / total
                                   : 1.0 / grid.size();

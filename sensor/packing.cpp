@@ -21,7 +21,7 @@ void pack_plain(std::span<const std::uint16_t> dn, int container_bits, std::span
 }
 
 void pack_stream(std::span<const std::uint16_t> dn, int bits, std::span<std::uint8_t> out) {
-    std::uint32_t waiting = 0;  // bits that are not written yet, the first one lowest
+    std::uint32_t waiting = 0;  // bits that are not yet written, the first one lowest
     int count = 0;
     std::size_t at = 0;
     for (const std::uint16_t value : dn) {

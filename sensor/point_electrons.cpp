@@ -3,7 +3,7 @@
 namespace hilcam {
 namespace {
 
-// Returns the mean over the pattern's filters.
+// Returns the mean over the filters of the pattern.
 Spectrum mean_per_irradiance(const CameraModel& camera, const SpectralGrid& grid) {
     const ColorFilterArrayConfig& array = camera.color_filter;
     if (array.pattern.empty()) return electrons_per_s_per_irradiance(camera, grid);

@@ -1,7 +1,7 @@
 #pragma once
-// Returns how many photo-electrons a point of light makes in one exposure, all of its image together, as
-// FocalPlane draws it: mean over where it falls in a pixel and in a colour filter array's pattern. Not in it:
-// what falls outside the frame, saturation, and what glare spreads evenly.
+// Computes how many photo-electrons a point of light makes in one exposure, over its whole image as
+// FocalPlane draws it: the mean over its position within a pixel and in a colour filter array's pattern. Not
+// included: losses outside the frame, saturation, and light that glare spreads evenly.
 
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/spectrum.h"
@@ -14,7 +14,8 @@ class PointElectrons {
   public:
     PointElectrons(const CameraModel& camera, const SpectralGrid& grid);
 
-    // detector_px: its place in the window. irradiance: at the aperture, per bin. Any thread.
+    // detector_px: place of the point in the window. irradiance_w_m2_um: at the aperture, in each bin. Any
+    // thread.
     double of(const Spectrum& irradiance_w_m2_um, Vec2d detector_px, double exposure_s) const;
 
   private:

@@ -14,18 +14,19 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kSourcesAtOnce = 8192;
-// Drawn together, in bands of rows: enough for the threads of a bench machine, and bands that are much higher
-// than the images that lie across two of them.
+// Number of spots drawn together, in bands of rows: enough for the threads of a bench machine, with bands
+// much higher than images that overlap two of them.
 constexpr std::size_t kSpotsAtOnce = 8192;
 constexpr std::size_t kFewSpots = 64;  // fewer spots are not worth waking threads for
 
 constexpr int kReach = PointSpread::kMaxRadius_px;
 constexpr int kAcross = 2 * kReach + 1;
-constexpr int kPitch = PointSpread::kField_px;  // numbers from row to row of a patch with wings in it
+constexpr int kPitch = PointSpread::kField_px;  // numbers from row to row of a patch that includes wings
 
-// Around a point: its wings, which are added elsewhere, and those of its copies, one in every field, that the
-// table has folded in. Copies outside 25 x 25 fields are an even plane from the radius of that square's area
-// on, whose density integrates to 2 pi R^2 D(R) where D falls as r^-3.
+// Returns the light to subtract around a point: the wings themselves, which are added elsewhere,
+// and those of its copies, one in every field, that the table has folded in. Copies outside 25 x 25 fields
+// count as a uniform plane beyond the radius of a circle with that square's area; where D falls as r^-3, its
+// density integrates to 2 pi R^2 D(R).
 std::vector<double> near_wings(const FarWings& wings) {
     constexpr int kCopies = 12;
     constexpr double kField2 = static_cast<double>(PointSpread::kField_px) * PointSpread::kField_px;
@@ -80,7 +81,7 @@ void PointLight::begin(const Exposure& exposure) {
     exposure_ = exposure;
     jitter_px_ = std::sqrt(jitter_blur_rad2(view_.camera.jitter, exposure.exposure_s)) *
                  view_.detector.focal_length_px;
-    // A hundredth of a pixel is not seen.
+    // A hundredth of a pixel is invisible.
     if (jitter_px_ < 0.01) jitter_px_ = 0;
     trails_.begin(exposure, jitter_px_);
     std::fill(glare_e_.begin(), glare_e_.end(), 0.0);
@@ -109,7 +110,7 @@ void PointLight::add(std::span<const PointSource> points, ElectronImage& light_e
         const std::span<const PointSource> some =
             points.subspan(first, std::min(at_once, points.size() - first));
         sources_.resize(some.size() * channels), spots_.resize(some.size() * channels);
-        // Most exposures have a spot of each source: these are made at once.
+        // In most exposures each source has one spot, and all are made at once.
         std::atomic<bool> single = trails_.scattered() == 1;
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, some.size(), kFewSpots), [&](const auto& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i)
@@ -129,7 +130,7 @@ void PointLight::add(std::span<const PointSource> points, ElectronImage& light_e
     }
 }
 
-// It is part of the picture and moves with it.
+// A bright pixel belongs to the picture and moves with it.
 void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
     const Vec2d way_px{exposure_.image_rate_px_s.x * exposure_.exposure_s,
                        exposure_.image_rate_px_s.y * exposure_.exposure_s};
@@ -138,7 +139,7 @@ void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
         for (std::size_t i = 0; i < trails_.scattered(); ++i) {
             const Vec2d px = trails_.scattered_px(trails_.place(trail, part), i);
             const double electrons = pixel.electrons * (1.0 / trail.parts) * trails_.share(i);
-            // They count the fill factor already.
+            // The electrons already include the fill factor.
             const Spot spot = spot_of(pixel.channel, px, electrons / view_.camera.fill_factor, false);
             glare_e_[static_cast<std::size_t>(pixel.channel)] += spot.glare_e;
             draw(spot, all_rows(), light_e);
@@ -146,7 +147,7 @@ void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
         }
 }
 
-// Spots are numbered through all sources.
+// Spots are numbered over all sources.
 void PointLight::draw_sources(ElectronImage& light_e) {
     spots_until_.clear();
     std::size_t count = 0;
@@ -177,7 +178,7 @@ void PointLight::make_spots(std::size_t first_spot) {
         auto s = static_cast<std::size_t>(until - spots_until_.begin());
         std::size_t in_source = first - (s > 0 ? spots_until_[s - 1] : 0);
         Part part;
-        bool known = false;  // the present part
+        bool known = false;  // belongs to the present part
         for (std::size_t i = range.begin(); i < range.end(); ++i, ++in_source) {
             for (; first_spot + i >= spots_until_[s]; ++s) in_source = 0, known = false;
             const std::size_t of_part = in_source % trails_.scattered();
@@ -221,7 +222,7 @@ PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons, bool 
     return out;
 }
 
-// Sorts points by the rows that their images touch; charge may cross over to the row before and after.
+// Sorts spots by the rows that their images touch; charge may cross over to the row before and after.
 void PointLight::sort_into_bands() {
     const int height = view_.detector.height_px;
     for (std::vector<std::uint32_t>& spots : band_spots_) spots.clear();
@@ -299,8 +300,8 @@ void PointLight::take_off_wings(Vec2d at_px, int c, double electrons, ElectronIm
               c, all_rows(), light_e);
 }
 
-// Adds a patch. In a mosaic's channel only its own pixels have the light; some of their charge crosses over
-// to the neighbours.
+// Adds a patch. In a channel of a colour filter array, only its own pixels receive the light; some of their
+// charge crosses over to neighbours.
 void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronImage& light_e) const {
     const int width = view_.detector.width_px;
     const auto left = static_cast<int>(view_.camera.black_columns),
@@ -308,7 +309,7 @@ void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronIm
     const auto crosstalk = static_cast<float>(view_.camera.crosstalk_fraction);
     if (view_.mosaic.one_color()) {
         const int from = std::max(0, -patch.left), to = std::min(patch.size, width - patch.left);
-        // Most lie within the frame, with the zeros beside them: these are added as whole vectors.
+        // Most patches are within the frame, including the zeros beside them, and are added as whole vectors.
         const bool within = from == 0 && patch.left + patch.pitch <= width;
         for (int y = std::max(rows.begin, patch.top); y < std::min(rows.end, patch.top + patch.size); ++y) {
             const float* in = patch.electrons + (y - patch.top) * patch.pitch;
@@ -324,7 +325,7 @@ void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronIm
         if (x < 0 || y < rows.begin || x >= width || y >= rows.end) return;
         light_e.row(y + top)[static_cast<std::size_t>(x + left)] += electrons;
     };
-    // One pixel beyond the rows, or the window, can still cross over.
+    // Charge one pixel outside the rows, or the window, can still cross over into them.
     for (int j = std::max(0, rows.begin - 1 - patch.top); j < std::min(patch.size, rows.end + 1 - patch.top);
          ++j)
         for (int i = std::max(0, -patch.left - 1); i < std::min(patch.size, width + 1 - patch.left); ++i) {

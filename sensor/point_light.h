@@ -1,10 +1,10 @@
 #pragma once
-// Light of points on the detector: stars, things smaller than a pixel, and pixels of the picture that are far
-// too bright for its FFT (the Sun, a mirror's glint of it).
+// Draws the light of points on the detector: stars, things smaller than a pixel, and pixels of the picture
+// that are too bright for its FFT (the Sun, or its glint in a mirror).
 //
-// A point that moves through the exposure or jitters is drawn as many (point_trail.h). Where their images lie
-// is worked out by all threads, some points each, and the images are drawn by all threads, a band of rows
-// each: what falls on a pixel is added in the points' order, whatever the number of threads.
+// A point that moves during the exposure or jitters is drawn as several points (point_trail.h). All threads
+// compute where their images are, some points each; then all threads draw the images, a band of rows each.
+// Light on a pixel is added in the order of the points, whatever the number of threads.
 
 #include <array>
 #include <cstdint>
@@ -23,48 +23,48 @@ namespace hilcam {
 
 class PointLight {
   public:
-    // wings: of each channel's bright pixels.
+    // wings: for each channel's bright pixels.
     PointLight(const DetectorView& view, std::vector<LightChannel>& channels,
                const std::vector<FarWings>& wings, int bins);
 
-    // These functions are called in this order each frame; loop, one thread. light_e: the read-out array.
+    // Call these functions in this order for each frame. light_e: the read-out array. Loop, one thread.
     void begin(const Exposure& exposure);
     void add(const BrightPixel& pixel, ElectronImage& light_e);
     void add(std::span<const PointSource> points, ElectronImage& light_e);
-    // Adds the share of all added light that glare spreads evenly, or the wide halos of bright points.
+    // Adds the share of all light that glare spreads evenly, or the wide halos of bright points.
     void finish(ElectronImage& light_e);
 
-    // Returns, for this exposure, the standard deviation of what a jitter's density leaves within it [px], 0
-    // if not seen.
+    // Returns the standard deviation of the jitter within this exposure, by its density [px]; 0 if too small
+    // to see.
     double jitter_px() const { return jitter_px_; }
 
   private:
-    // A point in a channel.
+    // A point of light in one channel.
     struct Source {
         PointTrails::Trail trail;
         double electrons;
         int channel;
-        bool wide_halo;  // the halo of glare is drawn by itself
+        bool wide_halo;  // true: the halo of glare is drawn separately
     };
-    // A place on its way, and what of its light falls there.
+    // One place on a point's way, and the light that falls there.
     struct Part {
         Vec2d place_px;
         double electrons = 0;
         int channel = 0;
         bool wide_halo = false;
     };
-    // An image that is still to be drawn.
+    // An image still to be drawn.
     struct Spot {
         Vec2d at_px;
         double electrons = 0;
-        double glare_e = 0;   // charge that glare has taken of it
-        double spikes_e = 0;  // charge of a spider's spikes, which reach over the frame
+        double glare_e = 0;   // charge that glare removes from it
+        double spikes_e = 0;  // charge in a spider's spikes, which reach across the frame
         int channel = 0;
         bool wide_halo = false;
         int radius_px = kNone;
-        static constexpr int kNone = -1;  // nothing is drawn
+        static constexpr int kNone = -1;  // nothing to draw
     };
-    // Rows of the window that a thread draws on.
+    // Rows of the window that one thread draws.
     struct Rows {
         int begin, end;
     };
@@ -97,15 +97,14 @@ class PointLight {
     Exposure exposure_;
     double jitter_px_ = 0;
     std::vector<double> glare_e_;    // by channel
-    std::vector<PointHalos> halos_;  // by channel; none where there is no halo
+    std::vector<PointHalos> halos_;  // by channel; empty without a halo
     PointTrails trails_;
-    std::vector<Source> sources_;           // some points at a time
-    std::vector<std::size_t> spots_until_;  // number of spots of all sources up to each
-    std::vector<Spot> spots_;               // some of theirs, in order
+    std::vector<Source> sources_;           // a batch of points at a time
+    std::vector<std::size_t> spots_until_;  // running total of the spots of all sources
+    std::vector<Spot> spots_;               // a batch of their spots, in order
     std::vector<std::uint8_t> band_of_row_;
-    std::array<std::vector<std::uint32_t>, kBands> band_spots_;  // spots that lie in a band of rows, in order
-    // Each channel keeps two things: what the wings give near a point, and what the table has folded in of
-    // them.
+    std::array<std::vector<std::uint32_t>, kBands> band_spots_;  // spots in each band of rows, in order
+    // For each channel: light of the wings near a point, and the part of them that the table has folded in.
     std::vector<std::vector<double>> near_wings_;
     std::vector<float> patch_;
 };

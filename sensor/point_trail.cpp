@@ -9,8 +9,8 @@
 namespace hilcam {
 namespace {
 
-// Points of a trail. Their row has its first harmonic at this frequency, where a full pixel's own transfer
-// function is zero along both axes.
+// Points of a trail per pixel. A row of points has its first harmonic at this frequency, where the transfer
+// function of a full pixel is zero along both axes.
 constexpr double kPerPixel = 2;
 
 }  // namespace
@@ -30,7 +30,7 @@ void PointTrails::begin(const Exposure& exposure, double jitter_px) {
     at_end_ = to_matrix(from_rotation_vector(0.5 * turn_rad_));
 }
 
-// None of a way that leads nowhere.
+// Returns 0 for a way that has no image.
 int PointTrails::parts_of(Vec2d from_px, Vec2d to_px) {
     const double length_px = std::hypot(to_px.x - from_px.x, to_px.y - from_px.y);
     if (!std::isfinite(length_px)) return 0;
@@ -54,8 +54,9 @@ PointTrails::Trail PointTrails::of_sky(Vec2d middle_px, Vec2d drift_px) const {
             parts_of({from.x - half.x, from.y - half.y}, {to.x + half.x, to.y + half.y})};
 }
 
-// Most do in most exposures. What turns by a small angle moves by that times 1 + r^2 on the plane z = 1, at
-// most, with r the greatest distance from the axis on its way. Lenses that bend lines are not asked (begin()).
+// True for most points in most exposures. A rotation by a small angle moves a point on the plane z = 1 by at
+// most that angle times 1 + r^2, with r the greatest distance from the axis on its way. Not used for lenses
+// that bend straight lines (begin()).
 bool PointTrails::stays_in_part(Vec2d middle_px, Vec2d drift_px) const {
     constexpr double kFarther = 0.1, kLess = 0.99;
     const double x_px = middle_px.x - center_px_.x, y_px = middle_px.y - center_px_.y;

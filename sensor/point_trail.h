@@ -1,7 +1,7 @@
 #pragma once
-// The places at which a point of light is drawn that moves through the exposure or jitters: along its way
-// half a pixel apart, and at each of them, with jitter, a grid half a standard deviation apart, out to three,
-// by the normal density.
+// The places at which a moving or jittering point of light is drawn: every half pixel along its way; with
+// jitter, at each of them a grid with steps of half a standard deviation, out to three, weighted by the
+// normal density.
 
 #include <array>
 #include <cstddef>
@@ -14,21 +14,21 @@ namespace hilcam {
 class PointTrails {
   public:
     explicit PointTrails(const DetectorView& view) : view_(view) {}
-    // Owner thread or loop, before the next three. jitter_px: standard deviation; 0: none.
+    // Call before the functions below. jitter_px: standard deviation; 0: none. Owner thread or loop.
     void begin(const Exposure& exposure, double jitter_px);
 
-    // The way of a point that is at middle_px in the middle of the exposure.
+    // The way of a point that is at middle_px at the middle of the exposure.
     struct Trail {
         Vec2d middle_px;
-        Vec2d drift_px;  // its own way through the exposure, over that of the sky
-        bool turns;      // true: moves with the sky, as the camera turns
-        int parts;       // places along it; they have equal light
+        Vec2d drift_px;  // the point's own motion during the exposure, in addition to the sky's
+        bool turns;      // true: moves with the sky as the camera turns
+        int parts;       // number of places along it, with equal light
     };
     Trail of_sky(Vec2d middle_px, Vec2d drift_px) const;
     static Trail straight(Vec2d middle_px, Vec2d way_px);
     Vec2d place(const Trail& trail, int part) const;
 
-    // About each place: how many, the shift of one, and its share of the light.
+    // The scatter about each place: how many points, the position of each, and its share of the light.
     std::size_t scattered() const { return jitter_px_ > 0 ? kScattered : 1; }
     Vec2d scattered_px(Vec2d place_px, std::size_t i) const;
     double share(std::size_t i) const;
@@ -43,10 +43,10 @@ class PointTrails {
     double weight_sum_ = 0;
     Vec3d turn_rad_;
     bool turns_ = false;
-    double turn_px_ = 0;       // on the axis
-    Vec2d center_px_{};        // the boresight's place
-    double per_focal2_ = 0;    // 1 over the focal length's square [px^-2]
-    Mat3d at_start_, at_end_;  // turn the sky to where it is then
+    double turn_px_ = 0;       // turn on the axis
+    Vec2d center_px_{};        // where the boresight is
+    double per_focal2_ = 0;    // 1 over the square of the focal length [px^-2]
+    Mat3d at_start_, at_end_;  // rotate the sky to its attitude at either end
 
     bool stays_in_part(Vec2d middle_px, Vec2d drift_px) const;
     Vec2d turned_px(const Mat3d& turn, Vec3d dir_camera) const;

@@ -1,9 +1,9 @@
 #pragma once
-// Maps places in the radiance image to places in the frame that the camera gives out: past black columns and
-// rows, binning and mirroring.
+// Maps places in the radiance image to places in the published frame: past black columns and rows, binning
+// and mirroring.
 //
-// Binning begins at the read-out array's corner, with the black columns and rows, and leaves out what does
-// not fill a whole pixel at the far sides. A mirrored frame is mirrored after it is binned.
+// Binning begins at the read-out array's corner, with the black columns and rows, and drops what does not
+// fill a whole pixel at the far sides. Mirroring follows binning.
 
 #include <cstdint>
 
@@ -12,23 +12,24 @@
 
 namespace hilcam {
 
-// The layout says how a frame is given out.
+// The layout of a published frame.
 struct FrameLayout {
     std::int64_t binning_x = 1, binning_y = 1;  // at least 1
     bool reverse_x = false, reverse_y = false;
 };
 
-// oversampling: pixels of the radiance image across one of the detector. Loop.
+// oversampling: radiance image pixels across one detector pixel. Loop.
 FrameRaster raster_of(const CameraModel& camera, int oversampling, const FrameLayout& layout);
 
-// Pixels of the radiance image, counted from its window's corner, that a pixel of the frame is made of along one axis.
+// Range of radiance image pixels, counted from the window's corner, that contribute to a pixel of the frame
+// along one axis.
 struct PixelReach {
-    int first, last;  // the one after it
+    int first, last;  // last is one past the end
 };
 PixelReach reach_of(const RasterAxis& axis, int frame_px);
 
-// The lens as the frame has it [px of the frame]: its focal length along both axes, negative where the frame
-// is mirrored, and where the boresight meets it.
+// The lens in px of the frame: its focal length along both axes, negative where the frame is mirrored, and
+// the place of the boresight.
 struct FrameIntrinsics {
     Vec2d focal_length_px;
     Vec2d principal_point_px;

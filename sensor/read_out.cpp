@@ -12,8 +12,8 @@ namespace {
 
 struct Amplifier {
     float full_well_e, a2, a3;
-    float noise_e;   // times a deviate
-    float offset_e;  // offset of the whole row
+    float noise_e;   // factor for the deviate
+    float offset_e;  // common to the row
 };
 
 HILCAM_CLONES void amplify(float* charge, const float* deviate, std::size_t count,
@@ -60,7 +60,7 @@ ReadOut::ReadOut(const CameraModel& c)
 void ReadOut::read(const ReadOutRow& row, std::span<const TelegraphPixel> telegraph, RandomKey key,
                    std::span<std::uint16_t> dn) const {
     const std::span<float> value = row.charge_e;
-    // Binned on the chip, a pixel holds what its parts held.
+    // With binning on the chip, a pixel's full well is that of all its parts.
     Amplifier amplifier{full_well_e_ * static_cast<float>(row.charges), a2_, a3_, pixel_noise_e_, 0};
     if (row_noise_e_ > 0) {
         const auto words = random_words(key, RandomPurpose::kRowNoise, row.sensor_row);
@@ -82,13 +82,13 @@ void ReadOut::add_flicker(int y, RandomKey key, std::span<float> charge_e) const
     const std::uint64_t first = static_cast<std::uint64_t>(y) * charge_e.size();
     const std::uint64_t end = first + charge_e.size();
     for (int octave = 0; octave < flicker_octaves_; ++octave) {
-        // Stretches of 2^octave pixels that meet this row.
+        // Stretches of 2^octave pixels that overlap this row.
         const std::uint64_t last = (end - 1) >> octave;
         for (std::uint64_t stretch = first >> octave; stretch <= last; stretch += kTogether) {
             const std::span<float> values =
                 std::span(deviates).first(std::min(kTogether, last + 1 - stretch));
-            // The first stands for all the faster ones too: with twice the variance every octave of the sum
-            // has the same power.
+            // The first octave also stands for all faster ones: with twice the variance, every octave of the
+            // sum has the same power.
             const float amplitude_e = octave == 0 ? std::sqrt(2.0f) * flicker_octave_e_ : flicker_octave_e_;
             draw_normals(key, RandomPurpose::kFlicker, static_cast<std::uint32_t>(octave), stretch, values);
             for (std::size_t i = 0; i < values.size(); ++i) {
@@ -101,13 +101,13 @@ void ReadOut::add_flicker(int y, RandomKey key, std::span<float> charge_e) const
     }
 }
 
-// Charges that have met are read by the first one's amplifier.
+// Binned charge is read by the first pixel's amplifier.
 void ReadOut::add_telegraph(std::span<const TelegraphPixel> pixels, int charges_across, RandomKey key,
                             std::span<float> charge_e) const {
     for (const TelegraphPixel& p : pixels) {
         const auto x = static_cast<std::size_t>(p.x / charges_across);
         if (p.x % charges_across != 0 || x >= charge_e.size()) continue;
-        // Pixels change at frames of their own.
+        // Pixels change their state at different frames.
         const std::uint64_t shifted = key.frame + p.pixel % telegraph_frames_;
         const auto words =
             random_words({key.seed, shifted / telegraph_frames_}, RandomPurpose::kTelegraph, p.pixel);

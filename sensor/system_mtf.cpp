@@ -14,7 +14,7 @@ SystemMtf::SystemMtf(const CameraModel& c, OpticsOtf optics, SpiderSpikes spikes
       aperture_x_px_(c.pixel_aperture_x_m() / c.pitch_m),
       aperture_y_px_(c.pixel_aperture_y_m() / c.pitch_m),
       diffusion_px_(c.diffusion_m / c.pitch_m),
-      // Turning about x moves the picture along y.
+      // A rotation about x moves the picture along y.
       jitter_x_px_(c.jitter.rms_rad[1] * c.focal_length_m / c.pitch_m),
       jitter_y_px_(c.jitter.rms_rad[0] * c.focal_length_m / c.pitch_m),
       crosstalk_(c.color_filter.pattern.empty() ? c.crosstalk_fraction : 0),

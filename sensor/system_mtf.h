@@ -1,11 +1,11 @@
 #pragma once
-// MTF_sys of equation (2): everything between the scene and a pixel's charge that acts on contrast.
+// MTF_sys of equation (2): everything between the scene and a pixel's charge that affects contrast.
 //
-// Optics (optics_otf.h), light-sensitive area, charge diffusion, crosstalk (of a sensor without colour
-// filters: with them it mixes colours and is not a filter of one image), steady jitter, veiling glare, and
-// what a line camera does along its track: the charge follows the picture in steps of 1 / phases of a pixel
-// and drifts by stages x mismatch (Fiete, Modeling the Imaging Chain of Digital Cameras, SPIE, 2010, ch. 7: a
-// sinc each).
+// It includes optics (optics_otf.h), light-sensitive area, charge diffusion, crosstalk (only without colour
+// filters; with them, crosstalk mixes colours and is not a filter on one image), steady jitter, and veiling
+// glare. For a line camera it also includes the motion along the track: the charge follows the picture in
+// steps of 1 / phases of a pixel, and drifts by stages x mismatch (Fiete, Modeling the Imaging Chain of
+// Digital Cameras, SPIE, 2010, ch. 7: a sinc each).
 
 #include <complex>
 
@@ -19,13 +19,14 @@ class SystemMtf {
   public:
     SystemMtf(const CameraModel& camera, OpticsOtf optics, SpiderSpikes spikes = {});
 
-    // Frequencies [cycles/px of the detector]. With glare: its even part leaves 1 - glare of all but (0, 0).
+    // u, v: frequencies [cycles/px of the detector]. Even glare leaves 1 - glare everywhere but at
+    // (0, 0).
     std::complex<double> at(double u, double v) const;
-    // Returns the transfer function of a point's image, without what glare spreads evenly and without a spider's
-    // spikes, which are drawn: 1 at (0, 0).
+    // Returns the transfer function for the image of a point, without evenly spread glare and without a
+    // spider's spikes, which are drawn separately: 1 at (0, 0).
     std::complex<double> of_point(double u, double v) const;
 
-    // Returns how steeply the lens's modulation falls from frequency 0 on [px], which makes the far wings of
+    // Returns how steeply the lens's modulation falls at frequency 0 [px], which determines the far wings of
     // its images.
     double wing_slope_px() const;
     const SpiderSpikes& spikes() const { return spikes_; }
@@ -40,7 +41,7 @@ class SystemMtf {
     double diffusion_px_, jitter_x_px_, jitter_y_px_;
     double crosstalk_;
     double glare_, glare_radius_px_;
-    double step_px_ = 0, drift_px_ = 0;  // step and drift of a line camera, along the track
+    double step_px_ = 0, drift_px_ = 0;  // step and drift of a line camera along the track
 };
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures that a camera makes by itself, in place of what it sees: to check a link, not a scene.
+// Pictures that a camera generates itself instead of what it sees: for checking a link, not a scene.
 
 #include <cstdint>
 
@@ -11,12 +11,12 @@ enum class TestPattern : std::uint8_t {
     kOff,
     kBlack,
     kWhite,
-    kRampHorizontal,  // DN = column, from 0 on again after full scale
+    kRampHorizontal,  // DN = column, starting at 0 again after full scale
     kRampVertical,
-    kRampHorizontalMoving,  // one column further with every frame
+    kRampHorizontalMoving,  // moves by one column with every frame
 };
 
-// Overwrites a frame of `bits` bits, but for kOff. Loop.
+// Overwrites a frame with `bits` bits, unless the pattern is kOff. Loop.
 void draw_test_pattern(TestPattern pattern, int bits, std::uint64_t frame, DnImage& image);
 
 }  // namespace hilcam

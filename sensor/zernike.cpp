@@ -10,15 +10,16 @@
 namespace hilcam {
 namespace {
 
-constexpr int kPupilAcross = 256;             // samples of the pupil's diameter
-constexpr int kSize = 2 * kPupilAcross;       // size of the grid: the autocorrelation is twice as wide
+constexpr int kPupilAcross = 256;  // samples across the pupil's diameter
+// Size of the grid; the autocorrelation is twice as wide as the pupil.
+constexpr int kSize = 2 * kPupilAcross;
 constexpr double kStep = 2.0 / kPupilAcross;  // pupil radii per sample
 
 struct Order {
     int n, m;  // m < 0: sine
 };
 
-// Row n holds n + 1 terms; within it |m| rises, even j go with the cosine.
+// Row n has n + 1 terms, with |m| rising; even j have the cosine.
 Order order_of(int noll) {
     int n = 0, first = 1;
     while (first + n + 1 <= noll) first += ++n;
@@ -43,7 +44,7 @@ double radial(int n, int m, double rho) {
     return sum;
 }
 
-// Share of a sample's square inside the annulus.
+// Returns the share of a sample's square inside the annulus.
 double cover(double x, double y, double obscuration_ratio) {
     constexpr int kParts = 4;
     int inside = 0;
@@ -86,8 +87,8 @@ PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std
     const auto scale = static_cast<float>(1 / (area * kSize * kSize));
     for (auto& value : otf_) value = std::norm(value) * scale;
     fourier_forward(otf_, kSize);
-    // Samples on the pupil's edge overlap themselves with the square of their share: right for every shift
-    // but none.
+    // A sample on the pupil's edge overlaps itself with the square of its share, which is right for every
+    // shift except zero.
     otf_[0] = 1;
 }
 

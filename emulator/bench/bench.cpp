@@ -22,7 +22,8 @@ struct Run {
     std::vector<PathModelSpeed> path_models;
 };
 
-// The world at nine places of the circle, the first one where it begins; without one, as the scenario has it.
+// Returns the world at nine places of the circle, beginning at its start; without a circle, the scenario's
+// own world.
 std::vector<WorldSnapshot> around(Emulator& emulator, const std::optional<CircleFlight>& flight) {
     std::vector<WorldSnapshot> out(9);
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -53,7 +54,7 @@ double copy_ms(const ScenarioConfig& scenario) {
     return median(times);
 }
 
-// share: of this run, told while it goes on.
+// share: receives the finished share of this run during the run.
 Run run_once(const ScenarioConfig& scenario, const BenchOptions& options, std::atomic<double>& share) {
     constexpr std::uint64_t kWarmUp = 20;
     RunLimits limits;
@@ -70,7 +71,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options, std::a
             share.store(std::min(1.0, done / frames));
             return done;
         });
-        // Once round in the frames of a run, so that every run sees the same views however fast it is.
+        // One round takes exactly the frames of a run, so every run sees the same views, however fast it is.
         const double seconds_per_frame = flight ? flight->period_s / static_cast<double>(limits.frames) : 0;
         std::optional<Pilot> pilot;
         if (flight)
@@ -102,7 +103,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options, std::a
     return run;
 }
 
-// Returns the median over the runs of what `figure` says of each.
+// Returns the median of figure(run) over the runs.
 template <class Figure>
 double median_of(const std::vector<Run>& runs, const Figure& figure) {
     std::vector<double> values;

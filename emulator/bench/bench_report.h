@@ -1,5 +1,6 @@
 #pragma once
-// The report of `hilcam bench`: JSON, whose keys are part of the interface, and a table for people.
+// Reports of `hilcam bench` and `hilcam bench --sensor`: JSON (its keys are part of the interface) and a
+// table for people.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

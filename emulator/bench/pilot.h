@@ -1,5 +1,6 @@
 #pragma once
-// Poses as a dynamics simulator would send them, from a thread inside: for measurements without a sender.
+// Sends poses from a thread of the program, as a dynamics simulator would, so that a measurement needs no
+// sender.
 
 #include <atomic>
 #include <cstdint>
@@ -12,18 +13,19 @@
 
 namespace hilcam {
 
-// Once around the first object, from the camera's pose on, in two minutes. The scenario has an object.
+// Returns a flight once around the first object in two minutes, beginning at the camera's pose. The scenario
+// must have an object.
 CircleFlight circle_around_target(const ScenarioConfig& scenario);
-// Returns that; none where the camera moves as the scenario says: by a motion of its own, or without an object.
+// Returns the same flight, or none where the scenario has no object or gives the camera a motion of its own.
 std::optional<CircleFlight> flight_of_pilot(const ScenarioConfig& scenario);
 
-// Sends the first camera's poses while it lives, 100 a second on average, each true when it is sent. They
-// come 5 to 15 ms apart, so that they keep no rhythm with the frames: with one, latency would drift with
-// their beat.
+// Sends poses of the first camera for as long as it exists. Each pose is true at the instant when it is sent.
+// The mean rate is 100 Hz; gaps vary from 5 to 15 ms, because latency would drift if poses kept a fixed
+// rhythm with the frames.
 class Pilot {
   public:
-    // flown_s: the place on the flight at an instant of CLOCK_MONOTONIC; called by the pilot's thread. Throws
-    // InputError when there is no such flight.
+    // flown_s: returns the time flown [s] at an instant of CLOCK_MONOTONIC; the pilot's thread calls it.
+    // Throws InputError when the flight is impossible.
     Pilot(Emulator& emulator, const CircleFlight& flight,
           std::function<double(std::int64_t monotonic_ns)> flown_s);
     ~Pilot();

@@ -18,7 +18,7 @@ struct Effect {
     std::function<void(CameraModel&, Exposure&)> turn_on;
 };
 
-// Turns on what every data sheet has.
+// Turns on the effects that every data sheet has.
 void turn_on_common(CameraModel& c) {
     c.prnu_fraction = 0.01, c.dsnu_e = 5, c.dark_current_e_s = 125;
     c.fixed_pattern.dark_current_fraction = 0.3, c.fixed_pattern.column_e = 2, c.fixed_pattern.row_e = 1;
@@ -76,8 +76,8 @@ const std::vector<Effect>& effects() {
     return list;
 }
 
-// Disk of a sunlit white surface's brightness over a third of the picture, on nothing; a star in every 10,000
-// pixels.
+// A picture with a disk as bright as a sunlit white surface over a third of its area, on black, and a star in
+// every 10,000 pixels.
 struct TimedPicture {
     RadianceImage radiance;
     std::vector<PointSource> points;
@@ -110,7 +110,7 @@ struct TimedPicture {
     }
 };
 
-// A camera at work on a picture.
+// A camera that processes a picture.
 class Rig {
   public:
     Rig(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
@@ -121,7 +121,7 @@ class Rig {
           mean_e_(array_size(camera)[0], array_size(camera)[1]),
           frame_(frame_size(camera)[0], frame_size(camera)[1]) {}
 
-    // Milliseconds of one frame.
+    // Returns the time of one frame [ms].
     double run() {
         const Stopwatch watch;
         chain_.expose(picture_.radiance, picture_.points, exposure_, mean_e_);
@@ -139,7 +139,7 @@ class Rig {
     std::uint64_t frames_ = 0;
 };
 
-// The bare FFT pair in turn with the stage, so that both see the same machine.
+// Times the stage and the bare FFT pair in turns, so that both see the same load of the machine.
 SensorStageTimes time_stage(Rig& rig, int runs) {
     std::vector<double> all, collapse, convolve, points, digitise, pair;
     for (int i = 0; i < runs; ++i) {
@@ -152,7 +152,7 @@ SensorStageTimes time_stage(Rig& rig, int runs) {
     return {median(all), median(collapse), median(convolve), median(points), median(digitise), median(pair)};
 }
 
-// Measures what a second rig takes longer, frame by frame in turn.
+// Measures how much longer a second rig takes, alternating frame by frame.
 double extra_ms(Rig& base, Rig& with, int runs) {
     std::vector<double> differences;
     with.run();

@@ -1,5 +1,5 @@
 #pragma once
-// `hilcam bench --sensor`: what the sensor stage costs, and each of its effects.
+// `hilcam bench --sensor`: what the sensor stage costs, as a whole and effect by effect.
 
 #include <string>
 #include <vector>
@@ -17,8 +17,7 @@ struct SensorBench {
     std::string camera;
     int width_px = 0, height_px = 0, runs = 0;
     SensorStageTimes base;  // time with the effects that most cameras have
-    double floor_ms =
-        0;  // one FFT pair of the padded picture's size on the same threads plus one copy of the frame
+    double floor_ms = 0;    // one FFT pair of the padded image and one copy of the frame, on the same threads
     struct Effect {
         std::string name;
         double extra_ms = 0;  // on top of the base
@@ -28,8 +27,8 @@ struct SensorBench {
     double ratio_to_floor() const { return base.all_ms / floor_ms; }
 };
 
-// Times the scenario's camera on a made-up picture (a bright disk over a third of it, and stars), frame after
-// frame: with the effects that most cameras have, then with each other one on top.
+// Times the scenario's camera on a synthetic image (a bright disk over a third of it, and stars), frame after
+// frame: first with the effects that most cameras have, then with each other effect added alone.
 SensorBench bench_sensor(const ScenarioConfig& scenario, int runs);
 
 }  // namespace hilcam

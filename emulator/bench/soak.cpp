@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-// Everything that counts up, at an instant.
+// All counters of a run at an instant.
 struct Snapshot {
     std::int64_t monotonic_ns = 0;
     std::uint64_t frames = 0, deadline_misses = 0;
@@ -47,7 +47,7 @@ SoakSlice slice_between(const Snapshot& from, const Snapshot& to, std::int64_t s
     return slice;
 }
 
-// Takes the slices, from a thread of its own, from an instant on.
+// Records the slices from an instant on, in its own thread.
 class SliceWatch {
   public:
     SliceWatch(const FrameLoop& loop, std::int64_t start_ns, double slice_s, std::vector<SoakSlice>& slices)
@@ -63,7 +63,7 @@ class SliceWatch {
         if (thread_.joinable()) thread_.join();
     }
 
-    // After stop().
+    // Call after stop().
     std::size_t finished() const { return finished_; }
     SoakSlice whole() const {
         return slice_between(first_, before_, start_ns_, slices_[finished_ - 1].memory_mb);
@@ -98,7 +98,7 @@ class SliceWatch {
     std::thread thread_;
 };
 
-// The seconds are divided into slices of equal length.
+// Returns the number of slices, which have equal lengths.
 std::size_t slices_of(const SoakOptions& options) {
     const double wanted_s = options.slice_s > 0 ? options.slice_s : std::max(10.0, options.seconds / 60);
     return static_cast<std::size_t>(
@@ -133,7 +133,7 @@ Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
 
     RunLimits limits;
     limits.outputs = options.outputs;
-    // The watch ends by itself; a second in case it is late.
+    // The watch ends with its slices; the run lasts one second longer in case the watch is late.
     limits.seconds = soak.round_s + options.seconds + 1;
     Emulator emulator(scenario, limits);
     std::optional<CircleFlight> flight = flight_of_pilot(scenario);

@@ -36,7 +36,8 @@ Trend trend_of(std::span<const double> values) {
             signs += slopes.back() > 0 ? 1 : slopes.back() < 0 ? -1 : 0;
         }
     Trend trend{median(slopes), 0};
-    // One less towards zero: the sum takes steps of two (Kendall's correction for continuity).
+    // Moves the sum by one towards zero, because it changes in steps of two (Kendall's correction for
+    // continuity).
     if (signs != 0)
         trend.sigma =
             (signs - std::copysign(1.0, signs)) / std::sqrt(variance({values.begin(), values.end()}));

@@ -24,15 +24,15 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMm_m = 1e3;
 
-// The corners of a mesh's triangles, without vertices that none has.
+// The corners of a mesh's triangles, without unused vertices.
 struct Model {
     std::vector<Vec3d> vertices_mm;
     std::vector<Vec3d> normals;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Sums up the normals of the triangles about each vertex, weighted by their angles there (Thuerrner & Wuethrich
-// 1998, Computing vertex normals from polygonal facets), as the format asks.
+// Sums the normals of the triangles about each vertex, weighted by their angles there, as the format asks
+// (Thuerrner & Wuethrich 1998, Computing vertex normals from polygonal facets).
 std::vector<Vec3d> vertex_normals(const Model& model) {
     std::vector<Vec3d> sums(model.vertices_mm.size());
     for (const auto& triangle : model.triangles) {
@@ -102,7 +102,7 @@ OrderedJson info_of(const Model& model) {
             {"size_z", most.z - least.z}};
 }
 
-// True when the cases' keys give that object, of number 0, 1, ..., another shape.
+// True when the keys that the cases vary change the shape of that object (0, 1, ...).
 bool has_other_shapes(const std::vector<std::string>& keys, std::size_t object) {
     const std::string prefix = "objects." + std::to_string(object);
     return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {

@@ -1,10 +1,10 @@
 #pragma once
-// The models folder of a BOP data set: each object's mesh as a PLY file in text, with vertex normals, and
-// models_info.json (thodan/bop_toolkit, docs/bop_datasets_format.md and scripts/calc_model_info.py).
+// Writes the models folder of a BOP data set: each object's mesh as an ASCII PLY file with vertex normals,
+// and models_info.json (thodan/bop_toolkit, docs/bop_datasets_format.md and scripts/calc_model_info.py).
 //
-// A model is in millimetres and in the object's own axes, which the labels' cam_R_m2c and cam_t_m2c are of; its
-// origin is the object's, not the middle of its box. Its parts are not turned by joints. Colours are left out,
-// and so are symmetries, which nobody has told.
+// A model is in millimetres and in the object's own axes, to which the labels' cam_R_m2c and cam_t_m2c refer.
+// Its origin is the object's origin, not the centre of its box. Joints do not turn its parts. Colours and
+// symmetries are not written.
 
 #include <filesystem>
 #include <vector>
@@ -14,9 +14,10 @@
 
 namespace hilcam {
 
-// Writes obj_000001.ply, ... and models_info.json. An object whose mesh, make or scale the campaign varies has no
-// model: there are several of it. The same campaign gives the same bytes, and each file is there whole or not at
-// all, so that several may write at once. Throws InputError, DeviceError.
+// Writes obj_000001.ply, ... and models_info.json. An object has no model if the campaign varies its mesh,
+// make or scale, because its shape then differs from case to case. The same campaign gives the same bytes.
+// Each file appears whole or not at all, so several processes may write at the same time. Throws InputError,
+// DeviceError.
 void write_bop_models(const std::filesystem::path& folder, const CampaignConfig& campaign,
                       const std::vector<ObjectConfig>& objects);
 

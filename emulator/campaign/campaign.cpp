@@ -48,10 +48,11 @@ class CampaignMaker {
   public:
     CampaignMaker(const CampaignConfig& campaign, const CampaignFolder& folder, std::size_t workers)
         : campaign_(campaign), folder_(folder), workers_(workers), draw_(campaign) {
-        // One thread: children are forked from it, and oneTBB's would not come along.
+        // Limits this process to one thread: children are forked from it, and oneTBB's threads would not
+        // exist in them.
         if (workers_ > 1)
             threads_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, 1);
-        // A single child loads for itself, on all threads.
+        // A single child loads for itself, with all threads.
         if (workers_ > 1 && !campaign_.run) load();
     }
 
@@ -61,7 +62,7 @@ class CampaignMaker {
         std::uint64_t told = 0;
         const auto tell = [&](std::uint64_t number, std::string problem, WorkerPool::End end) {
             progress.done(static_cast<double>(++told));
-            // The child had no time to say so itself.
+            // The child had no time to write the record itself.
             if (end == WorkerPool::End::kCrashed) problem = keep(failed_record(number, problem));
             if (problem.empty())
                 ++outcome.made;
@@ -82,7 +83,7 @@ class CampaignMaker {
 
     void load() { pictures_ = std::make_unique<PictureCases>(campaign_); }
 
-    // In the child. Cores that have no child of their own are shared out.
+    // Runs in the child. Cores without a child of their own are divided among the children.
     WorkerPool::Work begin(std::size_t slot) {
         const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
         const std::size_t threads = std::max<std::size_t>(1, cores / workers_);
@@ -90,7 +91,7 @@ class CampaignMaker {
         threads_ =
             std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
         if (!campaign_.run && !pictures_) load();
-        // Programs that were started are to be ended; pictures are not.
+        // Started programs must be ended on a signal; pictures need nothing.
         if (campaign_.run) end_ = std::make_unique<EndRequest>();
         return [this, slot](std::uint64_t number) { return make(number, slot); };
     }
@@ -104,7 +105,7 @@ class CampaignMaker {
         return record;
     }
 
-    // Returns why the record cannot be written, or an empty text.
+    // Writes the record. Returns why that failed, or an empty text.
     std::string keep(const CaseRecord& record) const {
         try {
             write_record(folder_.path(), record);
@@ -114,7 +115,8 @@ class CampaignMaker {
         }
     }
 
-    // What the machine lacks is no outcome of the case: it leaves no record, and the same command makes the case anew.
+    // A failure for lack of machine resources is not an outcome of the case: it leaves no record, and the
+    // same command makes the case again.
     CaseRecord outcome_of(std::uint64_t number, std::size_t slot) {
         try {
             return campaign_.run ? make_program_case(campaign_, draw_.plan(number, 0), folder_.path(), slot)
@@ -168,7 +170,7 @@ CampaignOutcome run_campaign(const CampaignConfig& campaign, const CampaignOptio
     if (range.first < 1 || range.last < range.first || range.last > all.last)
         throw InputError("--cases: found " + std::to_string(range.first) + "-" + std::to_string(range.last) +
                          "; accepted: numbers from 1 to " + std::to_string(all.last) + " (count)");
-    // What cannot be is told before a folder is made.
+    // Impossible campaigns are reported before a folder is made.
     const CaseDraw draw(campaign);
     load_keypoints(campaign.keypoints);
     EndRequest end;

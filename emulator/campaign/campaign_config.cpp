@@ -25,7 +25,7 @@ void require_words(const std::string& key, const std::vector<std::string>& found
             throw refused_key(key, in_quotes(word), "a list of " + accepted_words);
 }
 
-// Names of splits become names of files.
+// Names of splits become file names.
 bool is_file_word(const std::string& word) {
     return !word.empty() && word.size() <= 40 && std::all_of(word.begin(), word.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -33,7 +33,7 @@ bool is_file_word(const std::string& word) {
     });
 }
 
-// A key that a case has by one part must not come by another, too: one of the two values would be lost.
+// Two parts of a campaign must not set the same key, because one of the two values would be lost.
 void check_keys(const CampaignConfig& c) {
     std::set<std::string> keys;
     for (std::size_t i = 0; i < c.vary.size(); ++i) {
@@ -48,7 +48,7 @@ void check_keys(const CampaignConfig& c) {
     }
 }
 
-// The word may stand for a shipped scenario, as on the command line; beside the campaign's file first.
+// Finds the scenario: a file beside the campaign file, or a shipped scenario, as on the command line.
 std::filesystem::path scenario_file(const std::string& word, const std::filesystem::path& folder) {
     std::error_code error;
     const std::filesystem::path beside = folder / word;

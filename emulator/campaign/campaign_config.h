@@ -1,5 +1,5 @@
 #pragma once
-// A campaign's file: a scenario, what varies from case to case, and what is kept of each case
+// The campaign file: a scenario, what varies from case to case, and what is kept of each case
 // (docs/campaigns.md).
 
 #include <cstdint>
@@ -15,30 +15,30 @@
 
 namespace hilcam {
 
-// A key of the scenario that has another value in each case.
+// A key of the scenario that gets another value in each case.
 struct VaryConfig {
     std::string key;
     NumberDraw draw;
-    std::vector<std::string> choice;  // values as the file would have them
-    std::vector<double> whole;        // least and most of a whole number
-    std::vector<double> sphere;       // least and most radius, in the key's unit
+    std::vector<std::string> choice;  // values, written as in the scenario file
+    std::vector<double> whole;        // smallest and largest whole number
+    std::vector<double> sphere;       // smallest and largest radius, in the key's unit
     bool attitude = false;
     bool has_choice = false, has_whole = false, has_sphere = false;
 
-    // Returns how many places it is drawn by.
+    // Returns how many dimensions of the draw the value uses.
     std::size_t dimensions() const;
 };
 Fields fields(VaryConfig& vary);
 void validate(const VaryConfig& vary);
 
-// The body before which the target stands.
+// The body in front of which the target stands.
 struct BeforeConfig {
     BodyId body = BodyId::kEarth;
     double share = 1;
 };
 Fields fields(BeforeConfig& before);
 
-// The camera's stand about its target.
+// The camera's position relative to its target.
 struct ViewConfig {
     std::optional<NumberDraw> size_px, range_m, phase_deg, offset_share, roll_deg, signal_dn;
     std::optional<BeforeConfig> before;
@@ -46,7 +46,7 @@ struct ViewConfig {
 Fields fields(ViewConfig& view);
 void validate(const ViewConfig& view);
 
-// The conditions of a case, which is drawn again until it meets them.
+// Conditions that a case must meet; a case is drawn again until it does.
 struct RequireConfig {
     enum class InField { kAny, kCenter, kWhole } in_field = InField::kAny;
     double margin_px = 0;
@@ -79,7 +79,7 @@ struct PicturesConfig {
     enum class Kind { kPng, kTiff, kFits, kRaw } kind = Kind::kPng;
     bool view = true;
     std::vector<std::string> layers;  // words of outputs.truth.layers
-    std::int64_t count = 1;           // pictures of a case, one after the other
+    std::int64_t count = 1;           // pictures of a case, in sequence
     double interval_s = 0.1;
     bool flow = false, variance = false;
 };
@@ -88,8 +88,8 @@ void validate(const PicturesConfig& pictures);
 
 // A case that is a run of `hilcam run`, with the user's program beside it.
 struct RunConfig {
-    std::vector<std::string> program;  // its words, the program's first; empty: none
-    std::vector<std::string> set;      // KEY=VALUE of each run
+    std::vector<std::string> program;  // command line, the program first; empty: no program
+    std::vector<std::string> set;      // KEY=VALUE for each run
     std::int64_t frames = 0;
     double duration_s = 0;
 };
@@ -98,7 +98,7 @@ void validate(const RunConfig& run);
 
 struct CampaignConfig {
     std::string name;
-    std::string scenario_name;  // the file's word for it
+    std::string scenario_name;  // scenario as the campaign file names it
     std::filesystem::path scenario;
     std::vector<std::string> set;
     std::int64_t camera = 1, target = 1;
@@ -119,7 +119,7 @@ struct CampaignConfig {
 Fields fields(CampaignConfig& campaign);
 void validate(const CampaignConfig& campaign);
 
-// Reads and checks a campaign's file; `scenario` is then a file's path. Throws InputError.
+// Reads and checks a campaign file; `scenario` becomes a path. Throws InputError.
 CampaignConfig load_campaign(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 }  // namespace hilcam

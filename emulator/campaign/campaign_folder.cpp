@@ -22,7 +22,7 @@ std::string campaign_listing(const CampaignConfig& campaign) {
     const std::string scenario = scenario_listing(load_scenario(campaign.scenario, campaign.set));
     for (std::size_t at = 0; at < scenario.size();) {
         const std::size_t end = scenario.find('\n', at);
-        // A case has a seed of its own.
+        // Each case has its own seed.
         if (const std::string line = scenario.substr(at, end - at); !line.starts_with("seed = "))
             listing += "scenario." + line + "\n";
         at = end + 1;

@@ -1,10 +1,12 @@
 #pragma once
-// The folder of a campaign's results: whose it is, who works in it, which cases are there.
+// The folder of a campaign's results: which campaign it belongs to, who works in it, and which cases it has.
 //
-//   campaign.txt       all that the cases depend on, a line each (emulator/scenario/scenario_listing.h)
-//   campaign.lock      held by whoever works here
-//   cases/000001.json  what is kept of a case (case_record.h)
-// Everything else is made of the cases, or belongs to one.
+//   campaign.txt       everything that the cases depend on, one entry a line
+//                      (emulator/scenario/scenario_listing.h)
+//   campaign.lock      locked by each process that works here
+//   cases/000001.json  record of a case (case_record.h)
+//
+// Everything else is derived from the cases, or belongs to one of them.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,21 +17,22 @@
 
 namespace hilcam {
 
-// The numbers of the cases from first to last.
+// Case numbers, from first to last inclusive.
 struct CaseRange {
     std::uint64_t first = 1, last = 1;
 };
 
 class CampaignFolder {
   public:
-    // Makes the folder this campaign's, or finds that it is. shared: others work on other cases of it now.
-    // InputError when it is another campaign's, or holds other things, or somebody works in it; DeviceError
-    // when it cannot be written. Leftovers of a program that was killed are removed unless it is shared.
+    // Claims the folder for this campaign, or finds that it already belongs to it. shared: other processes
+    // may work on other cases of it meanwhile. Removes what a killed program left behind, unless the folder
+    // is shared. Throws InputError when the folder belongs to another campaign, holds other things or is in
+    // use, and DeviceError when it cannot be written.
     CampaignFolder(const CampaignConfig& campaign, const std::filesystem::path& folder, bool shared);
 
     const std::filesystem::path& path() const { return folder_; }
-    // The cases of the range that have no record, or one that cannot be read, or have lost a file of theirs; with
-    // failed, those that have failed, too.
+    // Returns the cases of the range that have no readable record or have lost one of their files. failed:
+    // also returns those that have failed.
     std::vector<std::uint64_t> missing(const CaseRange& range, bool failed) const;
 
   private:
@@ -40,7 +43,8 @@ class CampaignFolder {
     void check_identity(const CampaignConfig& campaign) const;
 };
 
-// All that a campaign's cases depend on; not how many there are, nor how long each may take.
+// Lists everything that a campaign's cases depend on. The number of cases and their time limit do not belong
+// to it.
 std::string campaign_listing(const CampaignConfig& campaign);
 
 }  // namespace hilcam

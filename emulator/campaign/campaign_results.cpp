@@ -21,7 +21,7 @@ std::string figure_text(const nlohmann::ordered_json& value) {
     return value.dump();
 }
 
-// index.csv: what another making of the cases gives again, bit by bit; times.csv: what it does not.
+// Writes index.csv, which is bit for bit the same when the cases are made again, and times.csv, which is not.
 class IndexWriter {
   public:
     explicit IndexWriter(const CampaignConfig& campaign) : parameters_(CaseDraw(campaign).columns()) {
@@ -112,7 +112,8 @@ void count_record(const CaseRecord& record, CampaignOutcome& outcome) {
     if (!record.done) add_problem(outcome, record.plan.name + ": " + record.reason);
 }
 
-// The record of a case that has all its files; none, and a problem where there was one, for another.
+// Returns the record of a case that has all its files. Otherwise returns nothing, with a problem if a record
+// exists.
 std::optional<CaseRecord> whole_record(const std::filesystem::path& folder, std::uint64_t number,
                                        CampaignOutcome& outcome) {
     try {

@@ -1,7 +1,7 @@
 #pragma once
-// Makes all that comes of a campaign's records once its cases are there: index.csv, times.csv, labels, shards, the
-// page. Each file is written whole or not at all, and by the records alone: results that are put together
-// twice, or from cases that several machines made, are the same bits, times apart.
+// Derives all results from a campaign's records once its cases are complete: index.csv, times.csv, labels,
+// shards, the page. Each file is written whole or not at all, and depends on the records alone: putting
+// results together twice, or from cases of several machines, gives the same bits except for times.
 
 #include <filesystem>
 
@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// Reads the range's records and counts them into the outcome. complete: writes what is made of them.
+// Reads the range's records and counts them into the outcome. complete: also writes the results.
 void write_results(const CampaignConfig& campaign, const std::filesystem::path& folder,
                    const CaseRange& range, bool complete, CampaignOutcome& outcome);
 

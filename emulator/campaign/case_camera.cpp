@@ -12,22 +12,22 @@ namespace {
 
 std::string key_of(const std::string& override) { return override.substr(0, override.find('=')); }
 
-// "objects.12.pose.up" -> "pose.up"; empty: not of an element of that list.
+// Turns "objects.12.pose.up" into "pose.up"; empty: the key does not belong to an element of that list.
 std::string below_element(const std::string& key, const std::string& list) {
     if (!key.starts_with(list + ".")) return {};
     const std::size_t dot = key.find('.', list.size() + 1);
     return dot == std::string::npos ? std::string() : key.substr(dot + 1);
 }
 
-// Stars stand where they are at the time of loading; terrain and bodies of the scenario's own lie then, and the kernels
-// of spice were asked whether they cover it.
+// Stars are placed for the time of loading, and so are terrain and the scenario's own bodies; SPICE kernels
+// were checked to cover it.
 bool depends_on_time(const ScenarioConfig& s) {
     return (s.stars && !s.stars->catalogue.empty()) || s.terrain || !s.own_bodies.empty() || s.leap_seconds ||
            s.spice;
 }
 
-// True for a key on which the names of the cache's files depend, but for a choice of few: an object's mesh, the air,
-// the table of light.
+// True for a key that cache file names depend on, except for keys with few values: an object's mesh, the air,
+// the transfer table.
 bool is_kept_by(const std::string& key) {
     const std::string of_object = below_element(key, "objects");
     const auto begins = [](const std::string& text, const char* with) { return text.starts_with(with); };
@@ -47,7 +47,7 @@ bool is_taken_over(const std::string& key, bool time_is_free) {
     };
     if (is_at("camera_pose") || is_at("camera_motion")) return true;
     const std::string of_object = below_element(key, "objects");
-    // How fast an object turns decides what is prepared of it.
+    // An object's rate decides what is prepared for it.
     if (of_object.starts_with("pose.")) return of_object != "pose.rate_deg_s";
     if (of_object == "motion" || of_object.starts_with("motion.")) return true;
     return below_element(of_object, "joints") == "angle_deg";
@@ -116,7 +116,7 @@ void CaseCamera::take(const std::vector<std::string>& overrides) {
     scenario_ = scenario;
 }
 
-// A case's exposure is no part of its sheet, which is the same whatever was made before.
+// Makes the sheet without the case's exposure, so that it does not depend on earlier cases.
 const CameraSheet& CaseCamera::sheet() {
     CameraModel camera = scenario_.camera;
     camera.exposure_s = sheet_exposure_s_;

@@ -1,9 +1,10 @@
 #pragma once
-// The camera that takes a campaign's pictures: loaded once, and again only for a case whose scene is another.
+// The camera that takes a campaign's pictures. It loads the scene once, and again only for a case that needs
+// another scene.
 //
-// Keys that only place and set what was loaded (poses, motions, joints, exposure, gain, seed, and the time
-// where nothing that was loaded depends on it) are taken over without loading anything. Whatever else a case
-// has of its own is loaded for it.
+// A loaded camera takes over new values of keys that only place or set things: poses, motions, joints,
+// exposure, gain, seed, and the time if nothing loaded depends on it. Other keys of a case make it load the
+// scene again.
 
 #include <memory>
 #include <optional>
@@ -18,13 +19,13 @@ namespace hilcam {
 
 class CaseCamera {
   public:
-    // Reads the campaign's scenario, and loads what it names. Throws InputError, DeviceError.
+    // Reads the campaign's scenario and loads the files it names. Throws InputError, DeviceError.
     explicit CaseCamera(const CampaignConfig& campaign);
 
-    // Becomes the camera of a scenario of these overrides. Throws InputError, DeviceError; the next case finds
-    // it ready all the same.
+    // Takes over the scenario with these overrides. Throws InputError, DeviceError; the camera can then still
+    // take the next case.
     void take(const std::vector<std::string>& overrides);
-    // The same scenario so many seconds later.
+    // Moves the same scenario to another time [s after its start].
     void take_time(double time_offset_s);
 
     StillCamera& camera() { return *camera_; }
@@ -32,10 +33,10 @@ class CaseCamera {
     const ScenarioConfig& scenario() const { return scenario_; }
     std::size_t number() const { return number_; }
     std::size_t target() const { return target_; }
-    // Returns the data sheet of the case's camera at its gain and at the campaign's exposure, whatever its own: a sheet
-    // takes long to make, so one is kept as long as nothing else of the camera changes.
+    // Returns the data sheet of the case's camera, at the case's gain and the campaign's exposure. A sheet
+    // takes long to compute, so it is kept while nothing but the exposure changes.
     const CameraSheet& sheet();
-    // Returns how often a scene was loaded.
+    // Returns how many times a scene was loaded.
     int loads() const { return loads_; }
 
   private:
@@ -43,11 +44,11 @@ class CaseCamera {
     std::size_t number_, target_;
     bool time_is_free_ = false, has_own_shapes_ = false;
     ScenarioConfig scenario_;
-    std::string scene_;  // the overrides that what is loaded depends on
+    std::string scene_;  // overrides that the loaded scene depends on
     std::unique_ptr<StillCamera> camera_;
     int loads_ = 0;
     std::optional<CameraSheet> sheet_;
-    std::string sheet_listing_;  // camera of that sheet
+    std::string sheet_listing_;  // camera that the sheet describes
     double sheet_exposure_s_ = 0;
 
     ScenarioConfig read(const std::vector<std::string>& overrides) const;
@@ -55,10 +56,11 @@ class CaseCamera {
     void load(const ScenarioConfig& scenario, std::string scene);
 };
 
-// True when cases have shapes, air or settings of light that no other case has: what is made of those is not worth
-// keeping. A size is none: what is made of a mesh serves it in all sizes.
+// True when cases have shapes, air or light settings of their own, so that caching what is derived from them
+// does not pay. A scale does not count: what is derived from a mesh serves it at all scales.
 bool draws_own_shapes(const CampaignConfig& campaign);
-// True for a key that a loaded camera takes over. time_is_free: nothing that was loaded depends on the time.
+// True for a key of which a loaded camera takes over new values. time_is_free: nothing that was loaded
+// depends on the time.
 bool is_taken_over(const std::string& key, bool time_is_free);
 
 }  // namespace hilcam

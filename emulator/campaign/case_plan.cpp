@@ -22,7 +22,7 @@ std::size_t index_at(double place, std::size_t count) {
     return std::min(static_cast<std::size_t>(place * static_cast<double>(count)), count - 1);
 }
 
-// place: gives the n-th of the key's places.
+// place: returns the n-th place for the key.
 template <class Place>
 std::string drawn_value(const VaryConfig& vary, const Place& place) {
     if (vary.has_choice) return vary.choice[index_at(place(0), vary.choice.size())];

@@ -1,6 +1,6 @@
 #pragma once
-// The record of a case, a file of JSON each, written once all else of the case is there: a case that has a
-// record is done, or has failed. A case that failed for want of disk, memory or time of the machine has none.
+// The record of a case: a JSON file, written after all other files of the case. A case with a record is done
+// or has failed. A case that stopped because the machine ran out of disk, memory or time has no record.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,25 +18,27 @@ namespace hilcam {
 struct CaseRecord {
     CasePlan plan;
     bool done = false;
-    std::string reason;                                               // why it has failed; empty: it has not
+    std::string reason;                                               // why it failed; empty: it did not
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();  // truth and labels of each picture
-    std::vector<std::pair<std::string, std::uint64_t>> files;  // those of its pictures, with their bytes
+    // Files of its pictures, with their sizes in bytes.
+    std::vector<std::pair<std::string, std::uint64_t>> files;
     nlohmann::ordered_json figures = nlohmann::ordered_json::object();  // numbers by name, for the index
-    // The times of its making, the one part that another making of the case has otherwise.
+    // Times of making it. They are the only part that differs when the case is made again.
     double draw_s = 0, render_s = 0, sensor_s = 0, files_s = 0, all_s = 0;
-    double cpu_s = 0;  // processor time of its process, all threads
+    double cpu_s = 0;  // processor time of its process, over all threads
     std::string begun_utc, host;
 };
 
 std::filesystem::path record_file(const std::filesystem::path& folder, std::uint64_t number);
-// DeviceError when it cannot be written.
+// Throws DeviceError when the file cannot be written.
 void write_record(const std::filesystem::path& folder, const CaseRecord& record);
-// Nothing where there is none; InputError for a file that is no record.
+// Returns nothing when the case has no record. Throws InputError for a file that is not a record.
 std::optional<CaseRecord> read_record(const std::filesystem::path& folder, std::uint64_t number);
-// Returns what is wrong with the case's files ("images/000003.png is missing"); empty: all are there, in their sizes.
+// Returns what is wrong with the case's files ("images/000003.png is missing"); empty: all are there with
+// their recorded sizes.
 std::string lost_file(const std::filesystem::path& folder, const CaseRecord& record);
 
-// Thrown where the case itself went wrong, as it would again: its program, its time.
+// Thrown when the case itself went wrong and would do so again: its program failed, or it took too long.
 struct CaseFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

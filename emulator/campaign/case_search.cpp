@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// Why a case is not fit; empty: it is.
+// The reason why a case is rejected; empty: it is accepted.
 struct Unfit {
     std::string rule;  // "require.lit_share"
     double found = 0;
@@ -34,7 +34,7 @@ class Judge {
         if (!require_.any()) return {};
         TruthRequest request;
         request.stars = false;
-        // What needs no rays comes first.
+        // Conditions without rays are checked first.
         request.visibility = false;
         FrameTruth truth = reported(request);
         const SeenThing& target = truth.things[camera_.target()];
@@ -130,7 +130,7 @@ CasePlan find_case(const CampaignConfig& campaign, const CaseDraw& draw, std::ui
         }
         if (why.rule.empty()) why = Judge(campaign.require, camera).judge();
         if (why.rule.empty()) return plan;
-        // Each try fails in its own words: those of the first say enough.
+        // Each attempt at a view fails with its own message, so only the first is kept.
         if (why.rule.starts_with("the view") && !unfit.empty())
             for (const auto& [rule, seen] : unfit)
                 if (rule.starts_with("the view")) why.rule = rule;

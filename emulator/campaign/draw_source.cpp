@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<std::uint32_t, DrawSource::kMaxHalton> kPrimes = {
     2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83, 89};
 
-// The middle of one of 2^52 equal cells: neither 0 nor 1.
+// Returns the centre of one of 2^52 equal cells, so neither 0 nor 1.
 double place_of(std::uint32_t high, std::uint32_t low) {
     const std::uint64_t bits = (std::uint64_t{high} << 32 | low) >> 12;
     return (static_cast<double>(bits) + 0.5) * 0x1p-52;
@@ -23,8 +23,8 @@ double drawn_place(RandomKey key, std::uint32_t stream, std::uint32_t index) {
     return place_of(words[0], words[1]);
 }
 
-// Streams: dimensions from 0, then what is no dimension, then seeds. The turn of a sequence belongs to no
-// case: cases count from 1.
+// Streams: dimensions from 0, then other purposes, then seeds. The shift of a sequence uses case 0, as cases
+// count from 1.
 constexpr std::uint32_t kLots = 1u << 30, kSeeds = 1u << 31;
 
 double within_one(double x) {
@@ -41,7 +41,7 @@ DrawSource::DrawSource(std::uint64_t seed, DrawSequence sequence, std::size_t di
         throw refused("sequence", "halton for " + std::to_string(dimensions) + " numbers a case",
                       "at most " + std::to_string(kMaxHalton) + " with it; r_sequence or random for more");
     if (sequence != DrawSequence::kRSequence) return;
-    // The positive root of x^(d + 1) = x + 1, by iteration.
+    // Finds the positive root of x^(d + 1) = x + 1 by iteration.
     const double power = 1.0 / (static_cast<double>(dimensions) + 1);
     double ratio = 2;
     for (int step = 0; step < 64; ++step) ratio = std::pow(1 + ratio, power);

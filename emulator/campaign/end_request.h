@@ -1,5 +1,6 @@
 #pragma once
-// SIGINT and SIGTERM while a campaign works: the piece that is being done may end, and nothing new is begun.
+// Handles SIGINT and SIGTERM while a campaign works: the current piece may be finished, and no new one
+// begins.
 
 #include <array>
 #include <csignal>
@@ -7,10 +8,10 @@
 
 namespace hilcam {
 
-// The exit status of an interrupted command as shells have it: 128 + SIGINT.
+// Exit status of an interrupted command by the shells' convention: 128 + SIGINT.
 inline constexpr int kInterruptedStatus = 130;
 
-// Listens while it lives; there is one at a time in a process.
+// Catches the signals for as long as it exists. A process has at most one.
 class EndRequest {
   public:
     EndRequest();
@@ -18,10 +19,10 @@ class EndRequest {
     EndRequest(const EndRequest&) = delete;
     EndRequest& operator=(const EndRequest&) = delete;
 
-    // True once a signal has come.
+    // True after a signal has arrived.
     static bool has_come();
-    // While nothing looks at has_come(), a signal ends the process at once: it writes this line to standard error and
-    // has the status kInterruptedStatus. Empty: from now on somebody looks.
+    // Sets what a signal does while nothing polls has_come(): it writes this line to standard error and ends
+    // the process at once with kInterruptedStatus. Empty: has_come() is polled again.
     void end_at_once(std::string farewell);
 
   private:

@@ -44,7 +44,7 @@ std::vector<KeypointSet> load_keypoints(const std::vector<KeypointsConfig>& conf
     return out;
 }
 
-// The renderer's objects: the scenario's, then all their turning parts (scene_loader.cpp).
+// The renderer's objects are the scenario's, followed by all their parts on joints (scene_loader.cpp).
 void find_parts(const ScenarioConfig& scenario, std::vector<KeypointSet>& sets) {
     for (KeypointSet& set : sets) {
         set.parts.assign(set.nodes.size(), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Key points of objects: places in an object's axes, and where a picture shows them.
+// Key points of objects: points in an object's axes, and where a picture shows them.
 
 #include <string>
 #include <vector>
@@ -14,25 +14,27 @@ struct KeypointSet {
     std::uint32_t object = 1;  // number, from 1
     double tolerance_m = 0.01;
     std::vector<std::string> names;
-    std::vector<Vec3d> places_m;  // in the object's axes, its parts not turned
-    // The part that each point turns with: the node of a joint; empty, or no list: the object itself.
+    std::vector<Vec3d> places_m;  // in the object's axes, with all joints at zero
+    // The node of the joint that turns each point; an empty name, or an empty list, stands for the object
+    // itself.
     std::vector<std::string> nodes{};
-    std::vector<std::uint32_t> parts{};  // its number among the renderer's objects; 0: the object itself
+    // Number of that part among the renderer's objects; 0: the object itself.
+    std::vector<std::uint32_t> parts{};
 };
 
-// Throw InputError: no such column, a number that is none, a name that is given twice.
+// Throws InputError for a missing column, text that is not a number, or a name that occurs twice.
 std::vector<KeypointSet> load_keypoints(const std::vector<KeypointsConfig>& configs);
-// Finds the parts that points name among a scenario's joints. Throws InputError: no such joint.
+// Finds the scenario's joints that the points name. Throws InputError when a joint does not exist.
 void find_parts(const ScenarioConfig& scenario, std::vector<KeypointSet>& sets);
 
 struct SeenKeypoint {
-    Vec2d place_px;      // in the frame, or beside it; 0, 0 where the lens has no place for it
-    int visibility = 0;  // COCO's number. 0: not in the frame, 1: hidden by something, 2: visible
+    Vec2d place_px;      // inside or outside the frame; (0, 0) where the lens cannot image it
+    int visibility = 0;  // COCO's number. 0: outside the frame, 1: hidden, 2: visible
 };
 // Needs the layer depth.
 std::vector<SeenKeypoint> seen_keypoints(const KeypointSet& set, const FrameTruth& truth);
 
-// Returns where the frame shows a place in camera axes; false: nowhere.
+// Finds where the frame shows a point given in camera axes; false: the lens cannot image it.
 bool project_to_frame(const FrameTruth& truth, Vec3d place_camera_m, Vec2d& frame_px);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// Labels in the formats of others, made of records one after the other.
+// Writes labels in formats of other programs, from one record after the other.
 
 #include <filesystem>
 #include <memory>
@@ -12,30 +12,31 @@
 
 namespace hilcam {
 
-// The facts of a campaign that all formats are told.
+// Facts of the campaign that all formats need.
 struct LabelContext {
     const CampaignConfig& campaign;
     std::filesystem::path folder;
-    std::vector<std::string> objects;  // names of the scenario's objects, by number from 1, and its terrain's
+    // Names of the scenario's objects, by number from 1, and of its terrain.
+    std::vector<std::string> objects;
     std::vector<ObjectConfig> shapes;  // the scenario's objects without its terrain
     std::vector<KeypointSet> keypoints;
-    bool has_colors = false;  // pictures to look at have three channels
-    double pitch_m = 0;       // side of a pixel of the frame
+    bool has_colors = false;  // true: pictures for viewing have three channels
+    double pitch_m = 0;       // pixel pitch of the frame
 };
 
 class LabelWriter {
   public:
     virtual ~LabelWriter() = default;
-    // Cases that are done, by rising number.
+    // Adds a case that is done. Cases come in rising order of their numbers.
     virtual void add(const CaseRecord& record) = 0;
-    // Writes what belongs to all of them. DeviceError.
+    // Writes the files that cover all cases. Throws DeviceError.
     virtual void finish() = 0;
 };
 
-// coco/SPLIT.json: boxes, run lengths, key points; pictures are named from the campaign's folder.
+// coco/SPLIT.json: boxes, run lengths, key points. Pictures are named relative to the campaign's folder.
 std::unique_ptr<LabelWriter> make_coco_labels(const LabelContext& context);
-// bop/SPLIT/000000/: scene_camera.json, scene_gt.json, scene_gt_info.json, gray or rgb, depth, mask, mask_visib;
-// bop/models (bop_models.h).
+// bop/SPLIT/000000/: scene_camera.json, scene_gt.json, scene_gt_info.json, gray or rgb, depth, mask,
+// mask_visib; bop/models (bop_models.h).
 std::unique_ptr<LabelWriter> make_bop_labels(const LabelContext& context);
 // yolo/data.yaml, images/SPLIT, labels/SPLIT.
 std::unique_ptr<LabelWriter> make_yolo_labels(const LabelContext& context);
@@ -44,11 +45,11 @@ std::unique_ptr<LabelWriter> make_speed_labels(const LabelContext& context);
 // shards/SPLIT-000000.tar for WebDataset.
 std::unique_ptr<LabelWriter> make_shards(const LabelContext& context);
 
-// The split's name, or "all" where there are none.
+// Returns the name of the case's split, or "all" when the campaign has none.
 std::string split_of(const CaseRecord& record);
-// The picture that other programs are given: that to look at, where there is one, else the frame.
+// Returns the picture that other programs receive: the one for viewing if it exists, else the frame.
 std::filesystem::path shown_picture(const CampaignConfig& campaign, std::uint64_t number, std::int64_t index);
-// A second name for a file, or where the disk has no such, a copy. It replaces what is there.
+// Makes a hard link, or a copy where the file system has no hard links. Replaces an existing file.
 void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace hilcam

@@ -1,9 +1,11 @@
 // Labels of the Benchmark for 6D Object Pose Estimation: thodan/bop_toolkit, docs/bop_datasets_format.md.
-// Lengths are in mm; places count from the middle of the first pixel, as OpenCV's, half a pixel less than
-// hilcam's; a scene has the pictures of a thousand cases. The numbers of scene_gt_info.json are counted as
-// scripts/calc_gt_info.py there counts them: px_count_all and bbox_obj over three times the picture's width and
-// height, the picture in the middle, and no boxes for what is not visible. Boxes have all columns and rows of
-// their pixels, where that script's are one less. Ground is no object here: it has no model.
+//
+// Lengths are in mm. Places have their origin at the centre of the first pixel, as in OpenCV, so they are
+// half a pixel less than hilcam's. A scene has the pictures of a thousand cases. The numbers in
+// scene_gt_info.json are counted as by scripts/calc_gt_info.py there: px_count_all and bbox_obj over three
+// times the picture's width and height, with the picture in the middle, and no boxes for invisible objects.
+// Boxes include all columns and rows of their pixels, where that script's are one less. Ground is not an
+// object here, because it has no model.
 
 #include <algorithm>
 #include <map>
@@ -35,7 +37,7 @@ OrderedJson mm_of(const OrderedJson& metres) {
     return {1e3 * metres.at(0).get<double>(), 1e3 * metres.at(1).get<double>(),
             1e3 * metres.at(2).get<double>()};
 }
-// The silhouette of an object that a record has, or nothing: ground.
+// Returns an object's silhouette from the record; null for ground.
 const OrderedJson* silhouette_of(const CaseRecord& record, const OrderedJson& frame, const std::string& id) {
     const auto all = frame.find("silhouettes");
     if (all == frame.end())
@@ -46,7 +48,7 @@ const OrderedJson* silhouette_of(const CaseRecord& record, const OrderedJson& fr
     return found == all->end() ? nullptr : &*found;
 }
 
-// A mask as its file has it, with what is counted of it.
+// A mask as written to its file, and its counts.
 struct Mask {
     DnImage picture;
     std::uint64_t px = 0;
@@ -93,14 +95,14 @@ class BopLabels : public LabelWriter {
         OrderedJson cameras = OrderedJson::object(), poses = OrderedJson::object(),
                     infos = OrderedJson::object();
     };
-    // Cases of a scene come one after the other, but those of several splits by turns.
+    // Cases of a scene come in sequence, but cases of several splits alternate.
     std::map<std::filesystem::path, Scene> scenes_;
     std::filesystem::path scene_folder_;
     Scene* scene_ = nullptr;
     OrderedJson camera_;
 
     void finish_scene(const std::filesystem::path& next) {
-        // Scenes of smaller numbers get nothing more.
+        // Scenes with smaller numbers receive no more pictures.
         const std::string number = next.filename().string();
         std::erase_if(scenes_, [&](const auto& entry) {
             const auto& [folder, scene] = entry;
@@ -158,7 +160,7 @@ class BopLabels : public LabelWriter {
                      scene_folder_ / "depth" / (six_digits(id) + ".png"));
     }
 
-    // Writes both masks of an object, and returns what scene_gt_info.json has of it.
+    // Writes both masks of an object, and returns its entry for scene_gt_info.json.
     OrderedJson add_masks(const OrderedJson& frame, const OrderedJson& image, const OrderedJson& object,
                           const OrderedJson& silhouette, const std::string& name) const {
         const int width = image.at("width_px"), height = image.at("height_px");

@@ -1,5 +1,5 @@
-// COCO's labels: cocodataset.org, "Data format", of object detection and key points. Boxes are [x, y, width,
-// height] from the picture's corner, masks compressed run lengths, key points x, y, v.
+// Labels in COCO's format: cocodataset.org, "Data format", for object detection and key points. Boxes are [x,
+// y, width, height] from the picture's corner, masks are compressed run lengths, key points are x, y, v.
 
 #include <map>
 
@@ -80,7 +80,7 @@ class CocoLabels : public LabelWriter {
             int labelled = 0;
             for (const OrderedJson& point : frame.at("keypoints").at(number)) {
                 const int visibility = point.at(3);
-                // Points that are not in the picture have the place 0, 0.
+                // Points outside the picture have the place 0, 0.
                 numbers.push_back(visibility > 0 ? point.at(1) : OrderedJson(0));
                 numbers.push_back(visibility > 0 ? point.at(2) : OrderedJson(0));
                 numbers.push_back(visibility);

@@ -1,7 +1,7 @@
-// Labels as SPEED+ has them (Park, Maertens, Lecuyer, Izzo, D'Amico, "SPEED+: Next-generation dataset for
-// spacecraft pose estimation across domain gap", IEEE Aerospace Conference 2022): for each picture the attitude
-// and place of the target. q_vbs2tango_true is scalar first and, by the data set's own tools, p_camera = R(q)
-// p_target + r; places count from the picture's corner, as hilcam's.
+// Labels in SPEED+'s format (Park, Maertens, Lecuyer, Izzo, D'Amico, "SPEED+: Next-generation dataset for
+// spacecraft pose estimation across domain gap", IEEE Aerospace Conference 2022): the target's attitude and
+// position in each picture. q_vbs2tango_true is scalar first and, by the data set's own tools, p_camera =
+// R(q) p_target + r. Places count from the picture's corner, like hilcam's.
 
 #include <map>
 

@@ -1,6 +1,6 @@
-// YOLO's labels, as docs.ultralytics.com has them ("Object detection datasets", "Pose estimation datasets"): a
-// text for each picture, a line for each object: class from 0, then the middle and size of its box, then its
-// key points with COCO's visibility, all as shares of the picture.
+// Labels in YOLO's format (docs.ultralytics.com, "Object detection datasets", "Pose estimation datasets"): a
+// text file for each picture with a line for each object: its class from 0, the centre and size of its box,
+// and its key points with COCO's visibility, all as fractions of the picture.
 
 #include <algorithm>
 #include <map>

@@ -17,7 +17,7 @@ CameraModel without_patterns(const CameraModel& camera) {
     return out;
 }
 
-// The charge that becomes one number: that of the pixels which are binned [e-].
+// The charge that becomes one number: the sum over binned pixels [e-].
 struct BinnedCharge {
     double sum_e = 0, greatest_e = 0;
 };

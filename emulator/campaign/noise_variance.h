@@ -1,13 +1,12 @@
 #pragma once
-// The variance of each pixel's number from one taking of a picture to the next, as the sensor makes it [DN^2]:
-// sensor/sensor_noise.h without its fixed patterns, at the mean charge that the picture's noise is drawn about.
+// The variance [DN^2] of each pixel's number between repeated exposures of the same picture. It follows the
+// noise model of sensor/sensor_noise.h, without its fixed patterns, at the mean charge of the picture.
 //
-// Noise of rendering, by path models that draw their paths, is measured and added (RenderingNoise).
+// Path models that draw random paths add rendering noise, which is measured (RenderingNoise) and added.
 //
-// Not in it: defects, cosmic rays, filters of the
-// electronics (they share noise along a row), what blooming or
-// late charge brings, and the sharing of one row's noise. A pixel that is full, or whose number is the
-// converter's last, has 0: it does not vary.
+// Not included: defects, cosmic rays, filters of the electronics (they correlate noise along a row), charge
+// from blooming or late transfer, and noise that a whole row shares. A pixel at full well, or at the
+// converter's last number, has variance 0, because it does not vary.
 
 #include <span>
 #include <vector>
@@ -18,20 +17,20 @@
 
 namespace hilcam {
 
-using VarianceImage = Image<float, struct VarianceQuantity>;  // [DN^2], of the frame's size
+using VarianceImage = Image<float, struct VarianceQuantity>;  // [DN^2], as large as the frame
 
-// The variance that random light paths give the mean electrons of each pixel of the frame [e-^2], measured over
-// some renderings of the same instant with other paths. Its own error is a share sqrt(2 / (renderings - 1)) of
-// each pixel's.
+// The variance [e-^2] that random light paths cause in the mean electrons of each pixel, measured over
+// several renderings of the same instant with different paths. Its relative error is sqrt(2 / (renderings -
+// 1)).
 class RenderingNoise {
   public:
     static constexpr int kRenderings = 16;
 
-    // Adds a rendering's mean electrons; all are of one size.
+    // Adds a rendering's mean electrons. All renderings have the same size.
     void add(const ElectronImage& mean_e, const CameraModel& camera, const Exposure& exposure);
-    // True when two of them differ.
+    // True when two of the renderings differ.
     bool is_random() const;
-    // Empty while fewer than two were added.
+    // Returns an empty list before two renderings have been added.
     std::vector<double> variance_e2() const;
 
   private:
@@ -39,9 +38,9 @@ class RenderingNoise {
     std::vector<double> mean_, squares_;  // Welford's sums (Technometrics 4, 419, 1962)
 };
 
-// mean_e: mean electrons of the exposure, dark current in them, as SensorChain::expose() gives them. rendering_e2: as RenderingNoise has it;
-// empty: nothing of the rendering is random. Throws
-// InputError for a camera that bins numbers instead of charge, or whose numbers are not linear in it.
+// mean_e: mean electrons of the exposure including dark current, as SensorChain::expose() returns them.
+// rendering_e2: variance from RenderingNoise; empty: rendering is not random. Throws InputError for a camera
+// that bins numbers instead of charge, or for which numbers are not linear in charge.
 VarianceImage noise_variance(const CameraModel& camera, const ElectronImage& mean_e, const Exposure& exposure,
                              std::span<const double> rendering_e2 = {});
 

@@ -52,7 +52,7 @@ void validate(const NumberDraw& d) {
 }
 
 double normal_quantile(double place) {
-    // The tails alike: what is above the middle is the mirror image of what is below it.
+    // Uses the symmetry of the distribution for the upper half.
     if (place > 0.5) return -normal_quantile(1 - place);
     double low = -40, high = 0;
     for (int step = 0; step < 80; ++step) {

@@ -1,8 +1,8 @@
 #pragma once
-// The way in which a number of a campaign is drawn: by a distribution, from a place between 0 and 1.
+// Draws a number of a campaign: a distribution turns a place between 0 and 1 into a value.
 //
-// The place may be random or of an even sequence (draw_source.h): every distribution is the inverse of its
-// cumulative function, so that even places give even quantiles.
+// Places may be random or belong to an even sequence (draw_source.h). Every distribution is applied as the
+// inverse of its cumulative function, so that even places give even quantiles.
 
 #include <string>
 #include <vector>
@@ -22,20 +22,20 @@ struct NumberDraw {
     Kind kind() const;
     explicit operator bool() const { return kind() != Kind::kNone; }
 };
-// range: all that the number may be, in the unit of the key that it is for.
+// range: the values that the number may have, in the unit of its key.
 Fields fields(NumberDraw& draw, Range range);
 inline Fields fields(NumberDraw& draw) { return fields(draw, {}); }
-// Throws KeyError when there are two distributions, or one that is none.
+// Throws KeyError when the draw has two distributions, or an invalid one.
 void validate(const NumberDraw& draw);
 
-// Returns the number at a place in (0, 1). A normal one is cut at 6 standard deviations.
+// Returns the number at a place in (0, 1). A normal distribution is cut at 6 standard deviations.
 double number_at(const NumberDraw& draw, double place);
 
-// Returns the standard normal number below which that share lies; place in (0, 1). Right to 1e-14, by
-// bisection of the error function.
+// Returns the quantile of the standard normal distribution at a place in (0, 1). Right to 1e-14, by bisection
+// of the error function.
 double normal_quantile(double place);
 
-// Returns a number as a file takes it, with as many digits as bring it back.
+// Returns a number as text with enough digits to restore it exactly.
 std::string exact_number(double value);
 
 }  // namespace hilcam

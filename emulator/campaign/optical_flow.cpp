@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-// Camera axes of the first picture into those of the second, carried by a thing.
+// Transforms camera axes of the first picture to those of the second for points carried by a thing.
 struct Carried {
     Mat3d turn;
     Vec3d shift_m;
@@ -35,7 +35,7 @@ std::map<std::uint32_t, Carried> carried_things(const FrameTruth& from, const Fr
     return out;
 }
 
-// By number of the renderer's object, from 1.
+// Returns the transforms by number of the renderer's object, from 1.
 std::map<std::uint32_t, Carried> carried_parts(const FrameTruth& from, const FrameTruth& to) {
     std::map<std::uint32_t, Carried> out;
     for (const SeenPart& before : from.parts)

@@ -32,7 +32,7 @@ bool wants(const std::vector<std::string>& words, const char* word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// Masks, shares of light and hidden points need the first three; the rest is what is written.
+// Masks, shares of light and hidden points need the first three layers; the others are written.
 TruthRequest asked_layers(const CampaignConfig& c) {
     TruthRequest request;
     request.stars = false;
@@ -57,7 +57,7 @@ FrameRecord record_of_picture(const ScenarioConfig& s, const StillCamera& camera
     return record;
 }
 
-// The target's brightness, by the mean electrons of its pixels that face the Sun, before noise.
+// The target's brightness: the mean electrons of its pixels that face the Sun, before noise.
 struct Brightness {
     double signal_e = 0, snr = 0, saturated_fraction = 0;
 };
@@ -76,7 +76,7 @@ Brightness brightness_of(CaseCamera& camera, const FrameTruth& truth, const Seen
             if (!(normal.row(y, 0)[x] * sun.x + normal.row(y, 1)[x] * sun.y + normal.row(y, 2)[x] * sun.z >
                   0))
                 continue;
-            // The first pixel of those that are binned stands for them.
+            // The first of the binned pixels stands for all of them.
             const auto ey = static_cast<int>(y * binning_y);
             const auto ex = static_cast<std::size_t>(static_cast<std::int64_t>(x) * binning_x);
             if (ey >= electrons.height() || ex >= static_cast<std::size_t>(electrons.width())) continue;
@@ -89,7 +89,7 @@ Brightness brightness_of(CaseCamera& camera, const FrameTruth& truth, const Seen
     const double mean_e = sum_e / static_cast<double>(lit);
     out.signal_e = std::max(0.0, mean_e - sheet.dark_e_s * exposure_s);
     const double held_e = std::min(out.signal_e, sheet.full_scale_e);
-    // The sheet's dark current is that of its own exposure.
+    // The dark current in the sheet belongs to the sheet's own exposure.
     const double dark_e2 = sheet.dark_total_e * sheet.dark_total_e - sheet.dark_shot_e * sheet.dark_shot_e +
                            sheet.dark_e_s * exposure_s;
     out.snr = held_e / std::sqrt(held_e + dark_e2);
@@ -119,7 +119,7 @@ OrderedJson keypoints_of(const std::vector<KeypointSet>& sets, const FrameTruth&
     return out;
 }
 
-// Returns how many millimetres a step of the depth picture is: a power of ten that holds the farthest object.
+// Returns the step of the depth picture in mm: a power of ten, large enough for the farthest object.
 double depth_step_mm(const FrameTruth& truth) {
     float max_m = 0;
     for (const float d : truth.layers.depth_m.all())
@@ -129,7 +129,7 @@ double depth_step_mm(const FrameTruth& truth) {
     return step_mm;
 }
 
-// BOP's: 16 bits, 0 where nothing is near.
+// Makes BOP's depth picture: 16 bits, 0 for no object.
 DnImage depth_picture(const FrameTruth& truth, double step_mm) {
     DnImage picture(truth.raster.width_px, truth.raster.height_px);
     for (int y = 0; y < truth.raster.height_px; ++y) {
@@ -143,8 +143,8 @@ DnImage depth_picture(const FrameTruth& truth, double step_mm) {
     return picture;
 }
 
-// Tells each object's silhouette: its mask in the frame, its pixels in the frame and beside it, and how many of
-// the mask have a depth.
+// Returns each object's silhouette: its mask in the frame, its pixels inside and outside the frame, and how
+// many pixels of the mask have a depth.
 OrderedJson silhouettes_of(const FrameTruth& truth, const DnImage& depth) {
     OrderedJson out = OrderedJson::object();
     const auto width = static_cast<std::size_t>(truth.raster.width_px);
@@ -236,8 +236,9 @@ class PictureMaker {
         record_.files_s += 1e-3 * watch.ms();
     }
 
-    // Renders the picture; where its variance is wanted, with other paths, too, as often as it takes. Returns the variance of
-    // its mean electrons [e-^2]; nothing where it is not wanted, or a second rendering is the same: nothing is random.
+    // Renders the picture and returns the variance of its mean electrons [e-^2]. For that, renders it with
+    // other light paths as often as necessary. Returns nothing when variance is not requested, or when the
+    // second rendering is the same because nothing is random.
     std::vector<double> render(RandomKey key) {
         StillCamera& camera = camera_.camera();
         RenderingNoise noise;
@@ -315,7 +316,7 @@ class PictureMaker {
         std::swap(before_, truth_);
     }
 
-    // Only what was asked for, of all that is there.
+    // Writes only the requested layers.
     void write_layers(const std::filesystem::path& file) {
         const TruthRequest all = truth_.request;
         const std::vector<std::string>& words = campaign_.pictures.layers;
@@ -352,7 +353,7 @@ PictureCases::PictureCases(const CampaignConfig& campaign)
       camera_(campaign),
       keypoints_(load_keypoints(campaign.keypoints)) {
     find_parts(camera_.scenario(), keypoints_);
-    // What children share is made before they are.
+    // Makes what the children share before they are forked.
     camera_.sheet();
     camera_.camera().dark();
 }

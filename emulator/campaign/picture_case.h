@@ -1,5 +1,5 @@
 #pragma once
-// A case whose result are pictures and what they show.
+// Makes cases that consist of pictures and their labels.
 
 #include <filesystem>
 #include <vector>
@@ -12,11 +12,11 @@ namespace hilcam {
 
 class PictureCases {
   public:
-    // Loads the scene. Throws InputError, DeviceError. The campaign outlives this.
+    // Loads the scene. The campaign must outlive this object. Throws InputError, DeviceError.
     explicit PictureCases(const CampaignConfig& campaign);
 
-    // Makes a case and writes its files into the campaign's folder, but for the record, which it returns. Throws
-    // InputError for a case that cannot be, DeviceError when a file cannot be written.
+    // Makes a case, writes its files into the campaign's folder and returns its record, which it does not
+    // write. Throws InputError for an impossible case, DeviceError when a file cannot be written.
     CaseRecord make(std::uint64_t number, const std::filesystem::path& folder);
 
     int loads() const { return camera_.loads(); }
@@ -28,9 +28,9 @@ class PictureCases {
     std::vector<KeypointSet> keypoints_;
 };
 
-// Names of a picture's files in the campaign's folder; index: from 0.
+// File names of a picture in the campaign's folder; index: from 0.
 struct PictureNames {
-    std::string stem;  // "000001", of several pictures a case "000001_02"
+    std::string stem;  // "000001", or "000001_02" if a case has several pictures
     std::filesystem::path frame, view, layers, depth, flow, variance;
 };
 PictureNames picture_names(const CampaignConfig& campaign, std::uint64_t number, std::int64_t index);

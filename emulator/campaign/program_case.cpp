@@ -57,7 +57,7 @@ std::string environment_name(const std::string& word) {
     return name;
 }
 
-// A program with its children in a group of their own, which dies with this object.
+// A program with its children, in a process group that this object ends.
 class Started {
   public:
     Started(const std::vector<std::string>& arguments, const std::filesystem::path& log, const Words& words) {
@@ -74,16 +74,16 @@ class Started {
     Started(const Started&) = delete;
     Started& operator=(const Started&) = delete;
 
-    // True once it has ended; its status is then known.
+    // True once the program has ended and its status is known.
     bool has_ended() { return ended_ || wait_for(false); }
     void ask_to_end() const { kill(process_, SIGTERM); }
-    // True when somebody ended it, who may have had no memory left.
+    // True when a signal from outside ended it, perhaps for lack of memory.
     bool was_ended() const {
         return WIFSIGNALED(status_) && (WTERMSIG(status_) == SIGKILL || WTERMSIG(status_) == SIGTERM ||
                                         WTERMSIG(status_) == SIGINT || WTERMSIG(status_) == SIGHUP);
     }
     bool has_status(int status) const { return WIFEXITED(status_) && WEXITSTATUS(status_) == status; }
-    // Empty: it went well.
+    // Returns what went wrong; empty: nothing.
     std::string problem(const std::string& name) const {
         if (WIFSIGNALED(status_))
             return name + " was ended by signal " + std::to_string(WTERMSIG(status_)) + " (" +
@@ -138,7 +138,7 @@ std::string text_of_log(const std::filesystem::path& file) {
     }
 }
 
-// The last line of a log that says why.
+// Returns the last line of a log that gives a reason.
 std::string last_error(const std::filesystem::path& log) {
     std::string last;
     const std::string text = text_of_log(log);
@@ -176,7 +176,7 @@ class BenchRun {
                   {"seed", std::to_string(plan.seed)},
                   {"slot", std::to_string(slot + 1)},
                   {"case_folder", folder.string()}};
-        // What is made of shapes that no other case has is not kept.
+        // Results for shapes that no other case has are not cached.
         if (draws_own_shapes(campaign)) words_["cache_mb"] = "0";
         std::vector<std::string> overrides = plan.overrides;
         for (const std::string& own : campaign.run->set) set_override(overrides, with_words(own, words_));
@@ -197,7 +197,7 @@ class BenchRun {
             arguments_.insert(arguments_.end(), {"--duration", exact_number(campaign.run->duration_s)});
     }
 
-    // Throws what went wrong: CaseFailure, or DeviceError where the machine was at fault.
+    // Throws CaseFailure when the case went wrong, DeviceError when the machine is the cause.
     void carry_out() {
         Started camera(arguments_, folder_ / "hilcam.log", words_);
         await_camera(camera);
@@ -216,7 +216,7 @@ class BenchRun {
     std::vector<std::string> arguments_;
     Stopwatch watch_;
 
-    // The parent ends the child at that limit, too; this one knows what was late.
+    // The parent ends this child at the same limit, but this process knows what was late.
     void wait_within_limit(const char* what) const {
         if (EndRequest::has_come()) throw DeviceError("interrupted");
         if (watch_.seconds() > 0.95 * campaign_.time_limit_s)
@@ -233,7 +233,8 @@ class BenchRun {
         if (camera.has_ended()) require_good_end(camera);
     }
 
-    // A camera that fails at run time (status 1) lacks something of the machine: a port, a device, room on the disk.
+    // A camera that fails at run time (status 1) lacked something of the machine: a port, a device, disk
+    // space.
     void require_good_end(const Started& camera) const {
         constexpr int kFailedAtRunTime = 1;
         require_good_end(camera, "hilcam run", "hilcam.log", camera.has_status(kFailedAtRunTime));
@@ -259,7 +260,7 @@ class BenchRun {
         Started program(arguments, folder_ / "program.log", words_);
         while (!program.has_ended()) wait_within_limit("the program");
         require_good_end(program, "the program", "program.log", false);
-        // The camera has nobody left to wait for.
+        // The program has ended, so the camera need not wait any more.
         if (!camera.has_ended()) camera.ask_to_end();
         while (!camera.has_ended()) wait_within_limit("the end of the camera");
     }
@@ -271,7 +272,7 @@ CaseRecord make_program_case(const CampaignConfig& campaign, const CasePlan& pla
                              const std::filesystem::path& folder, std::size_t slot) {
     const std::filesystem::path own = std::filesystem::absolute(folder / "runs" / plan.name);
     std::error_code error;
-    // What another try has left.
+    // Removes what an earlier attempt left.
     std::filesystem::remove_all(own, error);
     std::filesystem::create_directories(own, error);
     if (error) throw DeviceError(own.string() + " cannot be made: " + error.message());

@@ -1,11 +1,12 @@
 #pragma once
-// A case that is a run of the bench: `hilcam run`, and the user's program beside it.
+// A case that is a run: `hilcam run`, with the user's program beside it.
 //
-// The case's folder, runs/000001, gets hilcam.log, program.log and report.json. What the program writes to
-// result.json there, numbers by name, becomes columns of the index. The program is started once the camera
-// runs, with these words in its arguments and in `run.set` replaced: {case}, {seed}, {slot} (which
-// of the cases that run at once, from 1), {case_folder}, {udp_port}, {tcp_port}; and the same as environment
-// variables HILCAM_CASE, ... The two ports are free ones of 127.0.0.1, where the scenario has such an input.
+// The case's folder, runs/000001, receives hilcam.log, program.log and report.json. Numbers that the program
+// writes by name to result.json there become columns of the index. The program starts once the camera runs.
+// In its arguments and in `run.set` these words are replaced: {case}, {seed}, {slot} (which of the cases that
+// run at once, from 1), {case_folder}, {udp_port}, {tcp_port}. The environment variables HILCAM_CASE, ...
+// have the same values. The two ports are free ones of 127.0.0.1; a case has them if the scenario has such an
+// input.
 
 #include <cstddef>
 #include <filesystem>
@@ -14,7 +15,7 @@
 
 namespace hilcam {
 
-// Throws InputError, DeviceError: the case has failed, and why.
+// Throws InputError, DeviceError when the case has failed; the message says why.
 CaseRecord make_program_case(const CampaignConfig& campaign, const CasePlan& plan,
                              const std::filesystem::path& folder, std::size_t slot);
 

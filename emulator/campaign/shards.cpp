@@ -1,7 +1,7 @@
 // Shards for WebDataset (github.com/webdataset/webdataset, "The WebDataset Format"): tar files numbered
-// SPLIT-000000.tar; the files of a sample lie together and have one name up to the first dot. The tar files
-// are ustar (POSIX.1-2017, pax, "ustar Interchange Format"), without times or owners: the same samples are
-// the same bytes.
+// SPLIT-000000.tar. The files of a sample are consecutive and have the same name up to the first dot. The tar
+// files are ustar (POSIX.1-2017, pax, "ustar Interchange Format"), without times or owners, so the same
+// samples give the same bytes.
 
 #include <array>
 #include <cstring>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kBlock = 512;
 
-// Offsets and widths of ustar's fields.
+// Makes a header with ustar's offsets and widths of fields.
 std::array<char, kBlock> ustar_header(const std::string& name, std::uint64_t size) {
     std::array<char, kBlock> h{};
     HILCAM_CHECK(name.size() < 100 && size < (1ull << 33));

@@ -14,14 +14,14 @@
 namespace hilcam {
 namespace {
 
-// A word as a shell takes it.
+// Quotes a word for a shell.
 std::string shell_word(const std::string& text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + "'";
 }
 
-// "0-3,7": what --array takes.
+// Returns "0-3,7", as --array accepts it.
 std::string array_text(const std::vector<std::uint64_t>& tasks) {
     std::string out;
     for (std::size_t i = 0; i < tasks.size();) {
@@ -48,8 +48,8 @@ std::string command_of(const SlurmPlan& plan) {
     return out;
 }
 
-// A file's name as sbatch takes it in a line of a script: it splits words and knows quotes as a shell does, and has
-// patterns with % (sbatch(1), "filename pattern"). log: may have such patterns.
+// Quotes a file name for sbatch in a script line: sbatch splits words and handles quotes like a shell, and
+// has patterns with % (sbatch(1), "filename pattern"). log: may contain such patterns.
 std::string log_word(const SlurmPlan& plan, const std::string& log) {
     std::string folder;
     for (const char c : (plan.folder / "slurm").string())
@@ -61,8 +61,8 @@ std::string heading(const SlurmPlan& plan, const std::string& name, const std::s
     return "#!/bin/sh\n#SBATCH --job-name=" + name + "\n#SBATCH --output=" + log_word(plan, log) + "\n";
 }
 
-// A line feed would end the line of the script that names the folder. A backslash in a log's name turns its patterns
-// off for good.
+// Refuses a line feed, which would end the script line that names the folder, and a backslash, which would
+// turn off all patterns in a log's name.
 void require_plain_folder(const std::filesystem::path& folder) {
     const std::string name = folder.string();
     const bool bad = std::any_of(name.begin(), name.end(), [](char c) {
@@ -74,7 +74,7 @@ void require_plain_folder(const std::filesystem::path& folder) {
                          "backslash");
 }
 
-// Runs a command without a shell's help for its words; gives what it prints.
+// Runs a command and returns its output. The words must already be quoted.
 std::string output_of(const std::string& command) {
     FILE* const pipe = popen((command + " 2>&1").c_str(), "re");
     if (!pipe) throw DeviceError("sbatch cannot be started");
@@ -108,7 +108,7 @@ std::string array_script(const SlurmPlan& plan) {
     const std::string chunk = std::to_string(plan.chunk), count = std::to_string(plan.count);
     return heading(plan, job_name(plan), "task-%a.log") + "#SBATCH --array=" + array_text(plan.tasks) +
            "\n"
-           // What a node that dies has made is kept; the task begins again where it was.
+           // The work of a node that dies is kept, and the task continues where it was.
            "#SBATCH --requeue\n#SBATCH --open-mode=append\n"
            "first=$((SLURM_ARRAY_TASK_ID * " +
            chunk +
@@ -140,7 +140,7 @@ std::vector<std::string> submit_campaign(const SlurmPlan& plan, bool submit) {
         return out;
     }
     const std::string job = output_of("sbatch --parsable " + shell_word(array.string()));
-    // Tasks that fail have failed cases; what there is is put together all the same.
+    // Tasks with failed cases count as failed; the results are put together anyway.
     const std::string last = output_of("sbatch --parsable --dependency=afterany:" + shell_word(job) + " " +
                                        shell_word(merge.string()));
     out.push_back("submitted: job " + job + ", and " + last + " to put its results together");

@@ -16,7 +16,7 @@ using Dimension = CaseDraw::View;
 struct Axes {
     Vec3d x, y;
 };
-// Returns two unit vectors that stand on z and on each other, the first as near to `hint` as it can.
+// Returns two unit vectors perpendicular to z and to each other, the first as close to `hint` as possible.
 Axes across(Vec3d z, Vec3d hint) {
     Vec3d x = hint - dot(hint, z) * z;
     if (!(length(x) > 1e-6)) x = cross(z, std::abs(z.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
@@ -30,8 +30,8 @@ Vec3d on_cone(Vec3d axis, double cosine, double around_rad) {
     return cosine * axis + sine * (std::cos(around_rad) * a.x + std::sin(around_rad) * a.y);
 }
 
-// Returns the attitude in which a direction of the camera's axes lies along one of the world, the picture's up
-// turned by roll from the world's +z.
+// Returns the attitude for which a direction in camera axes points along a direction in the world. The
+// picture's up is the world's +z, turned by roll.
 Quat camera_that_sees(Vec3d in_camera, Vec3d in_world, double roll_rad) {
     const Axes c = across(in_camera, {0, -1, 0});
     const Axes w = across(in_world, {0, 0, 1});
@@ -102,7 +102,7 @@ class ViewMaker {
             const double around_rad = 2 * kPi * place(Dimension::kDiskY);
             const bool is_before = place(Dimension::kBefore) < view_.before->share;
             plan_.parameters.emplace_back("view.before", is_before ? "1" : "0");
-            // Even over the disk, or over all that is beside it.
+            // Uniform over the disk, or over everything outside it.
             const double least = is_before ? edge : -1, most = is_before ? 1 : edge;
             return -on_cone(normalized(to_body_m), least + place(Dimension::kDiskX) * (most - least),
                             around_rad);
@@ -137,7 +137,7 @@ class ViewMaker {
         return range_m;
     }
 
-    // The direction in camera axes of the place in the frame where the target shall be.
+    // Returns the direction in camera axes of the place in the frame where the target should be.
     Vec3d target_in_camera() {
         const auto share = [&](Dimension dimension) {
             return view_.offset_share ? drawn(*view_.offset_share, dimension) : 0.0;
@@ -148,7 +148,7 @@ class ViewMaker {
         return normalized(truth_.geometry.direction_camera(image_px.x, image_px.y));
     }
 
-    // Light is in proportion to the exposure; so is dark current.
+    // Sets the exposure: light and dark current are proportional to it.
     void expose(const SeenThing& target, double range_m, double phase_rad) {
         const double dn = drawn(*view_.signal_dn, Dimension::kSignal);
         const ScenarioConfig& s = camera_.scenario();

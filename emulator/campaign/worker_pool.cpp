@@ -27,7 +27,7 @@ constexpr std::size_t kLongestProblem = 4000;
 
 double now_s() { return 1e-9 * static_cast<double>(monotonic_ns()); }
 
-// A signal that somebody sends, not one that a mistake of the piece raises.
+// True for a signal that someone sends, not one that a fault in the piece raises.
 bool is_from_outside(int status) {
     if (!WIFSIGNALED(status)) return false;
     const int signal = WTERMSIG(status);
@@ -76,7 +76,7 @@ void WorkerPool::start(std::size_t slot) {
 
 void WorkerPool::be_child(std::size_t slot, int line, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(1);  // it died before it was asked for
+    if (getppid() != parent) _exit(1);  // the parent died before the death signal was set up
     for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM})
         std::signal(signal, SIG_DFL);
     const rlimit no_core{0, 0};
@@ -91,7 +91,7 @@ void WorkerPool::be_child(std::size_t slot, int line, pid_t parent) {
     }
     const std::string greeting = reason.empty() ? " " : "!" + reason.substr(0, kLongestProblem);
     if (write(line, greeting.data(), greeting.size()) < 0) _exit(1);
-    // What was given meanwhile must be taken: an end that has unread packets takes its own words with it.
+    // Reads all pending packets: a socket that is closed with unread packets loses its own last message.
     for (std::uint64_t ignored = 0; !reason.empty();)
         if (read(line, &ignored, sizeof ignored) <= 0) _exit(1);
     for (std::uint64_t number = 0; read(line, &number, sizeof number) == sizeof number && number != 0;) {
@@ -107,7 +107,7 @@ void WorkerPool::give(Worker& worker, std::uint64_t number) {
     worker.number = number;
     worker.begun_s = now_s();
     worker.is_late = false;
-    // Should it be dead, its line says so.
+    // If the child is dead, its socket reports it.
     [[maybe_unused]] const ssize_t sent = send(worker.line.get(), &number, sizeof number, MSG_NOSIGNAL);
 }
 
@@ -156,7 +156,7 @@ void WorkerPool::end_late_ones() {
         }
 }
 
-// Children have a moment to end what they have started themselves.
+// Gives children a moment to end what they have started.
 void WorkerPool::end_all(const Done& done) {
     constexpr int kPatience_ms = 3000, kLook_ms = 10;
     for (const Worker& worker : workers_)
@@ -178,7 +178,7 @@ void WorkerPool::end_all(const Done& done) {
     }
 }
 
-// A piece that was done before its child ended is done.
+// Accepts a piece that was finished before its child ended.
 void WorkerPool::hear_the_last(Worker& worker, const Done& done) {
     std::array<char, kLongestProblem + 1> text{};
     while (worker.number != 0 && worker.line) {

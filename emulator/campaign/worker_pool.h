@@ -1,10 +1,10 @@
 #pragma once
-// Child processes that do numbered pieces of work beside each other, so that a piece that crashes or hangs
-// costs that piece alone.
+// Child processes that work on numbered pieces in parallel. A piece that crashes or hangs costs only that
+// piece.
 //
-// Children are forked from a process that has loaded what they share: its pages are theirs without a copy, for
-// as long as nobody writes to them. It must have no other thread then that holds a lock (oneTBB held to one
-// thread has none). They die with their parent.
+// Children are forked from a process that has loaded the data they share, and use its pages without a copy
+// until one of them writes. At that time no other thread of the process may hold a lock (oneTBB limited to
+// one thread has none). Children die with their parent.
 
 #include <sys/types.h>
 #include <cstdint>
@@ -18,14 +18,14 @@ namespace hilcam {
 
 class WorkerPool {
   public:
-    // Does one piece; returns an empty text, or why nothing came of it. It runs in the child.
+    // Does one piece in the child. Returns an empty text, or why the piece failed.
     using Work = std::function<std::string(std::uint64_t number)>;
-    // Is called in each child before its first piece; slot: which child, from 0.
+    // Called in each child before its first piece. slot: number of the child, from 0.
     using Begin = std::function<Work(std::size_t slot)>;
-    // The end of a piece in its child: the child came back; it crashed or took too long, as it would again; or somebody
-    // ended it, who may have had no memory left (SIGKILL, SIGTERM, SIGINT, SIGHUP).
+    // The end of a piece: the child reported back; it crashed or took too long, and would do so again; or
+    // someone ended it with SIGKILL, SIGTERM, SIGINT or SIGHUP, perhaps for lack of memory.
     enum class End { kCameBack, kCrashed, kWasEnded };
-    // Told of each piece, in the parent.
+    // Called in the parent at the end of each piece.
     using Done = std::function<void(std::uint64_t number, const std::string& problem, End end)>;
 
     WorkerPool(std::size_t workers, double time_limit_s, Begin begin);
@@ -33,9 +33,9 @@ class WorkerPool {
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    // Does all pieces, in about this order. It asks `stops` often; once that returns true, it ends the children and
-    // drops the pieces that they have not finished. Throws DeviceError when no child can be made, and InputError with
-    // the words that `begin` threw in a child. Owner thread.
+    // Does all pieces, in about this order. Calls `stops` often; once it returns true, ends the children and
+    // drops unfinished pieces. Throws DeviceError when no child can be made, and InputError with the message
+    // that `begin` threw in a child. Owner thread.
     void run(
         const std::vector<std::uint64_t>& numbers, const Done& done,
         const std::function<bool()>& stops = [] { return false; });
@@ -46,7 +46,7 @@ class WorkerPool {
         Fd line;
         std::uint64_t number = 0;  // 0: idle
         double begun_s = 0;
-        bool is_ready = false;  // it has begun; its time runs from then on
+        bool is_ready = false;  // true: has begun, and its time limit runs
         bool is_late = false;
     };
     double time_limit_s_;

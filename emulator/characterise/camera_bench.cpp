@@ -9,7 +9,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::uint64_t kSeed = 1288;
-// The plate stands one metre before the camera; its size follows from the field of view.
+// The plate is one metre in front of the camera, as large as the field of view requires.
 constexpr double kDistance_m = 1;
 
 MaterialConfig lambert(double albedo) {
@@ -18,7 +18,7 @@ MaterialConfig lambert(double albedo) {
     return material;
 }
 
-// Half the side of a square about the boresight that every pixel sees, guard band included [m].
+// Returns half the side of the square about the boresight that all pixels see, including the guard band [m].
 double half_side_m(const ImageGeometry& g) {
     double most = 0;
     for (int y = -g.guard_px; y <= g.height_px + g.guard_px; ++y)
@@ -37,7 +37,7 @@ double half_side_m(const ImageGeometry& g) {
 // Two rectangles in the plane z = kDistance_m that share the edge, facing the camera.
 SceneObject plates(const BenchTarget& target, const ImageGeometry& g, const SpectralGrid& grid) {
     const Vec3d middle = kDistance_m * g.direction_camera(0.5 * g.width_px, 0.5 * g.height_px);
-    // Large enough wherever the edge is.
+    // Large enough for every position of the edge.
     const double reach = 2 * half_side_m(g);
     const Vec3d along{std::sin(target.edge_tilt_rad), std::cos(target.edge_tilt_rad), 0};
     const Vec3d across{along.y, -along.x, 0};
@@ -53,7 +53,7 @@ SceneObject plates(const BenchTarget& target, const ImageGeometry& g, const Spec
     return object;
 }
 
-// Nothing but the lamp: bodies are out of the way.
+// A world with only the lamp; bodies are far away.
 WorldSnapshot empty_room() {
     WorldSnapshot world;
     for (std::size_t i = 0; i < kBodyCount; ++i) world.bodies[static_cast<BodyId>(i)].world_m = {1e15, 0, 0};

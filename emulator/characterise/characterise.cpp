@@ -11,16 +11,18 @@
 namespace hilcam {
 namespace {
 
-constexpr SensorSampling kSampling{16, 1, 1};  // nothing to resolve
+constexpr SensorSampling kSampling{16, 1, 1};  // the plate has no detail to resolve
 constexpr int kStackFrames = 64;               // L of section 8
-// Pixels times pairs of a level: variances are known to 0.2 %, and K from some twenty levels to 0.07 %.
+// Pixels times pairs for each level: variances are then known to 0.2 %, and K from some twenty levels to 0.07
+// %.
 constexpr double kLightPixels = 5e5;
-// Sigmas of a Gaussian; a share of 2e-9 lies beyond: none of 262,144 good pixels.
+// Limit in Gaussian sigmas; a share of 2e-9 is beyond it, none of 262,144 good pixels.
 constexpr double kDefectSigmas = 6;
-// Relative error of the dark current that the longest exposures' frames are counted for.
+// Wanted relative error of the dark current, which determines the number of frames at the longest exposures.
 constexpr double kDarkCurrentError = 0.004;
 constexpr int kMinDarkPairs = 4, kMaxDarkPairs = 256;
-// 1/25 to 0.92 of saturation for the curves, then by hundredths for the place where it begins.
+// Levels from 1/25 to 0.92 of saturation for the curves, then in steps of a hundredth to find where
+// saturation begins.
 constexpr int kLevels = 23;
 
 std::vector<double> level_fractions() {
@@ -61,7 +63,7 @@ std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {
     return a;
 }
 
-// The progress of the measurements; their shares of the whole time are those that inspector_1k takes.
+// Progress of the measurements, with shares of the whole time as measured with inspector_1k.
 class Phases {
   public:
     void begin(const std::string& name, double share) {
@@ -128,7 +130,7 @@ class Laboratory {
     }
     void expose_dark(double exposure_s, double gain_db) { bench_.expose({exposure_s, gain_db, {}, {}}, 0); }
 
-    // Pixels whose dark signal at short or long exposure, gain or temporal noise is far from all others'.
+    // Finds pixels with a dark signal, gain or temporal noise far from that of all others.
     void find_defects() {
         const auto mean_of = [&](int frames) {
             FrameStack stack(selection_);
@@ -161,13 +163,13 @@ class Laboratory {
             c.filters.low_pass_cy_px > 0 || c.filters.high_pass_cy_px > 0 || c.filters.boost > 0;
         const bool transfer = c.ccd.parallel_inefficiency > 0 || c.ccd.serial_inefficiency > 0;
         if (!filters && !transfer) return;
-        // Neighbours that a one-pole filter reaches to a thousandth; of charge that is late, what is so by
-        // two pixels is below a thousandth.
+        // Distance at which a one-pole filter has decayed to a thousandth. Late charge is below a thousandth
+        // after two pixels.
         const double fade =
             c.filters.low_pass_cy_px > 0 ? std::log(1000) / (2 * kPi * c.filters.low_pass_cy_px) : 0;
         const NoiseReach reach{filters ? std::clamp(static_cast<int>(std::ceil(fade)), 3, 32) : 2,
                                transfer ? 2 : 0};
-        // Noise `without` is left out of each pair's.
+        // The noise `without` is subtracted from that of each pair.
         const auto mean_of_pairs = [&](NoiseReach within, const NoiseSums& without) {
             constexpr int kPairs = kStackFrames;
             NoiseSums mean;
@@ -186,7 +188,7 @@ class Laboratory {
                          std::sqrt(std::max(0.0, square / kPairs - bandwidth * bandwidth) / (kPairs - 1))},
                 mean);
         };
-        // Noise of the reading comes after the transfer, which has not smoothed it.
+        // Read noise arises after the transfer, so the transfer has not smoothed it.
         NoiseSums reading;
         const LightLevel level = expose_share(0.6, setup_.gain_db);
         if (transfer) {
@@ -211,7 +213,7 @@ class Laboratory {
         for (const double share : level_fractions()) {
             LightLevel level = expose_share(share, gain_db);
             level.point.light = take_pairs(bench_, evenly_lit_, light_pairs_);
-            // Little noise: a few frames know the dark signal as well.
+            // Noise is low, so a few frames determine the dark signal equally well.
             expose_dark(level.exposure_s, gain_db);
             level.point.dark = take_pairs(bench_, evenly_lit_, (light_pairs_ + 3) / 4);
             out.push_back(level);
@@ -225,7 +227,7 @@ class Laboratory {
         for (const LightLevel& level : levels) out.push_back(level.point);
         return out;
     }
-    // K from levels of one gain; the noise that a filter took is given back.
+    // Returns K from levels at one gain, corrected for the noise that a filter removed.
     Measured gain_of(std::vector<LightPoint> points, const ResponseCurve& response,
                      double saturation_dn) const {
         Measured gain = small_signal_gain_dn_e(points, response, saturation_dn);
@@ -250,7 +252,7 @@ class Laboratory {
         const auto electrons = [&](double signal_dn) {
             return (small.value * response.photons(signal_dn) + response.offset_dn()) / k.value;
         };
-        // Found to the distance of two levels, a hundredth: uniform, 0.01 / sqrt 12.
+        // Saturation is found to the distance of two levels, a hundredth: a uniform error, 0.01 / sqrt 12.
         const double capacity_e = electrons(saturation_dn);
         out_.saturation_capacity_e = {capacity_e,
                                       capacity_e * std::hypot(relative(k), 0.01 / std::sqrt(12.0))};
@@ -266,7 +268,7 @@ class Laboratory {
 
     void measure_linearity(const std::vector<LightPoint>& points, double saturation_dn) {
         out_.linearity = linearity(response_points(points), saturation_dn);
-        // The same procedure on the data sheet's curve, at the same light and over the same range.
+        // Applies the same procedure to the data sheet's curve, at the same light and over the same range.
         std::vector<ResponsePoint> promised;
         promised.reserve(points.size());
         const double efficiency = configured_quantum_efficiency(setup_);
@@ -283,9 +285,9 @@ class Laboratory {
         const Stack dark = take_stack(bench_, selection_);
         Nonuniformity prnu = prnu_fraction(flat.frames, flat.temporal, dark.frames, dark.temporal, selection_,
                                            out_.shot_bandwidth);
-        // A response that bends shows gains enlarged or reduced by d ln(signal) / d ln(light); to the light
-        // belongs what comes in outside the exposure, unless it is a frame-transfer CCD's smear, which has the
-        // gains of the column's other pixels.
+        // A nonlinear response scales gain differences by d ln(signal) / d ln(light). Light that arrives
+        // outside the exposure counts, unless it is the smear of a frame-transfer CCD, which has the gains of
+        // the column's other pixels.
         const double signal_dn = flat.temporal.mean_dn.value - dark.temporal.mean_dn.value;
         const double photons = response.photons(signal_dn);
         const bool smears = setup_.camera.shutter.kind == ShutterKind::kFrameTransfer;
@@ -316,7 +318,7 @@ class Laboratory {
         const CameraModel& c = setup_.camera;
         const double dark_e = c.dark_current_now_e_s() * setup_.longest_s;
         const double gain = c.system_gain_dn_e(setup_.dark_gain_db);
-        // A mean over n pixels, less than that where rows have noise of their own.
+        // The mean is over n pixels, or fewer independent values where rows have noise of their own.
         const double noise_e2 = std::pow(c.dark_noise_e(), 2) + dark_e + 1 / (12 * gain * gain);
         const double mean_e2 = noise_e2 / static_cast<double>(selection_.count()) +
                                std::pow(c.row_noise_e, 2) / selection_.height;
@@ -326,7 +328,7 @@ class Laboratory {
         for (int i = 0; i <= kSteps; ++i) {
             const double exposure_s = setup_.shortest_s + (setup_.longest_s - setup_.shortest_s) * i / kSteps;
             expose_dark(exposure_s, setup_.dark_gain_db);
-            // The ends of the line decide its slope.
+            // The ends of the line determine its slope.
             const bool end = i == 0 || i == kSteps;
             out_.dark.push_back({exposure_s, take_pairs(bench_, selection_, end ? pairs : kMinDarkPairs)});
             if (setup_.longest_s <= setup_.shortest_s) break;
@@ -335,8 +337,8 @@ class Laboratory {
             out_.dark_current = dark_current_e_s(out_.dark, out_.dark_gain_dn_e, out_.read_bandwidth);
     }
 
-    // At the shortest exposure; where its noise does not cross the converter's steps, at one whose dark
-    // current brings enough of its own.
+    // Measures at the shortest exposure. If its noise does not span the converter's steps, uses an exposure
+    // at which dark current adds enough noise.
     void measure_dark_noise(TemporalStatistics brief) {
         constexpr double kEnough_dn2 = 0.5, kAim_dn2 = 0.6;
         const double gain = out_.dark_gain_dn_e.value;
@@ -348,7 +350,7 @@ class Laboratory {
             expose_dark(exposure_s, setup_.dark_gain_db);
             brief = take_stack(bench_, selection_).temporal;
         }
-        // Charge that is transferred loses some of its shot noise on the way.
+        // Charge loses some of its shot noise while it is transferred.
         const double dark_signal_dn =
             std::max(0.0, signal_dn_s * exposure_s) * out_.shot_bandwidth / out_.read_bandwidth;
         out_.dark_noise_e = dark_noise_e(brief, dark_signal_dn, out_.dark_gain_dn_e, out_.read_bandwidth);
@@ -358,7 +360,7 @@ class Laboratory {
     LabSetup setup_;
     PixelSelection selection_;
     CameraBench bench_;
-    PixelSelection evenly_lit_;  // for what depends on how much light there is
+    PixelSelection evenly_lit_;  // for figures that depend on the amount of light
     int light_pairs_ = 0;
     double photons_per_s_ = 0;
     double bandwidth_error_ = 0;  // relative

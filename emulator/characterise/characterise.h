@@ -1,8 +1,8 @@
 #pragma once
-// `hilcam characterise`: measures the emulated camera as a laboratory would, from its own frames through the
-// whole chain (camera_bench.h), after EMVA 1288 (sensor/measure/emva1288.h) and ISO 12233
-// (sensor/measure/slanted_edge.h), and sets the figures beside those of the data sheet. The result depends on
-// the camera file alone.
+// `hilcam characterise`: measures the emulated camera as a laboratory would, from frames that pass the whole
+// chain (camera_bench.h), by EMVA 1288 (sensor/measure/emva1288.h) and ISO 12233
+// (sensor/measure/slanted_edge.h). The results stand beside the data sheet's figures and depend only on the
+// camera file.
 
 #include <string>
 #include <vector>
@@ -20,25 +20,26 @@ struct LightLevel {
 
 struct Characterisation {
     LabSetup setup;
-    std::size_t pixels = 0, defects = 0;  // looked at; left out as defects
+    std::size_t pixels = 0, defects = 0;  // measured pixels; pixels excluded as defects
     std::uint64_t frames = 0;
 
     // Measurements with light.
     std::vector<LightLevel> light;
-    Measured standard_gain_dn_e, gain_dn_e;  // EMVA's one slope; of small signals
+    Measured standard_gain_dn_e, gain_dn_e;  // EMVA's single slope; slope for small signals
     Measured quantum_efficiency;
-    Measured saturation_capacity_e;  // at the greatest temporal variance
-    Measured full_well_e;            // full well, of strongly over-exposed frames
+    Measured saturation_capacity_e;  // charge at the largest temporal variance
+    Measured full_well_e;            // from strongly over-exposed frames
     Linearity linearity, configured_linearity;
-    double shot_bandwidth = 1;  // bandwidth of white noise, narrowed by charge transfer and filters
+    // Noise bandwidth: below 1 where charge transfer and filters narrow white noise.
+    double shot_bandwidth = 1;
     Nonuniformity prnu_fraction;
 
     // Measurements in the dark.
     std::vector<DarkPoint> dark;
-    Measured dark_gain_dn_e;  // at the gain of these frames
+    Measured dark_gain_dn_e;  // at the gain of the dark frames
     DarkCurrent dark_current;
     Measured dark_noise_e;
-    double read_bandwidth = 1;  // by filters
+    double read_bandwidth = 1;  // narrowed by filters
     Nonuniformity dsnu_e;
 
     MtfCurve horizontal, vertical;

@@ -9,16 +9,17 @@
 namespace hilcam {
 namespace {
 
-// Across the edge and along it. 256 rows are 22 cycles of an edge at 5 degrees over the pixel grid.
+// Size across and along the edge. In 256 rows, an edge at 5 degrees passes 22 pixels of the grid.
 constexpr int kAcross_px = 144, kAlong_px = 256;
 constexpr double kTilt_rad = 5 * kDegree_rad;
 constexpr double kBrightAlbedo = 0.8, kDarkAlbedo = 0.2;
 constexpr double kBright_fraction = 0.8;  // brightness of the bright plate as a share of saturation
-// Pixels of the radiance image to one of the detector: what is above the detector's Nyquist frequency is not
-// folded down before the MTF acts on it. And rays, so that an edge's steps on their grid stay below 0.001.
+// Eight radiance pixels across a detector pixel, so that frequencies above the detector's Nyquist are not
+// aliased before the MTF acts on them; and two rays, so that the steps of an edge on their grid stay below
+// 0.001.
 constexpr SensorSampling kFineSampling{16, 8, 2};
-// Noise of a calibrated pixel over the edge's step. The MTF at Nyquist is a mean over some ten thousand
-// pixels and errs by about the same number.
+// Noise of a calibrated pixel relative to the edge's step. The MTF at Nyquist is a mean over some ten
+// thousand pixels and has about the same error.
 constexpr double kPixelNoise = 7e-4;
 constexpr int kMinFrames = 16, kMaxFrames = 2048;
 
@@ -52,8 +53,8 @@ Picture take(CameraBench& bench, const Exposure& exposure, double filter, const 
     return {stack.mean_dn(), sum / static_cast<double>(selection.count())};
 }
 
-// Photons of each pixel, without what comes in while rows of a frame-transfer CCD pass: that is the same
-// whatever the exposure, and goes with the difference of two of them.
+// Photons of each pixel, without the light that arrives while rows of a frame-transfer CCD pass. That light
+// is the same for every exposure, so the difference of two exposures removes it.
 struct LightPicture {
     std::vector<double> photons;
     double variance = 0;  // variance of a pixel's mean
@@ -109,7 +110,7 @@ MtfCurve measure_mtf(const LabSetup& setup, const ResponseCurve& response, EdgeD
     const double tilt_rad = direction == EdgeDirection::kAlongRows ? kTilt_rad : kTilt_rad - kPi / 2;
     const double filter = kBright_fraction / kOverexposure / kBrightAlbedo;
 
-    // Shot noise of the bright plate over the step says how many frames it takes.
+    // The shot noise of the bright plate, relative to the step, determines the number of frames.
     const double bright_e = kBright_fraction * configured_saturation_e(s.camera, s.gain_db);
     const double step_e = bright_e * (1 - kDarkAlbedo / kBrightAlbedo);
     const double noise = std::hypot(std::sqrt(2.5 * bright_e), 3 * s.camera.dark_noise_e()) / step_e;
@@ -137,10 +138,10 @@ MtfCurve measure_mtf(const LabSetup& setup, const ResponseCurve& response, EdgeD
     for (std::size_t i = 0; i < value.size(); ++i)
         value[i] = selection.use[i] ? (edge.photons[i] - dark.photons[i]) / step[i] : 0;
 
-    // Near either side the calibration by that side's plate errs as the edge's picture does.
+    // Close to either side, the error of that side's plate is the same as that of the edge picture.
     const double pixel_noise =
         std::sqrt(edge.variance + std::max(bright.variance, dark.variance)) / mean_step;
-    // As far to either side as every row of the picture reaches.
+    // The distance to either side that every row of the picture reaches.
     const bool along_rows = direction == EdgeDirection::kAlongRows;
     const double across = along_rows ? selection.width : selection.height;
     const double along = along_rows ? selection.height : selection.width;
@@ -149,7 +150,7 @@ MtfCurve measure_mtf(const LabSetup& setup, const ResponseCurve& response, EdgeD
         slanted_edge_mtf({selection.width, selection.height, value, selection.use, pixel_noise},
                          {.step = 1, .half_width_px = reach_px});
     MtfCurve out{mtf.normal_rad, mtf.frequency_cy_px, {}, mtf.mtf, mtf.uncertainty};
-    // At zero frequency that is 1 by the calibration; the step near the edge is of the frequencies above.
+    // At zero frequency the calibration makes this 1; the step near the edge belongs to higher frequencies.
     out.measured.front() = 1, out.uncertainty.front() = 0;
     for (const double f : mtf.frequency_cy_px) {
         const double u = std::abs(f * std::cos(mtf.normal_rad)), v = std::abs(f * std::sin(mtf.normal_rad));

@@ -1,11 +1,12 @@
 #pragma once
-// The camera's MTF on the bench: slanted edges of contrast 4 : 1, 5 degrees from columns and rows.
+// Measures the camera's MTF on the bench, with slanted edges of contrast 4 : 1 at 5 degrees from columns and
+// rows.
 //
-// Every pixel is calibrated by frames of the two plates alone, (edge - dark plate) / (bright plate - dark
-// plate), each carried to a scale linear in light by the measured response: that takes out offsets, gains and
-// shading, and sets MTF = 1 at zero frequency to what large surfaces show. So a lens's veiling glare, which
-// takes contrast from everything but large surfaces, lowers the measured curve as it lowers the configured
-// one. Not resolved: what changes within 1/32 cycles/px, as a halo's curve does at its very beginning.
+// Frames of the two plates alone calibrate every pixel: (edge - dark plate) / (bright plate - dark plate),
+// each first made linear in light with the measured response. This removes offsets, gains and shading, and
+// normalises the MTF to 1 at zero frequency for large surfaces. A lens's veiling glare reduces the contrast
+// of everything but large surfaces, so it lowers the measured curve as it lowers the configured one. Changes
+// within 1/32 cycles/px are not resolved, such as the steep beginning of a halo's curve.
 
 #include <functional>
 #include <vector>
@@ -16,15 +17,16 @@
 namespace hilcam {
 
 struct MtfCurve {
-    double normal_rad = 0;  // direction in the image from +x towards +y; both curves are along it
+    double normal_rad = 0;  // direction of both curves in the image, from +x towards +y
     std::vector<double> frequency_cy_px, configured, measured, uncertainty;
 
     std::size_t nyquist() const;  // index of 0.5 cycles/px
 };
 
-// Edge near the columns (the MTF along the rows), or near the rows.
+// kAlongRows: an edge near the columns, which gives the MTF along the rows. kAlongColumns: an edge near the
+// rows.
 enum class EdgeDirection { kAlongRows, kAlongColumns };
-// told: is given the share of the work that is done, 0 to 1, now and then.
+// told: called now and then with the share of the work that is done, 0 to 1.
 MtfCurve measure_mtf(const LabSetup& setup, const ResponseCurve& response, EdgeDirection direction,
                      const DetectorPictures& pictures, const std::function<void(double)>& told);
 

@@ -31,7 +31,7 @@ json parts(const Nonuniformity& n) {
         {"total", part(n.total)}, {"row", part(n.row)}, {"column", part(n.column)}, {"pixel", part(n.pixel)}};
 }
 
-// Statistics of a picture over the window, in whose pixels it adds to what is drawn.
+// Statistics of a map over the window, added to what is drawn for each pixel.
 struct MapStatistics {
     double mean = 0, deviation = 0;
 };
@@ -48,10 +48,10 @@ MapStatistics statistics_of(const PixelMap& map, const CameraModel& c) {
     return {sum / n, std::sqrt(std::max(0.0, square / n - sum / n * (sum / n)))};
 }
 
-// A remainder below this, after its line is taken off a straight response, is rounding: none.
+// Removes a remainder that is only rounding after subtraction of the line.
 double without_rounding(double fraction) { return std::abs(fraction) < 1e-9 ? 0 : fraction; }
 
-// 101 cells over the range of what counts.
+// Makes 101 cells over the range of the pixels that count.
 json histogram(const std::vector<double>& image, double scale) {
     constexpr std::size_t kCells = 101;
     if (image.empty() || !(scale > 0)) return nullptr;
@@ -156,7 +156,8 @@ std::vector<SheetFigure> sheet_figures(const Characterisation& r, const Detector
     const double prnu = std::hypot(c.prnu_fraction, statistics_of(pictures.prnu, c).deviation);
     const double dsnu_e = std::hypot(c.dsnu_e, statistics_of(pictures.offset_e, c).deviation);
     const double linearity = without_rounding(r.configured_linearity.error_fraction.value);
-    // The lines of a line camera are all of one row of pixels: what differs from pixel to pixel are columns.
+    // All lines of a line camera come from one row of pixels, so differences between pixels appear as
+    // columns.
     const bool lines = c.shutter.kind == ShutterKind::kLineScan;
     const Measured threshold = absolute_threshold_e(r.dark_noise_e, r.gain_dn_e);
     const Measured threshold_made = absolute_threshold_e({noise_e, 0}, {gain, 0});

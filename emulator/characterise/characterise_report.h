@@ -1,5 +1,5 @@
 #pragma once
-// The report of `hilcam characterise`: JSON for scripts, a table for engineers, a folder with curves and a
+// Reports of `hilcam characterise`: JSON for scripts, a table for engineers, and a folder with curves and a
 // page.
 
 #include <filesystem>
@@ -11,26 +11,26 @@
 
 namespace hilcam {
 
-// A figure that the data sheet says and the laboratory measures.
+// A figure that the data sheet states and the laboratory measures.
 struct SheetFigure {
-    const char* key;    // in the JSON
-    const char* label;  // in the table; null: it is not there
-    const char* unit;   // in the table
-    double factor;      // from the figure to the table's unit
-    double configured;  // NaN or infinity where the data sheet gives none
+    const char* key;    // name in the JSON
+    const char* label;  // name in the table; null: not in the table
+    const char* unit;   // unit in the table
+    double factor;      // converts the figure to the table's unit
+    double configured;  // NaN or infinity when the data sheet gives no value
     Measured measured;  // measurement with one standard deviation
 };
 // Returns the figures in the table's order.
 std::vector<SheetFigure> sheet_figures(const Characterisation& result, const DetectorPictures& pictures);
 
-// Returns for each figure an object {configured, measured, uncertainty}, and curves as lists of objects. A
-// figure that the data sheet has no value for is configured null.
+// Returns an object {configured, measured, uncertainty} for each figure, and curves as lists of objects.
+// `configured` is null when the data sheet gives no value.
 nlohmann::json characterisation_json(const Characterisation& result, const DetectorPictures& pictures);
 std::string characterisation_table(const Characterisation& result, const DetectorPictures& pictures);
 
-// characterise.json, a CSV file for each curve, and index.html, which the program hilcam-plot-characterise
-// beside this one makes of the JSON. DeviceError when something cannot be written, or when that program fails
-// (Python 3 or Matplotlib missing): then the other files are there.
+// Writes characterise.json, a CSV file for each curve, and index.html, which the program
+// hilcam-plot-characterise in the same folder makes from the JSON. Throws DeviceError when a file cannot be
+// written or that program fails (Python 3 or Matplotlib missing); in the latter case the other files exist.
 void write_characterisation(const Characterisation& result, const DetectorPictures& pictures,
                             const std::filesystem::path& folder);
 

@@ -13,14 +13,15 @@ namespace hilcam {
 namespace {
 
 constexpr int kFlatWindow_px = 512;
-// A line camera's fixed pattern is one row of pixels: few columns would know it badly, and lines are cheap.
+// A line camera has one row of pixels: few columns would determine its fixed pattern badly, and lines are
+// cheap.
 constexpr int kLineWidth_px = 8192, kLines = 64;
-// Neighbours that a filter along the row or imperfect charge transfer needs before it has settled.
+// Pixels after which a filter along the row, or imperfect charge transfer, has settled.
 constexpr int kWindowMargin_px = 8;
-// Least noise of a dark pixel [DN] at which rounding adds 1/12 DN^2 to its variance: what is missing is of
-// the order exp(-2 pi^2 sigma^2) (Widrow, Kollar & Liu, IEEE Trans. Instrum. Meas. 45, 1996), here 6e-5.
+// Smallest noise of a dark pixel [DN] at which rounding adds 1/12 DN^2 to its variance. The error is of the
+// order exp(-2 pi^2 sigma^2) (Widrow, Kollar & Liu, IEEE Trans. Instrum. Meas. 45, 1996), here 6e-5.
 constexpr double kMinDarkNoise_dn = 0.7;
-// Share of saturation that the dark signal has at the longest exposure, where the response is straight yet.
+// Dark signal at the longest exposure as a share of saturation; the response is still straight there.
 constexpr double kMaxDark_fraction = 0.1;
 constexpr double kLine_um = 0.001;  // width of the lamp's line
 
@@ -39,7 +40,7 @@ double best_wavelength_um(const CameraModel& c, char letter) {
     for (const Curve* curve : {filter, static_cast<const Curve*>(&c.transmission)})
         if (curve)
             candidates.insert(candidates.end(), curve->wavelength_um.begin(), curve->wavelength_um.end());
-    // Constants have a place of their own, which says nothing about the others' range.
+    // Constant curves have one point, which does not limit the others' range.
     double max_transmission = 0;
     for (const double um : candidates)
         max_transmission = std::max(max_transmission, lens_transmission(c, um));
@@ -52,7 +53,7 @@ double best_wavelength_um(const CameraModel& c, char letter) {
     return best_um;
 }
 
-// About the boresight, or as near as the sensor lets it.
+// Returns a window about the boresight, or as close to it as the sensor allows.
 std::vector<double> central_window(const CameraModel& c, int width, int height) {
     const PixelRectangle given = window_of(c);
     const bool has_center = c.principal_point_px.size() == 2;
@@ -95,8 +96,8 @@ double peak_transmission(const CameraModel& c, char letter) {
     return filter ? *std::max_element(filter->value.begin(), filter->value.end()) : 1;
 }
 
-// Returns the filter that most pixels of the window have, of those that pass half as much light as its clearest: masks between strips
-// of filters pass none. 0: the camera has no filters.
+// Returns the most frequent filter in the window, among those that pass at least half as much light as the
+// clearest one, because masks between strips of filters pass none. 0: the camera has no filters.
 char most_frequent_filter(const CameraModel& c) {
     if (c.color_filter.pattern.empty()) return 0;
     const std::vector<std::string> rows = pattern_rows(c.color_filter.pattern);
@@ -140,7 +141,7 @@ void switch_off(LabSetup& s) {
     c.sequence.clear();
 }
 
-// Section 6.5: so that the noise's lower half is not cut off.
+// Raises the black level so that the lower half of the noise is not cut off (section 6.5).
 void set_black_level(LabSetup& s) {
     CameraModel& c = s.camera;
     const double gain = std::max(c.system_gain_dn_e(s.gain_db), c.system_gain_dn_e(s.dark_gain_db));
@@ -181,8 +182,8 @@ void choose_exposures(LabSetup& s) {
     s.shortest_s = min_s;
     s.longest_s = fixed ? 1e4 * min_s : max_s;
     if (dark_e_s > 0) s.longest_s = std::clamp(max_dark_e / dark_e_s, s.shortest_s, s.longest_s);
-    // Levels go down to 1/25 of the longest exposure; dark current stays a trifle; a frame-transfer CCD's
-    // rows pass the light in a small part of it.
+    // Levels go down to 1/25 of the longest exposure. Then dark current stays negligible, and the rows of a
+    // frame-transfer CCD pass the light in a small part of the exposure.
     s.by_light = max_s < 50 * min_s;
     double top_s = std::clamp(c.exposure_s, 30 * min_s, std::max(30 * min_s, max_s));
     if (c.shutter.kind == ShutterKind::kFrameTransfer)
@@ -240,7 +241,7 @@ PixelSelection lab_selection(const LabSetup& s) {
 
 namespace {
 
-// Calls visit(index of the pixel, relative illumination) for those that count.
+// Calls visit(index of the pixel, relative illumination) for the pixels that count.
 template <class Visit>
 void visit_light(const LabSetup& s, const PixelSelection& selection, const Visit& visit) {
     const RelativeIllumination lens(s.camera, geometry_of(s.camera, 0));
@@ -292,7 +293,8 @@ double configured_signal_dn(const CameraModel& c, double charge_e, double gain_d
 double configured_saturation_e(const CameraModel& c, double gain_db) {
     const double end_dn = configured_signal_dn(c, c.full_well_e, gain_db);
     double least = 0, most = c.full_well_e;
-    // The least charge that shows as much as a full well: signals rise with charge up to the converter's end.
+    // Finds the smallest charge with the reading of a full well; readings rise with charge up to the
+    // converter's end.
     for (int step = 0; step < 60; ++step) {
         const double middle = 0.5 * (least + most);
         (configured_signal_dn(c, middle, gain_db) < end_dn * (1 - 1e-12) ? least : most) = middle;

@@ -1,6 +1,6 @@
 #pragma once
-// The setup of a camera on the bench for `hilcam characterise`: the settings that a laboratory would choose,
-// and the light and exposure times that its measurements need. Follows from the data sheet alone.
+// Sets up a camera on the bench for `hilcam characterise`: the settings that a laboratory would choose, and
+// the light and exposure times that the measurements need. Everything follows from the data sheet.
 
 #include <string>
 #include <vector>
@@ -12,43 +12,45 @@ namespace hilcam {
 
 struct LabSetup {
     CameraModel camera;                // camera with window, binning, ... as set for the measurement
-    std::vector<std::string> remarks;  // settings made, for the report
-    double wavelength_um = 0.55;       // wavelength of the light: a line at the greatest quantum efficiency
+    std::vector<std::string> remarks;  // changed settings, for the report
+    double wavelength_um = 0.55;       // a narrow line at the greatest quantum efficiency
     SpectralGrid grid{{0.5495, 0.5505}};
-    char filter = 0;          // letter of the colour plane that is measured; 0: no filters
-    double gain_db = 0;       // gain of the measurements with light
-    double dark_gain_db = 0;  // gain of those in the dark: raised until noise crosses the converter's steps
-    double exposure_s = 0;    // at which half the filter's light or less saturates
-    bool by_light = false;    // levels by dimming the light, at that exposure; else by exposure time
-    double shortest_s = 0;    // in the dark
-    double longest_s = 0;     // in the dark, signal still small against saturation
-    double lamp_w_m2_um = 0;  // saturates kOverexposure times at exposure_s
+    char filter = 0;          // colour plane that is measured; 0: no colour filters
+    double gain_db = 0;       // gain for the measurements with light
+    double dark_gain_db = 0;  // gain in the dark, raised until the noise spans the converter's steps
+    double exposure_s = 0;    // at which less than half of the lamp's light saturates
+    bool by_light = false;    // true: levels by dimming the light at exposure_s; false: by exposure time
+    double shortest_s = 0;    // shortest exposure in the dark
+    double longest_s = 0;     // longest exposure in the dark; its signal is still far below saturation
+    double lamp_w_m2_um = 0;  // light that saturates kOverexposure times at exposure_s
 };
 inline constexpr double kOverexposure = 3;
 
 LabSetup lab_setup(const CameraModel& camera);
 
-// A line camera takes as many lines as one wants; map files fix its size.
+// Sets the number of lines of a line camera, which is free unless map files fix it.
 void require_lines(CameraModel& camera, int lines);
 
-// Returns which pixels of the window count: without black ones and without a margin where what lies outside
-// the window is missing; of one colour filter.
+// Returns the pixels of the window that count: one colour filter's, without black pixels, and without the
+// margin that lacks light from outside the window.
 PixelSelection lab_selection(const LabSetup& setup);
 
-// Those of them that the lens lights within one percent of the brightest (section 5.2 asks for 3 %): others
-// would not saturate together.
+// Keeps the pixels that the lens lights within 1 % of the brightest one (EMVA 1288, section 5.2, asks for 3
+// %); others would not saturate together.
 PixelSelection evenly_lit(const LabSetup& setup, PixelSelection selection);
 
-// Photons a second on the light-sensitive area of a mean pixel of the selection, from the lamp's radiance on
-// the white plate: L dlambda A (pitch/f)^2 fill T lambda / (h c), with the lens's relative illumination.
+// Returns the photons per second on the light-sensitive area of a mean pixel of the selection, for the lamp's
+// radiance on the white plate: L dlambda A (pitch/f)^2 fill T lambda / (h c), times the lens's relative
+// illumination.
 double photons_per_s(const LabSetup& setup, const PixelSelection& selection);
 
 // --- what the data sheet promises
-// Electrons per photon at the wavelength, the colour filter's transmission included.
+// Returns electrons per photon at the wavelength, including the colour filter's transmission.
 double configured_quantum_efficiency(const LabSetup& setup);
-// Returns what the converter shows of a charge, without black level [DN]: gain, nonlinearity, integral error.
+// Returns the converter's signal for a charge, without the black level [DN]: gain, nonlinearity, integral
+// error.
 double configured_signal_dn(const CameraModel& camera, double charge_e, double gain_db);
-// The lesser of the full well and the charge at the converter's end [e-].
+// Returns the full well or the charge at the converter's end, whichever is smaller [e-].
 double configured_saturation_e(const CameraModel& camera, double gain_db);
 
 }  // namespace hilcam

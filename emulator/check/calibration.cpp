@@ -14,7 +14,7 @@ std::string list(std::span<const double> numbers) { return fmt::format("[{}]", f
 
 bool is_fisheye(const CameraCalibration& c) { return c.distortion.projection == Projection::kFisheye; }
 
-// Coefficients stand as OpenCV orders them.
+// Coefficients are in OpenCV's order.
 std::vector<double> coefficients(const CameraCalibration& c) {
     const LensDistortion& d = c.distortion;
     if (is_fisheye(c)) return {d.k1, d.k2, d.k3, d.k4};
@@ -37,7 +37,7 @@ std::array<double, 9> rows_of(const Mat3d& m) {
     return {m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z};
 }
 
-// Puts a text between double quotes, as YAML and JSON have it; names may be any text.
+// Puts a text in double quotes by the rules of YAML and JSON; names may be any text.
 std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
@@ -47,7 +47,7 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-// A name as ROS takes it: letters, digits, underscores.
+// Returns a name that ROS accepts: letters, digits, underscores.
 std::string plain_name(const CameraCalibration& c) {
     std::string out;
     for (const char ch : c.name) {
@@ -75,8 +75,8 @@ std::string opencv_camera(const CameraCalibration& c, const std::string& indent)
     return out + opencv_matrix(indent, "distortion_coefficients", static_cast<int>(d.size()), d);
 }
 
-// One camera as OpenCV's samples write it; of several each has a map of its own, with R and T as
-// stereoCalibrate() gives them.
+// Writes one camera as OpenCV's samples do. With several cameras, each has its own map, with R and T as from
+// stereoCalibrate().
 std::string opencv_text(std::span<const CameraCalibration> cameras) {
     std::string out = "%YAML:1.0\n---\n";
     if (cameras.size() == 1) return out + opencv_camera(cameras.front(), "");
@@ -97,7 +97,8 @@ std::string ros_matrix(const char* key, int rows, std::span<const double> number
                        numbers.size() / static_cast<std::size_t>(rows), list(numbers));
 }
 
-// sensor_msgs/CameraInfo: K of the raw picture, R and P of a rectified one, which is this camera's own.
+// Writes sensor_msgs/CameraInfo: K for the raw picture, R and P for a rectified one, which is the camera's
+// own picture.
 std::string ros_text(std::span<const CameraCalibration> cameras) {
     if (cameras.size() > 1)
         throw InputError(fmt::format(
@@ -139,7 +140,7 @@ std::string kalibr_text(std::span<const CameraCalibration> cameras) {
         out +=
             fmt::format("  resolution: [{}, {}]\n  rostopic: /cam{}/image_raw\n", c.width_px, c.height_px, i);
         if (i == 0) continue;
-        // From the camera before.
+        // Relative to the previous camera.
         const CameraCalibration& before = cameras[i - 1];
         const Mat3d r = c.own_from_first * transposed(before.own_from_first);
         const Vec3d t = c.translation_m - r * before.translation_m;

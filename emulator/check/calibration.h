@@ -1,13 +1,13 @@
 #pragma once
-// `hilcam check --calibration`: the cameras as programs of computer vision take them: a pinhole with its
-// distortion, and where each camera sits beside the first that is told.
+// `hilcam check --calibration`: writes cameras for computer-vision programs, as a pinhole with distortion and
+// its pose relative to the first camera written.
 //
-// Those programs count pixels from the middle of the first one, which is (0, 0) for them and (0.5, 0.5) here:
-// the principal point is told smaller by half a pixel. Axes are the same, +x right, +y down, +z along the
-// boresight, and so are the polynomials of distortion (render/vocabulary/image_geometry.h). The frame is the
-// camera's own, with its black columns and rows, binned as its file says, not mirrored.
+// Those programs put (0, 0) at the centre of the first pixel, which is (0.5, 0.5) here, so the written
+// principal point is smaller by half a pixel. Axes are the same (+x right, +y down, +z along the boresight),
+// and so are the distortion polynomials (render/vocabulary/image_geometry.h). The frame is the camera's own:
+// with black columns and rows, binned as the file says, not mirrored.
 //
-// Not told: what changes with time or wavelength, and a rolling shutter's rows.
+// Not written: what depends on time or wavelength, and the row times of a rolling shutter.
 
 #include <cstddef>
 #include <span>
@@ -26,24 +26,25 @@ enum class CalibrationFormat {
 };
 
 struct CameraCalibration {
-    std::size_t number = 1;  // on the bench, from 1
+    std::size_t number = 1;  // number on the bench, from 1
     std::string name;
     int width_px = 0, height_px = 0;
     Vec2d focal_length_px;
-    Vec2d principal_point_px;  // the middle of the first pixel is (0, 0)
+    Vec2d principal_point_px;  // in px; (0, 0) is the centre of the first pixel
     LensDistortion distortion;
-    // Rotation from the axes of the first camera that is told: p_own = rotation * p_first + translation_m.
+    // Transforms points from the axes of the first camera written: p_own = own_from_first * p_first +
+    // translation_m.
     Mat3d own_from_first;
     Vec3d translation_m;
 };
 
-// camera: the one to tell, from 1; 0: all of the scenario. InputError where a camera is no pinhole, or where
-// one rides on something else than the first that is told.
+// camera: which camera, from 1; 0: all cameras of the scenario. Throws InputError when a camera is not a
+// pinhole, or when it rides on another object than the first one.
 std::vector<CameraCalibration> calibrations_of(const ScenarioConfig& scenario, std::size_t camera);
-// A camera's file alone.
+// Returns the calibration of a camera file alone.
 CameraCalibration calibration_of(const CameraModel& camera);
 
-// InputError where the format has no place for what a camera does, or for more than one camera.
+// Throws InputError when the format cannot express a camera's model, or more than one camera.
 std::string calibration_text(std::span<const CameraCalibration> cameras, CalibrationFormat format);
 
 }  // namespace hilcam

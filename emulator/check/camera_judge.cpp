@@ -13,17 +13,18 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// Sensors of cameras hold thousands.
+// Full wells of camera sensors are in the thousands.
 constexpr double kMinWell_e = 500;
-// Designers let the converter end near the full well; a gain at power-up may leave a tenth of it.
+// Designers let the converter end near the full well; the gain at power-up may leave a tenth of it.
 constexpr double kMinShare = 0.02;
-// A black level is a few percent of the converter's end; above this little is left for light.
+// A black level is usually a few percent of the converter's range; with more than this, little is left for
+// light.
 constexpr double kMaxBlackShare = 0.5;
-// Pixels of silicon: telephones have 0.6 um, infrared arrays 30.
+// Pixel pitches of silicon: telephones have 0.6 um, infrared arrays 30.
 constexpr double kPitch_um[] = {0.5, 40};
-// The largest telescope for looking down from space is smaller, pinholes of telephones are larger.
+// The largest space telescope that looks down is smaller than this, and pinholes of telephones are larger.
 constexpr double kWidestLens_m = 1.5, kNarrowestLens_m = 0.1e-3;
-// Below black a Gaussian has 0.13 % of its values beyond three standard deviations.
+// Three standard deviations: a Gaussian has 0.13 % of its values below that.
 constexpr double kSigmasBelowBlack = 3;
 
 void judge_well(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
@@ -70,8 +71,8 @@ void judge_black(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     const double noise_dn = std::hypot(s.dark_shot_e, s.camera.dark_noise_e()) * s.gain_dn_e;
     const double black_dn = s.camera.offset_dn + s.dark_e_s * s.exposure_s * s.gain_dn_e;
     if (black_dn + 0.5 >= kSigmasBelowBlack * noise_dn) return;
-    // The mean of max(n, 0), n a Gaussian about black with this sigma, is above black by
-    // sigma (phi(x) - x Phi(-x)), x = black / sigma: the integral of -n over n < 0.
+    // The mean of max(n, 0), for a Gaussian n about black with this sigma, exceeds black by sigma (phi(x) - x
+    // Phi(-x)), x = black / sigma: the integral of -n over n < 0.
     const double x = black_dn / noise_dn;
     const double rise_dn =
         noise_dn * (std::exp(-0.5 * x * x) / std::sqrt(2 * kPi) - 0.5 * x * std::erfc(x / std::sqrt(2.0)));

@@ -1,6 +1,6 @@
 #pragma once
-// Finds what is probably not meant in a camera's file in which nothing is out of range: a full well in
-// thousands of electrons, a gain a hundred times too high, a black level that cuts off the noise in the dark.
+// Finds probable mistakes in a camera file where every value is within its range: a full well in thousands of
+// electrons, a gain a hundred times too high, a black level that cuts off dark noise.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace hilcam {
 
-// A line each, with the key and its place. keeps_rate: frames come at the camera's frame rate, and are not asked for.
+// Returns one line for each, with the key and its place. keeps_rate: frames come at the camera's own rate,
+// not on request.
 std::vector<std::string> judge_camera(const CameraSheet& sheet, bool keeps_rate, const KeyPlaces& places);
 
 }  // namespace hilcam

@@ -21,7 +21,7 @@ double sum_of(const Spectrum& a, const Spectrum& b) {
     return sum;
 }
 
-// Returns the grid that all the camera's curves cover; a constant covers silicon's range.
+// Returns the grid that all of the camera's curves cover; constants cover silicon's range.
 SpectralGrid own_grid(const CameraModel& c) {
     double from_um = 0.40, to_um = 0.95;
     bool any = false;
@@ -57,7 +57,7 @@ void set_geometry(const CameraModel& c, CameraSheet& s) {
 
 constexpr int kSide_px = 64;
 
-// The middle of its field only, all pixels alike.
+// Returns the camera at the centre of its field, with all pixels alike.
 CameraModel middle_of(const CameraModel& camera) {
     CameraModel c = camera;
     c.dark_current_e_s = 0;
@@ -73,7 +73,8 @@ CameraModel middle_of(const CameraModel& camera) {
     return c;
 }
 
-// The middle pixel's and its 3 x 3 neighbourhood's share of a point's electrons, by the camera's own chain.
+// Computes the shares of the central pixel and of 3 x 3 pixels in a point's electrons, with the camera's own
+// chain.
 void set_point_shares(const CameraModel& camera, const SpectralGrid& grid, CameraSheet& s) {
     CameraModel c = middle_of(camera);
     c.color_filter = {};
@@ -81,7 +82,7 @@ void set_point_shares(const CameraModel& camera, const SpectralGrid& grid, Camer
     PointSource star;
     star.position_px = {kSide_px / 2 + 0.5f, kSide_px / 2 + 0.5f};
     const Spectrum per_irradiance = electrons_per_s_per_irradiance(c, grid);
-    constexpr float kElectrons = 1e6f;  // far above what the PSF leaves out
+    constexpr float kElectrons = 1e6f;  // so many that what the PSF leaves out does not matter
     float response = 0;
     for (int b = 0; b < grid.size(); ++b) response += per_irradiance[b];
     for (int b = 0; b < grid.size(); ++b) star.irradiance_w_m2_um[b] = kElectrons / response;

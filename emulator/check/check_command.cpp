@@ -55,7 +55,7 @@ std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
                           "(loop.wait_for_light)");
 }
 
-// Says what telling the truth of frames computes, and why.
+// Says what has to be computed for the truth of frames, and why.
 std::string truth_line(const ScenarioConfig& s) {
     const auto* truth = s.outputs.find<TruthConfig>();
     if (!truth) return {};
@@ -69,7 +69,8 @@ std::string truth_line(const ScenarioConfig& s) {
     return out;
 }
 
-// The line says how light from beside the picture becomes glare, how much of it there is now, and how long it takes to find.
+// Says how light from outside the picture becomes glare, how much of it there is, and how long it takes to
+// compute.
 std::string outside_line(const ScenarioConfig& s, ExposureRenderer& exposures) {
     if (!s.camera.outside_light) return {};
     std::vector<SideLight> lights;
@@ -128,9 +129,9 @@ std::vector<std::string> governor_lines(ScenarioConfig s) {
     return out;
 }
 
-// Makes of a camera what a run makes before it opens ports and devices, and as a run makes it: what is wrong
-// with any of it is said. What the machine may not have at the moment is a warning: GigE Vision's interface,
-// and folders that are free.
+// Makes everything of a camera that a run makes before it opens ports and devices, in the same way, so that
+// its errors show. Temporary faults of the machine are only warnings: the interface of GigE Vision, and used
+// folders.
 std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t index,
                                             const SpectralGrid& grid) {
     ScenarioConfig own = scenario_of_camera(s, index);
@@ -143,7 +144,7 @@ std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t
     return station;
 }
 
-// memory_mb: gets what the process has while the camera is loaded.
+// memory_mb: receives the memory of the process while the camera is loaded.
 CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid,
                        const Pose& first_camera, std::vector<std::string>& about_objects, double& memory_mb) {
     const ScenarioConfig s = scenario_of_camera(bench, index);
@@ -202,7 +203,7 @@ CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
     };
     const Pose first_camera = snapshot_at(s, out.time, out.time).camera;
     std::vector<std::string> about_objects;  // the same for every camera
-    // One after the other: the scene of each is large.
+    // One camera after the other, because each scene is large.
     for (std::size_t i = 0; i < out.cameras; ++i) {
         if (camera != 0 && camera != i + 1) continue;
         double memory_mb = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// `hilcam check`: is the scenario right, what will be computed and why, what kind of camera is it.
+// `hilcam check`: whether a scenario is right, what will be computed and why, and which properties a camera
+// has.
 
 #include <span>
 #include <string>
@@ -9,17 +10,17 @@
 
 namespace hilcam {
 
-// Loads everything the scenario names, camera after camera. camera: the one to look at, from 1; 0: all.
-// Nothing of what it renders is kept. Throws InputError, DeviceError.
+// Loads everything that the scenario names, camera after camera. camera: which one, from 1; 0: all. Rendered
+// frames are discarded. Throws InputError, DeviceError.
 CheckReport check_scenario(const ScenarioConfig& scenario, std::size_t camera = 0);
 
-// A camera's file alone, told by its key pitch_um.
+// True for a camera file, which the key pitch_um identifies.
 bool is_camera_file(const std::filesystem::path& file);
 struct Checked {
     std::string text;  // for people, or JSON
     bool has_warnings = false;
 };
-// Its data sheet, after what is probably not meant in it. Throws InputError.
+// Returns the camera's data sheet, preceded by probable mistakes in its file. Throws InputError.
 Checked check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
                      bool json = false);
 

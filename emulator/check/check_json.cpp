@@ -103,7 +103,7 @@ Json sheet_of(const CameraSheet& s) {
             {"faintest_magnitude_v", s.faintest_magnitude}};
 }
 
-// Names may be any bytes: what is no UTF-8 is replaced.
+// Replaces invalid UTF-8, because names may be any bytes.
 std::string dumped(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -10,17 +10,17 @@
 namespace hilcam {
 namespace {
 
-// No spacecraft is as long, but the file of one in millimetres is.
+// Longer than any spacecraft [m], but not than a file in millimetres.
 constexpr double kLongest_m = 500;
-// An object that is smaller, and covers no pixel, is likely to have been scaled twice.
+// A smaller object that covers no pixel was probably scaled twice [m].
 constexpr double kShortest_m = 0.05;
-// Most of a constellation's objects are elsewhere.
+// Most objects of a constellation are elsewhere, so only this many are named.
 constexpr std::size_t kMaxTold = 10;
-// An object that is so much larger than the field is seen as a piece of its skin.
+// An object this many times larger than the field appears as a piece of its surface.
 constexpr double kFillsFields = 20;
-// Share of full scale below which a picture is dark to the eye.
+// Share of full scale below which a picture looks dark.
 constexpr double kDim = 0.02;
-// Less of the Sun than this is an eclipse, less of the disk lit than this is its night side.
+// A smaller share of the Sun is an eclipse; a smaller lit share of the disk is its night side.
 constexpr double kDark = 0.02;
 
 std::string size_text(Vec3d size_m) {
@@ -37,14 +37,15 @@ std::string longest_advice(const SeenObject& o) {
     return "; the file is probably in millimetres: scale: 0.001";
 }
 
-// Poses and angles are of the origin of a mesh, which may lie far beside it.
+// Poses and angles refer to the origin of a mesh, which may be far from the mesh itself.
 std::string origin_advice(const SeenObject& o) {
     const double off_m = length(0.5 * (o.loaded.min_m + o.loaded.max_m));
     if (!(off_m > length(o.loaded.max_m - o.loaded.min_m))) return "";
     return fmt::format("; that is its origin, and the middle of its mesh is {:.4g} m from there", off_m);
 }
 
-// Tells of objects of which the picture has one detail: a focal length in other units, a place that is too near.
+// Warns when the picture shows only a detail of an object: the focal length may have another unit, or the
+// place may be too close.
 void judge_filling(const SeenObject& o, const CameraReport& camera, std::vector<std::string>& out) {
     constexpr double kAll = 0.999;
     const double fields = 2 * o.angular_radius_rad / camera.sheet.field_diagonal_rad;
@@ -86,7 +87,7 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
         out.push_back(fmt::format("{} is {} large, {:.2g} pixels from {:.4g} m: is its scale too small?",
                                   name, size_text(o.loaded.max_m - o.loaded.min_m), o.silhouette_px,
                                   o.distance_m));
-    // An asteroid is as large, and is looked at from farther away than that.
+    // An asteroid has that size, too, but is seen from farther away.
     if (const std::string advice = longest_advice(o); !advice.empty() && o.distance_m < longest_m(o))
         out.push_back(fmt::format("{} is {} large and {:.4g} m away{}", name,
                                   size_text(o.loaded.max_m - o.loaded.min_m), o.distance_m, advice));
@@ -136,8 +137,8 @@ void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraRepor
         out.push_back(s.places.at("camera.exposure_ms", name + " " + fault));
 }
 
-// Warns when the lit ground at the boresight would be far too bright or too dark. The estimate has neither air nor
-// clouds, so the bounds are wide.
+// Warns when the lit ground at the boresight would be far too bright or too dark. The bounds are wide,
+// because the estimate ignores air and clouds.
 void judge_ground(const ScenarioConfig& s, const CameraReport& camera, std::vector<std::string>& out) {
     const std::optional<GroundSight>& ground = camera.sight.ground;
     constexpr double kHigh_rad = 10 * kDegree_rad;

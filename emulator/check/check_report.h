@@ -19,13 +19,13 @@ struct CameraReport {
     FirstSight sight;
     CameraSheet sheet;
     double share_in_bins = 0;
-    double period_s = 0;  // from frame to frame; 0: frames are asked for
+    double period_s = 0;  // time between frames; 0: frames come on request
     std::optional<FrameTime> frame_time;
-    std::vector<std::string> plan;  // a line each, with its reason
+    std::vector<std::string> plan;  // one line for each decision, with its reason
 
-    // A frame took longer on this machine than it has. Not a warning: it depends on what else the machine
-    // did. Both stages share the cores, also where one frame's rendering overlaps the sensing of the one
-    // before.
+    // True when rendering and sensing one frame took longer on this machine than the frame period. Not a
+    // warning, as it depends on the machine's other load. The times are added because both stages share the
+    // cores, even while one frame is rendered and the previous one sensed.
     bool is_late() const {
         return frame_time && period_s > 0 && frame_time->render_ms + frame_time->sensor_ms > 1e3 * period_s;
     }
@@ -34,17 +34,17 @@ struct CameraReport {
 struct CheckReport {
     std::string scenario;
     TimeTai time;
-    std::size_t cameras = 1;            // cameras of the bench; those asked for are below
-    std::vector<std::string> warnings;  // remarks on what is probably not meant, a line each
+    std::size_t cameras = 1;            // cameras of the bench; `reports` has those asked for
+    std::vector<std::string> warnings;  // probable mistakes, one line each
     std::vector<CameraReport> reports;
-    std::vector<std::string> maps;  // readings of the maps, a line each
+    std::vector<std::string> maps;  // readings of the maps, one line each
     std::vector<std::string> run;   // seed, loop, governor
-    double memory_mb = 0;           // memory with the last camera loaded; 0: not known
+    double memory_mb = 0;           // memory in use with the last camera loaded; 0: unknown
 };
 
 std::string to_text(const CheckReport& report);
 std::string to_json(const CheckReport& report);
-// A camera's data sheet, and what is probably not meant in it.
+// Returns a camera's data sheet with the probable mistakes in its file.
 std::string to_json(const CameraSheet& sheet, const std::vector<std::string>& warnings);
 
 }  // namespace hilcam

@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kMaxObjects = 50;
-constexpr std::size_t kMaxSurfaces = 20;  // that are listed; `hilcam mesh` has all
+constexpr std::size_t kMaxSurfaces = 20;  // number listed; `hilcam mesh` lists all
 
 std::string place_text(const SeenObject& o) {
     switch (o.place) {
@@ -70,16 +70,16 @@ void add_object(const SeenObject& o, std::size_t number, const CameraSheet& shee
     add_surfaces(o.loaded, out);
 }
 
-// Rounds away the length that rounding leaves where two bodies' axes agree.
+// Rounds to 1e-9 m, which removes rounding errors where two bodies' axes agree.
 double to_a_nanometre(double length_m) { return std::round(length_m * 1e9) / 1e9 + 0.0; }
 
-// Rounded, and not to 360: "359.998" as 0.00.
+// Rounds, and writes a full turn as 0: "359.998" becomes "0.00".
 std::string turn_text(double rad, int decimals) {
     const double steps = std::pow(10.0, decimals);
     return fmt::format("{:.{}f}", std::fmod(std::round(degrees(rad) * steps) / steps, 360) + 0.0, decimals);
 }
 
-// Metres, and kilometres where they are many.
+// Writes metres, or kilometres for large lengths.
 std::string length_text(double length_m) {
     return length_m < 1e4 ? fmt::format("{:.4g} m", length_m) : fmt::format("{:.5g} km", length_m * 1e-3);
 }
@@ -97,7 +97,7 @@ void add_ground(const GroundSight& g, const CameraSheet& sheet, std::string& out
                    : "");
 }
 
-// A data sheet is printed once: `earlier` have been.
+// Prints each data sheet once. earlier: cameras that have been printed.
 void add_sheet(const CameraReport& c, std::span<const CameraReport> earlier, std::string& out) {
     const std::string sheet = to_text(c.sheet);
     for (const CameraReport& other : earlier)

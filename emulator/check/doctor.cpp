@@ -20,7 +20,7 @@ class Findings {
     void problem(std::string topic, std::string found, std::string advice) {
         add(Level::kProblem, topic, found, std::move(advice));
     }
-    // A part that is needed and lacks is a problem; one that is not needed is worth a note.
+    // A missing part is a problem if the scenario needs it, otherwise a note.
     void lacking(bool needed, std::string topic, std::string found, std::string advice) {
         add(needed ? Level::kProblem : Level::kNote, topic, found, std::move(advice));
     }
@@ -34,7 +34,7 @@ class Findings {
 };
 
 constexpr double kMegabyte = 1e6;
-constexpr std::uint64_t kLoopPriority = 50;  // room for the loop's threads below the kernel's own
+constexpr std::uint64_t kLoopPriority = 50;  // leaves room for the loop's threads below the kernel's own
 
 void look_at_processor(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
     const std::string cores = fmt::format("{} cores, Linux {}", m.cores, m.kernel);
@@ -57,7 +57,7 @@ void look_at_processor(const BenchNeeds& n, const MachineFacts& m, Findings& out
         out.good("real-time rights", m.root ? "root" : fmt::format("rtprio limit {}", m.realtime_priority));
 }
 
-// The kernel's means that keep the readers of meshes, pictures and maps, should a file break one of them.
+// The kernel's means that confine readers of meshes, pictures and maps in case a file exploits one of them.
 void look_at_confinement(const MachineFacts& m, Findings& out) {
     const std::string found = (m.confinement.landlock > 0 ? fmt::format("Landlock {}", m.confinement.landlock)
                                                           : std::string("no Landlock")) +
@@ -87,8 +87,8 @@ void look_at_interface(const BenchNeeds::Gige& need, const InterfaceFacts& i, co
         out.good("gige port", "UDP 3956 is free");
     else
         out.problem("gige port", i.port_fault, "one GigE Vision device fits on an address");
-    // A client on this machine wants room for two frames; the kernel counts some 768 bytes more than a packet
-    // has.
+    // A client on this machine needs buffer space for two frames; the kernel counts some 768 bytes more than
+    // each packet has.
     const double each = static_cast<double>(std::max<std::int64_t>(1, need.packet_bytes));
     const double wanted = 2 * need.frame_bytes * (1 + 768 / each);
     const std::string room = fmt::format("receive {:.1f} MB, send {:.1f} MB at most",
@@ -264,7 +264,7 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
             needs.v4l2.push_back(
                 {v4l2->device, v4l2->format == V4l2Format::kBayer10 || v4l2->format == V4l2Format::kBayer12});
         if (const auto* uvc = o.find<UvcConfig>()) needs.uvc.push_back({uvc->udc});
-        // GigE Vision's port is looked at with its interface.
+        // The port of GigE Vision is checked together with its interface.
         for (const ListeningPort& own : listening(o))
             if (own.tcp && own.port != 0) port(own.key, own.address, own.port, true);
     }

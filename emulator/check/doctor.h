@@ -1,6 +1,6 @@
 #pragma once
-// `hilcam doctor`: what a bench needs against what this machine has, and what to do about the difference.
-// Pure: doctor_facts.h looks at the machine.
+// `hilcam doctor`: compares what a bench needs with what this machine has, and says what to do about the
+// difference. Pure functions; doctor_facts.h looks at the machine.
 
 #include <cstdint>
 #include <string>
@@ -21,7 +21,7 @@ struct BenchNeeds {
     };
     struct V4l2 {
         std::string device;
-        bool wide_bayer = false;  // a mosaic of more than 8 bits
+        bool wide_bayer = false;  // Bayer frames of more than 8 bits
     };
     struct Uvc {
         std::string udc;
@@ -31,7 +31,7 @@ struct BenchNeeds {
         std::string key, endpoint;
         bool tcp = false;
     };
-    // One for each camera that has such an output.
+    // One entry for each camera with such an output.
     std::vector<Gige> gige;
     std::vector<V4l2> v4l2;
     std::vector<Uvc> uvc;
@@ -43,46 +43,46 @@ BenchNeeds needs_of(const ScenarioConfig& scenario);
 struct VideoDevice {
     std::string path;
     std::string label;
-    bool loopback = false;  // it is a device of v4l2loopback
+    bool loopback = false;  // a v4l2loopback device
     bool openable = false;  // by this user
     bool takes_frames = false;
     bool exclusive_caps = false;
-    int buffers = 0;  // that go round now; 0: not told
+    int buffers = 0;  // buffers in use now; 0: unknown
 };
 
 struct InterfaceFacts {
-    std::string fault;  // why it is not there; then nothing else is known
+    std::string fault;  // why the interface cannot be used; other members are then unknown
     std::string name;
     std::uint32_t mtu_bytes = 0;
     bool multicast = true;
-    std::string port_fault;  // why UDP 3956 cannot be had
+    std::string port_fault;  // why UDP port 3956 cannot be used
 };
 
 struct MachineFacts {
     // Processor and rights.
     int cores = 1;
-    std::string governor;                 // governor of the first core; empty: not told
+    std::string governor;                 // the first core's; empty: unknown
     std::uint64_t realtime_priority = 0;  // RLIMIT_RTPRIO
     std::uint64_t memory_lock_bytes = 0;  // RLIMIT_MEMLOCK
     bool root = false;
-    std::string kernel;  // release
+    std::string kernel;  // kernel release
     Confinement confinement;
     // Network.
     std::uint64_t receive_buffer_bytes = 0, send_buffer_bytes = 0;  // net.core.rmem_max, wmem_max
-    std::vector<InterfaceFacts> interfaces;                         // for each of BenchNeeds::gige
-    std::vector<std::string> port_faults;  // faults of BenchNeeds::ports; empty: it can be had
+    std::vector<InterfaceFacts> interfaces;                         // one for each entry of BenchNeeds::gige
+    std::vector<std::string> port_faults;  // one for each entry of BenchNeeds::ports; empty: the port is free
     bool aravis_tools = false;
     // V4L2.
     LoopbackModule loopback;
-    bool loopback_installed = false;  // modprobe would find it
+    bool loopback_installed = false;  // modprobe finds the module
     std::vector<VideoDevice> video;
     // USB.
-    std::vector<std::string> controllers;  // for being a device
+    std::vector<std::string> controllers;  // USB device controllers
     bool configfs = false;
     int usb_devices = 0, usb_openable = 0;
-    // Remains of earlier runs (io/cache/cache.h).
-    std::string cache;        // empty: there is no folder for them
-    std::string cache_fault;  // why it cannot be trusted; empty: it can
+    // Files kept from earlier runs (io/cache/cache.h).
+    std::string cache;        // empty: no folder for them exists
+    std::string cache_fault;  // why the cache cannot be trusted; empty: it can
     std::size_t cache_files = 0;
     std::uint64_t cache_bytes = 0, cache_bound_bytes = 0;
     // Time.
@@ -95,10 +95,10 @@ struct Finding {
     enum class Level { kGood, kNote, kProblem } level;
     std::string topic;
     std::string found;
-    std::string advice;  // empty: nothing to do
+    std::string advice;  // empty: nothing needs to be done
 };
 
-// Returns findings in the order of topics above. A kProblem is something needed that is not there.
+// Returns the findings in the order of the topics above. kProblem: something that the bench needs is missing.
 std::vector<Finding> diagnose(const BenchNeeds& needs, const MachineFacts& facts);
 bool all_there(const std::vector<Finding>& findings);
 

@@ -50,7 +50,7 @@ std::uint64_t limit_of(decltype(RLIMIT_RTPRIO) which) {
     return limit.rlim_cur;
 }
 
-// Why a UDP port cannot be had, or empty.
+// Returns why a UDP port cannot be used, or an empty text.
 std::string udp_fault(std::uint32_t address, std::uint16_t port) {
     try {
         open_udp(address, port);
@@ -112,7 +112,7 @@ VideoDevice look_at_device(const std::string& name) {
     const fs::path about = "/sys/class/video4linux/" + name;
     device.path = "/dev/" + name;
     device.label = first_line(about / "name");
-    // Only v4l2loopback's devices tell how many buffers go round.
+    // Only v4l2loopback's devices report how many buffers are in use.
     device.buffers = static_cast<int>(number_in(about / "buffers"));
     const Fd fd(::open(device.path.c_str(), O_RDWR | O_CLOEXEC));
     device.openable = static_cast<bool>(fd);

@@ -1,6 +1,6 @@
 #pragma once
-// The facts about this machine that `hilcam doctor` wants to know. Changes nothing; ports are tried and given
-// back.
+// Collects the facts about this machine that `hilcam doctor` needs. Changes nothing; ports are opened and
+// closed again.
 
 #include "emulator/check/doctor.h"
 

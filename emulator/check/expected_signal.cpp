@@ -8,10 +8,10 @@
 namespace hilcam {
 namespace {
 
-// Below this many lit pixels the light is a point's.
+// With fewer lit pixels than this, the light is treated as a point's.
 constexpr double kPoint_px = 4;
 
-// Mean over the whole disk, 2/3 seen fully lit.
+// Returns the mean over the whole disk, which is 2/3 when fully lit.
 double lambert_sphere(double phase_rad) {
     return 2.0 / 3 * (std::sin(phase_rad) + (kPi - phase_rad) * std::cos(phase_rad)) / kPi;
 }

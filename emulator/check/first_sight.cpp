@@ -36,13 +36,13 @@ bool is_in_frame(const SeenThing& thing, const FrameRaster& raster) {
 
 SeenObject::Place place_of(const SeenThing& thing, const FrameRaster& raster, const CameraSheet& sheet,
                            double off_rad, double radius_rad) {
-    // A thing smaller than a pixel may have none and still be seen; a speck of a 64th has no silhouette
-    // either.
+    // A thing smaller than a pixel may have no pixel and still be visible; one smaller than a 64th has no
+    // silhouette either.
     if (thing.visible_px > 0 || thing.visible_fraction > 0) return SeenObject::Place::kVisible;
     if (thing.silhouette_px == 0 && is_in_frame(thing, raster) && radius_rad < sheet.ifov_rad)
         return SeenObject::Place::kVisible;
     if (off_rad - radius_rad > 0.5 * kPi) return SeenObject::Place::kBehind;
-    // Alone it would be in the frame: something stands before it.
+    // Without other things it would be in the frame, so something hides it.
     const bool alone =
         thing.silhouette_px > 0 && thing.has_center && off_rad < 0.5 * sheet.field_diagonal_rad;
     return alone ? SeenObject::Place::kHidden : SeenObject::Place::kOutside;
@@ -100,7 +100,7 @@ FirstSight first_sight(const ScenarioConfig& s, const Renderer& renderer,
     for (const SeenThing& thing : truth.things) {
         if (thing.is_body && thing.visible_px > 0)
             (thing.id == kSunId ? out.shows_sun : out.shows_body) = true;
-        // Terrain comes after the objects and is made while the camera runs: nothing is known of it here.
+        // Terrain comes after the objects and is made during the run, so nothing is known of it here.
         if (thing.is_body || thing.id > s.objects.size()) continue;
         out.objects.push_back(seen(thing, objects[thing.id - 1], truth, sheet, s.mount.thing == thing.id));
     }

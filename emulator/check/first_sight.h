@@ -1,6 +1,6 @@
 #pragma once
-// Finds what a camera sees at the scenario's first instant, by a ray through every pixel and not by a
-// picture: where objects are, how they are lit, what hides them.
+// Finds what a camera sees at the scenario's first instant, with one ray for each pixel and no rendering:
+// where objects are, how they are lit, and what hides them.
 
 #include <cstdint>
 #include <optional>
@@ -18,15 +18,15 @@ struct SeenObject {
     LoadedObject loaded;
     enum class Place { kVisible, kHidden, kOutside, kBehind } place = Place::kVisible;
     double distance_m = 0;
-    double off_boresight_rad = 0;  // angle of its origin
-    // Angular radius of the sphere about its origin that holds it; pi: the camera is in that.
+    double off_boresight_rad = 0;  // angle to the object's origin
+    // Angular radius of the object's bounding sphere about its origin; pi: the camera is inside it.
     double angular_radius_rad = 0;
-    double phase_rad = 0;  // NaN: the camera is at its origin
+    double phase_rad = 0;  // NaN: the camera is at the object's origin
     double sunlit = 1;
-    double silhouette_px = 0;     // area that it would cover alone
-    double picture_share = 0;     // share of the frame's pixels that show it
-    double visible_fraction = 0;  // share of its silhouette
-    bool holds_camera = false;    // the camera stands within the box of its mesh, and does not ride on it
+    double silhouette_px = 0;     // area if nothing hid it
+    double picture_share = 0;     // share of the frame's pixels that show the object
+    double visible_fraction = 0;  // visible share of the silhouette
+    bool holds_camera = false;  // true: the camera is inside the mesh's box, and does not ride on the object
     ExpectedSignal expected;
 };
 
@@ -39,15 +39,15 @@ struct FirstSight {
     std::optional<double> height_above_ground_m;  // over terrain
     Pose camera;
     RaDecRoll pointing;
-    // Position in the local axes of the scenario's site, if it has one on the origin's body.
+    // Position in the local axes of the scenario's site, if the origin's body has one.
     std::optional<Vec3d> from_site_m;
     std::string site_body;
-    // Position of the camera in the first one's axes, and its rotation against that.
+    // Position and rotation relative to the first camera, in its axes.
     Vec3d from_first_m;
     double turned_rad = 0;
 };
 
-// The scene is loaded, and the renderer has placed the instant that is looked at (Renderer::place_for_truth).
+// The scene must be loaded, and the renderer placed at the instant to look at (Renderer::place_for_truth).
 FirstSight first_sight(const ScenarioConfig& scenario, const Renderer& renderer,
                        const std::vector<LoadedObject>& objects, const CameraSheet& sheet,
                        const Pose& first_camera);

@@ -53,7 +53,7 @@ std::optional<StrayTime> stray_time(CameraStation& station, WorldState& world, E
     const auto [width, height] = array_size(s.camera);
     ElectronImage electrons(width, height);
     double with_ms = std::numeric_limits<double>::infinity(), without_ms = with_ms;
-    // The first time of each is not counted.
+    // The first measurement of each is ignored.
     for (int i = 0; i <= kFrames; ++i) {
         const double with =
             milliseconds([&] { station.chain().expose(radiance, points, exposure, electrons, beside); });

@@ -1,6 +1,6 @@
 #pragma once
-// Measures how long a frame of the first instant takes on this machine, which `hilcam check` tells before a
-// run. `hilcam bench` measures it around the target, paced, and with its spread.
+// Measures how long a frame of the first instant takes on this machine, for `hilcam check`. `hilcam bench`
+// measures it more thoroughly: around the target, paced, with its spread.
 
 #include <optional>
 #include <string>
@@ -12,23 +12,25 @@ namespace hilcam {
 
 struct FrameTime {
     double render_ms;  // from the world to the radiance image, on all threads
-    double sensor_ms;  // from there to DN
+    double sensor_ms;  // from the radiance image to DN
     int threads;
 };
 
-// The time that a lens's stray light takes of a frame.
+// The part of a frame's time that the lens's stray light takes.
 struct StrayTime {
-    double ms;           // part of the sensor's time; may be negative where it cannot be told
-    double resolved_ms;  // less than this cannot be told
+    double ms;           // part of the sensor's time; may be negative when it is below resolved_ms
+    double resolved_ms;  // smallest difference that the measurement resolves
     std::string parts;
 };
-// Returns how much longer the light of the first instant takes into the pixels with stray light than without, in turns, the
-// shortest of three times each. None for a camera that has none. Owner thread; the station is loaded.
+// Measures how much longer the sensor takes with stray light than without, for the light of the first
+// instant. Both are timed in turns, three times each, and the shortest times count. Returns nothing for a
+// camera without stray light, or when a frame has more rays than frame_time() accepts. Owner thread; the
+// station is loaded.
 std::optional<StrayTime> stray_time(CameraStation& station, WorldState& world, ExposureRenderer& exposures);
 
-// Returns medians of three frames behind a first one that is not counted. None where a frame has more than 32
-// million primary rays, as at the quality `reference`: it would take minutes. Owner thread; the station is
-// loaded.
+// Returns medians of three frames, after a first one that is not counted. Returns nothing when a frame has
+// more than 32 million primary rays, as with quality `reference`, because that would take minutes. Owner
+// thread; the station is loaded.
 std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, ExposureRenderer& exposures);
 
 }  // namespace hilcam

@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-// The body that is met first, and how far along; none: the sky.
+// Finds the first body along the ray and its distance; nothing: the sky.
 std::optional<BodyId> first_body(const ScenarioConfig& s, const Bodies& bodies, Vec3d from_m, Vec3d dir,
                                  double& distance_m) {
     std::optional<BodyId> nearest;
@@ -28,8 +28,8 @@ std::optional<BodyId> first_body(const ScenarioConfig& s, const Bodies& bodies, 
     return nearest;
 }
 
-// Returns the electrons that the ground makes of sunlight, over those of a white Lambert surface that faces
-// the Sun, in the camera's band.
+// Returns the electrons from sunlit ground relative to those from a white Lambert surface that faces the Sun,
+// in the camera's band.
 double over_white(const BodyLook& look, const CameraModel& camera, const SpectralGrid& band,
                   const GroundSight& ground, double phase_rad) {
     const Spectrum sun = solar_irradiance_1au_w_m2_um(band);

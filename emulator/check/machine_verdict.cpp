@@ -31,8 +31,8 @@ void look_at_interface(const ScenarioConfig& s, Lines& out) {
     }
 }
 
-// Says why nothing can be written there; empty: something can. Rights alone do not tell: a root may write nothing in
-// /proc, nobody on a medium that is read-only.
+// Says why nothing can be written to a folder; empty: it can. Access rights do not suffice: root cannot write
+// in /proc, and no user can write on a read-only file system.
 std::string why_not_writable(std::filesystem::path folder) {
     std::error_code error;
     folder = std::filesystem::absolute(folder, error).lexically_normal();

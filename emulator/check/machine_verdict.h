@@ -1,5 +1,5 @@
 #pragma once
-// Finds what a run would refuse on this machine now: an interface that is not there, a folder that cannot be written.
+// Finds what a run would be refused on this machine: a missing interface, a folder that cannot be written.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace hilcam {
 
-// A line each. scenario: as one of its cameras has it. A folder is tried by making one in it, or in what holds it, and
-// removing that.
+// Returns one line for each. scenario: as one of its cameras has it. To try a folder, makes a temporary
+// folder in it, or in its nearest existing parent, and removes that again.
 std::vector<std::string> machine_warnings(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

@@ -14,12 +14,13 @@
 namespace hilcam {
 namespace {
 
-// No spacecraft is as long, but the file of one in millimetres is; asteroids are.
+// Longer than any spacecraft [m], but not than a file in millimetres, or an asteroid.
 constexpr double kLongestSide_m = 500;
-// Height over the longest side below which a triangle's corners are on a line: what single precision leaves.
+// Height over longest side below which a triangle's corners count as collinear, by the error of single
+// precision.
 constexpr double kSliver = 1e-6;
 
-// Gives each vertex the number of its place, and returns how many places there are.
+// Assigns each vertex the number of its position, and returns the number of positions.
 std::uint64_t number_places(const std::vector<Vec3f>& vertices_m, std::vector<std::uint32_t>& place_of) {
     std::vector<std::uint32_t> order(vertices_m.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -40,7 +41,8 @@ std::uint64_t number_places(const std::vector<Vec3f>& vertices_m, std::vector<st
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// The two places of an edge, the smaller first, and in the last bit which way a triangle has it.
+// Returns an edge as its two positions, the smaller first, with the direction in which a triangle uses it in
+// the last bit.
 std::uint64_t edge_of(std::uint32_t from, std::uint32_t to) {
     const std::uint64_t low = std::min(from, to), high = std::max(from, to);
     return low << 32 | high << 1 | (from < to ? 1u : 0u);
@@ -48,7 +50,7 @@ std::uint64_t edge_of(std::uint32_t from, std::uint32_t to) {
 
 struct Topology {
     std::vector<Corners> corners;     // by places
-    std::vector<std::uint8_t> whole;  // by shell: neither open nor inconsistent edges
+    std::vector<std::uint8_t> whole;  // by shell: no open or inconsistent edges
 };
 
 void survey_edges(const Topology& mesh, JoinedSets& shells, std::vector<std::uint8_t>& whole,
@@ -90,7 +92,7 @@ void survey_topology(const Mesh& mesh, MeshSurvey& out) {
     survey_edges(topology, shells, whole, out);
     std::vector<double> volume_m3(out.places);
     std::vector<std::uint8_t> used(out.places);
-    const Vec3d middle = 0.5 * (out.min_m + out.max_m);  // near, so that sums keep their digits
+    const Vec3d middle = 0.5 * (out.min_m + out.max_m);  // a nearby point, so that sums keep their precision
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto at = [&](std::size_t k) {
             return to_double(mesh.vertices_m[mesh.triangles[i][k]]) - middle;
@@ -130,7 +132,7 @@ void survey_triangles(const Mesh& mesh, MeshSurvey& out) {
         ++surface.triangles;
         surface.area_m2 += 0.5 * length(face);
     }
-    // Importers add a default material that nothing has.
+    // Importers add a default material that no triangle uses.
     std::erase_if(out.surfaces, [](const SurveyedSurface& surface) { return surface.triangles == 0; });
 }
 
@@ -138,7 +140,7 @@ void survey_triangles(const Mesh& mesh, MeshSurvey& out) {
 
 namespace {
 
-// Coordinates are kept in single precision, as files have them.
+// Coordinates are kept in single precision, as in files.
 double coarse_step_m(Vec3d min_m, Vec3d max_m) {
     const double farthest_m = std::max({-min_m.x, -min_m.y, -min_m.z, max_m.x, max_m.y, max_m.z});
     const double step_m = farthest_m * static_cast<double>(std::numeric_limits<float>::epsilon());

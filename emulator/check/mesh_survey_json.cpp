@@ -37,7 +37,7 @@ std::string to_json(const MeshSurvey& s) {
                       {"repeated_triangles", s.repeated_triangles},
                       {"unreadable_textures", s.unreadable_textures},
                       {"problems", problems_of(s)}};
-    // Names may be any bytes: what is no UTF-8 is replaced.
+    // Replaces invalid UTF-8, because names may be any bytes.
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -20,10 +20,10 @@ using Lines = std::vector<std::string>;
 
 void append(Lines more, Lines& out) { std::move(more.begin(), more.end(), std::back_inserter(out)); }
 
-// A check takes its time; who waits for a picture or a run does not wait for millions of edges to be sorted.
+// `check` examines meshes of any size; `render` and `run` do not wait for millions of edges to be sorted.
 constexpr std::size_t kMaxTrianglesOnTheWay = 50'000;
 
-// Tells what makes a mesh look wrong, of all that `hilcam mesh` says: panels are open on purpose.
+// Selects from the findings of `hilcam mesh` those that make a mesh look wrong; panels are open on purpose.
 Lines mesh_warnings(const ObjectConfig& object, const std::string& key, const KeyPlaces& places) {
     const std::optional<int> surface =
         object.has_mesh_surface ? std::optional<int>(static_cast<int>(object.mesh_surface)) : std::nullopt;
@@ -59,7 +59,7 @@ std::vector<std::string> early_verdict(const ScenarioConfig& bench, VerdictOn on
 }
 
 std::vector<std::string> verdict_on_objects(const LoadedView& view, VerdictOn on) {
-    const KeyPlaces places = view.scenario.places.labelled("");  // objects are those of all cameras
+    const KeyPlaces places = view.scenario.places.labelled("");  // objects belong to all cameras
     Lines out = warnings_of(view.objects, places);
     for (std::size_t i = 0; i < view.objects.size(); ++i) {
         const ObjectConfig& object = view.scenario.objects[i];

@@ -54,7 +54,7 @@ Vec3d EventCondition::place_of(const WorldSnapshot& world) const {
     return world.camera.position_world_m;
 }
 
-// A limit that held holds on until the value is past it by the margin.
+// A limit that held continues to hold until the value exceeds it by the margin.
 bool EventCondition::Limits::hold(double value) {
     const double slack = held ? margin : 0;
     held = (!config.has_below || value < config.below + slack) &&
@@ -84,7 +84,7 @@ bool EventCondition::holds(const WorldSnapshot& world) {
     const Vec3d way_m = place_m - world.camera.position_world_m;
     const Vec3d to_sun_m = world.bodies.sun_world_m - world.camera.position_world_m;
     const Vec3d boresight = to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1};
-    // Each is asked, so that each knows whether it held.
+    // Evaluates all limits, so that each records whether it held.
     bool all = distance_m_.hold(length(way_m));
     all &=
         off_boresight_rad_.hold(off_boresight_rad_.config.given() ? angle_between_rad(boresight, way_m) : 0);

@@ -1,9 +1,9 @@
 #pragma once
 // Tests whether an event's condition holds in the world of a frame.
 //
-// Geometry: positions are origins and centres, the Sun is a point; no light time beyond what bodies_at() has.
-// Eclipses: a visible body's ellipsoid (render/sky/bodies.h) lies between the place and the Sun's middle, as
-// it does for the renderer; bodies that the scenario does not show hide nothing.
+// Geometry uses origins and centres, and the Sun as a point. Light time is corrected only where bodies_at()
+// corrects it. A place is in eclipse when the ellipsoid of a visible body (render/sky/bodies.h) is between it
+// and the Sun's centre, as for the renderer. Bodies that the scenario does not show cast no eclipse.
 
 #include <array>
 #include <cstddef>
@@ -16,18 +16,19 @@
 
 namespace hilcam {
 
-// The things that conditions can name.
+// The things that conditions may name.
 struct EventWorld {
-    std::vector<std::string> objects;  // by their order
+    std::vector<std::string> objects;  // names of the objects, in their order
     std::array<bool, kBodyCount> visible{};
 };
 
 class EventCondition {
   public:
-    // Throws InputError when there is no such object, or several.
+    // Throws InputError when the named object does not exist, or several have the name.
     EventCondition(const EventConditionConfig& config, const EventWorld& world);
 
-    // Is asked of one frame after the other: what held before has a margin.
+    // True when the condition holds. Call it for one frame after the other: a condition that held before
+    // keeps holding until it is exceeded by its margin.
     bool holds(const WorldSnapshot& world);
 
   private:

@@ -124,7 +124,7 @@ bool EventActions::takes_picture() const {
 
 namespace {
 
-// Why an event cannot give this command, or empty.
+// Returns why an event cannot give this command; empty: it can.
 std::string_view refusal_of(const Command& command) {
     using namespace std::string_view_literals;
     return std::visit(

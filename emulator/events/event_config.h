@@ -1,8 +1,8 @@
 #pragma once
-// `events:` of a scenario: what happens by itself, when, and what it does (docs/events.md).
+// The section `events:` of a scenario: what happens by itself, when, and what it does (docs/events.md).
 //
-// What an event does are commands, in the words of `hilcam send`: one vocabulary for benches, scripts and
-// scenarios. Beside them there is `end`, which ends the run.
+// An event carries out commands in the words of `hilcam send`, so that benches, scripts and scenarios share
+// one vocabulary. The additional word `end` ends the run.
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace hilcam {
 
-// A quantity of the frame before, with limits. Of several limits all must hold.
+// Limits on a quantity in the previous frame. If several limits are given, all must hold.
 struct EventLimitsConfig {
     double below = 0, above = 0;
     bool has_below = false, has_above = false;
@@ -24,7 +24,7 @@ struct EventLimitsConfig {
 enum class EventLight { kAny, kLit, kEclipsed };
 
 struct EventConditionConfig {
-    std::string object;  // an object, a body, or the Sun
+    std::string object;  // name of an object, a body, or the Sun
     EventLimitsConfig distance_m, off_boresight_rad, sun_off_boresight_rad, phase_rad;
     EventLight light = EventLight::kAny;
     double margin_m = 0, margin_rad = 0;
@@ -47,7 +47,7 @@ struct EventConfig {
     EventConditionConfig when;
     bool has_at_s = false, has_at_utc = false, has_at_frame = false, has_after = false, has_when = false;
     double every_s = 0;
-    std::int64_t times = 1;  // 0: without end
+    std::int64_t times = 1;  // 0: unlimited
     double again_after_s = 0;
     std::int64_t camera = 0;
     std::vector<std::string> actions;

@@ -70,7 +70,7 @@ std::optional<EventSequence::Due> EventSequence::take(TimeTai until) {
     std::optional<Due> first;
     for (std::size_t i = 0; i < events_.size(); ++i) {
         const Event& e = events_[i];
-        // An event that a frame has made happen does not wait for the middle of that frame.
+        // An event caused by a frame does not wait for the middle of that frame.
         if (e.due.empty() || (e.by_clock() && until < e.due.front())) continue;
         if (!first || e.due.front() < first->time) first = Due{i, e.due.front(), e.by_clock()};
     }
@@ -78,7 +78,7 @@ std::optional<EventSequence::Due> EventSequence::take(TimeTai until) {
     return first;
 }
 
-// Does what follows from an event's having happened.
+// Carries out the consequences of an event that has happened.
 void EventSequence::finish(std::size_t index, TimeTai time, TimeTai until) {
     Event& event = events_[index];
     event.due.erase(event.due.begin());

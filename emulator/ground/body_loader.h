@@ -1,5 +1,5 @@
 #pragma once
-// A body as its section of a scenario describes it: its look, its maps of albedo and of heights, opened.
+// Loads a body from its section of a scenario: its look, and its maps of albedo and heights, opened.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace hilcam {
 
-// name: of the section, for messages. Throws InputError.
+// name: name of the section, for messages. Throws InputError.
 SceneBody load_body(BodyId id, const std::string& name, const Figure& figure, const BodyConfig& config,
                     const SpectralGrid& grid);
 

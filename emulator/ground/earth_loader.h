@@ -1,5 +1,6 @@
 #pragma once
-// The Earth's model of the section `earth_surface`: its maps, opened, and what of them the air above has to know.
+// Loads the Earth's model from the section `earth_surface`: its maps, opened, and what the atmosphere needs
+// of them.
 
 #include <memory>
 
@@ -9,13 +10,13 @@ namespace hilcam {
 
 struct EarthMaps {
     GroundMaps ground;
-    CloudMaps clouds;                     // empty: those of the ground
-    std::shared_ptr<EarthDetail> detail;  // null: nothing is finer
+    CloudMaps clouds;                     // empty: the ground's own clouds
+    std::shared_ptr<EarthDetail> detail;  // null: no finer detail
 };
 
-// config.map: not empty. Throws InputError.
+// config.map must not be empty. Throws InputError.
 EarthMaps load_earth_maps(const EarthConfig& config);
-// air: null without; outlives the model.
+// air: null when there is no atmosphere; must outlive the model.
 std::shared_ptr<const EarthModel> make_earth(const EarthConfig& config, EarthMaps maps, const Atmosphere* air,
                                              const SpectralGrid& grid);
 

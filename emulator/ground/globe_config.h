@@ -1,5 +1,5 @@
 #pragma once
-// The ground of a whole body, as a scenario describes it: maps, and what is seeded below them.
+// The ground of a whole body in a scenario: its maps, and the seeded detail that is finer than the maps.
 
 #include <cstdint>
 #include <optional>

@@ -10,7 +10,7 @@
 namespace hilcam {
 namespace {
 
-// Figures that are not given are measured on the maps, which are opened for that once more.
+// Measures parameters that are not given on the maps, which are opened once more for that.
 ReliefSettings complete(ReliefSettings relief, const GlobeConfig& globe, const MappedBody& body) {
     if (relief.deviation_m > 0 && relief.longest_m > 0) return relief;
     std::vector<GroundMap> maps;
@@ -58,7 +58,8 @@ std::unique_ptr<const BoulderField> boulders_of(const GlobeConfig& globe, const 
     if (!globe.boulders || (maps.empty() && !(globe.boulders->abundance > 0))) return nullptr;
     const double radius_m = body.figure.equatorial_radius_m;
     if (maps.empty()) return std::make_unique<BoulderField>(radius_m, *globe.boulders);
-    // Cells are sized for this share at least, so that one holds few boulders where a map has more of them.
+    // Cells are sized for at least this share, so that a cell holds few boulders where a map has more of
+    // them.
     constexpr double kMinSeeded = 0.02;
     BoulderSettings seeded = *globe.boulders;
     seeded.abundance = std::max(seeded.abundance, kMinSeeded);

@@ -1,5 +1,5 @@
 #pragma once
-// Makes the ground of a whole body of what a scenario says of it.
+// Builds the ground of a whole body from its section of a scenario.
 
 #include <memory>
 #include <vector>
@@ -10,13 +10,14 @@
 
 namespace hilcam {
 
-// Opens the maps of heights, colours and Hapke's parameters. Throws InputError.
+// Opens the maps of heights, colours and Hapke parameters. Throws InputError.
 std::vector<GroundMap> open_maps(const GlobeConfig& globe, const MappedBody& body);
-// Makes what is below them; what is left to be measured on the maps is. Throws InputError.
+// Builds the detail below the maps' resolution. Parameters that the scenario leaves out are measured on the
+// maps. Throws InputError.
 std::vector<std::unique_ptr<const GroundDetail>> details_of(const GlobeConfig& globe, const MappedBody& body);
-// Makes the boulders, more or fewer by place where maps say so; null: there are none. Throws InputError.
+// Builds the boulders, with a density that varies where maps give one; null: no boulders. Throws InputError.
 std::unique_ptr<const BoulderField> boulders_of(const GlobeConfig& globe, const MappedBody& body);
-// Makes the ground of both, covered with a material. Throws InputError.
+// Builds the ground from maps and detail, with a material on it. Throws InputError.
 std::unique_ptr<Terrain> load_globe(const GlobeConfig& globe, const MappedBody& body,
                                     const Material& material);
 

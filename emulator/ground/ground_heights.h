@@ -1,6 +1,6 @@
 #pragma once
-// Heights of a scenario's ground on a square of places, with all that is seeded on it, and what a lander asks of them: slope and
-// step at each.
+// Heights of a scenario's ground on a square grid, including all seeded detail, with the slope and step at
+// each point that decide where a lander can stand.
 
 #include <memory>
 #include <span>
@@ -12,28 +12,30 @@
 
 namespace hilcam {
 
-// The tangent plane at a place, the middle.
+// The tangent plane at a point of the ground, its middle.
 struct LocalPlane {
     Vec3d up, east, north;  // body axes
     double radius_m;
 
     LocalPlane(const Geodetic& middle, const Figure& figure);
-    // Returns the unit vector of a place along the ground from the middle.
+    // Returns the unit vector of the point at a distance along the ground from the middle.
     Vec3d place(double east_m, double north_m) const;
-    // Returns where a place is, along the ground from the middle [m].
+    // Returns the position of a point relative to the middle, along the ground [m].
     Vec2d along(Vec3d place) const;
-    // "longitude_deg,latitude_deg,east_m,north_m" of a place.
+    // Returns "longitude_deg,latitude_deg,east_m,north_m" of a point.
     std::string text_of(Vec3d place) const;
 };
 
 struct GroundSlope {
-    double slope_rad = 0;  // slope of the plane through nine posts by least squares
-    double step_m = 0;     // greatest distance of one of the nine from that plane through the middle one
+    double slope_rad = 0;  // slope of the least-squares plane through nine posts
+    // Largest distance of one of the nine from that plane, shifted to pass through the middle post.
+    double step_m = 0;
 };
 
-// A square of heights about the middle, the first one in the south-west; with a border of one post, which has no slope.
+// A square grid of heights about the middle, beginning in the south-west. Its border of one post has no
+// slope.
 struct HeightSquare {
-    int half = 0;  // posts from the middle to the edge, without the border
+    int half = 0;  // posts between the middle and the edge, without the border
     double spacing_m = 1;
     std::vector<double> heights_m;
 
@@ -41,7 +43,7 @@ struct HeightSquare {
     std::size_t index(int column, int row) const {
         return static_cast<std::size_t>((row + half + 1) * side() + column + half + 1);
     }
-    // column, row: from the middle, to half at most.
+    // column, row: counted from the middle, -half to half.
     double height_m(int column, int row) const { return heights_m[index(column, row)]; }
     GroundSlope slope(int column, int row) const;
 };
@@ -50,11 +52,11 @@ class GroundHeights {
   public:
     // Opens the maps. Throws InputError.
     GroundHeights(const GlobeConfig& globe, const MappedBody& body);
-    // Throws InputError where there would be too many posts.
+    // Throws InputError when there would be too many posts.
     HeightSquare square(const LocalPlane& plane, double within_m, double spacing_m);
-    // Returns the height of a place over the ellipsoid, with what is as wide as some of a spacing.
+    // Returns a point's height above the ellipsoid, with all detail that a grid of this spacing can show.
     double height_m(Vec3d place, double spacing_m);
-    // Returns the place's point at that height, body axes.
+    // Returns the point in body axes at that height.
     Vec3d point_m(Vec3d place, double height_m) const { return surface_.point(place, height_m); }
 
   private:

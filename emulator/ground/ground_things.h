@@ -1,5 +1,5 @@
 #pragma once
-// The craters and boulders of a scenario's ground about a place.
+// Finds the craters and boulders of a scenario's ground around a place.
 
 #include <string>
 #include <vector>
@@ -17,13 +17,16 @@ struct GroundThing {
         0;  // craters: wear, 0 fresh to CraterProfile::kMaxWorn; boulders: height above the ground [m]
 };
 
-// A list of a thousand square kilometres' smallest craters would fill a disk.
+// Largest number of things in a list. A list of the smallest craters on a thousand square kilometres would
+// fill a disk.
 inline constexpr double kMaxListed = 2e6;
-// Throws InputError for more; keys: what would make them fewer.
+// Throws InputError when there are more than kMaxListed. keys: options that would reduce the number, for the
+// message.
 void require_few(double count, const char* what, const char* keys);
 
-// Finds those above a diameter with their middles within a distance of a place. Throws InputError where the ground has no
-// such things, or there would be too many; keys: what would make them fewer.
+// Finds craters or boulders above a diameter whose centres are within a distance of `middle`. Throws
+// InputError where the ground has none of them, or too many. keys: options that would reduce their number,
+// for the message.
 std::vector<GroundThing> find_things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,
                                      Vec3d middle, double within_m, double smallest_m,
                                      const char* keys = "--within-m, --smallest-m");

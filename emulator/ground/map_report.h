@@ -1,6 +1,6 @@
 #pragma once
-// This tells how the maps of a scenario were understood: the kinds of their latitudes and longitudes, their units, and what is probably not
-// meant.
+// Reports how the maps of a scenario were understood: kinds of latitude and longitude, units, and probable
+// mistakes.
 
 #include <string>
 #include <vector>
@@ -10,11 +10,11 @@
 namespace hilcam {
 
 struct MapReport {
-    std::vector<std::string> taken;   // a line for each map that says anything
-    std::vector<std::string> doubts;  // a line each
+    std::vector<std::string> taken;   // one line for each map that states something
+    std::vector<std::string> doubts;  // one line each
 };
 
-// Opens each map of the ground for that. Throws InputError.
+// Opens each map of the ground to do so. Throws InputError.
 MapReport report_maps(const GlobeConfig& globe, const MappedBody& body);
 
 }  // namespace hilcam

@@ -50,19 +50,19 @@ void accumulate(const RenderStats& part, float share, RenderStats& sum) {
     sum.points_ms += part.points_ms;
 }
 
-// The rows of a rolling or scanning camera are lit one after the other, while the world moves less.
+// Rows of a rolling or scanning camera are exposed one after the other, while the world moves less.
 void slow_down(double moving, WorldSnapshot& world) {
     world.rows_velocity_m_s = moving * world.rows_velocity_m_s;
     world.camera_rate_rad_s = moving * world.camera_rate_rad_s;
 }
 
-// About the camera's axes, from one attitude to another.
+// Returns the mean rate between two attitudes, about the camera's axes.
 Vec3d mean_rate(Quat from, Quat to, double seconds) {
     const Quat turn = conjugate(from) * to;
     const Vec3d axis{turn.x, turn.y, turn.z};
     const double sine = length(axis);
     if (!(sine > 0)) return {};
-    // The shorter way round.
+    // Takes the shorter way round.
     const double angle_rad = 2 * std::atan2(turn.w < 0 ? -sine : sine, std::abs(turn.w));
     return (angle_rad / (sine * seconds)) * axis;
 }
@@ -101,7 +101,7 @@ RadianceImage ExposureRenderer::make_image() const {
     return image;
 }
 
-// The sum of parts has no moments: its blur is wider than a pixel.
+// The sum of several parts has no moments, because its blur is wider than a pixel.
 RadianceImage ExposureRenderer::make_part() const {
     const ImageGeometry& g = renderer_.geometry();
     if (for_detector_) return {g.padded_width(), g.padded_height(), responses_};
@@ -112,7 +112,7 @@ std::size_t ExposureRenderer::max_points() const {
     return renderer_.max_points() * (motion_ == MotionQuality::kExact ? kMaxParts : 1);
 }
 
-// The jitter of the whole exposure is that of its middle: what is faster is blur.
+// Uses the pointing jitter of mid-exposure for the whole exposure; faster jitter is blur.
 void ExposureRenderer::sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
                                     WorldSnapshot& out) const {
     if (!with_bodies) out.bodies = middle_.bodies;
@@ -122,8 +122,8 @@ void ExposureRenderer::sample_again(const WorldState& world, const Span& span, T
     slow_down(span.moving, out);
 }
 
-// Rows that are lit one after the other move against the object that is nearest, or the ground, which is at
-// rest in the world: two that fly together hardly move, whatever the speed of both.
+// Rows that are exposed one after the other move relative to the nearest object, or to the ground, which is
+// at rest in the world. Two objects that fly together hardly move, however fast both are.
 Vec3d ExposureRenderer::seen_velocity_m_s(const WorldState& world, const WorldSnapshot& now) const {
     return rows_pass_object_ ? world.nearest_velocity_m_s(now) : Vec3d{};
 }
@@ -154,7 +154,7 @@ void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownC
     reported_moving_ = span.moving;
 }
 
-// Velocity and rate are both in the camera's time.
+// Velocity and rate are per second of the camera's time.
 void ExposureRenderer::report_truth(FrameTruth& truth) {
     renderer_.report_truth(truth);
     truth.camera_velocity_m_s = reported_moving_ * truth.camera_velocity_m_s;
@@ -195,7 +195,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     exposure.ray_grid = ray_grid_of(renderer_.quality());
     if (motion_ == MotionQuality::kExact) {
         sample_ends(world, span, true);
-        // The middle is placed now, and parts will not be it.
+        // Computes the motion while the renderer is placed at the middle, which it will not be for the parts.
         const ImageMotion motion = renderer_.motion(middle_, before_, after_);
         if (truth) report_truth(*truth);
         const Plan plan = plan_of(motion);
@@ -230,7 +230,7 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
                                     Result& result) {
     const int n = result.parts;
     const float share = 1 / static_cast<float>(n);
-    // A point's own way in one part, as a rate over the whole exposure.
+    // A point's own motion in one part, as a rate over the whole exposure.
     const double per_s = 1 / span.exposure_s;
     points.clear();
     for (int k = 0; k < n; ++k) {
@@ -256,9 +256,9 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
     if (radiance.moments()) radiance.moments()->set_used(false);
 }
 
-// Returns the motion of the picture along its columns that the sensor does not expect. The line time goes
-// with one pixel: the charge of several stages follows at that rate and only the difference blurs; one stage
-// alone blurs by that pixel, which MTF_sys has (system_mtf.h), and here by what is more.
+// Returns the motion of the picture along its columns beyond what the sensor expects, which is one pixel for
+// each line time. With several stages, the charge follows at that rate, and only the difference blurs. A
+// single stage is blurred by that pixel, which MTF_sys contains (system_mtf.h), and here by anything more.
 double ExposureRenderer::unexpected_px_s(double rate_px_s) const {
     if (shutter_.kind != ShutterKind::kLineScan) return rate_px_s;
     const double expected_px_s = 1 / shutter_.line_time_s;
@@ -274,7 +274,7 @@ void ExposureRenderer::set_rates(const ImageMotion& motion, int parts, Exposure&
                           unexpected_px_s(motion.displacement_px.y * per_s)};
     Vec3d camera_rad_s =
         mean_rate(before_.camera.world_from_body, after_.camera.world_from_body, exposure.exposure_s);
-    // Turning about x moves the picture along y, by the focal length per radian.
+    // A rotation about x moves the picture along y, by the focal length per radian.
     camera_rad_s.x = unexpected_px_s(camera_rad_s.x * focal_length_px_) / focal_length_px_;
     exposure.image_rate_px_s = {rate_px_s.x / parts, rate_px_s.y / parts};
     exposure.camera_rate_rad_s = camera_rad_s / static_cast<double>(parts);

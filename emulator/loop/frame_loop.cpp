@@ -22,7 +22,7 @@ void FrameLoop::start() {
 
 void FrameLoop::stop() noexcept {
     stopping_.store(true);
-    // Who ends a run and who waits for its end may be two; a thread can be joined once.
+    // One thread may end a run while another waits for its end, but a thread can be joined only once.
     const std::lock_guard lock(joining_);
     if (render_thread_.joinable()) render_thread_.join();
     if (sense_thread_.joinable()) sense_thread_.join();
@@ -53,8 +53,8 @@ void FrameLoop::sense_frames() {
     finished_.store(true);
 }
 
-// Adds what the processor did since the frame before was published to this one's level: some of it was for the next frame,
-// which is of the same level but where that changes. Times of frames that warm up are not kept.
+// Adds the processor time since the previous frame was published to this frame's level. Part of it was for
+// the next frame, which usually has the same level. Times of warm-up frames are not kept.
 void FrameLoop::count_frame(std::uint32_t level) {
     const std::int64_t now_ns = processor_ns();
     if (counted_processor_ns_ != 0) {

@@ -1,16 +1,15 @@
 #pragma once
 // THE loop: pose -> radiance -> electrons -> DN -> sinks, frame after frame.
 //
-// Two threads, each a stage: one samples the world and renders (render_stage.h), the other senses and
-// publishes (sense_stage.h). Both use oneTBB's threads inside. Frames pass through two slots allocated before
-// the start (frame_slot.h); hand-over is by semaphores. loop.prefer:
-//   throughput  while a frame is sensed the next one is rendered: frames come as fast as the longer stage
-//               goes
-//   latency     the next one waits until it is out: each stage has all threads to itself, so a frame is
-//               through sooner; frames come as fast as both stages together go
-// Pixels are the same in both. When frames begin and what each depends on is said in frame_planner.h.
+// Each of two threads runs a stage: one samples the world and renders (render_stage.h), the other senses and
+// publishes (sense_stage.h). Both use oneTBB's threads inside. Frames pass through two slots that are
+// allocated before the start (frame_slot.h); semaphores hand them over. loop.prefer:
+//   throughput  the next frame is rendered while one is sensed, so the longer stage sets the frame rate
+//   latency     the next frame waits until this one is out. Each stage has all threads to itself, so a frame
+//               takes less time, but the sum of both stages sets the frame rate
+// Pixels are the same in both. frame_planner.h decides when frames begin and what each depends on.
 //
-// After start() both threads neither allocate nor lock nor log, but for what Embree does inside
+// After start() the two threads neither allocate, lock nor log, except for what Embree does inside
 // rtcCommitScene.
 
 #include <array>
@@ -34,19 +33,20 @@ class FrameLoop {
     ~FrameLoop() { stop(); }
 
     void start();
-    // Any thread, more than one at a time, too.
+    // Any thread, also several at a time.
     void stop() noexcept;
-    // True when it has been stopped, or has published all the frames that it was to take.
+    // True when the loop has been stopped or has published all frames that it was to make.
     bool finished() const { return finished_.load(); }
 
     const SimulatedClock& clock() const { return clock_; }
     const LoopCounters& counters() const { return figures_.counters; }
     const StageMeters& meters() const { return figures_.meters; }
-    // One thread. False: there is none that was not taken yet.
+    // Takes the oldest change that has not been taken; false when there is none. One thread.
     bool take_level_change(LevelChange& change) noexcept { return render_.take_level_change(change); }
-    // Those of the frame rendered last; for benchmarks, when the loop is stopped.
+    // Returns figures of the last rendered frame. For benchmarks, when the loop is stopped.
     const RenderStats& render_stats() const { return render_.stats(); }
-    // Returns what processor_ns() was after the last frame of warming up; likewise.
+    // Returns processor_ns() as it was after the last warm-up frame. For benchmarks, when the loop is
+    // stopped.
     std::int64_t warm_processor_ns() const { return warm_processor_ns_; }
 
   private:
@@ -63,9 +63,9 @@ class FrameLoop {
     std::array<FrameSlot, 2> slots_;
     std::counting_semaphore<> free_, rendered_{0};
     std::int64_t warm_processor_ns_ = 0;
-    std::int64_t counted_processor_ns_ = 0;  // when the newest frame was counted; 0: there was none
+    std::int64_t counted_processor_ns_ = 0;  // processor time when the newest frame was counted; 0: none yet
     std::atomic<bool> stopping_{false}, finished_{false};
-    std::mutex joining_;  // for who stops it
+    std::mutex joining_;  // guards the joining of threads, as several may call stop()
     std::thread render_thread_, sense_thread_;
 };
 

@@ -60,8 +60,8 @@ void FramePlanner::take_settings(const FrameStarter::Start& start, FrameSlot& sl
     slot.automatic = s.automatic_exposure;
 }
 
-// A frame's instants, and what it shows of the world's time: all of its exposure, part of it when time stops
-// on the way, or one instant.
+// Sets a frame's instants, and what it shows of simulated time: its whole exposure, part of it if time stops
+// meanwhile, or one instant.
 void FramePlanner::place_in_time(const FrameStarter::Start& start, FrameSlot& slot) const {
     FrameUse& use = slot.use;
     const std::int64_t middle_ns = to_ns(timing_.middle_s(use.exposure_s));

@@ -1,5 +1,6 @@
 #pragma once
-// Whoever keeps what each frame was made with, so that it can be made again (recorder.h).
+// Interface to a recorder that keeps what each frame was made with, so that the frame can be made again
+// (recorder.h).
 
 #include <cstdint>
 
@@ -10,10 +11,10 @@ namespace hilcam {
 class FrameRecorder {
   public:
     virtual ~FrameRecorder() = default;
-    // The camera's next frame shows the command of this number of a thing (WorldState::things) at the newest.
-    // Loop.
+    // The camera's next frame shows this command of a thing (WorldState::things) as its newest. number: the
+    // command's number. Loop.
     virtual void keep_shown(std::uint16_t camera, std::uint32_t thing, std::uint64_t number) noexcept = 0;
-    // The camera's frame as it is handed to the outputs. Loop.
+    // Keeps the data of the camera's frame as it is handed to the outputs. Loop.
     virtual void keep_frame(std::uint16_t camera, const FrameUse& use) noexcept = 0;
 };
 

@@ -1,18 +1,17 @@
 #pragma once
-// Says when frames are exposed in free-run: an absolute raster that never drifts and never catches up.
+// Schedules exposures in free-run on an absolute raster that never drifts and never catches up:
 //     next = last + period; when `now` has passed the start after next, whole periods are skipped and
 //     counted.
-// An exposure that could not begin in time may begin later than the raster says, so that it shows what is newest, as long as
-// it is over before the next one: the raster itself stays.
-// Times are int64 ns, of any one clock: here the camera's (clock.h).
+// An exposure that could not begin in time may begin later than the raster says, so that it shows the newest
+// pose, if it still ends before the next one begins. The raster itself does not move.
+// Times are int64 ns of any one clock; here, of the camera's (clock.h).
 
 #include <algorithm>
 #include <cstdint>
 
 namespace hilcam {
 
-// The longest that a stop, or a change of the clock, waits for a thread of the loop to look up from its
-// sleep.
+// Longest time that a sleeping thread of the loop takes to notice a stop or a change of the clock.
 inline constexpr std::int64_t kLongestSleep_ns = 5'000'000;
 
 class FrameSchedule {
@@ -23,10 +22,10 @@ class FrameSchedule {
         std::int64_t start_ns = 0;
         std::uint64_t skipped = 0;
     };
-    // The next exposure, if the period is that.
+    // Returns the begin of the next exposure for a period.
     std::int64_t next_ns(std::int64_t period_ns) const { return begun_ ? last_ns_ + period_ns : last_ns_; }
-    // The exposure to compute now. A start up to one period in the past still counts: that frame is late, not
-    // lost. may_move_ns: how much later than the raster an exposure that is late may begin.
+    // Returns the exposure to compute now. A start up to one period in the past still counts: that frame is
+    // late, not lost. may_move_ns: how much later than the raster a late exposure may begin.
     Slot take(std::int64_t now_ns, std::int64_t period_ns, std::int64_t may_move_ns = 0) {
         Slot slot{next_ns(period_ns), 0};
         if (now_ns > slot.start_ns + period_ns) {
@@ -38,7 +37,7 @@ class FrameSchedule {
         slot.start_ns += std::clamp(now_ns - slot.start_ns, std::int64_t{0}, may_move_ns);
         return slot;
     }
-    // Begins the raster anew after a pause.
+    // Starts a new raster after a pause.
     void restart(std::int64_t first_ns) { last_ns_ = first_ns, begun_ = false; }
 
   private:

@@ -9,10 +9,12 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kLastStretch_ns = 1'000'000;  // before a begin nothing else is listened to
+// During this time before a begin, nothing else is handled.
+constexpr std::int64_t kLastStretch_ns = 1'000'000;
 
-// Returns when an exposure of that begin in the camera's time begins on the machine's clock: kNever_ns where
-// the camera waits, be it at that very instant. News of the world that come before time goes on count for it.
+// Returns when an exposure with that begin in the camera's time begins on the machine's clock; kNever_ns
+// while the camera waits, even at that very instant. News of the world that arrives before time goes on then
+// still counts for it.
 std::int64_t when_begins(const SimulatedClock& clock, std::int64_t camera_ns) {
     if (camera_ns == SimulatedClock::kNever_ns) return camera_ns;
     const bool passes = clock.when_due(camera_ns + 1) != SimulatedClock::kNever_ns;
@@ -54,7 +56,7 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
         start.until_end = paced_ && !lockstep_;
         start.begin_ns = clock_.monotonic_of_camera(start.camera_ns);
         if (poses_) start.silence = poses_->at(clock_.simulated_of_camera(start.camera_ns));
-        // It has come while the last stretch was slept through.
+        // Poses became stale while the last stretch was slept through.
         if (start.silence.stale && !lockstep_ && poses_->rules().when_stale == WhenStale::kStop) continue;
         return true;
     }
@@ -79,7 +81,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
             if (stopping.load(std::memory_order_relaxed) || !now.running || now.triggered ||
                 waits_for_poses())
                 return false;
-            // A new period counts from the last frame on: what waits for its begin begins at another time.
+            // A new period counts from the last frame, so a waiting exposure begins at another time.
             schedule_ = before;
             due = take_slot(arrived_ns);
         }
@@ -98,8 +100,8 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
     return true;
 }
 
-// Takes the next exposure by the settings that hold when it begins: one that was due before they changed is still taken,
-// and none is due before the rate that it is due by.
+// Takes the next exposure by the settings that hold when it begins. An exposure that was due before a change
+// is still taken, and none is due before the change of rate that makes it due.
 FrameSchedule::Slot FrameStarter::take_slot(std::int64_t arrived_ns) {
     const SettingsHistory::Held& held =
         settings_.history_in_loop().of_exposure([&](const CameraSettings& settings) {
@@ -114,8 +116,9 @@ FrameSchedule::Slot FrameStarter::take_slot(std::int64_t arrived_ns) {
     return take_slot_by(held.settings, arrived_ns, schedule_);
 }
 
-// An exposure that begins late shows what is newest, where that is wanted and it is over before the next one. The raster
-// begins anew where the detector is over with an exposure only after the next one was due: it was longer, or of an order.
+// With prefers_newest_, a late exposure begins when it can, if it ends before the next one. A new raster
+// begins if the detector was still busy when the next exposure was due, because the exposure was longer, or
+// belonged to an order.
 FrameSchedule::Slot FrameStarter::take_slot_by(const CameraSettings& settings, std::int64_t arrived_ns,
                                                FrameSchedule& schedule) const {
     const double exposure_s = exposure_of(settings);
@@ -130,7 +133,7 @@ FrameSchedule::Slot FrameStarter::take_slot_by(const CameraSettings& settings, s
 }
 
 bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start) {
-    idle_ = true;  // free-run, when it comes back, begins a raster anew
+    idle_ = true;  // when free-run resumes, it begins a new raster
     if (left_ == 0 && !take_order(start.settings, exposure_of(start.settings))) {
         settings_.wait_for_news();
         return false;
@@ -156,7 +159,7 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     return true;
 }
 
-// Takes an order; in lockstep the camera's time is the simulated one.
+// Takes an order. In lockstep the camera's time is simulated time.
 bool FrameStarter::take_order(const CameraSettings& settings, double exposure_s) {
     if (!settings_.take_trigger(order_)) return false;
     left_ = order_.frames;
@@ -172,14 +175,14 @@ bool FrameStarter::take_order(const CameraSettings& settings, double exposure_s)
     return true;
 }
 
-// Returns the order's begin as the clock goes now: it may change while the order waits.
+// Returns the order's begin as the clock runs now; it may change while the order waits.
 std::int64_t FrameStarter::begin_of_order() const {
     if (order_.at_simulated.ns == 0) return clock_.camera_at(order_.at_monotonic_ns) + order_.delay_ns;
     const std::int64_t due_ns = clock_.camera_of(order_.at_simulated);
     return due_ns == SimulatedClock::kNever_ns ? due_ns : due_ns + order_.delay_ns;
 }
 
-// False when something else came first: the order goes on waiting, if it is not dropped for that.
+// Returns false when something else comes first. The order then continues to wait, unless it is dropped.
 bool FrameStarter::wait_for_order(const std::atomic<bool>& stopping) {
     if (!order_begun_) next_ns_ = std::max(begin_of_order(), over_ns_);
     const std::int64_t not_before_ns = order_begun_ ? 0 : order_.at_monotonic_ns;
@@ -204,7 +207,7 @@ void FrameStarter::forget_dropped() {
     if (any) settings_.report_ready(ready_ns_, ready_ns_);
 }
 
-// False when it is to stop, or the camera does not get there as the clock goes now.
+// Returns false when stopping, or when the camera will not reach the time as the clock runs now.
 bool FrameStarter::sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const {
     for (;;) {
         const std::int64_t now_ns = monotonic_ns(), due_ns = when_begins(clock_, camera_ns);

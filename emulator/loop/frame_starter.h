@@ -1,24 +1,25 @@
 #pragma once
-// Says when the next frame begins, by the camera's mode, and with which settings.
+// Decides when the next frame begins, by the camera's mode, and with which settings.
 //
 //   free-run    on an absolute raster of the frame rate that never drifts and never catches up
-//               (frame_schedule.h); with loop.prefer `latency` an exposure that is late begins when it can, and shows the
-//               newest pose
+//               (frame_schedule.h); with loop.prefer `latency` a late exposure begins when it can and shows
+//               the newest pose
 //   triggered   at each trigger, and for a burst at the frame rate after it; every frame of an order is
 //               taken, however late
-//   lockstep    as soon as an `expose` has come, at the simulated time it names: no clock is waited for, so
+//   lockstep    as soon as an `expose` has arrived, at the simulated time it names; no clock is involved, so
 //               the same commands give the same frames on any machine
 //
-// No exposure begins before the detector is over with the one before, whatever has changed meanwhile: settings, mode, or
-// whether it runs at all.
+// No exposure begins before the detector has finished the one before, even if settings or mode have changed,
+// or the camera has been stopped and started.
 //
-// All of it is in the camera's time (clock.h), which goes with the simulated one: slower, faster, or, where a
-// camera waits while time stands, not at all. A scheduled trigger waits for its instant on the machine's
-// clock or in simulated time, whichever it names. Where frames stop without poses (pose_watch.h), none begins
-// and orders that wait are dropped, as are those that came before a stop, or before a change to free-run.
+// All times are the camera's (clock.h). It runs with simulated time: slower, faster, or not at all while a
+// camera waits for time to go on. A scheduled trigger waits for its instant on the machine's clock or in
+// simulated time, whichever it names. Where frames stop for lack of poses (pose_watch.h), no frame begins,
+// and waiting orders are dropped. Orders from before a stop, or before a change to free-run, are dropped as
+// well.
 //
-// Settings are those of the instant the exposure begins, also of one that is late: what came after that instant is for
-// the next (settings_history.h). In lockstep they are the newest.
+// A frame uses the settings of the instant at which its exposure begins, even if it is late: later changes
+// apply to the next frame (settings_history.h). In lockstep it uses the newest settings.
 
 #include <atomic>
 #include <cstdint>
@@ -36,29 +37,30 @@ struct LoopLimits;  // loop_parts.h
 
 class FrameStarter {
   public:
-    // Makes `settings` go by that clock. poses: null: nobody watches them.
+    // Makes `settings` use this clock. poses: null: poses are not watched.
     FrameStarter(const CameraModel& camera, LiveSettings& settings, SimulatedClock& clock,
                  const LoopLimits& limits, const PoseWatch* poses = nullptr);
 
     struct Start {
         CameraSettings settings;
-        double exposure_s = 0;  // the settings', or what the camera has set itself
-        // Begin of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it.
+        double exposure_s = 0;  // from the settings, or set by the camera itself
+        // Begin of the exposure on CLOCK_MONOTONIC; in lockstep, as if that clock ran with simulated time.
         std::int64_t begin_ns = 0;
-        std::int64_t camera_ns = 0;  // the same in the camera's time
-        bool until_end = false;      // it may not be published before the exposure's end
-        // Nor, if it was triggered, before the camera is ready again, camera's time: who triggers the next frame
-        // when this one has come shall not be too early.
+        std::int64_t camera_ns = 0;  // begin in the camera's time
+        bool until_end = false;      // true: the frame must not be published before the exposure's end
+        // A triggered frame must not be published before this instant of the camera's time, at which the
+        // camera is ready again: a client that triggers the next frame on arrival of this one would be too
+        // early otherwise.
         std::int64_t ready_camera_ns = std::numeric_limits<std::int64_t>::min();
-        std::int64_t period_ns = 0;  // until the next exposure is due, camera's time; 0: nothing says when
-        std::uint64_t skipped = 0;   // exposures that could not be taken before it
-        bool late = false;           // a triggered frame began more than a period after its time
+        std::int64_t period_ns = 0;  // time until the next exposure is due, camera's time; 0: unknown
+        std::uint64_t skipped = 0;   // exposures before it that were skipped
+        bool late = false;           // true: a triggered frame that began more than a period after its time
         std::uint32_t trigger_sequence = 0;
         bool ends_order = false;
-        PoseWatch::Silence silence;  // when it begins
+        PoseWatch::Silence silence;  // state of the poses at its begin
     };
-    // Waits for the next frame's begin. own_exposure_s: what automatic exposure has found; 0: nothing yet.
-    // False when `stopping`. Loop, one thread.
+    // Waits for the next frame's begin. own_exposure_s: result of automatic exposure; 0: none yet. Returns
+    // false when `stopping`. Loop, one thread.
     bool next(double own_exposure_s, const std::atomic<bool>& stopping, Start& start);
 
   private:
@@ -82,18 +84,19 @@ class FrameStarter {
     const PoseWatch* poses_;
     ShutterTiming timing_;
     bool lockstep_, paced_;
-    bool prefers_newest_;  // late exposures begin when they can, not where the raster has them
+    bool prefers_newest_;  // true: late exposures begin when they can, not on the raster
     double own_exposure_s_ = 0;
     FrameSchedule schedule_;
     bool idle_ = true;
     LiveSettings::WaitingOrder order_;
-    std::int64_t left_ = 0;     // frames of the order
-    bool order_begun_ = false;  // the first of them has
+    std::int64_t left_ = 0;     // frames left of the order
+    bool order_begun_ = false;  // true: its first frame has begun
     std::int64_t next_ns_ = 0;  // begin of the order's next frame, camera's time
-    // When the detector is over with the newest frame, and the camera with the newest one of an order: its time.
+    // When the detector has finished the newest frame, and the camera the newest frame of an order, camera's
+    // time.
     std::int64_t over_ns_ = std::numeric_limits<std::int64_t>::min();
     std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();
-    TimeTai last_mid_;  // lockstep
+    TimeTai last_mid_;  // in lockstep
 };
 
 }  // namespace hilcam

@@ -22,7 +22,8 @@ void Governor::use_budget(double budget_ms) {
     choose();
 }
 
-// Takes the best level that leaves room by all that is known; one of which nothing is known may have it.
+// Chooses the best level that leaves room by what is known; a level of which nothing is known is assumed to
+// do so.
 void Governor::choose() {
     std::size_t level = 0;
     if (budget_ms_ > 0)
@@ -50,7 +51,7 @@ void Governor::measure(double frame_ms) {
     constexpr std::int64_t kMeanOf = 16;
     ++frames_;
     misses_ = misses_ << 1 | (frame_ms > budget_ms_ ? 1u : 0u);
-    // A plain mean at first, later of about the last sixteen.
+    // A plain mean at first, later a running mean over about sixteen frames.
     Measured& here = measured_[level_];
     here.mean_ms += (frame_ms - here.mean_ms) / static_cast<double>(std::min(frames_, kMeanOf));
     if (here.cost_ms > 0 && std::isfinite(here.cost_ms) && frames_ >= kMeanOf)
@@ -72,7 +73,7 @@ void Governor::enter(std::size_t level, bool by_climbing) {
     climbed_ = by_climbing;
     frames_ = 0;
     misses_ = 0;
-    // The mean begins anew with the first frame: measure() divides by one then.
+    // The mean starts again with the first frame, because measure() divides by one then.
 }
 
 void Governor::fall() {

@@ -1,25 +1,25 @@
 #pragma once
-// Chooses a quality level so that frames meet their deadline: down when they do not, up again when there is
-// room. Decisions alone: frame times and budgets go in, a level comes out; no clock, no thread, no allocation.
+// Chooses quality levels so that frames meet their deadline: a lower quality when they miss it, a better one
+// when there is room. Pure decisions: frame times and budgets go in, a level comes out, without clock, thread
+// or allocation.
 //
 // Level 0 is the best. A frame is a miss when it takes longer than the budget.
 //
-//   first by what frames of each level took before the run (costs_ms), where that was measured: the best level
-//         that leaves room. So it is again when the budget becomes another one: a client changes the frame
-//         rate.
-//   down  when more than kMaxMisses of the last kWindow frames at a level were misses: a single hiccup of
-//         the machine changes nothing, three frames in a row that are too slow do. To the next level, past
-//         those that were measured, or are by their costs, too slow as well.
-//   up    by one level, when the level has been kept for the hold-off, its mean leaves room (below kRoom of
-//         the budget) and none of the last kWindow frames was a miss. A level that should be too slow, by its
-//         cost and by how much more than theirs frames take now, is tried only after kDoubtfulStay frames.
+//   start  If costs_ms holds times measured before the run, the best level that leaves room is chosen. The
+//          same happens whenever the budget changes, as when a client changes the frame rate.
+//   down   More than kMaxMisses misses among the last kWindow frames at a level lead to the next level, past
+//          levels that are too slow as well by their measured times or costs. A single hiccup of the machine
+//          changes nothing; three slow frames in a row do.
+//   up     One level up when the hold-off has passed, the level's mean leaves room (below kRoom of the
+//          budget) and none of the last kWindow frames was a miss. A level that is expected to be too slow,
+//          by its cost and the present ratio of times to costs, is tried only after kDoubtfulStay frames.
 //
-// That alone would swing where the budget lies between two levels: the lower has room, the upper misses. So
-// the hold-off, at first kMinStay frames, doubles each time a climb has to be taken back, up to kMaxStay;
-// a plant that does not change is tried at rising intervals, log2(kMaxStay / kMinStay) times, then once in
-// kMaxStay frames (as TCP backs off: Jacobson, SIGCOMM 88). Only a load that has fallen below kFell of what
-// it was at the last climb from here is tried sooner, after a sixteenth of the hold-off. A climb that lasts
-// kMaxStay frames is good: the hold-off is as at first.
+// Where the budget is between two levels, these rules alone would oscillate: the lower level has room, the
+// upper one misses. So the hold-off begins at kMinStay frames and doubles each time a climb has to be taken
+// back, up to kMaxStay. With a constant load the upper level is tried log2(kMaxStay / kMinStay) times at
+// growing intervals, then once in kMaxStay frames (like TCP's back-off: Jacobson, SIGCOMM 88). If the load
+// has fallen below kFell of its value at the last climb from this level, the upper level is tried after a
+// sixteenth of the hold-off. A climb that lasts kMaxStay frames resets the hold-off.
 
 #include <bit>
 #include <cstddef>
@@ -29,12 +29,12 @@
 namespace hilcam {
 
 struct GovernorSettings {
-    // The budget's owner tells it, frame by frame: use_budget().
+    // Stands for a budget that use_budget() sets frame by frame.
     static constexpr double kToldBudget_ms = -1;
 
     double budget_ms = 0;    // 0: no governor
     std::size_t levels = 1;  // number of levels
-    // Time that a frame of each level takes, as far as it was measured; 0 or none: it was not; infinity: too long to be.
+    // Measured frame time of each level. 0 or missing: not measured; infinity: too long to measure.
     std::vector<double> costs_ms{};
 
     bool is_told() const { return budget_ms < 0; }
@@ -43,46 +43,46 @@ struct GovernorSettings {
 
 class Governor {
   public:
-    static constexpr int kWarmUp = 8;  // first frames, which do not count
+    static constexpr int kWarmUp = 8;  // first frames, which are ignored
     static constexpr int kWindow = 32;
     static constexpr int kMaxMisses = 2;
     static constexpr std::int64_t kMinStay = 64, kMaxStay = 65536, kDoubtfulStay = 1024;
     static constexpr double kRoom = 0.85, kFell = 0.75;
-    // A budget that differs from the one of the last choice by less than this share is the same one.
+    // A budget that differs from that of the last choice by less than this share counts as unchanged.
     static constexpr double kSameBudget = 0.1;
 
-    // Owner thread; the others: loop.
+    // Owner thread; all other functions: loop.
     explicit Governor(const GovernorSettings& settings);
 
-    // Sets how long frames may take from now on [ms]; 0: there is no limit, and frames have the best level. Only for
+    // Sets the time limit of the next frames [ms]; 0: no limit, and frames have the best level. Only for
     // settings with kToldBudget_ms.
     void use_budget(double budget_ms);
-    // Returns the budget [ms]; 0: frames may take as long as they like.
+    // Returns the budget [ms]; 0: no limit.
     double budget_ms() const { return budget_ms_; }
-    // A frame of some level took so long [ms]; frames of a level that has been left since do not count. Gives
-    // the level of the next frame.
+    // Takes the time of a frame at a level [ms] and returns the level of the next frame. Frames of a level
+    // that has been left since are ignored.
     std::size_t take(std::size_t level, double frame_ms);
     std::size_t level() const { return level_; }
-    // Returns the mean over the frames since a level was last entered; 0: not used yet.
+    // Returns the mean over the frames since the level was last entered; 0: not used yet.
     double mean_ms(std::size_t level) const { return measured_[level].mean_ms; }
 
   private:
     struct Measured {
-        double cost_ms = 0;  // before the run; 0: not measured
+        double cost_ms = 0;  // measured before the run; 0: not measured
         double mean_ms = 0;
-        double at_climb_ms = 0;  // its mean when it was last left upwards; 0: never
+        double at_climb_ms = 0;  // mean_ms when the level was last left for a better one; 0: never
     };
     bool on_;
     std::vector<Measured> measured_;
     double budget_ms_ = 0;
-    double chosen_for_ms_ = 0;  // budget of the last choice
-    double load_ = 1;           // factor by which frames take more than their cost now
+    double chosen_for_ms_ = 0;  // budget at the last choice
+    double load_ = 1;           // ratio of frame times to costs at present
     std::size_t level_ = 0;
     int warm_up_ = kWarmUp;
-    std::int64_t frames_ = 0;   // at this level
-    std::uint32_t misses_ = 0;  // a bit for each of the last kWindow of them
+    std::int64_t frames_ = 0;   // frames at this level
+    std::uint32_t misses_ = 0;  // one bit for each of the last kWindow frames
     std::int64_t hold_off_ = kMinStay;
-    bool climbed_ = false;  // to this level, not long ago
+    bool climbed_ = false;  // true: reached by a climb, not long ago
 
     void choose();
     void measure(double frame_ms);

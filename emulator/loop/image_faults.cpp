@@ -23,7 +23,8 @@ bool same_size(const DnImage& a, const DnImage& b) {
     return a.width() == b.width() && a.height() == b.height();
 }
 
-// Draws which pixels are struck: gaps between them are geometric, so the work goes with their number.
+// Draws which pixels are struck. The gaps between them are geometrically distributed, so the work grows with
+// their number only.
 std::uint64_t flip_bits(double rate, const FrameRecord& record, std::uint64_t seed, DnImage& frame) {
     const double log_miss = std::log1p(-std::min(rate, 1.0 - 1e-12));
     const std::span<std::uint16_t> pixels = frame.all();

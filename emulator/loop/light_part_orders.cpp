@@ -4,7 +4,7 @@
 
 namespace hilcam {
 
-// While one who asks has the turn others wait; the lock is open meanwhile.
+// Gives a client the turn while others wait; the lock is open meanwhile.
 class LightPartOrders::Turn {
   public:
     Turn(LightPartOrders& orders, std::unique_lock<std::mutex>& lock) : orders_(orders), lock_(lock) {
@@ -37,12 +37,13 @@ std::shared_ptr<const LightPartSource::Picture> LightPartOrders::wait_for(const 
     return has(wish) ? newest_ : nullptr;
 }
 
-// Is called under the lock.
+// Called under the lock.
 bool LightPartOrders::has(const Wish& wish) const {
     return newest_ && newest_part_ == wish.part && newest_->record.id != wish.after;
 }
 
-// The frame of somebody who has given up comes first: it may be the one that is wished for, where frames take longer than patience lasts.
+// First takes a frame left by a client that has given up. It may be the wanted one, if frames take longer
+// than clients wait.
 void LightPartOrders::carry_out(const Wish& wish, Clock::time_point deadline) {
     if (state_.load(std::memory_order_acquire) != State::kIdle) {
         if (!wait_until_done(deadline)) return;
@@ -52,18 +53,18 @@ void LightPartOrders::carry_out(const Wish& wish, Clock::time_point deadline) {
     }
     if (closed_.load(std::memory_order_acquire)) return;
     order_ = {maker_.make_buffer(wish.part), wish.part, wish.with_truth, {}};
-    news_.take_all();  // that of orders before
+    news_.take_all();  // news of earlier orders
     state_.store(State::kWanted, std::memory_order_release);
     if (wait_until_done(deadline)) return take_result();
     State wanted = State::kWanted;
     if (state_.compare_exchange_strong(wanted, State::kIdle, std::memory_order_acquire)) order_ = {};
 }
 
-// False: time is up, or the loop has ended before it began.
+// False when time is up, or the loop has ended before it began the order.
 bool LightPartOrders::wait_until_done(Clock::time_point deadline) {
-    // The semaphore counts by CLOCK_MONOTONIC, and so does steady_clock.
+    // The semaphore uses CLOCK_MONOTONIC, like steady_clock.
     const std::int64_t until_ns = std::chrono::nanoseconds(deadline.time_since_epoch()).count();
-    // The loop ends an order before it ends: once it has, an order is done, or will not be.
+    // The loop finishes an order before it ends. After its end, an order is done or never will be.
     while (state_.load(std::memory_order_acquire) != State::kDone) {
         const bool over = closed_.load(std::memory_order_acquire) || !news_.try_acquire_until(until_ns);
         if (over) return state_.load(std::memory_order_acquire) == State::kDone;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kMaxBinning = 8;
 
-// The machine's own clock, on which all three times are one.
+// Returns a clock that runs like the machine's own, so that all three times are the same.
 const SimulatedClock& machine_clock() {
     static const SimulatedClock clock({0}, 0);
     return clock;
@@ -30,7 +30,7 @@ CameraLimits limits_of(const CameraModel& c, const LiveSettings::Mode& mode) {
     limits.max_black_level_dn = std::exp2(static_cast<double>(c.bits)) / 4;
     limits.temperature_c = c.temperature_c;
     limits.lockstep = mode.lockstep;
-    // Mirrored or binned, a mosaic is another one.
+    // A mirrored or binned colour filter array would have another pattern.
     limits.reversible = c.color_filter.pattern.empty();
     if (c.color_filter.pattern.empty() && !mode.fixed_size)
         while (limits.max_binning < kMaxBinning &&
@@ -89,7 +89,7 @@ double LiveSettings::resulting_frame_rate_hz() const {
     return 1 / timing_.period_s(now.frame_rate_hz, now.exposure_s);
 }
 
-// Is called under the lock.
+// Called under the lock.
 double LiveSettings::exposure_now_s() const {
     const bool own = limits_.exposure_is_own || settings_.automatic_exposure;
     return own ? own_exposure_s_.load(std::memory_order_relaxed) : settings_.exposure_s;
@@ -128,7 +128,7 @@ bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) 
     CameraSettings wanted = settings_;
     apply(c, wanted);
     if (!fits(wanted, c)) return false;
-    // Switched off, automatic exposure leaves the camera with what it had found.
+    // When automatic exposure is switched off, the camera keeps the exposure that it found.
     if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)
         wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
     settings_ = wanted;
@@ -148,7 +148,7 @@ TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     return result;
 }
 
-// Is called under the lock.
+// Called under the lock.
 TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     if (closed_.load() || !settings_.running || !settings_.triggered) return TriggerResult::kNotArmed;
     if (asked.source != (limits_.lockstep ? TriggerSource::kLine0 : settings_.trigger_source))
@@ -181,7 +181,7 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
 }
 
 TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
-    done_.take_all();  // orders that were given up
+    done_.take_all();  // orders that clients have given up
     const TriggerResult result = trigger(order);
     ordered_ = result == TriggerResult::kTaken;
     return result;
@@ -190,7 +190,7 @@ TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
 bool LiveSettings::wait_for_order(double patience_s) {
     if (!ordered_) return true;
     ordered_ = false;
-    // An order may come just when the loop has looked for the last time: nobody answers it.
+    // An order may arrive just after the loop has looked for the last time; then nothing answers it.
     const std::int64_t until_ns = monotonic_ns() + static_cast<std::int64_t>(patience_s * 1e9);
     while (!done_.try_acquire_for(kLongestWait_ns)) {
         if (closed_.load()) return true;
@@ -199,14 +199,14 @@ bool LiveSettings::wait_for_order(double patience_s) {
     return true;
 }
 
-// Returns the order's time if time goes on as it does now, and does not stand.
+// Returns the order's time in the camera's time if time goes on as it does now.
 std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const {
     if (order.at_simulated.ns == 0) return clock_->camera_at(order.at_monotonic_ns);
     return clock_->camera_at(now_ns) + (order.at_simulated - clock_->at(now_ns));
 }
 
-// Returns when the camera is over with the orders that it has taken, its time. Is called under the lock, so that none is
-// added meanwhile.
+// Returns when the camera will have finished all accepted orders, in the camera's time. Called under the
+// lock, so that none is added meanwhile.
 std::int64_t LiveSettings::ready_ns(std::uint64_t orders, std::int64_t now_ns) const {
     const bool none_waits = orders_begun_.load(std::memory_order_acquire) == orders;
     if (dropped_below_.load(std::memory_order_relaxed) == orders)

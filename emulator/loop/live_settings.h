@@ -1,6 +1,6 @@
 #pragma once
-// The camera's settings while it runs, and its trigger input: changed by commands and camera interfaces, read
-// by the loop without a lock.
+// The settings of a running camera, and its trigger input. Commands and camera interfaces change them; the
+// loop reads them without a lock.
 
 #include <array>
 #include <atomic>
@@ -26,96 +26,98 @@ class LiveSettings : public CameraControl {
     struct Mode {
         bool lockstep = false;
         bool triggered = false;   // at power-up
-        bool fixed_size = false;  // an output cannot follow a change of binning
+        bool fixed_size = false;  // true: an output cannot follow a change of binning
     };
     explicit LiveSettings(const CameraModel& camera) : LiveSettings(camera, Mode{}) {}
     LiveSettings(const CameraModel& camera, const Mode& mode);
-    // Sets the clock that frames and triggers go by, and the watch that may say that there shall be none;
-    // without this call it is the machine's clock, and no watch. Both outlive the settings. Is called before
-    // the threads start.
+    // Sets the clock for frames and triggers, and the watch that can stop frames when poses are missing.
+    // Without this call, the machine's clock is used, and no watch. Both must outlive the settings. Call
+    // before the threads start.
     void follow(const SimulatedClock& clock, const PoseWatch* poses) { clock_ = &clock, poses_ = poses; }
 
     CameraSettings settings() const override;
     double resulting_frame_rate_hz() const override;
     CameraLimits limits() const override { return limits_; }
-    // From now on; or from an instant of the camera's time (clock.h) on that may have passed, or be about to come.
+    // Changes settings from now on, or from an instant of the camera's time (clock.h), past or near future.
     bool change(const SettingsChange& change) override;
     bool change(const SettingsChange& change, std::int64_t from_camera_ns);
-    // True where change() would make it now.
+    // True when change() would accept the change now.
     bool takes(const SettingsChange& change) const;
-    // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
-    // highest frame rate: never when that frame has left the camera (FrameStarter::Start). When a burst that
-    // has begun is over says the loop; one that waits goes by what holds when the trigger comes, settings and
-    // clock. Or, in lockstep, when kMaxWaiting are waiting. Not armed: also where frames wait for poses
-    // (pose_watch.h).
+    // Missed: the trigger arrives before the camera, at its highest frame rate, can have finished the
+    // previous frame or burst. This never happens once that frame has left the camera (FrameStarter::Start).
+    // The loop reports when a running burst will be finished; for a waiting burst, the settings and clock at
+    // the trigger's arrival count. In lockstep, a trigger is missed when kMaxWaiting are waiting. Not armed:
+    // the camera is stopped or in free-run, or frames wait for poses (pose_watch.h).
     TriggerResult trigger(const TriggerOrder& order) override;
-    // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
+    // Sets a function that is called, with a lock held, for every missed trigger; it must not call back. Set
+    // before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
 
-    // Called with a lock held for every change that is made, and for every trigger with what became of it;
-    // must not call back. Before the threads start.
+    // Set functions that are called, with a lock held, for every change made and for every trigger with its
+    // result. They must not call back. Set before the threads start.
     void on_change(std::function<void(const SettingsChange&)> tell) { changed_ = std::move(tell); }
     void on_trigger(std::function<void(const TriggerOrder&, TriggerResult)> tell) {
         triggered_ = std::move(tell);
     }
 
-    // Lockstep, one caller at a time: trigger(), to be followed by wait_for_order(), which returns when the
-    // loop has seen the world for the order's last frame or has ended, or at once when it was not taken.
-    // False when that takes longer than `patience_s`.
+    // For lockstep, one caller at a time: call order_in_lockstep(), then wait_for_order(). That returns when
+    // the loop has sampled the world for the order's last frame or has ended, and at once when the order was
+    // refused. False when it takes longer than `patience_s`.
     TriggerResult order_in_lockstep(const TriggerOrder& order);
     bool wait_for_order(double patience_s);
 
     // --- Loop, one thread. No lock.
     const CameraSettings& read_in_loop() { return history_in_loop().newest(); }
-    // The settings over time. In lockstep frames have the newest, as orders and changes come in turn.
+    // Returns the settings over time. In lockstep, frames use the newest, because orders and changes come in
+    // sequence.
     const SettingsHistory& history_in_loop() { return latest_.read(); }
-    // The next trigger in its order of arrival; false when there is none.
+    // Takes the next trigger in order of arrival; false when there is none.
     struct WaitingOrder : TriggerOrder {
-        std::int64_t delay_ns = 0;  // after its time, of the camera's time
-        std::uint64_t number = 0;   // its place among those that were taken, from 0
+        std::int64_t delay_ns = 0;  // delay after its time, in the camera's time
+        std::uint64_t number = 0;   // sequence number among accepted triggers, from 0
     };
     bool take_trigger(WaitingOrder& order);
-    // True for an order that came before the camera was last stopped, or switched to free-run: it is dropped, also where
-    // the loop was busy until all was as before. Not in lockstep.
+    // True for an order that came before the camera was last stopped or switched to free-run. It is dropped
+    // even if the loop was busy until everything was as before. Not in lockstep.
     bool is_dropped(const WaitingOrder& order) const {
         return order.number < dropped_below_.load(std::memory_order_acquire);
     }
-    // Takes the next trigger if it is dropped; false when there is none or it is not.
+    // Takes the next trigger if it is dropped; false otherwise.
     bool take_dropped();
-    // Returns after a change or a trigger, or after 50 ms.
+    // Returns after a change or a trigger, at the latest after 50 ms.
     void wait_for_news() {
         static_cast<void>(news_.try_acquire_for(kLongestWait_ns));
         news_.take_all();
     }
-    // Any thread: the loop shall look anew at what it waits for.
+    // Makes the loop check again what it waits for. Any thread.
     void wake() { news_.release(); }
-    // No order will be looked at any more.
+    // Ends the handling of orders.
     void close() { closed_.store(true); }
     bool is_closed() const { return closed_.load(); }
-    // All frames of an order are rendered, or the order is dropped.
+    // Call when all frames of an order are rendered, or the order is dropped.
     void order_done() { done_.release(); }
-    // True at once when there is a change or a trigger, or after 50 ms; false when the instant has come.
+    // True after a change or a trigger, at the latest after 50 ms; false when the instant has come.
     bool wait_for_news_until(std::int64_t until_ns);
-    // Takes over what a camera that sets them itself has set; settings() tells it.
+    // Takes over the values that automatic exposure has set; settings() then returns them.
     void report_own(double exposure_s, double gain_db) {
         own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
         own_gain_db_.store(gain_db, std::memory_order_relaxed);
     }
 
-    // Returns how long the camera is busy with a frame at the least, in its own time.
+    // Returns the shortest time that a frame occupies the camera, in the camera's time.
     std::int64_t shortest_period_ns(double exposure_s) const {
         return to_ns(timing_.period_s(limits_.max_frame_rate_hz, exposure_s));
     }
 
-    // No order waits: all that were taken have begun, or are dropped. The camera is over with the newest frame, and with
-    // what is left of its order, at those instants of its time.
+    // Call when all accepted orders have begun or are dropped. frame_ns, order_ns: instants of the camera's
+    // time at which it will have finished the newest frame and the rest of that frame's order.
     void report_ready(std::int64_t frame_ns, std::int64_t order_ns) {
         frame_ready_ns_.store(frame_ns, std::memory_order_relaxed);
         order_ready_ns_.store(order_ns, std::memory_order_relaxed);
         orders_begun_.store(triggers_out_.load(std::memory_order_relaxed), std::memory_order_release);
     }
 
-    // Lockstep: the middle of the newest frame; none is ordered for an instant that is not after it.
+    // Lockstep: sets the middle of the newest frame. Orders for that instant or an earlier one are refused.
     void report_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
 
     static constexpr std::size_t kMaxWaiting = 64;
@@ -138,12 +140,13 @@ class LiveSettings : public CameraControl {
     SettingsHistory history_;
     Latest<SettingsHistory> latest_;
     std::atomic<double> own_exposure_s_, own_gain_db_;
-    // Writers under the mutex, one reader.
+    // Written under the mutex, with one reader.
     std::array<WaitingOrder, kMaxWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
     WaitingOrder newest_order_;
     std::atomic<std::uint64_t> dropped_below_{0};
-    // The loop's: how many of triggers_in_ no longer wait, and when the camera is over with them, in its time.
+    // Written by the loop: how many of triggers_in_ no longer wait, and when the camera finishes those, in
+    // its time.
     std::atomic<std::uint64_t> orders_begun_{0};
     std::atomic<std::int64_t> frame_ready_ns_{std::numeric_limits<std::int64_t>::min()};
     std::atomic<std::int64_t> order_ready_ns_{std::numeric_limits<std::int64_t>::min()};

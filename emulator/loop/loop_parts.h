@@ -1,6 +1,6 @@
 #pragma once
-// The parts that a frame loop is made of: those of its camera, how long and how it runs, who dictates its frames,
-// and who is told of them. All that is referred to outlives the loop.
+// The parts of a frame loop: those of its camera, its limits, the source of its frames, and the observers of
+// its frames. Everything it refers to must outlive the loop.
 
 #include <cstdint>
 #include <vector>
@@ -27,18 +27,18 @@ class WorldState;
 
 struct LoopLimits {
     std::uint64_t frames = 0;   // 0: no limit
-    std::uint64_t warm_up = 0;  // first frames, whose times are not kept
-    bool paced = true;          // false: as fast as it goes, for benchmarks
+    std::uint64_t warm_up = 0;  // first frames, for which times are not kept
+    bool paced = true;          // false: as fast as possible, for benchmarks
     GovernorSettings governor{};
     LoopPreference prefer = LoopPreference::kThroughput;
 };
 
-// Each may be null. They change no frame.
+// Any of these may be null. None of them changes a frame.
 struct LoopObservers {
-    FrameWatcher* watcher = nullptr;         // is told what each frame has seen of the world
-    TruthSink* truth = nullptr;              // one of the sinks, which is told what frames show
-    LightPartOrders* light_parts = nullptr;  // says which frames are taken apart for somebody
-    FrameRecorder* recorder = nullptr;       // keeps what each frame was made with
+    FrameWatcher* watcher = nullptr;         // receives what each frame has seen of the world
+    TruthSink* truth = nullptr;              // one of the sinks: receives the truth of frames
+    LightPartOrders* light_parts = nullptr;  // says which frames to split into parts of light
+    FrameRecorder* recorder = nullptr;       // keeps the data from which each frame was made
     std::uint16_t recorded_camera = 0;       // the camera's number in the recording, from 1
 };
 
@@ -50,11 +50,11 @@ struct LoopParts {
     LiveSettings& settings;
     FaultBoard& faults;
     SimulatedClock& clock;
-    const PoseWatch* poses = nullptr;  // null: nobody watches them
+    const PoseWatch* poses = nullptr;  // null: poses are not watched
     std::vector<FrameSink*> sinks{};
     std::uint64_t seed = 1;
     LoopLimits limits{};
-    FrameScript* script = nullptr;  // says which frames there are; null: the loop finds them by itself
+    FrameScript* script = nullptr;  // dictates the frames; null: the loop plans them itself
     LoopObservers observers{};
 };
 

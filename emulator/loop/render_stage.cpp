@@ -48,7 +48,7 @@ void RenderStage::close() {
     if (observers_.light_parts) observers_.light_parts->close();
 }
 
-// Waits for the next frame's begin and says what it depends on; false when there is none.
+// Waits for the next frame's begin and finds what the frame depends on; false when there are no more frames.
 bool RenderStage::begin(FrameSlot& slot, const std::atomic<bool>& stopping) {
     const bool begun = script_ ? script_->next(stopping, slot.use, slot.not_before_ns)
                                : planner_.next(stopping, slot, ends_order_);
@@ -63,7 +63,7 @@ bool RenderStage::begin(FrameSlot& slot, const std::atomic<bool>& stopping) {
 
 void RenderStage::use_level(std::uint32_t level) {
     if (level != level_) {
-        // The first frame's level is no change.
+        // The level of the first frame is not a change.
         if (has_begun_) counters_.level_changes.fetch_add(1, std::memory_order_relaxed);
         exposures_.use_level(level);
     }
@@ -81,7 +81,7 @@ void RenderStage::take_light(FrameUse& use) {
     counters_.last_without_light.store(use.id, std::memory_order_relaxed);
 }
 
-// Copies what a frame depends on; from here on it is the frame's own.
+// Copies what the frame depends on into it; later changes do not affect it.
 void RenderStage::latch(FrameSlot& slot) {
     const FrameUse& use = slot.use;
     settings_.report_own(use.exposure_s, use.gain_db);
@@ -107,10 +107,10 @@ void RenderStage::latch(FrameSlot& slot) {
 void RenderStage::render(FrameSlot& slot) {
     LightPartOrders::Order* const order = observers_.light_parts ? observers_.light_parts->begin() : nullptr;
     if (slot.use.shutter_closed) {
-        // An order's buffer is new, and stays without light.
+        // The order's new buffer stays without light.
         exposures_.keep_dark(slot.radiance, slot.points, slot.exposure);
         slot.beside.clear();
-        slot.render_ns = 0;  // says nothing of what frames cost
+        slot.render_ns = 0;  // does not count as the cost of a frame
     } else {
         if (order) exposures_.keep_parts(order->buffer.get());
         render_light(slot, order);
@@ -143,7 +143,7 @@ void RenderStage::render_light(FrameSlot& slot, const LightPartOrders::Order* or
     meters_.render.record(slot.render_ns);
 }
 
-// The first frame after time tags that went back says so.
+// Flags the first frame after time tags went backwards.
 void RenderStage::report_pose_tags(FrameSlot& slot) {
     const std::uint64_t flagged = poses_ ? poses_->flagged() : 0;
     if (flagged == flagged_) return;
@@ -165,7 +165,7 @@ void RenderStage::report_commands(const ShownCommand& shown, FrameSlot& slot) {
     FrameRecord& record = slot.record;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;
-    // Latency is that of a command in the first frame that shows it.
+    // Latency counts for a command in the first frame that shows it.
     record.command_arrival_monotonic_ns =
         !script_ && shown.arrival_monotonic_ns > shown_arrival_ns_ ? shown.arrival_monotonic_ns : 0;
     shown_arrival_ns_ = std::max(shown_arrival_ns_, shown.arrival_monotonic_ns);

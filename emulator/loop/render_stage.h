@@ -1,11 +1,11 @@
 #pragma once
-// The loop's first stage: waits for a frame's begin, samples the world and renders what the exposure lets in.
+// The loop's first stage: waits for a frame's begin, samples the world and renders the exposure.
 //
-// What a frame depends on comes from the script, where there is one, and then clock, live settings, governor
-// and faults do not matter (frame_script.h); otherwise from the planner (frame_planner.h).
+// In a replay, the script supplies what a frame depends on, and clock, live settings, governor and faults are
+// ignored (frame_script.h). Otherwise the planner decides (frame_planner.h).
 //
-// Light: what is made beside the run (Renderer::give_tables) is taken as a frame begins; frames before that
-// say so.
+// Tables of light that are made during the run (Renderer::give_tables) are taken over when a frame begins.
+// Earlier frames carry a flag.
 
 #include <atomic>
 #include <cstdint>
@@ -22,21 +22,21 @@ namespace hilcam {
 
 class RenderStage {
   public:
-    // figures: outlive the stage. Owner thread.
+    // figures: must outlive the stage. Owner thread.
     RenderStage(const LoopParts& parts, LoopFigures& figures);
 
-    // Gives a slot the memory that it needs. Owner thread, before the start.
+    // Allocates a slot's memory. Owner thread, before the start.
     void prepare(FrameSlot& slot) const;
 
-    // Waits for the next frame's begin and renders it into the slot; false when there is none. Loop, one
-    // thread.
+    // Waits for the next frame's begin and renders it into the slot; false when there are no more frames.
+    // Loop, one thread.
     bool run(FrameSlot& slot, const std::atomic<bool>& stopping);
-    // No frame comes any more: what waits for one is answered. Loop.
+    // No more frames will come: answers everything that waits for one. Loop.
     void close();
 
-    // False: there is none that was not taken yet. One thread.
+    // Takes the oldest change that has not been taken; false when there is none. One thread.
     bool take_level_change(LevelChange& change) noexcept { return planner_.take_level_change(change); }
-    // Those of the frame rendered last; for benchmarks, when the loop is stopped.
+    // Returns figures of the last rendered frame. For benchmarks, when the loop is stopped.
     const RenderStats& stats() const { return stats_; }
 
   private:
@@ -54,7 +54,7 @@ class RenderStage {
     WorldState& world_;
     LiveSettings& settings_;
     const CameraModel& camera_;
-    const PoseWatch* poses_;  // null in a replay, as well
+    const PoseWatch* poses_;  // null in a replay, too
     std::vector<FrameSink*> sinks_;
     std::uint64_t seed_;
     FrameScript* script_;
@@ -65,10 +65,10 @@ class RenderStage {
     RenderStats stats_;
     std::uint32_t level_ = 0;
     bool has_begun_ = false;
-    bool ends_order_ = false;  // the frame is its order's last
+    bool ends_order_ = false;  // true: the frame is the last of its order
     std::int64_t shown_arrival_ns_ = 0;
-    std::uint64_t flagged_ = 0;     // time tags that went back, as frames have told of them
-    std::uint64_t impossible_ = 0;  // WorldState::impossible() at the last frame that was flagged
+    std::uint64_t flagged_ = 0;     // backward steps of time tags that frames have reported
+    std::uint64_t impossible_ = 0;  // WorldState::impossible() at the last flagged frame
 };
 
 }  // namespace hilcam

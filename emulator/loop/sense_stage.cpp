@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-// Frames are smaller when they are binned more.
+// Frames are largest without binning.
 SenseStage::SenseStage(const LoopParts& parts, LoopFigures& figures)
     : chain_(parts.chain),
       camera_(parts.camera),
@@ -75,7 +75,7 @@ void SenseStage::measure_exposure(FrameSlot& slot) {
                                            {camera_.exposure_range_s[0], camera_.exposure_range_s[1]});
 }
 
-// Does what a camera does with its numbers on their way out.
+// Applies what a camera does to its numbers before output.
 void SenseStage::finish_picture(const FrameSlot& slot) {
     draw_test_pattern(slot.use.test_pattern, slot.record.bits, slot.record.id, frame_);
     if (slot.use.reverse_x)
@@ -86,8 +86,8 @@ void SenseStage::finish_picture(const FrameSlot& slot) {
                              frame_.row(frame_.height() - 1 - y).begin());
 }
 
-// A frame is not published before the camera is over with it, nor before a replay wants it; who stops the run before that
-// gets no picture of an exposure that was to last longer.
+// Waits until the exposure has ended, and until a replay wants the frame. If the run is stopped meanwhile,
+// the frame is not published.
 bool SenseStage::wait_for_end(const FrameSlot& slot, const std::atomic<bool>& stopping) const {
     for (std::int64_t now_ns = monotonic_ns();; now_ns = monotonic_ns()) {
         const bool over = clock_.camera_at(now_ns) >= slot.leaves_camera_ns;
@@ -98,8 +98,8 @@ bool SenseStage::wait_for_end(const FrameSlot& slot, const std::atomic<bool>& st
     }
 }
 
-// In lockstep and in a replay every output has to have room, as no frame may be lost, the last ones of a run
-// as little as the others; otherwise those that are to lose none.
+// In lockstep and in a replay, waits until every output has room, because no frame may be lost, including the
+// last ones of a run. Otherwise waits for outputs that must not lose frames.
 void SenseStage::wait_for_room() {
     constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
     const auto room = [this](const FrameSink* sink) {
@@ -114,14 +114,14 @@ void SenseStage::wait_for_room() {
     counters_.waited_for_outputs_ns.fetch_add(now_ns - begun_ns, std::memory_order_relaxed);
 }
 
-// When the exposure was, on the machine's clock: the scale of time may have changed since it began.
+// Finds the times of the exposure on the machine's clock; the scale of time may have changed since it began.
 void SenseStage::know_machine_times(FrameSlot& slot) const {
     slot.use.middle_ns = clock_.monotonic_of_camera(slot.middle_camera_ns);
     slot.use.end_ns = clock_.monotonic_of_camera(slot.end_camera_ns);
     slot.record.exposure_mid_monotonic_ns = slot.use.middle_ns;
 }
 
-// Records what the frame shows of commands, where that has changed, then the frame.
+// Records which commands the frame shows, if that has changed, and then the frame.
 void SenseStage::keep(const FrameSlot& slot) {
     for (std::size_t i = 0; i < recorded_shown_.size() && !slot.use.shutter_closed; ++i) {
         const std::uint64_t number = slot.shown_numbers[i];

@@ -1,9 +1,9 @@
 #pragma once
-// The loop's second stage: turns a rendered frame into digital numbers as the sensor does, damages the
-// picture where that is ordered, and hands it to every output, not before the exposure is over.
+// The loop's second stage: turns a rendered frame into digital numbers as the sensor does, applies image
+// faults, and hands the frame to every output, at the earliest when the exposure has ended.
 //
-// Recordings: what the frame depends on (frame_script.h) and which commands it shows is kept right before it
-// is published.
+// For a recording, it keeps what the frame depends on (frame_script.h) and which commands it shows, right
+// before publishing it.
 
 #include <atomic>
 #include <cstdint>
@@ -22,11 +22,11 @@ namespace hilcam {
 
 class SenseStage {
   public:
-    // Allocates all that run() needs. figures: outlive the stage. Owner thread.
+    // Allocates everything that run() needs. figures: must outlive the stage. Owner thread.
     SenseStage(const LoopParts& parts, LoopFigures& figures);
 
-    // Senses and publishes the slot's frame; false when `stopping` before the camera was over with it: then there is none.
-    // Loop, one thread.
+    // Senses and publishes the slot's frame. Returns false, without a frame, when `stopping` becomes true
+    // before the exposure has ended. Loop, one thread.
     bool run(FrameSlot& slot, const std::atomic<bool>& stopping);
 
   private:
@@ -48,11 +48,11 @@ class SenseStage {
     bool replays_, loses_none_;
     FrameRecorder* recorder_;
     std::uint16_t recorded_camera_;
-    std::vector<std::uint64_t> recorded_shown_;  // by thing: the newest command that a kept frame shows
+    std::vector<std::uint64_t> recorded_shown_;  // by thing: newest command that a recorded frame shows
     LoopCounters& counters_;
     StageMeters& meters_;
     ElectronImage electrons_;
-    DnImage frame_, before_;    // the one being finished, and the one published before it
+    DnImage frame_, before_;    // the frame in work, and the previously published one
     FrameHistogram histogram_;  // for automatic exposure
     std::int64_t last_published_ns_ = 0;
 };

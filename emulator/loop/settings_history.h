@@ -1,9 +1,9 @@
 #pragma once
-// A camera's settings over time: each hold from an instant on, until the next. So a frame that is late has those of the
-// instant at which its exposure begins, whenever somebody comes to look.
+// A camera's settings over time: each entry is valid from an instant until the next. A late frame can thus
+// use the settings of the instant at which its exposure begins.
 //
-// Instants are int64 ns of the camera's time (clock.h). The newest 16 settings are kept: what begins before all of them
-// has the oldest.
+// Instants are int64 ns of the camera's time (clock.h). The newest 16 entries are kept; an exposure that
+// begins before all of them uses the oldest.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ class SettingsHistory {
     SettingsHistory() = default;
     explicit SettingsHistory(const CameraSettings& settings) { held_[0].settings = settings; }
 
-    // Adds settings that hold from then on, but no earlier than those before them.
+    // Adds settings that are valid from then on, at the earliest from the begin of the previous entry.
     void add(const CameraSettings& settings, std::int64_t from_ns) {
         const Held next{std::max(from_ns, held_[count_ - 1].from_ns), settings};
         if (count_ == kLength) std::move(held_.begin() + 1, held_.end(), held_.begin()), --count_;
@@ -37,8 +37,8 @@ class SettingsHistory {
     const CameraSettings& at(std::int64_t camera_ns) const {
         return of_exposure([=](const CameraSettings&) { return camera_ns; }).settings;
     }
-    // Returns what holds for an exposure whose begin depends on it: the first by which it begins before the next
-    // settings hold.
+    // Returns the entry for an exposure that begins at a time which depends on its settings: the first entry
+    // by which it begins before the next entry becomes valid.
     template <class Begin>
     const Held& of_exposure(const Begin& begin_ns_by) const {
         std::size_t i = 0;

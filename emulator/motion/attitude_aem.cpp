@@ -1,4 +1,4 @@
-// An ephemeris of attitudes.
+// Attitude from an attitude ephemeris.
 
 #include "emulator/motion/attitude_laws.h"
 #include "emulator/motion/ephemeris.h"
@@ -49,13 +49,13 @@ class AemLaw final : public AttitudeLaw {
             case CcsdsFrame::kLvlh:
                 return lvlh();
             case CcsdsFrame::kRtn: {
-                // x outward, y along the way, z along the normal, in LVLH's axes.
+                // In LVLH's axes: x outward, y along the motion, z along the normal.
                 TurningAxes axes = lvlh();
                 axes.icrf_from_axes = axes.icrf_from_axes * Mat3d{{0, 1, 0}, {0, 0, -1}, {-1, 0, 0}};
                 return axes;
             }
             case CcsdsFrame::kIcrf:
-            case CcsdsFrame::kBody:  // the reader takes none such
+            case CcsdsFrame::kBody:  // the reader rejects these
                 break;
         }
         return {};

@@ -34,7 +34,7 @@ AttitudeJitter::AttitudeJitter(const JitterBand& band, std::uint64_t seed, std::
         const auto uniform = [&](std::size_t w) { return static_cast<double>(uniform01(words[w])); };
         const double part = (static_cast<double>(i) + uniform(0)) / kSinusoids;
         rate_rad_s = 2 * kPi * (band.min_hz + part * (band.max_hz - band.min_hz));
-        // Two Gaussian quadratures of one deviation are a Rayleigh amplitude and a uniform phase.
+        // Two Gaussian quadratures with the same deviation have a Rayleigh amplitude and a uniform phase.
         amplitude_rad = rms_rad * share * std::sqrt(-2 * std::log(uniform(1)));
         phase_rad = 2 * kPi * uniform(2);
     };

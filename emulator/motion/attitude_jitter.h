@@ -1,10 +1,10 @@
 #pragma once
-// Unsteadiness of a body's attitude: small turns about its axes, a pure function of time, seed and thing.
+// Jitter of a body's attitude: small rotations about its axes, a pure function of time, seed and thing.
 //
-// Each axis has kSinusoids sinusoids whose frequencies lie one in each equal part of the band, at random in
-// it, with Rayleigh amplitudes and random phases: over seeds the angle at any instant is Gaussian with the
-// given deviation, and the spectrum is flat over the band. Not modelled: correlation between axes. The
-// camera's own line of sight may jitter on top (sensor/motion.h).
+// The band is cut into kSinusoids equal parts for each axis. A sinusoid has a random frequency in each part,
+// a Rayleigh amplitude and a random phase. Over seeds, the angle at any instant is Gaussian with the given
+// deviation, and the spectrum is flat over the band. Correlation between axes is not modelled. The camera's
+// line of sight may jitter in addition (sensor/motion.h).
 
 #include <cstdint>
 #include <vector>
@@ -27,13 +27,13 @@ class AttitudeJitter {
   public:
     static constexpr std::uint32_t kSinusoids = 64;  // per axis
 
-    // None.
+    // Makes jitter that does nothing.
     AttitudeJitter() = default;
     // Times are counted from `start`. Owner thread.
     AttitudeJitter(const JitterBand& band, std::uint64_t seed, std::uint32_t thing, TimeTai start);
 
-    // The attitude and its body rate with the turn. To first order in the angles: what is left out is their
-    // product. Loop.
+    // Returns attitude and body rate including jitter, to first order in the angles: their products are left
+    // out. Loop.
     AttitudeState applied(Quat world_from_body, Vec3d rate_body_rad_s, TimeTai time) const;
 
   private:

@@ -1,4 +1,5 @@
-// One body axis looks at something, a second as near to something else as it can.
+// Attitude that points one body axis at something, and a second axis as closely as possible at something
+// else.
 
 #include "emulator/motion/attitude_laws.h"
 #include "render/vocabulary/check.h"
@@ -11,14 +12,14 @@ struct Moving {
     Vec3d v, rate;
 };
 
-// The rate of a vector's unit vector.
+// Returns the rate of a vector's unit vector.
 Vec3d unit_rate(const Moving& m) {
     const double size = length(m.v);
     const Vec3d u = m.v / size;
     return (m.rate - dot(u, m.rate) * u) / size;
 }
 
-// Rows: along a, square to a and b, and what completes them.
+// Orthonormal axes in rows: along a, perpendicular to a and b, and completing them.
 struct Triad {
     Vec3d x, y, z;
 };
@@ -28,7 +29,7 @@ Triad triad(Vec3d a, Vec3d b) {
 }
 
 bool nearly_parallel(Vec3d a, Vec3d b) {
-    // Below 1e-9 the roll is lost in rounding; also true of zero vectors.
+    // Below 1e-9 rounding makes the roll meaningless. Also true for zero vectors.
     return !(length(cross(a, b)) > 1e-9 * length(a) * length(b));
 }
 
@@ -38,7 +39,7 @@ Moving aim_at(const Aim& aim, const MotionContext& context, const OwnMotion& sel
                       s.velocity_m_s - (self.stands ? Vec3d{} : self.state.velocity_m_s)};
     };
     const auto own = [&] { return about_center(context, self.state, aim.center); };
-    // In free fall that of the unperturbed orbit: J2 turns the velocity by a thousandth of this.
+    // In free fall, the acceleration of the unperturbed orbit; J2 turns the velocity by a thousandth of this.
     const auto acceleration = [&](const StateVector& s) {
         if (self.stands) return Vec3d{};
         if (self.acceleration_m_s2) return *self.acceleration_m_s2;
@@ -57,7 +58,7 @@ Moving aim_at(const Aim& aim, const MotionContext& context, const OwnMotion& sel
         case Aim::Kind::kVelocity:
             return {own().velocity_m_s, acceleration(own())};
         case Aim::Kind::kOrbitNormal:
-            // r x v changes by r x a alone: not at all in free fall.
+            // r x v changes only by r x a, so not at all in free fall.
             return {cross(own().position_m, own().velocity_m_s),
                     cross(own().position_m, acceleration(own()))};
         case Aim::Kind::kThing:
@@ -80,11 +81,11 @@ class PointingLaw final : public AttitudeLaw {
     AttitudeState at(const MotionContext& context, const OwnMotion& self) const override {
         Moving first = aim_at(pointing_.aim, context, self);
         Moving second = aim_at(pointing_.second_aim, context, self);
-        if (!(length(first.v) > 0)) first = {{0, 0, 1}, {}};  // it is where it looks
+        if (!(length(first.v) > 0)) first = {{0, 0, 1}, {}};  // the thing is at its own target
         if (nearly_parallel(first.v, second.v)) second = {{1, 0, 0}, {}};
         if (nearly_parallel(first.v, second.v)) second = {{0, 1, 0}, {}};
         const Triad world = triad(first.v, second.v);
-        // Columns of world_from_body are the world's triad, taken through the body's.
+        // The columns of world_from_body combine the world's triad with the body's.
         const Mat3d world_from_body =
             transposed(Mat3d{world.x, world.y, world.z}) * Mat3d{body_.x, body_.y, body_.z};
 

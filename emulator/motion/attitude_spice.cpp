@@ -1,4 +1,4 @@
-// A frame of SPICE's kernels.
+// Attitude from a frame of SPICE kernels.
 
 #include "emulator/motion/attitude_laws.h"
 #include "emulator/motion/spice_coverage.h"
@@ -15,7 +15,7 @@ class SpiceAttitude final : public AttitudeLaw {
           frame_from_body_(frame_from_body),
           name_("spice: frame " + in_quotes(frame)) {
         frame_ = kernels_->frames.require(frame, "attitude.spice.frame");
-        // Frames that stand still in J2000 are known at all times.
+        // Frames that do not turn in J2000 are known at all times.
         std::vector<double> at = {-1e10, 1e10};
         kernels_->frames.add_boundaries(frame_, at);
         const auto spans = known_spans(std::move(at), [&](double et_s) {

@@ -1,4 +1,4 @@
-// Attitudes that are simple in some frame: held, turning, through keyframes.
+// Attitudes that are simple in some frame: constant, turning, or through keyframes.
 
 #include "emulator/motion/attitude_laws.h"
 

@@ -9,8 +9,8 @@
 namespace hilcam {
 namespace {
 
-// A window of samples around an instant, with time counted in its half width from its middle: differences of
-// times that are neither huge nor tiny keep the divided differences' digits.
+// A window of samples around an instant. Time is counted from its middle in units of half its width, so that
+// time differences are neither huge nor tiny and divided differences keep their digits.
 template <class Sample>
 struct Window {
     std::span<const Sample> samples;
@@ -31,7 +31,7 @@ Window<Sample> window_of(const std::vector<Sample>& all, TimeTai time, std::size
             0.5 * static_cast<double>(length_ns) * kSecondsPerNs};
 }
 
-// The interpolation that a message without one gets.
+// Returns the interpolation for a message that does not specify one.
 Interpolation chosen(const OemSegment& s) {
     if (s.interpolation.method != InterpolationMethod::kUnsaid) return s.interpolation;
     const int most = static_cast<int>(std::min<std::size_t>(4, s.states.size()));
@@ -61,7 +61,7 @@ StateVector lagrange(const Window<StateSample>& w, TimeTai time) {
     return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
 }
 
-// A constant rate between two attitudes.
+// Turns at a constant rate between two attitudes.
 ReferenceAttitude turned(const AttitudeSample& a, const AttitudeSample& b, TimeTai time) {
     const double span_s = static_cast<double>(b.time - a.time) * kSecondsPerNs;
     const double u = static_cast<double>(time - a.time) * kSecondsPerNs / span_s;
@@ -101,7 +101,7 @@ ReferenceAttitude interpolate_attitude(const AemSegment& s, TimeTai time) {
     const Quat q{out.value[0], out.value[1], out.value[2], out.value[3]};
     const double size = norm(q);
     const Quat unit = normalized(q);
-    // omega = 2 q* dq/dt; what of dq/dt lies along q only changes the norm, and has no part in it.
+    // omega = 2 q* dq/dt. The part of dq/dt along q only changes the norm and is left out.
     const Quat w2 = conjugate(unit) * Quat{out.rate[0], out.rate[1], out.rate[2], out.rate[3]};
     return {unit, Vec3d{w2.x, w2.y, w2.z} * (2 / (size * w.half_s))};
 }

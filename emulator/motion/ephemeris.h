@@ -1,12 +1,13 @@
 #pragma once
-// Interpolation of the segments of ephemerides (io/files/oem_file.h, io/files/aem_file.h) as their messages
-// say: LINEAR, LAGRANGE or HERMITE of a degree, from the samples around the instant, never across segments.
+// Interpolates ephemerides (io/files/oem_file.h, io/files/aem_file.h) as their messages say: LINEAR, LAGRANGE
+// or HERMITE of a degree, from the samples around the instant, never across segments.
 //
-// States: Hermite's polynomial goes through positions and velocities and its derivative is the velocity;
-// Lagrange's are two, through positions and through velocities, as SPICE's types 13 and 9. A message that
-// does not say gets Hermite of degree 7, or of what it has samples for. Attitudes: polynomials through the
-// quaternions' components, normalised; LINEAR, and a message that does not say, turns at a constant rate from
-// sample to sample.
+// States: Hermite's polynomial passes through positions and velocities, and its derivative is the velocity.
+// Lagrange uses two polynomials, for positions and for velocities. These are SPICE's types 13 and 9. A
+// message without a method gets Hermite of degree 7, or lower if it has fewer samples.
+//
+// Attitudes: polynomials pass through the quaternions' components, and the result is normalised. LINEAR, also
+// the default, turns at a constant rate from sample to sample.
 
 #include <vector>
 
@@ -16,16 +17,16 @@
 
 namespace hilcam {
 
-// Interpolates in the segment's own frame, about its centre. The instant lies in the usable span. Loop.
+// Interpolates in the segment's own frame, about its centre. The instant must be in the usable span. Loop.
 StateVector interpolate_state(const OemSegment& segment, TimeTai time);
-// The attitude against the segment's reference frame. Loop.
+// An attitude relative to the segment's reference frame. Loop.
 struct ReferenceAttitude {
     Quat reference_from_body;
     Vec3d rate_body_rad_s;
 };
 ReferenceAttitude interpolate_attitude(const AemSegment& segment, TimeTai time);
 
-// Finds where a time stands among usable spans, which rise.
+// Compares a time with usable spans, which must be in rising order.
 template <class Segment>
 MotionValidity validity_of(const std::vector<Segment>& segments, TimeTai time) {
     for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -37,14 +38,14 @@ MotionValidity validity_of(const std::vector<Segment>& segments, TimeTai time) {
     }
     return {MotionStatus::kAfter, segments.back().usable_stop};
 }
-// The segment of a valid instant; at a shared end the later one, as what happened there is over.
+// Returns the segment for a valid instant. At a boundary that two segments share, returns the later one.
 template <class Segment>
 const Segment& segment_of(const std::vector<Segment>& segments, TimeTai time) {
     std::size_t i = segments.size() - 1;
     while (i > 0 && time < segments[i].usable_start) --i;
     return segments[i];
 }
-// Throws InputError naming the first gap.
+// Throws InputError that names the first gap.
 template <class Segment>
 void require_no_gap(const std::vector<Segment>& segments, const std::string& name) {
     for (std::size_t i = 1; i < segments.size(); ++i)

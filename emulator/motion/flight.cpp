@@ -22,7 +22,7 @@ Motion CircleFlight::at(double seconds, TimeTai time) const {
     motion.time = time;
     motion.pose.position_world_m = center_m + along * n + turned;
     motion.velocity_world_m_s = rate_rad_s * cross(n, turned);
-    // Everything turns about the axis, the camera with it: attitude = rotation * attitude at the start.
+    // Everything turns about the axis, including the camera: attitude = rotation * attitude at the start.
     const Quat start = look_along(center_m - start_m, up);
     motion.pose.world_from_body = normalized(from_rotation_vector(angle * n) * start);
     motion.rate_body_rad_s = transposed(to_matrix(motion.pose.world_from_body)) * (rate_rad_s * n);

@@ -9,7 +9,8 @@
 namespace hilcam {
 namespace {
 
-// The root of a rising function in [low, high]: Newton's steps, halving where one would leave the bracket.
+// Finds the root of a rising function in [low, high] with Newton steps, or bisection where a step would leave
+// the bracket.
 template <class F>
 double rising_root(F&& value_and_slope, double low, double high) {
     double x = 0.5 * (low + high);
@@ -32,7 +33,7 @@ struct ValueSlope {
 
 double eccentric_anomaly(double m, double e) {
     if (e < 1) {
-        // E lies within e of M.
+        // E is within e of M.
         const double whole = 2 * kPi * std::round(m / (2 * kPi));
         const double part = m - whole;
         return whole + rising_root(
@@ -87,7 +88,8 @@ StateVector KeplerOrbit::at(double seconds) const {
     const double e = elements_.eccentricity, a = elements_.semi_major_axis_m;
     const double m = elements_.mean_anomaly_rad + mean_motion_rad_s_ * seconds;
     const double anomaly = eccentric_anomaly(m, e);
-    // Along periapsis and across it, from the centre; a < 0 and hyperbolic functions for hyperbolas.
+    // Components along the periapsis and across it, from the centre; a < 0 and hyperbolic functions for
+    // hyperbolas.
     const bool closed = e < 1;
     const double c = closed ? std::cos(anomaly) : std::cosh(anomaly);
     const double s = closed ? std::sin(anomaly) : std::sinh(anomaly);

@@ -16,7 +16,7 @@ Vec3d chord(const Motion& a, const Motion& b) {
     return (b.pose.position_world_m - a.pose.position_world_m) / seconds_between(a, b);
 }
 
-// The turn from one attitude to another, as a rate in body axes, the short way.
+// Returns the rotation between two attitudes as a rate in body axes, the short way round.
 Vec3d rate_between(const Motion& a, const Motion& b) {
     Quat step = conjugate(a.pose.world_from_body) * b.pose.world_from_body;
     if (step.w < 0) step = {-step.w, -step.x, -step.y, -step.z};

@@ -1,8 +1,9 @@
 #pragma once
-// Motion through keyframes: cubic Hermite in position, constant rate in attitude from one to the next.
+// Motion through keyframes: cubic Hermite interpolation of position, constant rate of rotation between
+// attitudes.
 //
-// A keyframe without a velocity gets that of the parabola through it and its neighbours (the chord's at the
-// ends), one without an attitude that of the one before.
+// A keyframe without a velocity gets that of the parabola through it and its neighbours; at either end, that
+// of the chord. A keyframe without an attitude keeps that of the one before.
 
 #include <optional>
 #include <vector>
@@ -20,17 +21,17 @@ struct Keyframe {
 
 class Keyframes {
   public:
-    // Times must rise and there must be one at least: InputError.
+    // Requires at least one keyframe and rising times; throws InputError otherwise.
     explicit Keyframes(const std::vector<Keyframe>& keyframes);
 
-    // Returns the state; before the first and after the last keyframe it is as there, at rest. Loop.
+    // Returns the state. Before the first and after the last keyframe, it is that keyframe's, at rest. Loop.
     StateVector state_at(TimeTai time) const;
     AttitudeState attitude_at(TimeTai time) const;
 
   private:
-    std::vector<Motion> motions_;  // in the keyframes' frame; the rate is that to the next one
+    std::vector<Motion> motions_;  // in the keyframes' frame; each rate leads to the next keyframe
 
-    // The keyframe before an instant; nothing outside of them.
+    // Returns the keyframe before an instant, or null outside the keyframes' span.
     const Motion* before(TimeTai time) const;
     const Motion& nearest(TimeTai time) const;
 };

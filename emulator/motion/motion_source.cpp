@@ -21,7 +21,7 @@ MotionSource::MotionSource(std::unique_ptr<Trajectory> trajectory, std::unique_p
 
 namespace {
 
-// A part at an instant that it knows: the context's, or the nearest.
+// Evaluates a part at an instant that it covers: the context's, or the nearest one.
 template <class F>
 auto at_valid(const MotionContext& context, const MotionValidity& validity, F&& evaluate) {
     if (validity.status == MotionStatus::kOk) return evaluate(context);
@@ -104,7 +104,7 @@ MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
         return std::all_of(needs.begin(), needs.end(),
                            [&](const MotionNeed& n) { return done[n.attitude].at(n.thing) != 0; });
     };
-    // Each round takes the parts all of whose needs are done; a round that takes none has met a circle.
+    // Each round takes the parts with all needs done; a round that takes none has found a circle.
     for (bool progress = true; progress;) {
         progress = false;
         for (std::size_t i = 0; i < sources_.size(); ++i)

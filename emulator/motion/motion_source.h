@@ -1,11 +1,12 @@
 #pragma once
-// A motion source says where a thing is and how it is turned at any instant, by what the scenario says of it:
-// a trajectory, an attitude law and jitter, each a pure function of the instant and of the things that it
+// A motion source gives a thing's position and attitude at any instant. It consists of a trajectory, an
+// attitude law and jitter from the scenario; each is a pure function of the instant and of the things that it
 // follows.
 //
-// Outside the instants that a part knows (an ephemeris's end, a gap in it) it stands still as it was at the
-// nearest one that it knows, and says so. Axes of its orbit stand with it. Where what a part gives is no number, or out of the
-// bounds of motion (motion_bounds.h), its thing stays as it was when it was last asked for, and that is said, too.
+// Outside the instants that a part covers (before or after an ephemeris, or in a gap) the thing stays as it
+// was at the nearest covered instant, and the status says so; the axes of its orbit stay as well. If a part
+// returns something that is not a number, or exceeds the bounds of motion (motion_bounds.h), the thing keeps
+// its previous state, and the status says that, too.
 
 #include <cstdint>
 #include <limits>
@@ -25,41 +26,43 @@ enum class MotionStatus : std::uint8_t {
     kBefore,
     kAfter,
     kGap,
-    kImpossible  // it gives what cannot be (motion_bounds.h); no validity() has this
+    kImpossible  // the part returned an impossible value (motion_bounds.h); validity() never returns this
 };
 
-// Says whether a part knows an instant, and the nearest that it knows.
+// Says whether a part covers an instant, and the nearest instant that it covers.
 struct MotionValidity {
     MotionStatus status = MotionStatus::kOk;
     TimeTai nearest;
 };
-// A part gives this of an instant inside its span that it turns out not to know: no numbers, which no thing takes over.
+// A part returns this for an instant inside its span that it turns out not to know. No thing takes over these
+// values.
 inline constexpr StateVector kUnknownState{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {}};
-// Returns the validity of a span whose ends count.
+// Returns the validity for a span that includes both ends.
 MotionValidity validity_of(TimeTai time, TimeTai first, TimeTai last);
 
-// The part of the world at one instant that a part may look at.
+// The part of the world at one instant that trajectories and attitude laws may use.
 struct MotionContext {
     const WorldFrame& frame;
-    std::span<const Motion> things;  // the camera's body, then the objects; what needs() names is right
-    // Flags of those that stand still where their source does not know the instant. The velocity of such a
-    // thing is that of its way, so that its orbit has axes; it does not move with it. Empty: none.
+    std::span<const Motion> things;  // the camera's body, then the objects; correct for everything in needs()
+    // Flags of things that stand still because their source does not cover the instant. Such a thing's
+    // velocity is that of its trajectory, so that its orbit has axes, but it does not move with it. Empty:
+    // none.
     std::span<const std::uint8_t> standing = {};
 
     bool stands(std::size_t thing) const { return thing < standing.size() && standing[thing] != 0; }
 };
 
-// The thing whose attitude is asked for: its own state in the world, as above.
+// The thing that the attitude is asked for: its state in the world, and whether it stands still, as above.
 struct OwnMotion {
     OwnMotion(const StateVector& s, bool still = false, std::optional<Vec3d> change = {})
         : state(s), stands(still), acceleration_m_s2(change) {}
 
     StateVector state;
     bool stands;
-    std::optional<Vec3d> acceleration_m_s2;  // none: it falls freely
+    std::optional<Vec3d> acceleration_m_s2;  // empty: it falls freely
 };
 
-// Another thing's part that must be known first.
+// A part of another thing that must be evaluated first.
 struct MotionNeed {
     std::size_t thing = 0;
     bool attitude = false;  // true: its attitude, false: its position
@@ -68,15 +71,15 @@ struct MotionNeed {
 class Trajectory {
   public:
     virtual ~Trajectory() = default;
-    // Everywhere, unless it says otherwise. Loop.
+    // Covers every instant unless overridden. Loop.
     virtual MotionValidity validity(TimeTai time) const { return {MotionStatus::kOk, time}; }
-    // Returns the state in the world; only called for valid instants. Loop: no allocation, no lock.
+    // Returns the state in the world; called only for valid instants. Loop: no allocation, no lock.
     virtual StateVector at(const MotionContext& context) const = 0;
-    // Returns the acceleration of what does not fall freely about a body's centre, as far as it is known.
+    // Returns the acceleration of a thing that does not fall freely about a body's centre, if it is known.
     // Loop.
     virtual std::optional<Vec3d> acceleration(const MotionContext&) const { return {}; }
     virtual std::vector<MotionNeed> needs() const { return {}; }
-    // Returns where the motion comes from, for messages.
+    // Returns the origin of the motion, for messages.
     virtual std::string name() const = 0;
 };
 
@@ -84,7 +87,7 @@ struct AttitudeState {
     Quat world_from_body;
     Vec3d rate_body_rad_s;
 };
-inline constexpr AttitudeState kUnknownAttitude{{0, 0, 0, 0}, {}};  // no rotation, which no thing takes over
+inline constexpr AttitudeState kUnknownAttitude{{0, 0, 0, 0}, {}};  // not a rotation; no thing takes it over
 
 class AttitudeLaw {
   public:
@@ -96,23 +99,26 @@ class AttitudeLaw {
     virtual std::string name() const = 0;
 };
 
-// The whole of a thing.
+// All motion of one thing.
 class MotionSource {
   public:
     MotionSource(std::unique_ptr<Trajectory> trajectory, std::unique_ptr<AttitudeLaw> attitude,
                  AttitudeJitter jitter = {});
 
-    // Position and velocity of `out`, the latter also where it stands; then, from them, attitude and rate. `out` keeps what it
-    // has in place of what cannot be. Loop.
+    // place() sets position and velocity of `out`, the velocity also while the thing stands still. turn()
+    // sets attitude and rate and needs the result of place(). Impossible values leave `out` unchanged. Loop.
     MotionStatus place(const MotionContext& context, Motion& out) const;
     MotionStatus turn(const MotionContext& context, Motion& out) const;
-    // Does so at the scenario's start, place or attitude. Throws InputError for what cannot be.
+    // Does the same at the scenario's start, for position or attitude. Throws InputError for impossible
+    // values.
     void begin(const MotionContext& context, bool attitude, Motion& out) const;
     std::vector<MotionNeed> place_needs() const { return trajectory_->needs(); }
     std::vector<MotionNeed> turn_needs() const { return attitude_->needs(); }
-    // Says which part does not know the instant, and the nearest that it knows; empty: all know it. Not for the loop.
+    // Says which part does not cover the instant, and the nearest instant that it covers; empty: all cover
+    // it. Not for the loop.
     std::string gap_at(TimeTai time) const;
-    // Throws InputError when a part does not know the instant: what, where, accepted.
+    // Throws InputError when a part does not cover the instant; the message says what, where and what is
+    // accepted.
     void require(TimeTai time) const;
 
   private:
@@ -120,35 +126,38 @@ class MotionSource {
     std::unique_ptr<AttitudeLaw> attitude_;
     AttitudeJitter jitter_;
 
-    // These take over what the parts give, whether it can be or not.
+    // Set what the parts return, possible or not.
     MotionStatus given_place(const MotionContext& context, Motion& out) const;
     MotionStatus given_attitude(const MotionContext& context, Motion& out) const;
 };
 
-// The sources of a scenario's things, in an order in which each part comes after what it needs. Two things
-// may look at each other; what cannot be is a position by way of itself.
+// The sources of all things in a scenario, ordered so that each part comes after the parts it needs. Two
+// things may point at each other; a position must not depend on itself.
 class MotionSources {
   public:
     MotionSources() = default;
-    // One per thing: the camera's body, then the objects; null: none. Throws InputError when parts need each
-    // other in a circle; `names` are for that message.
+    // sources: one for each thing, the camera's body first, then the objects; null: none. names: for
+    // messages. Throws InputError when parts need each other in a circle.
     MotionSources(std::vector<std::unique_ptr<MotionSource>> sources, std::span<const std::string> names);
 
     bool empty() const { return order_.empty(); }
     bool has(std::size_t thing) const { return thing < sources_.size() && sources_[thing]; }
-    // Counts the parts that stood still because they do not know the instant, and those that gave what cannot be.
+    // Counts parts that stood still because they do not cover the instant, and parts that returned impossible
+    // values.
     struct Held {
         std::uint64_t unknown = 0, impossible = 0;
-        std::size_t first_impossible = 0;  // thing
+        std::size_t first_impossible = 0;  // first thing with impossible values
     };
-    // Fills the motions of all things with a source for which live[thing] is 0. motions: those of the others
-    // are right, and those of things with a source as they were last. standing: room for a flag of each thing. Loop.
+    // Updates the motions of all things that have a source and for which live[thing] is 0. motions: current
+    // for all other things; for things with a source, as they were last. standing: receives a flag for each
+    // thing. Loop.
     Held evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live, std::span<Motion> motions,
                   std::span<std::uint8_t> standing) const;
 
-    // Says what the first source that does not know the instant lacks; empty: all know it. Any thread but the loop's.
+    // Says what the first source lacks that does not cover the instant; empty: all cover it. Any thread
+    // except the loop's.
     std::string gap_at(TimeTai time) const;
-    // Evaluates all of them at the scenario's start. Throws InputError for what cannot be. Owner thread.
+    // Evaluates all sources at the scenario's start. Throws InputError for impossible values. Owner thread.
     void begin(const WorldFrame& frame, std::span<Motion> motions) const;
 
   private:

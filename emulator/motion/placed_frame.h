@@ -1,6 +1,6 @@
 #pragma once
-// Axes that a scenario gives positions and attitudes in: the world's, a body's that turns, a place's on a
-// body, a thing's orbit's, a thing's own.
+// Axes in which a scenario gives positions and attitudes: the world's, those of a turning body, local axes at
+// a site on a body, a thing's own, or its orbit's.
 
 #include "emulator/motion/motion_source.h"
 
@@ -8,11 +8,11 @@ namespace hilcam {
 
 struct PlacedFrame {
     enum class Kind {
-        kWorld,      // the scenario's origin, ICRF axes
-        kBodyFixed,  // the centre of `center`, with which it turns (Earth: ITRF)
-        kLvlh,       // the thing, local vertical and horizontal of its orbit about `center`
-        kThing,      // the thing's own axes
-        kLocal       // east, north and up at `site` on the body `center`, with which they turn
+        kWorld,      // scenario's origin, ICRF axes
+        kBodyFixed,  // centre of `center`, turning with it (Earth: ITRF)
+        kLvlh,       // a thing's place, with the local vertical and horizontal of its orbit about `center`
+        kThing,      // a thing's own axes
+        kLocal       // east, north and up at `site` on the body `center`, turning with it
     } kind = Kind::kWorld;
     std::size_t thing = 0;
     OrbitCenter center;
@@ -22,18 +22,18 @@ struct PlacedFrame {
     std::vector<MotionNeed> needs() const;
 };
 
-// The place of its origin in the world, and its axes.
+// Axes, and the state of their origin in the world.
 struct PlacedAxes {
     StateVector origin;
     TurningAxes axes;
 };
 // Loop.
 PlacedAxes axes_of(const PlacedFrame& frame, const MotionContext& context);
-// A state in such axes, in the world: omega x r is in its velocity. Loop.
+// Transforms a state from such axes to the world; the velocity includes omega x r. Loop.
 StateVector world_state(const PlacedAxes& frame, const StateVector& in_frame);
-// An attitude and body rate against such axes, against the world. Loop.
+// Transforms an attitude and body rate from such axes to the world. Loop.
 AttitudeState world_attitude(const TurningAxes& axes, const AttitudeState& in_frame);
-// A thing's state about a centre, ICRF axes. Loop.
+// Returns a thing's state about a centre, in ICRF axes. Loop.
 StateVector about_center(const MotionContext& context, const StateVector& world, const OrbitCenter& center);
 
 }  // namespace hilcam

@@ -25,7 +25,7 @@ bool is_of_the_earth(CcsdsFrame frame) {
 std::optional<Mat3d> resting_axes(CcsdsFrame frame, const std::optional<TimeTai>& epoch) {
     if (frame == CcsdsFrame::kEme2000) return icrf_from_eme2000();
     if (!epoch) return {};
-    // UT1 falls out of TEME.
+    // UT1 cancels in TEME.
     if (frame == CcsdsFrame::kTeme) return icrf_from_teme(*epoch, {});
     if (frame == CcsdsFrame::kTod) return icrf_from_true_of_date(*epoch);
     if (frame == CcsdsFrame::kMod) return icrf_from_mean_of_date(*epoch);

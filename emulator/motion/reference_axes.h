@@ -1,5 +1,5 @@
 #pragma once
-// The axes that orbit and attitude messages are written in (io/files/ccsds_message.h), against ICRF.
+// Reference axes of CCSDS orbit and attitude messages (io/files/ccsds_message.h), relative to ICRF.
 
 #include <optional>
 
@@ -8,12 +8,13 @@
 
 namespace hilcam {
 
-// True for those of the Earth, in which only orbits about it are given.
+// True for axes of the Earth, which only orbits about the Earth may use.
 bool is_of_the_earth(CcsdsFrame frame);
-// Axes that stand still: EME2000, and TEME, TOD, MOD of an epoch. Nothing for others. With ERFA: once a message.
+// Returns axes that do not turn: EME2000, or TEME, TOD, MOD of an epoch; nothing for others. Calls ERFA, once
+// for each message.
 std::optional<Mat3d> resting_axes(CcsdsFrame frame, const std::optional<TimeTai>& epoch);
-// Axes of date at the frame's instant; ICRF's for those that are none of the Earth's. TEME, TOD and MOD turn by 50 arcsec a
-// year, 1e-11 rad/s, which is left out of rates. Loop.
+// Returns axes of date at the frame's instant, or ICRF for axes that are not the Earth's. The rates ignore
+// that TEME, TOD and MOD turn by 50 arcsec a year (1e-11 rad/s). Loop.
 TurningAxes axes_of_date(CcsdsFrame frame, const WorldFrame& world);
 
 }  // namespace hilcam

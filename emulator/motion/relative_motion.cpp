@@ -10,7 +10,7 @@ StateVector drifted(const StateVector& initial, double n, double seconds) {
     const Vec3d& p = initial.position_m;
     const Vec3d& v = initial.velocity_m_s;
     const double angle = n * seconds, s = std::sin(angle), c = std::cos(angle);
-    // x along the way, y against the normal, z down.
+    // x is along the orbit, y against the normal, z down.
     const double loop = 4 * v.x / n - 6 * p.z, drift_m_s = 6 * n * p.z - 3 * v.x;
     const double middle_z = 4 * p.z - 2 * v.x / n, swing_z = 2 * v.x / n - 3 * p.z;
     return {{loop * s - 2 * v.z / n * c + drift_m_s * seconds + p.x + 2 * v.z / n, p.y * c + v.y / n * s,

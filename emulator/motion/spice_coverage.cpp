@@ -12,7 +12,8 @@ SpiceCoverage::SpiceCoverage(const std::vector<EtSpan>& spans, const EphemerisTi
 
 MotionValidity SpiceCoverage::validity(TimeTai time) const {
     if (spans_.empty()) return {MotionStatus::kGap, time};
-    // This is what validity_of() of ephemeris.h says, found by search: attitudes may have many thousand spans.
+    // The same as validity_of() in ephemeris.h, by binary search, because attitudes may have many thousand
+    // spans.
     const auto after = std::partition_point(spans_.begin(), spans_.end(),
                                             [&](const Span& s) { return s.usable_stop < time; });
     if (after == spans_.end()) return {MotionStatus::kAfter, spans_.back().usable_stop};

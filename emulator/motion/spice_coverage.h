@@ -1,5 +1,5 @@
 #pragma once
-// The instants that kernels know something at.
+// The time spans that kernels cover.
 
 #include <vector>
 
@@ -14,9 +14,10 @@ class SpiceCoverage {
     SpiceCoverage(const std::vector<EtSpan>& spans, const EphemerisTime& time);
 
     bool empty() const { return spans_.empty(); }
-    // Loop, both.
+    // Loop; so is et_s().
     MotionValidity validity(TimeTai time) const;
-    // Returns SPICE's time of a known instant: inside the span, whatever the rounding to nanoseconds did.
+    // Returns SPICE's time of a covered instant; it stays inside the span whatever the rounding to
+    // nanoseconds.
     double et_s(TimeTai time) const;
 
   private:

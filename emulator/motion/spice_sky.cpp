@@ -19,7 +19,7 @@ bool has_binary_earth(const KernelSet& set) {
     return false;
 }
 
-// The frame that turns with a body; none: the kernels have no such.
+// Returns the frame that turns with a body; nothing: the kernels do not have one.
 std::optional<std::string> frame_of(const KernelSet& set, int code) {
     const std::string key = "OBJECT_" + std::to_string(code) + "_FRAME";
     if (const KernelVariable* named = set.pool.find(key))
@@ -75,7 +75,7 @@ class SpiceSky final : public BodySource {
     SpiceCoverage origin_coverage_;
     StateVector origin_at_start_;
 
-    // What the kernels say that cannot be, they do not know. Loop.
+    // Impossible values from the kernels count as unknown. Loop.
     bool knows(int body, int center, double et_s, StateVector& out) const {
         return kernels_->bodies.state(body, center, et_s, out) && is_possible(out);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The Sun and bodies as SPICE's kernels have them, for the sky (render/sky/body_source.h).
+// The Sun and bodies from SPICE kernels, for the sky (render/sky/body_source.h).
 
 #include <memory>
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace hilcam {
 
-// NAIF's code of a body, the Sun's for none.
+// Returns NAIF's code of a body; without a body, the Sun's.
 int naif_code(const std::optional<BodyId>& body);
-// The same, or its barycentre's where the kernels have that alone; of Mercury, Venus and Mars both are within a metre.
+// Returns the same code, or that of the body's barycentre where the kernels have only that. For Mercury,
+// Venus and Mars the two are less than a metre apart.
 int naif_code_in(const SpiceKernels& kernels, const std::optional<BodyId>& body);
 
-// Takes what the kernels know at `start`: places of bodies about the Sun, and turns by the body's OBJECT_<code>_FRAME or
-// IAU_<body> (the Earth: by a binary kernel alone, as the text one leaves nutation out). Outside their spans the program's
-// own series count. origin: thing that an origin of kind spice belongs to, or none. Throws InputError for that when it is not
-// known at `start`.
+// Uses what the kernels cover at `start`: places of bodies relative to the Sun, and rotations from
+// OBJECT_<code>_FRAME or IAU_<body> (for the Earth only from a binary kernel, as the text kernel has no
+// nutation). Outside their spans the program's own series apply. origin: NAIF code of an origin of kind
+// spice, or none. Throws InputError when that origin is not covered at `start`.
 std::shared_ptr<const BodySource> make_spice_sky(std::shared_ptr<SpiceKernels> kernels,
                                                  const std::optional<int>& origin, bool with_bodies,
                                                  TimeTai start);

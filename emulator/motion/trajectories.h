@@ -1,5 +1,5 @@
 #pragma once
-// The trajectories that there are; each in a trajectory_*.cpp.
+// The trajectories, each in a trajectory_*.cpp.
 
 #include "emulator/motion/kepler_orbit.h"
 #include "emulator/motion/keyframes.h"
@@ -10,29 +10,31 @@
 
 namespace hilcam {
 
-// Makes a thing at rest in a frame, or at a constant velocity in it from `start` on.
+// Makes a thing that is at rest in a frame, or moves at a constant velocity in it from `start` on.
 std::unique_ptr<Trajectory> make_fixed(const PlacedFrame& frame, const StateVector& at_start, TimeTai start);
-// Makes a motion from keyframe to keyframe in a frame; before the first and after the last it stands.
+// Makes a motion through keyframes in a frame; it stands still before the first and after the last.
 std::unique_ptr<Trajectory> make_keyframed(const PlacedFrame& frame, Keyframes keyframes);
-// Drift near a thing that is on a near-circular orbit (relative_motion.h), in its LVLH frame.
+// Makes a drift near a thing on a near-circular orbit (relative_motion.h), in its LVLH frame.
 std::unique_ptr<Trajectory> make_drifting(const PlacedFrame& lvlh, const StateVector& at_start,
                                           double mean_motion_rad_s, TimeTai start);
-// Kepler's orbit about a centre.
+// Makes a Kepler orbit about a centre.
 std::unique_ptr<Trajectory> make_kepler(const OrbitCenter& center, const KeplerElements& elements,
                                         TimeTai epoch);
-// SGP4 about the Earth, for `valid_s` before and after epoch, or until the theory breaks down or the
-// satellite decays. Throws InputError for elements that are no orbit.
+// Makes an SGP4 orbit about the Earth, valid for `valid_s` before and after epoch, or until the theory breaks
+// down or the satellite decays. Throws InputError for elements that are not an orbit.
 std::unique_ptr<Trajectory> make_tle(const ElementSet& tle, double valid_s);
-// A thing of the scenario's kernels about a body's centre, or about the origin where that is a thing of the kernels.
+// An object in the scenario's kernels, relative to a body's centre, or to the origin if the kernels have
+// that.
 struct SpicePlace {
     int object = 0;  // NAIF's codes
     int about = 0;
-    std::optional<OrbitCenter> center;  // where `about` stands in the world; none: at its origin
+    // Centre in the world that `about` stands for; empty: the world's origin.
+    std::optional<OrbitCenter> center;
 };
-// Throws InputError for a thing that the kernels do not have.
+// Throws InputError for an object that the kernels do not have.
 std::unique_ptr<Trajectory> make_spice_place(std::shared_ptr<SpiceKernels> kernels, const SpicePlace& place,
                                              const std::string& name);
-// An ephemeris. Throws InputError for a centre that is none of the program's.
+// Follows an orbit ephemeris. Throws InputError for a centre that the program does not have.
 std::unique_ptr<Trajectory> make_oem(std::vector<OemSegment> segments, const std::string& name);
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-// An ephemeris of states.
+// Trajectory from an orbit ephemeris.
 
 #include <algorithm>
 #include <optional>
@@ -18,7 +18,8 @@ std::string lower(std::string text) {
     return text;
 }
 
-// The centre of that name. The barycentres of Mercury, Venus and Mars lie within a metre of them.
+// Returns the centre with that name. The barycentres of Mercury, Venus and Mars are within a metre of their
+// centres.
 OrbitCenter center_named(const OemSegment& segment, const std::string& file) {
     std::string name = lower(ccsds_word(segment.center_name));
     if (name == "sun") return {std::nullopt};
@@ -57,7 +58,7 @@ class OemTrajectory final : public Trajectory {
     std::string name() const override { return name_; }
 
   private:
-    // What each segment is about, and its axes where they stand still.
+    // The centre of each segment, and its axes if they do not turn.
     struct Place {
         OrbitCenter center;
         std::optional<Mat3d> icrf_from_axes;

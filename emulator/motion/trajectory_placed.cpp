@@ -20,10 +20,10 @@ class Placed final : public Trajectory {
     StateVector at(const MotionContext& context) const override {
         return world_state(axes_of(frame_, context), in_frame_(context.frame.time()));
     }
-    // A thing that follows another on its orbit falls nearly as that does.
+    // A thing that flies with another on its orbit falls almost like it.
     std::optional<Vec3d> acceleration(const MotionContext& context) const override {
         if (frame_.follows_thing()) return {};
-        // Cubics at the most: central differences of their velocities have no remainder.
+        // The motion is at most cubic, so central differences of the velocity are exact.
         constexpr std::int64_t kHalf_ns = 10'000;
         const TimeTai time = context.frame.time();
         const StateVector s = in_frame_(time);

@@ -1,4 +1,4 @@
-// A thing of SPICE's kernels.
+// Trajectory of an object in SPICE kernels.
 
 #include "emulator/motion/spice_coverage.h"
 #include "emulator/motion/trajectories.h"

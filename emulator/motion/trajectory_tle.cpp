@@ -1,4 +1,4 @@
-// A satellite by its element set.
+// Trajectory of a satellite from its element set.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,8 @@ class TleTrajectory final : public Trajectory {
     StateVector at(const MotionContext& context) const override {
         StateVector teme;
         const double minutes = static_cast<double>(context.frame.time() - epoch_) / kMinute_ns;
-        if (sgp4_.at(minutes, teme) != Sgp4Status::kOk) sgp4_.at(0, teme);  // limit() found none such
+        // limit() makes sure that this does not happen
+        if (sgp4_.at(minutes, teme) != Sgp4Status::kOk) sgp4_.at(0, teme);
         const Mat3d icrf = context.frame.icrf_from_teme();
         const StateVector earth = context.frame.center({});
         return {earth.position_m + icrf * teme.position_m, earth.velocity_m_s + icrf * teme.velocity_m_s};
@@ -47,7 +48,7 @@ class TleTrajectory final : public Trajectory {
         StateVector state;
         return sgp4_.at(minutes, state) == Sgp4Status::kOk;
     }
-    // Finds how far from epoch the theory works, in minutes: tried every five, then by halves.
+    // Finds how far from epoch the theory works, in minutes: in steps of five, then by bisection.
     double limit(int direction, double most) const {
         constexpr double kStep = 5;
         double good = 0, bad = 0;

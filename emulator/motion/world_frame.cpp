@@ -29,8 +29,8 @@ TurningAxes WorldFrame::body_fixed(BodyId body) const {
                       earth_rate_rad_s(time_, origin_.earth)};
         return *earth_;
     }
-    // Other bodies turn about a pole that is at rest for days: by difference over a minute, good to 1e-9 of
-    // the rate.
+    // Other bodies turn about a pole that hardly moves for days, so a difference over a minute is good to
+    // 1e-9 of the rate.
     constexpr std::int64_t kStep_ns = 30'000'000'000;
     const Mat3d before = body_fixed_from_icrf(body, time_ + -kStep_ns, origin_),
                 after = body_fixed_from_icrf(body, time_ + kStep_ns, origin_);
@@ -74,7 +74,7 @@ StateVector WorldFrame::center(const OrbitCenter& center) const {
 TurningAxes lvlh_axes(const StateVector& s) {
     const double r2 = dot(s.position_m, s.position_m);
     const Vec3d momentum = cross(s.position_m, s.velocity_m_s);
-    // Below 1e-9 of what r and v could give the plane is lost in rounding.
+    // Below 1e-9 of the largest possible value, rounding makes the plane meaningless.
     if (!(length(momentum) > 1e-9 * std::sqrt(r2) * length(s.velocity_m_s)) || !(length(momentum) > 0))
         return {};
     const Vec3d z = -normalized(s.position_m), y = -normalized(momentum);

@@ -26,8 +26,8 @@ struct Progress::Work {
     Clock::time_point begun = Clock::now();
 };
 
-// All work under way, the outermost first, and the thread that writes about it, which lives as long as there
-// is any.
+// All work under way, the outermost first, and the thread that writes the line, which exists while there is
+// work.
 class ProgressLine {
   public:
     static ProgressLine& the() {
@@ -44,9 +44,9 @@ class ProgressLine {
         thread_ = std::jthread([this](const std::stop_token& over) { run(over); });
     }
     void end(const std::shared_ptr<Progress::Work>& work) {
-        std::jthread finished;  // stopped and joined without the lock
+        std::jthread finished;  // stopped and joined outside the lock
         const std::lock_guard lock(mutex_);
-        // The object it looks at may not be there any more.
+        // The object that `look` uses may no longer exist.
         std::erase(works_, work);
         if (works_.empty()) finished = std::move(thread_);
     }
@@ -58,7 +58,7 @@ class ProgressLine {
 
   private:
     using Pause = std::chrono::duration<double>;
-    // Work that is done sooner has no line.
+    // Work that is done earlier has no line.
     static constexpr Pause kFirstLine = 700ms, kBetweenLines = 250ms;
     static constexpr std::size_t kColumnsOfLogs = 200;
 
@@ -75,7 +75,7 @@ class ProgressLine {
         }
         if (written && terminal_) write(over_line(""));
     }
-    // Called with the lock.
+    // Called under the lock.
     std::string text(std::size_t columns) const {
         std::vector<ProgressItem> items;
         for (const auto& work : works_) {

@@ -1,11 +1,11 @@
 #pragma once
-// Tells how far long work is while the object lives, with the time that is left by the pace so far: on one line of
-// standard error, which is written over, where that is a terminal; elsewhere, as in a log, by a line each 30 s.
-// $HILCAM_PROGRESS_S is another number of seconds between such lines; 0: there are none, and no thread runs.
+// Shows how far long work is, and the time left at the present pace, for as long as the object exists. On a
+// terminal it rewrites one line of standard error; elsewhere, as in a log, it writes a line every 30 s.
+// $HILCAM_PROGRESS_S sets another interval [s]; 0: no lines, and no thread runs.
 //
-// Work within work makes a Progress of its own: the line has the outermost, whose time it tells, and the
-// innermost. Not for a camera's loop: functions here lock. Who may be watched from outside gives `look`
-// instead of counting.
+// Work within work makes a Progress of its own: the line shows the outermost, with its time, and the
+// innermost. Not for a camera's loop, because functions here lock. Work that can be watched from outside
+// provides `look` instead of counting.
 
 #include <functional>
 #include <memory>
@@ -15,21 +15,21 @@ namespace hilcam {
 
 class Progress {
   public:
-    // Tells of work of which nothing is known but the time that it has taken.
+    // Shows work for which only the time taken is known.
     explicit Progress(std::string what) : Progress(std::move(what), 0) {}
-    // Tells of work of `steps` steps; 0: unknown. look: gives how many are done, asked by the line's thread.
+    // Shows work of `steps` steps; 0: unknown. look: returns how many are done; the line's thread calls it.
     Progress(std::string what, double steps, std::function<double()> look = {});
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // From now on nothing is told: for a child process, whose parent has the line. It takes no lock, which the
-    // fork may have left behind.
+    // Ends all output of this process: for a child process whose parent shows the line. Takes no lock,
+    // because the fork may have copied one that is held.
     static void keep_silent();
 
-    // Says that so many steps are done in all. Any thread.
+    // Sets how many steps are done in total. Any thread.
     void done(double steps);
-    // Says what comes now; nothing else changes. Any thread.
+    // Sets what is done now, and leaves the rest unchanged. Any thread.
     void now(std::string what);
 
   private:

@@ -33,7 +33,7 @@ std::optional<double> left_s(const ProgressItem& item) {
 }
 
 std::string progress_text(const std::vector<ProgressItem>& items, std::size_t max_columns) {
-    // Work that has hardly begun counts no steps yet: "0 %" would look like one that stands.
+    // Work that has hardly begun has no count yet; "0 %" would look as if it stood still.
     const auto named = [](const ProgressItem& item) {
         const double percent = std::floor(100 * item.fraction.value_or(0));
         return percent >= 1 ? fmt::format("{} {:.0f} %", item.what, percent) : item.what;
@@ -42,7 +42,7 @@ std::string progress_text(const std::vector<ProgressItem>& items, std::size_t ma
     std::string text = fmt::format("{}, {}", named(first), duration_text(first.elapsed_s));
     if (const auto left = left_s(first)) text += fmt::format(", about {} left", duration_text(*left));
     if (items.size() > 1) text += ": " + named(items.back());
-    // Names may be any bytes. A byte is a column or less.
+    // Names may contain any bytes. A byte takes at most one column.
     text = harmless(text);
     if (text.size() > max_columns) text = harmless(text.substr(0, max_columns));
     return text;

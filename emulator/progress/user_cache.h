@@ -1,14 +1,14 @@
 #pragma once
-// The cache of whoever runs the program (io/cache/cache.h), which tells the log what it makes anew.
+// The cache of the user who runs the program (io/cache/cache.h). It logs what it computes and stores.
 
 #include "io/cache/cache.h"
 
 namespace hilcam {
 
-// Returns the cache of $HILCAM_CACHE and $HILCAM_CACHE_MB. writes: what is made is kept. Throws InputError when
-// the bound is no number.
+// Returns the cache that $HILCAM_CACHE and $HILCAM_CACHE_MB describe. writes: new entries are stored. Throws
+// InputError when the size limit is not a number.
 Cache user_cache(bool writes = true);
-// The same with a folder of its own; empty: the user's.
+// Returns such a cache in another folder; an empty path stands for the user's.
 Cache user_cache_at(const std::filesystem::path& folder, bool writes);
 
 }  // namespace hilcam

@@ -1,14 +1,14 @@
 #pragma once
-// The machine that a figure was measured on, so that it can be judged.
+// Describes the machine on which figures were measured.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace hilcam {
 
-// The processor's name as /proc/cpuinfo has it; "unknown" where it has none.
+// Returns the processor's name from /proc/cpuinfo, or "unknown".
 std::string processor_name();
-// Processor, cores, compiler and build: the reports' object `machine`.
+// Returns the object `machine` of reports: processor, cores, compiler and build.
 nlohmann::json machine_report();
 
 }  // namespace hilcam

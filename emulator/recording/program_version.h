@@ -1,12 +1,12 @@
 #pragma once
-// The version that recordings, pictures and truth say they were made by. `hilcam --version` adds the commit
+// The program version that recordings, pictures and truth contain. `hilcam --version` adds the commit
 // (emulator/commit.h), on which nothing else depends.
 
 #include <string_view>
 
 namespace hilcam {
 
-// "hilcam 0.2.0", of CMakeLists.txt.
+// "hilcam 0.2.0", from CMakeLists.txt.
 extern const std::string_view kProgramVersion;
 
 }  // namespace hilcam

@@ -58,8 +58,8 @@ void Recorder::run() {
 void Recorder::drain() {
     Record record;
     while (queue_->pop(record)) {
-        // Whatever was put in after a record was lost is behind the loss: who lost one has counted it before
-        // he went on.
+        // Any record that was put in after a lost one comes after the loss, because the thread that lost it
+        // counted the loss before it went on.
         const std::uint64_t lost = lost_.load(std::memory_order_acquire);
         if (lost != lost_told_) write(RecordedLoss{lost - lost_told_});
         lost_told_ = lost;
@@ -77,7 +77,7 @@ void Recorder::write(const Record& record) {
     filled_ += encode_record(record, std::span(buffer_).subspan(filled_, kMax));
 }
 
-// Writes what waits; after an error nothing more is written: the file ends with a whole record, or inside
+// Writes the queue. After an error it writes nothing more, so the file ends with a whole record or within
 // one.
 void Recorder::flush() {
     std::size_t done = 0;

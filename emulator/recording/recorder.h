@@ -1,10 +1,10 @@
 #pragma once
 // Writes a recording while the run goes on.
 //
-// Whoever has something to record puts it into a queue and goes on: no lock, no allocation, nobody waits. A
-// thread of the recorder's own writes it to the file every 10 ms, so that a program that is killed leaves all
-// but the newest of it. What the queue has no room for, because the disk is too slow, is counted; the file
-// says where, and a replay ends there. The run is not disturbed.
+// A thread with something to record puts it into a queue and goes on, without lock, allocation or wait. The
+// recorder's own thread writes the queue to the file every 10 ms, so a killed program loses only the newest
+// records. If the disk is too slow and the queue is full, records are lost and counted. The file says where,
+// and a replay ends there. The run is not disturbed.
 
 #include <atomic>
 #include <cstdint>
@@ -25,18 +25,19 @@ namespace hilcam {
 struct RecorderReport {
     std::string file;
     std::uint64_t frames = 0, commands = 0, bytes = 0;
-    std::uint64_t lost = 0;  // records
-    std::string fault;       // empty, or why the recording is not complete
+    std::uint64_t lost = 0;  // lost records
+    std::string fault;       // why the recording is incomplete; empty: it is complete
 };
 
 class Recorder : public FrameRecorder {
   public:
-    // Makes the file, with its header. Throws DeviceError, or InputError for a scenario that is too long.
+    // Creates the file and writes its header. Throws DeviceError, or InputError for a scenario that is too
+    // long.
     Recorder(const std::filesystem::path& file, const RecordingHeader& header);
     ~Recorder() override { stop(); }
 
     void start();
-    // Writes what is left; idempotent.
+    // Writes the rest of the queue. Idempotent.
     void stop() noexcept;
 
     // Any thread; loop.
@@ -49,14 +50,14 @@ class Recorder : public FrameRecorder {
     void keep_frame(std::uint16_t camera, const FrameUse& use) noexcept override {
         put(RecordedFrame{camera, use});
     }
-    // The number of the next command: by whoever puts commands in, one at a time.
+    // Returns the number of the next command. Callers that add commands take turns.
     std::uint64_t next_number() noexcept { return ++numbers_; }
 
     // Any thread.
     RecorderReport report() const;
 
   private:
-    static constexpr std::size_t kQueueLength = 16384;  // records: 8 s of a command and a frame per ms
+    static constexpr std::size_t kQueueLength = 16384;  // records: 8 s, with a command and a frame every ms
 
     void run();
     void drain();
@@ -68,7 +69,7 @@ class Recorder : public FrameRecorder {
     std::unique_ptr<BoundedQueue<Record, kQueueLength>> queue_;
     std::atomic<std::uint64_t> lost_{0};
     std::uint64_t numbers_ = 0;
-    // The writing thread's.
+    // Used by the writing thread alone.
     std::vector<std::uint8_t> buffer_;
     std::size_t filled_ = 0;
     std::uint64_t lost_told_ = 0;

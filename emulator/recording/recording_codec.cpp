@@ -13,7 +13,7 @@ namespace {
 
 enum class Kind : std::uint8_t { kHeader = 1, kCommand, kChange, kTrigger, kShown, kFrame, kLoss, kEnd };
 
-// Writer and Reader have the same functions, so that each record's list of fields stands once.
+// Writer and Reader have the same functions, so that the list of each record's fields exists once.
 class Writer {
   public:
     explicit Writer(std::span<std::uint8_t> bytes) : out_(bytes) {}
@@ -49,7 +49,7 @@ class Reader {
   public:
     explicit Reader(std::span<const std::uint8_t> bytes) : in_(bytes) {}
 
-    // All of the bytes were read, and no more.
+    // True when all bytes were read, and no more.
     bool ended_well() const { return ok_ && in_.ok() && in_.left() == 0; }
     void fail() { ok_ = false; }
     std::uint8_t u8() { return in_.u8(); }
@@ -98,7 +98,7 @@ class Reader {
 TriggerSource last_of(TriggerSource) { return TriggerSource::kAction1; }
 TestPattern last_of(TestPattern) { return TestPattern::kRampHorizontalMoving; }
 
-// --- the lists. R is the record, const for a Writer.
+// --- the lists of fields. R is the record, const for a Writer.
 
 template <class A, class V>
 void vec3(A& a, V& v) {
@@ -109,7 +109,8 @@ void maybe(A& a, T& value) {
     a.maybe(value, [&](auto& v) { a(v); });
 }
 
-// Codes those commands whose payload on the wire is not all that they are: it rounds, checks or leaves out.
+// Codes commands that their payload on the wire does not represent completely, because it rounds, checks or
+// leaves out.
 template <class A, class R>
 void pose(A& a, R& p) {
     a(p.object), a(p.motion.time.ns);
@@ -132,7 +133,7 @@ template <class A, class R>
 void expose(A& a, R& e) {
     a(e.time.ns), a(e.frames), a(e.at_any_time);
 }
-// True for a command that has fields of its own here; false for one of which the wire's form says all.
+// True for a command with its own fields here; false for one that its wire format represents completely.
 template <class A, class C>
 bool own_fields(A& a, C& command) {
     return std::visit(
@@ -160,7 +161,7 @@ void command(Writer& a, const Command& c) {
     a.u8(function_of(c));
     if (!own_fields(a, c)) a.payload(c);
 }
-// The alternative of a function code, with default values.
+// Returns the command for a function code, with default values.
 template <std::size_t... I>
 bool make_command(std::uint8_t function, Command& c, std::index_sequence<I...>) {
     return ((function == I + 1 && (c.emplace<I>(), true)) || ...);
@@ -240,7 +241,7 @@ bool make_record(std::uint8_t kind, Record& record, std::index_sequence<I...>) {
     return ((kind == I + static_cast<std::size_t>(Kind::kCommand) && (record.emplace<I>(), true)) || ...);
 }
 
-// Puts length and CRC before a body that stands behind their place.
+// Writes length and CRC into the space in front of a body.
 std::size_t seal(std::span<std::uint8_t> bytes, std::size_t body_bytes) {
     ByteWriter prefix(bytes);
     prefix.u32(body_bytes).u32(crc32_of(bytes.subspan(kRecordPrefixBytes, body_bytes)));
@@ -275,7 +276,7 @@ std::optional<RecordingHeader> decode_header(std::span<const std::uint8_t> body)
     if (reader.u8() != static_cast<std::uint8_t>(Kind::kHeader)) return {};
     RecordingHeader header;
     list(reader, header);
-    // Differences of monotonic times stay in range.
+    // Limits monotonic times so that their differences do not overflow.
     constexpr std::int64_t kFarthest_ns = 4'000'000'000'000'000'000;
     if (!reader.ended_well() || header.monotonic_start_ns < 0 || header.monotonic_start_ns > kFarthest_ns)
         return {};

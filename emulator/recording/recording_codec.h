@@ -1,10 +1,10 @@
 #pragma once
-// A recording's bytes (docs/recording.md). Pure functions.
+// The byte format of a recording (docs/recording.md). Pure functions.
 //
 //     file:   8 bytes "hilcrec" 01, then records
 //     record: u32 length of the body, u32 CRC-32 of the body, body: u8 kind, fields
 //
-// Big-endian, as all of the program's formats. The first record is the header.
+// Big-endian, like all of the program's formats. The first record is the header.
 
 #include <array>
 #include <cstdint>
@@ -18,17 +18,17 @@ namespace hilcam {
 
 inline constexpr std::array<std::uint8_t, 8> kRecordingMagic = {'h', 'i', 'l', 'c', 'r', 'e', 'c', 1};
 inline constexpr std::size_t kRecordPrefixBytes = 8;
-inline constexpr std::size_t kMaxRecordBytes = 512;        // greatest size of a body
-inline constexpr std::size_t kMaxHeaderBytes = 16u << 20;  // greatest size of the header's body
+inline constexpr std::size_t kMaxRecordBytes = 512;        // largest body
+inline constexpr std::size_t kMaxHeaderBytes = 16u << 20;  // largest body of the header
 
-// Encodes the header with its length and CRC. Throws InputError when a scenario is longer than a header may
-// be.
+// Encodes the header with its length and CRC. Throws InputError for a scenario that exceeds the largest
+// header.
 std::vector<std::uint8_t> encode_header(const RecordingHeader& header);
-// The same for a record, into a buffer of kRecordPrefixBytes + kMaxRecordBytes; gives the number of bytes.
+// Encodes a record into a buffer of kRecordPrefixBytes + kMaxRecordBytes, and returns the number of bytes.
 std::size_t encode_record(const Record& record, std::span<std::uint8_t> bytes);
 
-// Bodies. Nothing for bytes that are none: wrong length, a kind or a word of a fixed list that does not
-// exist, a number that is not finite.
+// Decode bodies. They return nothing for invalid bytes: a wrong length, an unknown kind or enumerator, a
+// number that is not finite.
 std::optional<RecordingHeader> decode_header(std::span<const std::uint8_t> body);
 std::optional<Record> decode_record(std::span<const std::uint8_t> body);
 

@@ -1,16 +1,16 @@
 #pragma once
-// The beginning of a recording: who made it, of what.
+// Makes the header of a recording: the program and machine that made it, and the scenario.
 
 #include "emulator/recording/recording.h"
 #include "emulator/scenario/app_config.h"
 
 namespace hilcam {
 
-// Makes the header of this program on this machine, except when the run began. Reads the program's file and
-// all that the scenario names: as long as that takes.
+// Returns the header for this program and machine, without the start times. Reads the program file and all
+// files that the scenario names, which takes its time.
 RecordingHeader recording_header(const ScenarioConfig& scenario);
 
-// Says what makes a recording that may not come out the same when it is replayed; a line each.
+// Returns reasons why a replay may differ from the run, one line each.
 std::vector<std::string> recording_warnings(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// A recording is read record by record, however long a run was.
+// A recording is read record by record, so it may be of any length.
 const InputKind kRecordingFile{std::numeric_limits<std::int64_t>::max(),
                                "a recording of hilcam run --record"};
 
@@ -42,7 +42,7 @@ RecordingReader::RecordingReader(std::unique_ptr<std::istream> in, std::string n
     body_.resize(kMaxRecordBytes);
 }
 
-// Reads the next record into body_; nothing, and end_ says why, when there is no whole one.
+// Reads the next record into body_. Returns nothing when there is no whole one; end_ then says why.
 std::optional<std::size_t> RecordingReader::read_body(std::size_t most) {
     std::array<std::uint8_t, kRecordPrefixBytes> prefix{};
     in_->read(reinterpret_cast<char*>(prefix.data()), static_cast<std::streamsize>(prefix.size()));
@@ -52,7 +52,7 @@ std::optional<std::size_t> RecordingReader::read_body(std::size_t most) {
     const std::uint32_t size = fields.u32(), crc = fields.u32();
     end_ = RecordingEnd::kDamaged;
     if (size == 0 || size > most) return {};
-    // A length is believed as far as there are bytes.
+    // Allocates only as far as bytes exist, whatever the length says.
     constexpr std::size_t kPiece = 1u << 16;
     std::size_t have = 0;
     while (have < size) {

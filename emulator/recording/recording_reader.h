@@ -1,6 +1,6 @@
 #pragma once
-// Reads a recording from front to back. Bytes are not trusted: whatever they are, it ends at the last whole
-// record before the first that is damaged or cut off. Owner thread.
+// Reads a recording from front to back. The bytes are not trusted: reading ends after the last whole record
+// before the first one that is damaged or cut off. Owner thread.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,30 +15,30 @@
 namespace hilcam {
 
 enum class RecordingEnd : std::uint8_t {
-    kNone,     // there is more
-    kClean,    // the run ended there
-    kCutOff,   // the file ends without the run's end
-    kDamaged,  // a record's length or CRC is wrong, or it says nothing that can be
-    kLoss,     // records are missing behind it (RecordedLoss)
+    kNone,     // more records follow
+    kClean,    // the run ended here
+    kCutOff,   // the file ends before the run's end
+    kDamaged,  // a record has a wrong length, CRC or content
+    kLoss,     // records are missing from here on (RecordedLoss)
 };
 
 class RecordingReader {
   public:
-    // Throws InputError when the file cannot be read or does not begin as a recording does.
+    // Throws InputError when the file cannot be read or does not begin like a recording.
     explicit RecordingReader(const std::filesystem::path& file);
-    // The same of any bytes; `name` stands for the file in messages.
+    // Reads any stream; `name` stands for the file in messages.
     RecordingReader(std::unique_ptr<std::istream> in, std::string name);
 
     const RecordingHeader& header() const { return header_; }
     const std::string& name() const { return name_; }
-    // The next record; false at the end.
+    // Reads the next record; false at the end.
     bool next(Record& record);
-    // Goes on behind a loss: for lists, not for replays.
+    // Makes next() continue after lost records: for listings, not for replays.
     void pass_losses() { stop_at_loss_ = false; }
     RecordingEnd end() const { return end_; }
-    // Bytes read, all of them whole records.
+    // Returns the number of bytes read, all of whole records.
     std::uint64_t offset() const { return offset_; }
-    // Says what the end is, for people.
+    // Describes the end for people.
     std::string end_text() const;
 
   private:

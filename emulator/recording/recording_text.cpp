@@ -10,15 +10,15 @@
 namespace hilcam {
 namespace {
 
-// Keys in the order in which they are written.
+// Keys are written in the order in which they are added.
 using OrderedJson = nlohmann::ordered_json;
 
-// Names in the order of ClockCommand::Action, which a record that is read has been checked for.
+// Names in the order of ClockCommand::Action; the reader has checked the value.
 constexpr std::array kClockActions = {"ask", "scale", "pause", "resume", "step"};
 
 OrderedJson list_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
-// Any two numbers have a difference: what a file says need not be a time.
+// Works for any two numbers, because values in a file need not be times.
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
     const std::uint64_t ns = static_cast<std::uint64_t>(to_ns) - static_cast<std::uint64_t>(from_ns);
     return 1e-9 * static_cast<double>(static_cast<std::int64_t>(ns));
@@ -88,7 +88,7 @@ void add_command(OrderedJson& out, const Command& command, const RecordingHeader
                        if (c.action == ClockCommand::Action::kStep)
                            out["step_s"] = seconds_between(0, c.step_ns);
                    },
-                   // Their name says all.
+                   // These commands have only a name.
                    [](const OneOf<StartCommand, StopCommand, PingCommand, SubscribeCommand> auto&) {},
                },
                command);
@@ -135,7 +135,7 @@ OrderedJson text_of(const RecordedCommand& c, const RecordingHeader& header) {
                        {"arrival_s", seconds_since(c.source.arrival_monotonic_ns, header)},
                        {"sequence", c.source.sequence}};
     if (c.source.camera != 0) out["camera"] = c.source.camera;
-    if (c.source.event != 0) out["event"] = c.source.event - 1;  // from 0, as the scenario's list counts
+    if (c.source.event != 0) out["event"] = c.source.event - 1;  // from 0, as in the scenario's list
     add_command(out, c.command, header);
     return out;
 }
@@ -168,7 +168,7 @@ OrderedJson text_of(const RecordedEnd& e, const RecordingHeader& header) {
 
 void list_recording(RecordingReader& recording, const std::function<void(const std::string&)>& line) {
     const RecordingHeader& h = recording.header();
-    // Text that is no UTF-8, as a scenario may have it in a name, is shown as it can be.
+    // Replaces invalid UTF-8, which names in a scenario may contain.
     const auto show = [&](const OrderedJson& value) {
         line(value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
     };

@@ -1,5 +1,5 @@
 #pragma once
-// A recording as JSON lines, for people and their scripts: `hilcam recording FILE`.
+// Prints a recording as JSON lines for people and scripts: `hilcam recording FILE`.
 
 #include <functional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace hilcam {
 
-// The header, a line per record, and where it ends. Times are seconds since the run began.
+// Passes on the header, a line for each record, and the end. Times are seconds since the run began.
 void list_recording(RecordingReader& recording, const std::function<void(const std::string&)>& line);
 
 }  // namespace hilcam

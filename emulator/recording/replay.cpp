@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kPatience_ns = 50'000'000;  // the longest that a stop may have to wait
+constexpr std::int64_t kPatience_ns = 50'000'000;  // longest time that a stop has to wait
 constexpr std::int64_t kStopsWithin_ns = 50'000'000;
 
 bool binning_fits(std::int64_t binning, std::int64_t at_power_up, std::int64_t most) {
@@ -58,7 +58,7 @@ Replay::Replay(const std::filesystem::path& file, const ReplayedCamera& camera, 
       shown_(camera.world->things()) {}
 
 void Replay::start(std::int64_t monotonic_start_ns) {
-    // Both are times of this or another machine since it was started.
+    // Both are times since a machine was started, possibly another machine.
     shift_ns_ = monotonic_start_ns - frames_.header().monotonic_start_ns;
     thread_ = std::thread([this] { run(); });
 }
@@ -68,7 +68,7 @@ void Replay::stop() noexcept {
     if (thread_.joinable()) thread_.join();
 }
 
-// --- the loop's side
+// --- called by the loop
 
 bool Replay::next(const std::atomic<bool>& stopping, FrameUse& use, std::int64_t& not_before_ns) {
     while (!stopping.load(std::memory_order_relaxed)) {
@@ -81,7 +81,7 @@ bool Replay::next(const std::atomic<bool>& stopping, FrameUse& use, std::int64_t
     return false;
 }
 
-// --- the replay's thread
+// --- called by the replay's thread
 
 void Replay::run() {
     FrameUse use;
@@ -113,7 +113,7 @@ Replay::Outcome Replay::outcome() const {
     return outcome_;
 }
 
-// The camera's next frame, and what it shows.
+// Finds the camera's next frame and the commands that it shows.
 bool Replay::find_frame(FrameUse& use) {
     Record record;
     while (!stopping_.load(std::memory_order_relaxed) && frames_.next(record)) {
@@ -129,7 +129,8 @@ bool Replay::find_frame(FrameUse& use) {
     return false;
 }
 
-// All commands up to the frame are read. Those that came too late for it wait for a later one.
+// Applies the commands that the frame shows. All commands up to the frame have been read; those that came too
+// late for it wait for a later frame.
 void Replay::apply_commands() {
     Record record;
     while (commands_.offset() < frames_.offset() && commands_.next(record)) {
@@ -153,8 +154,8 @@ void Replay::apply_commands() {
     pending_ = std::move(later);
 }
 
-// The thing that a command moves. Faults are ordered at once (apply_commands); what the other commands did is
-// in the frames' own use, with which they are made again.
+// Returns the thing that a command moves. apply_commands() orders faults at once; the effect of other
+// commands is contained in the frames' own use, with which they are made again.
 std::optional<std::size_t> Replay::thing_of(const Command& command) const {
     using Thing = std::optional<std::size_t>;
     const WorldState& world = *camera_.world;
@@ -186,10 +187,11 @@ void Replay::apply(const Pending& pending) {
                c.command);
 }
 
-// Why the loop cannot be given a frame, or empty: CRCs find accidents, not files that somebody has made.
+// Returns why a frame must not be given to the loop, or an empty text. CRCs detect damage, but not a forged
+// file.
 std::string Replay::refusal_of(const FrameUse& use) const {
     const CameraSettings& own = camera_.power_up;
-    constexpr std::int64_t kFarthest_ns = 4'000'000'000'000'000'000;  // sums with it stay in range
+    constexpr std::int64_t kFarthest_ns = 4'000'000'000'000'000'000;  // sums with it do not overflow
     for (const std::int64_t ns :
          {use.begin_ns, use.middle_ns, use.end_ns, use.exposure_mid.ns / 2, use.shown_at.ns / 2})
         if (ns < -kFarthest_ns || ns > kFarthest_ns) return "its time cannot be";
@@ -207,7 +209,7 @@ std::string Replay::refusal_of(const FrameUse& use) const {
     return {};
 }
 
-// Hands a frame over and waits until the loop has seen the world for it; false when the replay is stopped.
+// Hands over a frame and waits until the loop has sampled the world for it; false when the replay is stopped.
 bool Replay::offer(const FrameUse& use) {
     use_ = use;
     for (std::int64_t* const ns : {&use_.begin_ns, &use_.middle_ns, &use_.end_ns}) *ns += shift_ns_;

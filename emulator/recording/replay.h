@@ -1,13 +1,13 @@
 #pragma once
-// A recording's frames once more, through the same loop: bit by bit the same on the same build and kind of
-// machine, on any number of threads.
+// Replays a recording's frames through the same loop: bit by bit the same on the same build and kind of
+// machine, with any number of threads.
 //
-// A thread of the replay's own reads the file, gives the world the commands that the next frame shows, hands
-// the frame's use to the loop and waits until the loop has seen that world: so nothing of the loop waits for
-// a file. Commands from outside do not exist in a replay; what a client sets has no effect.
+// The replay's own thread reads the file, gives the world the commands that the next frame shows, hands the
+// frame's use to the loop, and waits until the loop has sampled that world. So the loop never waits for a
+// file. A replay ignores commands from outside and settings from clients.
 //
-// Memory does not grow with the recording: it is read twice, by a reader that looks for the camera's next
-// frame and one that follows with the commands.
+// Memory does not grow with the recording. It is read twice: one reader looks ahead for the camera's next
+// frame, the other follows with the commands.
 
 #include <atomic>
 #include <cstdint>
@@ -26,30 +26,30 @@
 
 namespace hilcam {
 
-// Refuses a recording that is of another program or scenario, in one line that names both, unless `force`.
-// Gives what may change bits all the same (another build, another processor) and what was forced, a line
-// each. scenario: scenario_listing(). Throws InputError.
+// Refuses a recording of another program or scenario, in one line that names both, unless `force` is set.
+// Returns what may still change bits (another build, another processor) and what was forced, one line each.
+// scenario: scenario_listing(). Throws InputError.
 std::vector<std::string> check_recording(const RecordingHeader& recording, const std::string& name,
                                          const RecordingHeader& own, bool force);
 
-// The parts of a camera that a replay needs; all of it outlives the replay.
+// The parts of a camera that a replay uses. All must outlive the replay.
 struct ReplayedCamera {
     std::uint16_t number = 1;
     WorldState* world = nullptr;
     FaultBoard* faults = nullptr;
     CameraLimits limits;
-    CameraSettings power_up;  // settings with which it begins
-    std::size_t levels = 1;   // levels of quality
+    CameraSettings power_up;  // settings at the begin
+    std::size_t levels = 1;   // number of quality levels
 };
 
 class Replay : public FrameScript {
   public:
-    // Throws InputError when the file cannot be read. fast: as fast as it goes, else by the times of the
-    // recording (never those of lockstep).
+    // fast: as fast as possible; otherwise at the recording's times, which recordings of lockstep runs
+    // ignore. Throws InputError when the file cannot be read.
     Replay(const std::filesystem::path& file, const ReplayedCamera& camera, bool fast);
     ~Replay() override { stop(); }
 
-    // monotonic_start_ns: of this run, where the recording's was when it was made.
+    // monotonic_start_ns: this run's start, which corresponds to the start in the recording.
     void start(std::int64_t monotonic_start_ns);
     void stop() noexcept;
 
@@ -57,7 +57,7 @@ class Replay : public FrameScript {
     void seen() noexcept override { seen_.release(); }
 
     struct Outcome {
-        bool whole = false;  // all frames of the run were there
+        bool whole = false;  // all frames of the run were in the recording
         std::uint64_t frames = 0;
         std::string text;  // where it ended; empty while it runs
     };
@@ -83,8 +83,8 @@ class Replay : public FrameScript {
     bool paced_;
     std::int64_t shift_ns_ = 0;  // from the recording's clock to this run's
     std::uint64_t last_id_ = 0;
-    std::vector<std::uint64_t> shown_;  // by thing: the newest command of the next frame
-    std::vector<Pending> pending_;      // read, but not shown yet
+    std::vector<std::uint64_t> shown_;  // by thing: newest command that the next frame shows
+    std::vector<Pending> pending_;      // read, but not yet shown
 
     // Hand-over to the loop.
     FrameUse use_;

@@ -22,7 +22,7 @@ std::uint64_t drawn_bits() {
     return bits;
 }
 
-// Below 2^52, so that the seed is in the key's range and a whole number to whoever reads the report (JSON).
+// Below 2^52, so that the seed is in the key's range and a whole number for readers of JSON.
 std::int64_t drawn_seed() { return static_cast<std::int64_t>(drawn_bits() >> 12); }
 
 std::optional<std::int64_t> recorded_seed(const std::filesystem::path& recording) {

@@ -24,13 +24,13 @@ LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
             .fixed_size = have_fixed_size(scenario.outputs)};
 }
 
-// Frames of lockstep, and those that are recorded or replayed, are functions of their commands alone.
+// Frames in lockstep, and recorded or replayed ones, depend on their commands alone, so they wait for light.
 bool begins_without_light(const ScenarioConfig& scenario, const RunLimits& limits) {
     return limits.light_beside && !scenario.loop.wait_for_light && scenario.mode != CameraMode::kLockstep &&
            limits.record.empty() && limits.replay.empty();
 }
 
-// The frame's numbers of one part of its light.
+// Computes the frame's numbers for one part of its light.
 DnImage numbers_of(const RadianceImage& light, const FrameRecord& record, const IdealSensor& sensor) {
     const Exposure exposure{
         .exposure_s = record.exposure_s, .gain_db = record.gain_db, .black_level_dn = record.black_level_dn};
@@ -38,7 +38,7 @@ DnImage numbers_of(const RadianceImage& light, const FrameRecord& record, const 
                        {record.binning_x, record.binning_y, record.reverse_x, record.reverse_y});
 }
 
-// Governed, frames have any of these.
+// Returns all qualities that frames may have, including those that the governor may choose.
 std::vector<RenderQuality> all_levels(const ScenarioConfig& scenario) {
     std::vector<RenderQuality> levels = lower_levels(scenario);
     levels.insert(levels.begin(), render_quality_of(scenario));
@@ -66,7 +66,7 @@ CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number,
 CameraStation::~CameraStation() = default;
 
 void CameraStation::make_sinks() {
-    const auto [width, height] = array_size(scenario_.camera);  // frames are no larger
+    const auto [width, height] = array_size(scenario_.camera);  // largest size of a frame
     const auto [fixed_width, fixed_height] = frame_size(scenario_.camera);
     const PictureRun run = picture_run_of(scenario_, number_);
     const OutputShape shape{width,
@@ -80,7 +80,7 @@ void CameraStation::make_sinks() {
                             [this] { return status(); }};
     const SinkContext context = sink_context();
     scenario_.outputs.for_each_given([&](const auto& config) {
-        // Truth is made once there is a renderer.
+        // The sink of truth is made when there is a renderer.
         if constexpr (requires { make_sink(config, context, shape); })
             sinks_.push_back(make_sink(config, context, shape));
     });
@@ -106,7 +106,7 @@ void CameraStation::load(const SpectralGrid& grid) {
                                           load_motion_sources(scenario_), lamp_mounts(scenario_));
     const WorldSnapshot first = snapshot_at(scenario_, start, start);
     renderer_->require_air(first);
-    // In lockstep the first frame may be asked for elsewhere, and nobody minds how long it takes.
+    // In lockstep the first frame may be ordered for another place, and waiting for it does no harm.
     if (scenario_.mode != CameraMode::kLockstep) renderer_->make_ground_ahead(first);
     ExposureConfig exposures = exposure_config_of(scenario_);
     exposures.for_detector = true;
@@ -174,7 +174,7 @@ GovernorSettings CameraStation::governor() const {
     return out;
 }
 
-// A replay has its frames' levels from its recording.
+// A replay takes its frames' levels from the recording.
 void CameraStation::find_level_costs() {
     const std::vector<RenderQuality> levels = all_levels(scenario_);
     if (levels.size() == 1 || !limits_.paced || !limits_.replay.empty()) return;

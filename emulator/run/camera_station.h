@@ -1,6 +1,6 @@
 #pragma once
-// One camera of the bench with all that is its own: settings, faults, picture of the world, renderer, sensor,
-// outputs, loop. A bench has one, or several that share commands and clock.
+// One camera of the bench with everything of its own: settings, faults, copy of the world, renderer, sensor,
+// outputs, loop. A bench has one camera, or several that share commands and clock.
 
 #include <deque>
 #include <filesystem>
@@ -27,46 +27,46 @@ class Recorder;
 struct RunLimits {
     double seconds = 0;         // 0: until a signal
     std::uint64_t frames = 0;   // frames of each camera; 0: no limit
-    std::uint64_t warm_up = 0;  // first frames, whose times are not kept
+    std::uint64_t warm_up = 0;  // first frames, for which times are not kept
     bool paced = true;
-    bool outputs = true;  // false: frames go nowhere, for benchmarks
-    // A file to record to, or one whose frames to show once more; empty: none.
+    bool outputs = true;  // false: frames are discarded, for benchmarks
+    // A file to record to, and a recording to replay; empty: none.
     std::filesystem::path record{}, replay{};
-    // Frames may come before the light between surfaces that they ask for is kept, where the scenario says
-    // so, too.
+    // True: frames may come before the cached light that they need is ready, if the scenario allows it as
+    // well.
     bool light_beside = false;
-    bool replay_fast = false;   // true: as fast as can be; false: by the recording's times
-    bool replay_force = false;  // true: also a recording of another program or scenario
-    std::string run_id{};       // label of its frames' truth; empty: the emulator draws it
+    bool replay_fast = false;   // true: as fast as possible; false: at the recording's times
+    bool replay_force = false;  // true: replays a recording of another program or scenario, too
+    std::string run_id{};       // name of the run in its truth; empty: the emulator draws one
 };
 
 class LightMaker;
 
-// The parts that the cameras of a bench share, and those that dictate, watch and keep what this one's loop does.
-// All that is referred to outlives the station; pointers may be null.
+// Parts that the cameras of a bench share, and parts that dictate, watch or record this camera's loop.
+// Everything referred to must outlive the station; pointers may be null.
 struct StationLinks {
     SimulatedClock& clock;
     const PoseWatch& poses;
     const std::vector<std::unique_ptr<CommandReceiver>>& receivers;
-    std::vector<CameraPage> pages{};          // the pages of all cameras, by number
-    const LightMaker* light_maker = nullptr;  // null: nothing is made beside the run
-    FrameScript* script = nullptr;            // a replay's
+    std::vector<CameraPage> pages{};          // pages of all cameras, by number
+    const LightMaker* light_maker = nullptr;  // null: no tables are made during the run
+    FrameScript* script = nullptr;            // for a replay
     FrameWatcher* watcher = nullptr;
-    Recorder* recorder = nullptr;  // gets what the loop and the settings do
+    Recorder* recorder = nullptr;  // records the loop's frames and changes of settings
 };
 
-// It is built in three steps, as the bench's parts need each other: constructed (settings and outputs are
-// there), loaded (world, renderer and sensor, too), prepared (and the loop).
+// A station is built in three steps, because the bench's parts need each other: the constructor makes
+// settings and outputs, load() the world, renderer and sensor, prepare() the loop.
 class CameraStation {
   public:
-    // Makes settings and outputs, so that what can be wrong with them is said before minutes go into a scene.
-    // `scenario`: camera and outputs are this camera's; number: from 1. Throws InputError.
+    // Makes settings and outputs, so that their errors show before minutes go into loading a scene. scenario:
+    // with the camera and outputs of this station. number: from 1. Throws InputError.
     CameraStation(const ScenarioConfig& scenario, std::size_t number, const RunLimits& limits);
     ~CameraStation();
 
-    // Loads the scene and allocates all the loop needs; may take seconds. Throws InputError.
+    // Loads the scene and allocates everything that the loop needs; may take seconds. Throws InputError.
     void load(const SpectralGrid& grid);
-    // Makes the loop, after load() and when all outputs are there. Throws InputError.
+    // Makes the loop. Call after load(), when all outputs exist. Throws InputError.
     void prepare(const StationLinks& links);
 
     // Opens the outputs. Throws DeviceError.
@@ -75,7 +75,7 @@ class CameraStation {
     void stop_loop() noexcept { loop_->stop(); }
     void stop_outputs() noexcept;
 
-    // Is called now and then while the loop runs: orders the scenario's own faults, keeps the log.
+    // Called periodically while the loop runs: applies the scenario's timed faults and keeps their log.
     void serve_faults(double seconds_since_start);
 
     const ScenarioConfig& scenario() const { return scenario_; }
@@ -85,9 +85,9 @@ class CameraStation {
     const FrameLoop& loop() const { return *loop_; }
     Renderer& renderer() { return *renderer_; }
     const Renderer& renderer() const { return *renderer_; }
-    // Returns what was found when they were loaded, in the scenario's order.
+    // Returns what was found when the objects were loaded, in the scenario's order.
     const std::vector<LoadedObject>& objects() const { return objects_; }
-    // Says how it got its transfer tables; orders: those that it is still without.
+    // Returns how the station got its transfer tables, and which are still to be made.
     LightLoading& light() { return light_; }
     SensorChain& chain() { return *chain_; }
     WorldState& world() { return *world_; }
@@ -95,18 +95,18 @@ class CameraStation {
     const LiveSettings& settings() const { return settings_; }
     FaultBoard& faults() { return faults_; }
     const FaultBoard& faults() const { return faults_; }
-    // The newest strikes, the first of each frame and kind.
+    // Returns the newest strikes of faults; the first of each frame and kind.
     const std::deque<FaultBoard::Entry>& fault_log() const { return fault_log_; }
     const DeliveryMeter& delivery() const { return delivery_; }
-    // Returns what frames of each quality level cost before the run; none where no governor chooses one.
+    // Returns what frames of each quality level cost before the run; empty without a governor.
     const std::vector<LevelCost>& level_costs() const { return level_costs_; }
-    // Returns how long after an exposure the next one is due, by the settings of now [s of the machine].
+    // Returns the time between exposures by the present settings [s of the machine].
     double period_s() const;
     std::vector<FrameSink*> sinks() const;
-    // Why outputs cannot deliver, of each of them once. Allocates nothing while there is nothing to tell.
-    // Owner thread.
+    // Returns why outputs cannot deliver, once for each output. Allocates nothing while there is nothing to
+    // report. Owner thread.
     std::vector<std::string> new_faults();
-    // An output that others feed too (telemetry); before prepare().
+    // Adds an output that other stations also feed (telemetry). Before prepare().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
     SinkContext sink_context() { return {settings_, faults_, &delivery_, &fates_, &light_parts_}; }
 
@@ -140,9 +140,9 @@ class CameraStation {
     std::vector<LevelCost> level_costs_;
     TruthListener* truth_listener_ = nullptr;  // one of the sinks, as is the next; may be null
     TruthSink* truth_ = nullptr;
-    std::optional<StationLinks> links_;  // once it is prepared
+    std::optional<StationLinks> links_;  // set by prepare()
     std::unique_ptr<FrameLoop> loop_;
-    std::vector<FaultConfig> timed_faults_;  // by time
+    std::vector<FaultConfig> timed_faults_;  // in order of time
     std::size_t next_fault_ = 0;
     std::deque<FaultBoard::Entry> fault_log_;
 };

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr double kPatience_s = 600;  // for the frames of one order in lockstep
+constexpr double kPatience_s = 600;  // for all frames of one order in lockstep
 
 CommandStatus status_of(TriggerResult result) {
     switch (result) {
@@ -27,7 +27,7 @@ CommandStatus status_of(TriggerResult result) {
     return CommandStatus::kNotNow;
 }
 
-// The status of a trigger; a camera whose run is over says so.
+// Returns the status of a trigger. A camera that has ended its run says so.
 CommandStatus answer_of(const CommandedCamera& camera, TriggerResult result, CommandNotes* notes) {
     if (notes && result == TriggerResult::kNotArmed && camera.settings->is_closed())
         notes->why = "the run ends: no more frames are taken (--frames, --duration, or it was stopped)";
@@ -50,8 +50,8 @@ SettingsChange change_of(const TriggerModeCommand& m) {
     return change;
 }
 
-// True for what goes into a recording once it was accepted. Poses, joints and lamps are noted before they
-// take effect: no frame may show one that is not noted. What only asks is not noted at all.
+// True for commands that are recorded after they have been accepted. Poses, joints and lamps are recorded
+// before they take effect, so that no frame shows one that is not recorded. Queries are not recorded.
 bool is_noted_after(const Command& command) {
     return std::visit(
         Overloaded{
@@ -64,7 +64,8 @@ bool is_noted_after(const Command& command) {
         command);
 }
 
-// True for a number of frames, or for what an event starts: a frame that is being made is not struck.
+// True for a fault over a number of frames, or from an event: it does not strike a frame that is already
+// being made.
 bool is_from_next_frame(const FaultCommand& f, const CommandSource& source) {
     return !f.clear_all && f.order.from_frame == 0 && (f.order.frames != 0 || source.event != 0);
 }
@@ -82,16 +83,16 @@ CommandStatus CommandDispatch::handle(const Command& command, const CommandSourc
     return status;
 }
 
-// Gives the command's number.
+// Records the command and returns its number.
 std::uint64_t CommandDispatch::note(const Command& command, const CommandSource& source, bool forgets) {
     const std::uint64_t number = recorder_->next_number();
     RecordedCommand record{number, command, source, forgets};
-    record.source.notes = nullptr;  // the sender's, for now
+    record.source.notes = nullptr;  // belongs to the sender, and only for now
     recorder_->put(record);
     return number;
 }
 
-// There is no default: a command that is added later does not compile until somebody handles it.
+// Has no default, so that a new command does not compile until it is handled here.
 CommandStatus CommandDispatch::perform(const Command& command, const CommandSource& source) {
     return std::visit(
         Overloaded{
@@ -109,14 +110,14 @@ CommandStatus CommandDispatch::perform(const Command& command, const CommandSour
             [&](const ClockCommand& clock) { return order(clock); },
             [&](const StartCommand&) { return change({.running = true}, source, CommandStatus::kNotNow); },
             [&](const StopCommand&) { return change({.running = false}, source, CommandStatus::kNotNow); },
-            // The command station answers these itself (io/commands/command_station.cpp); the cameras are not
-            // asked.
+            // The command station answers these itself (io/commands/command_station.cpp), without the
+            // cameras.
             [](const OneOf<PingCommand, SubscribeCommand> auto&) { return CommandStatus::kAccepted; },
         },
         command);
 }
 
-// Asks several cameras; the first refusal is the answer, and the notes say whose it is.
+// Calls several cameras. The first refusal is the answer, and the notes say which camera refused.
 template <class F>
 CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act, CommandNotes* notes) {
     if (camera > cameras_.size()) return CommandStatus::kUnknownObject;
@@ -142,17 +143,18 @@ CommandStatus CommandDispatch::order(const ClockCommand& clock) {
     return status;
 }
 
-// A tag of 0 is the arrival; false for one too far from it. In lockstep time goes where it is told to.
+// Resolves a tag: 0 means the arrival. Returns false for a tag too far from it. In lockstep any tag is
+// accepted.
 bool CommandDispatch::resolve(TimeTai& tag, const CommandSource& source) const {
     const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
     if (tag.ns == 0) tag = arrival;
-    // Compared without subtracting: a hostile tag must not overflow.
+    // Compares without subtraction, so that a hostile tag cannot overflow.
     const std::int64_t horizon_ns = poses_.horizon_ns();
     return clock_.lockstep() || !(tag < arrival + -horizon_ns || arrival + horizon_ns < tag);
 }
 
-// `set` moves a thing of one camera's world; its last argument: what was known of it is forgotten. `anew`:
-// the sender says so. `tag`: the command's own, which is resolved.
+// set: moves a thing in one camera's world; its last argument says whether to forget earlier motion. anew:
+// the sender says that its time restarts. tag: the command's own tag, which is resolved.
 template <class C, class F>
 CommandStatus CommandDispatch::move(const C& command, PoseWatch::Subject subject, TimeTai& tag,
                                     const CommandSource& source, bool anew, F&& set) {
@@ -215,14 +217,14 @@ CommandStatus CommandDispatch::switch_lamp(const LampCommand& lamp, const Comman
                 });
 }
 
-// Returns the instant in the camera's time from which a sender's settings hold, or an event's, which may be carried out
-// before its time or after. Where time is to stand before that, they hold at once.
+// Returns the instant in the camera's time from which settings by a sender or event are valid. An event may
+// be carried out before or after its time. If time will stand still before that, settings are valid at once.
 std::int64_t CommandDispatch::settings_hold_from(const CommandSource& source) const {
     const std::int64_t due_ns = source.due.ns == 0 ? SimulatedClock::kNever_ns : clock_.camera_of(source.due);
     return due_ns == SimulatedClock::kNever_ns ? clock_.camera_at(source.arrival_monotonic_ns) : due_ns;
 }
 
-// Changes all cameras that are meant, or none.
+// Changes all addressed cameras, or none.
 CommandStatus CommandDispatch::change(const SettingsChange& change, const CommandSource& source,
                                       CommandStatus refused) {
     const std::int64_t from_ns = settings_hold_from(source);
@@ -262,9 +264,9 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
         source.notes);
 }
 
-// Exposes in lockstep; with events each frame is an order of its own, so that they come between any two. A
-// picture that an event takes is part of the sender's order that is under way, or nobody but the events can
-// order one (event_director.h).
+// Exposes in lockstep. With events, each frame is an order of its own, so that events can happen between any
+// two frames. A picture that an event takes belongs to the sender's current order; without a sender, only
+// events can order one (event_director.h).
 CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const CommandSource& source) {
     std::unique_lock one(lockstep_, std::defer_lock);
     if (source.event == 0) one.lock();
@@ -278,13 +280,13 @@ CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, con
         if (events_->asks_to_end()) return CommandStatus::kNotNow;
         const CommandStatus status = run_order(frame, source);
         if (status != CommandStatus::kAccepted) return status;
-        frame.at_simulated = {};  // a period on
+        frame.at_simulated = {};  // one period later
     }
     return CommandStatus::kAccepted;
 }
 
-// Answers when the loops have seen the world for the order's last frame: commands that come later do not
-// count for its frames, so the same commands give the same frames at any pace.
+// Answers when the loops have sampled the world for the order's last frame. Later commands do not affect its
+// frames, so the same commands give the same frames at any pace.
 CommandStatus CommandDispatch::run_order(const TriggerOrder& order, const CommandSource& source) {
     const CommandStatus status = for_cameras(
         source.camera,
@@ -298,7 +300,8 @@ CommandStatus CommandDispatch::run_order(const TriggerOrder& order, const Comman
     return status == CommandStatus::kAccepted ? done : status;
 }
 
-// The next frame is another one on each camera, and a recording must name it: an order for each.
+// The next frame has a different number on each camera, and a recording must state it, so each camera gets
+// its own order.
 CommandStatus CommandDispatch::order_from_next_frame(FaultCommand f, const CommandSource& source) {
     return for_cameras(source.camera, [&](const CommandedCamera& c) {
         CommandSource own = source;

@@ -2,9 +2,9 @@
 // Carries out decoded commands: poses go to the world, settings and triggers to the cameras, faults to their
 // boards.
 //
-// Every camera has a picture of the world of its own, so poses go to all of them. Settings, triggers and
-// faults go to the camera that a command names, or to all: with several, a setting that one of them refuses
-// is refused for that one only, and the status says so. Time tags are judged by the watch over poses.
+// Every camera has its own copy of the world, so poses go to all. Settings, triggers and faults go to the
+// camera that a command names, or to all. A setting that one of several cameras refuses is refused for that
+// camera only, and the status says so. The watch over poses (pose_watch.h) judges time tags.
 
 #include <cstdint>
 #include <mutex>
@@ -18,7 +18,7 @@
 
 namespace hilcam {
 
-// The parts of a camera that commands reach; all of it outlives the dispatch.
+// The parts of a camera that commands act on. All must outlive the dispatch.
 struct CommandedCamera {
     WorldState* world = nullptr;
     LiveSettings* settings = nullptr;
@@ -30,7 +30,7 @@ class Recorder;
 
 class CommandDispatch : public CommandHandler {
   public:
-    // poses: the bench's; null: one of its own, by the default rules.
+    // poses: the bench's watch; null: a watch with the default rules.
     CommandDispatch(std::vector<CommandedCamera> cameras, SimulatedClock& clock, PoseWatch* poses = nullptr)
         : cameras_(std::move(cameras)), clock_(clock), poses_(poses ? *poses : default_poses_) {}
 
@@ -40,9 +40,10 @@ class CommandDispatch : public CommandHandler {
         return clock_.read(arrival_monotonic_ns);
     }
 
-    // All that is accepted goes into a recording. Before the first command; it outlives the last.
+    // Records all accepted commands. Call before the first command; the recorder must outlive the last.
     void record_to(Recorder& recorder) { recorder_ = &recorder; }
-    // Makes events be asked before every frame in lockstep. As above.
+    // Consults the events before every frame in lockstep. Call before the first command; `events` must
+    // outlive the last.
     void ask_events(EventDirector& events) { events_ = &events; }
 
   private:
@@ -73,8 +74,9 @@ class CommandDispatch : public CommandHandler {
     PoseWatch& poses_;
     Recorder* recorder_ = nullptr;     // may be null
     EventDirector* events_ = nullptr;  // may be null
-    std::mutex recording_;             // commands take effect in the order in which they are noted
-    std::mutex lockstep_;              // one sender's order at a time, with what events do before its frames
+    // Held while a command takes effect and is noted, so that both happen in the same order.
+    std::mutex recording_;
+    std::mutex lockstep_;  // one sender's order at a time, including what events do before its frames
 };
 
 }  // namespace hilcam

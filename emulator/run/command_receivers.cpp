@@ -21,7 +21,7 @@ std::unique_ptr<CommandReceiver> make_vizard(const ScenarioConfig& scenario,
     std::vector<VizardCameraPart> parts;
     for (const auto& station : stations) {
         const CameraModel& camera = station->scenario().camera;
-        const auto [width, height] = array_size(camera);  // frames are no larger
+        const auto [width, height] = array_size(camera);  // largest size of a frame
         auto sink =
             std::make_unique<VizardSink>("vizard camera " + std::to_string(station->number()), width, height);
         parts.push_back({sink.get(), station->settings().limits().color_pattern});

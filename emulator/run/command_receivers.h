@@ -1,5 +1,5 @@
 #pragma once
-// The transports of a scenario's commands, made from their configuration.
+// Makes the transports of a scenario's commands from their configuration.
 
 #include <memory>
 #include <vector>
@@ -10,14 +10,15 @@
 
 namespace hilcam {
 
-// `handler` and `faults` outlive them.
+// `handler` and `faults` must outlive the receivers.
 std::vector<std::unique_ptr<CommandReceiver>> make_receivers(const CommandsConfig& config,
                                                              CommandHandler& handler, FaultBoard& faults);
-// That of Basilisk's Vizard protocol, and an output for it in every camera. Before the loops are made.
+// Makes the receiver of Basilisk's Vizard protocol, and an output for it in every camera. Call before the
+// loops are made.
 std::unique_ptr<CommandReceiver> make_vizard(const ScenarioConfig& scenario,
                                              const std::vector<std::unique_ptr<CameraStation>>& stations,
                                              CommandHandler& handler);
-// All together.
+// Returns the report of all receivers together.
 CommandReport report_of(const std::vector<std::unique_ptr<CommandReceiver>>& receivers);
 
 }  // namespace hilcam

@@ -22,10 +22,11 @@ constexpr std::int64_t kBetweenMissedLines_ns = 10'000'000'000;
 
 volatile std::sig_atomic_t signalled = 0;
 std::atomic<std::int64_t> signalled_ns{0};
-static_assert(std::atomic<std::int64_t>::is_always_lock_free);  // is used in a signal handler
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);  // used in a signal handler
 
-// The first signal stops the run. A terminal and who wraps the program may each send one, all at once: those are one. Later
-// ones are of somebody who does not want to wait for the end of outputs and report.
+// The first signal stops the run. A terminal and a program that wraps this one may each send a signal at the
+// same time; these count as one. A later signal means that someone does not want to wait for the end of
+// outputs and report.
 void on_signal(int number) {
     constexpr std::int64_t kAtOnce_ns = 1'000'000'000;
     if (!signalled) {
@@ -37,9 +38,10 @@ void on_signal(int number) {
     }
 }
 
-// Stops while it lives on every signal by which a person, a shell or a job scheduler ends a program (SIGUSR1 and SIGUSR2
-// are a batch system's word before the time is up), and on SIGHUP (the terminal closes) unless that is ignored, as nohup
-// does. Where one has come, the program is about to end and goes on listening to more of them.
+// While it exists, stops the run on every signal by which a person, a shell or a job scheduler ends a program
+// (SIGUSR1 and SIGUSR2 announce the end of a batch job's time), and on SIGHUP (the terminal closes) unless
+// that is ignored, as with nohup. After a signal the program is about to end, and the guard continues to
+// listen.
 class SignalGuard {
   public:
     SignalGuard() {
@@ -76,7 +78,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     if (!wishes.cores.empty())
         threads_.emplace(tbb::global_control::max_allowed_parallelism, wishes.cores.size());
     load_stations();
-    // Loading took its time; the simulation starts now.
+    // Loading took some time; the simulation starts now.
     clock_start_ns_ = monotonic_ns();
     clock_.restart(parse_utc(scenario.time_utc), clock_start_ns_);
     dispatch_ = std::make_unique<CommandDispatch>(commanded_cameras(), clock_, &poses_);
@@ -92,7 +94,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     prepare_stations();
 }
 
-// Is called before minutes go into a scene.
+// Called before minutes go into loading a scene.
 void Emulator::prepare_recording() {
     if (!limits_.record.empty() || !limits_.replay.empty()) recording_ = recording_header(scenario_);
     if (limits_.replay.empty()) return;
@@ -102,7 +104,7 @@ void Emulator::prepare_recording() {
         spdlog::warn("{}", warning);
 }
 
-// Mistakes of any camera are told before the first scene is loaded.
+// Errors of any camera are reported before the first scene is loaded.
 void Emulator::load_stations() {
     for (std::size_t i = 0; i <= scenario_.more_cameras.size(); ++i)
         stations_.push_back(
@@ -139,7 +141,7 @@ void Emulator::make_recorder() {
     dispatch_->record_to(*recorder_);
 }
 
-// A replay has what they did in its recording.
+// In a replay, the recording contains what events did.
 void Emulator::make_events() {
     if (scenario_.events.empty() || !limits_.replay.empty()) return;
     const EventDirector::Bench bench{*dispatch_,
@@ -181,7 +183,7 @@ void Emulator::prepare_stations() {
         });
 }
 
-// Is also called when starting has failed half-way: outputs' threads ask for figures of what is destroyed
+// Also called when starting failed half-way. Outputs' threads use figures of members that are destroyed
 // before them.
 Emulator::~Emulator() {
     if (telemetry_) telemetry_->stop();
@@ -202,7 +204,7 @@ void Emulator::make_telemetry() {
         station->add_sink(telemetry_->sink(static_cast<std::uint8_t>(station->number())));
 }
 
-// Called by telemetry's thread, once a second. What has no sum is the first camera's.
+// Called by telemetry's thread once a second. Figures that cannot be added up are the first camera's.
 HousekeepingFigures Emulator::housekeeping() {
     HousekeepingFigures h;
     const CameraSettings settings = first().settings().settings();
@@ -258,7 +260,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     if (events_) events_->start();
     for (const auto& station : stations_) station->start_loop();
     raise_threads(scenario_.loop.real_time);
-    // It is not raised with the others.
+    // The light maker's thread is not raised with the others.
     if (light_maker_) {
         spdlog::info(
             "light between surfaces is made beside the run: until then frames have random paths and the flag "
@@ -270,7 +272,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     notify_service_manager("READY=1");
     const bool terminal = isatty(STDERR_FILENO);
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;
-    next_missed_line_ns_ = begun_ns + kBetweenMissedLines_ns;  // first frames are late on every machine
+    next_missed_line_ns_ = begun_ns + kBetweenMissedLines_ns;  // the first frames are late on every machine
     while (!signalled && !finished()) {
         const std::int64_t now_ns = monotonic_ns();
         note_time(begun_ns);
@@ -290,7 +292,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
     notify_service_manager("STOPPING=1");
-    // Loops first: they answer what waits for a frame.
+    // Loops stop first, because they answer what waits for a frame.
     if (events_) events_->ask_to_stop();
     for (const auto& station : stations_) station->stop_loop();
     if (light_maker_) light_maker_->stop();
@@ -327,7 +329,7 @@ void Emulator::print_replays() const {
     }
 }
 
-// Allocates nothing, as it comes while frames do.
+// Allocates nothing, because it runs while frames are made.
 void Emulator::print_level_changes() {
     LevelChange change;
     for (const auto& station : stations_)
@@ -345,7 +347,7 @@ void Emulator::print_level_changes() {
                     station->name(), change.frame, change.to, change.from);
 }
 
-// Once: the simulated time has left what a file of motion knows.
+// Logs once that simulated time has left the span of a motion file.
 void Emulator::print_held_motion() {
     if (reported_held_motion_ || first().world().held() == 0) return;
     reported_held_motion_ = true;
@@ -354,7 +356,7 @@ void Emulator::print_held_motion() {
         first().world().first_gap());
 }
 
-// Once: what a source of motion or a command leads to cannot be.
+// Logs once that a motion source or a command leads to an impossible value.
 void Emulator::print_impossible_motion() {
     if (reported_impossible_motion_ || first().world().impossible() == 0) return;
     reported_impossible_motion_ = true;
@@ -364,7 +366,7 @@ void Emulator::print_impossible_motion() {
         first().world().first_impossible());
 }
 
-// Says how long that will still take, soon after the begin and then twice a minute.
+// Logs how long making light will still take, soon after the begin and then twice a minute.
 void Emulator::print_light_left(std::int64_t now_ns) {
     if (now_ns < next_light_line_ns_) return;
     constexpr std::int64_t kBetweenLines_ns = 30'000'000'000;
@@ -377,7 +379,7 @@ void Emulator::print_light_left(std::int64_t now_ns) {
         spdlog::info("light between surfaces: {:.0f} % made", std::floor(100 * share));
 }
 
-// Once, when all cameras have the light that was made beside the run.
+// Logs once that all cameras have the light that was made during the run.
 void Emulator::print_light(std::int64_t now_ns) {
     if (reported_light_ || !light_maker_) return;
     if (!light_maker_->is_done()) return print_light_left(now_ns);
@@ -390,8 +392,7 @@ void Emulator::print_light(std::int64_t now_ns) {
                      light_maker_->seconds());
 }
 
-// Prints what an output begins to be unable to do: once, not for each frame. The report at the end has it
-// whole.
+// Logs once, not for each frame, that an output can no longer deliver. The report at the end has all of it.
 void Emulator::print_output_faults(std::int64_t now_ns) {
     constexpr std::int64_t kBetweenLooks_ns = 250'000'000;
     if (now_ns < next_fault_look_ns_) return;
@@ -400,7 +401,7 @@ void Emulator::print_output_faults(std::int64_t now_ns) {
         for (const std::string& fault : station->new_faults()) spdlog::error("{}", fault);
 }
 
-// A log has no line of rates: it says when exposures are missed, and not more often than it can be read.
+// In a log, without the line of rates, reports missed exposures, at a readable rate.
 void Emulator::print_missed(std::int64_t now_ns) {
     if (now_ns < next_missed_line_ns_) return;
     std::uint64_t missed = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The emulator as a whole: builds every part of a scenario, runs it, tears it down.
+// The whole emulator: builds every part of a scenario, runs it, and tears it down.
 
 #include <cstdint>
 #include <functional>
@@ -27,11 +27,11 @@ class Emulator {
     Emulator(const ScenarioConfig& scenario, const RunLimits& limits);
     ~Emulator();
 
-    // Opens sockets and devices, then runs until a limit is reached or SIGINT, SIGTERM or SIGHUP comes.
-    // Throws DeviceError while starting. `on_ready` is called once the camera can be used.
+    // Opens sockets and devices, then runs until a limit is reached or SIGINT, SIGTERM or SIGHUP arrives.
+    // on_ready: called once the camera can be used. Throws DeviceError while starting.
     void run(const std::function<void()>& on_ready);
 
-    // Cameras in the scenario's order; there is at least one.
+    // Returns the cameras in the scenario's order; there is at least one.
     const std::vector<std::unique_ptr<CameraStation>>& stations() const { return stations_; }
     CameraStation& first() const { return *stations_.front(); }
     FrameLoop& loop() { return first().loop(); }
@@ -44,12 +44,12 @@ class Emulator {
     double seconds() const { return seconds_; }
     // Returns how many cores the program has used on average since the loops began.
     double used_cores() const { return used_cores_; }
-    // Truth and report name the run so; no other run has the name.
+    // Returns the run's unique name in truth and report.
     const std::string& run_id() const { return limits_.run_id; }
     CommandReport command_report() const;
     // Null: nothing is recorded.
     const Recorder* recorder() const { return recorder_.get(); }
-    // Returns the replays by camera; none: this is no replay.
+    // Returns the replays by camera; empty: not a replay.
     const std::vector<std::unique_ptr<Replay>>& replays() const { return replays_; }
 
   private:
@@ -77,7 +77,7 @@ class Emulator {
 
     ScenarioConfig scenario_;
     RunLimits limits_;
-    // Limits threads to as many as the loop has cores of its own.
+    // Limits the number of threads to the loop's own cores.
     std::optional<tbb::global_control> threads_;
     SpectralGrid grid_;
     SimulatedClock clock_;
@@ -86,11 +86,12 @@ class Emulator {
     SilenceLog silence_log_{clock_, poses_};
     std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
     RecordingHeader recording_;                   // used with a recorder
-    std::unique_ptr<Recorder> recorder_;          // outlives all that records; may be null
+    std::unique_ptr<Recorder> recorder_;          // outlives everything that records; may be null
     std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
     std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null
     std::vector<std::unique_ptr<CameraStation>> stations_;
-    std::unique_ptr<LightMaker> light_maker_;  // gives to renderers; null: no table is made beside the run
+    // Gives tables to renderers; null: no table is made during the run.
+    std::unique_ptr<LightMaker> light_maker_;
     std::unique_ptr<CommandDispatch> dispatch_;
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;
     double seconds_ = 0, used_cores_ = 0;
@@ -103,7 +104,7 @@ class Emulator {
     std::int64_t next_light_line_ns_ = 0;
     std::uint64_t missed_told_ = 0;
     std::atomic<std::int64_t> begun_ns_{0};
-    HousekeepingFigures housekeeping_before_;  // telemetry's thread
+    HousekeepingFigures housekeeping_before_;  // used by telemetry's thread
 };
 
 }  // namespace hilcam

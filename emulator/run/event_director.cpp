@@ -14,10 +14,10 @@
 namespace hilcam {
 namespace {
 
-// The time before a frame's begin at which events are asked: within the last stretch in which the loop
-// listens to nothing else (frame_starter.cpp), so that a new frame rate does not move that begin.
+// Events are evaluated this long before a frame's begin: within the last stretch, in which the loop handles
+// nothing else (frame_starter.cpp), so that a new frame rate cannot move that begin.
 constexpr std::int64_t kLead_ns = 900'000;
-constexpr std::int64_t kLongestWait_ns = 50'000'000;  // the longest that a stop may have to wait
+constexpr std::int64_t kLongestWait_ns = 50'000'000;  // longest time that a stop has to wait
 
 }  // namespace
 
@@ -48,12 +48,12 @@ void EventDirector::stop() noexcept {
     if (thread_.joinable()) thread_.join();
 }
 
-// The copy goes into room that is there: the world's number of objects does not change.
+// Copies into existing memory, because the world's number of objects does not change.
 void EventDirector::seen(const SeenFrame& frame, const WorldSnapshot& world) noexcept {
     seen_.frame = frame;
     seen_.world = world;
     newest_.write(seen_);
-    if (!bench_.clock.lockstep()) news_.release();  // there nobody waits for it
+    if (!bench_.clock.lockstep()) news_.release();  // in lockstep nothing waits for it
 }
 
 void EventDirector::look() {
@@ -72,7 +72,7 @@ void EventDirector::before_frame(const TriggerOrder& order) {
     switch_lamps_until(begin_of(order) + to_ns(bench_.timing.end_s(exposure_s)));
 }
 
-// Returns the begin as the frame starter has it, with the exposure of the frame before where the camera sets
+// Returns the begin as the frame starter computes it, with the previous frame's exposure if the camera sets
 // that itself.
 TimeTai EventDirector::begin_of(const TriggerOrder& order) const {
     const CameraSettings s = bench_.settings.settings();
@@ -82,7 +82,8 @@ TimeTai EventDirector::begin_of(const TriggerOrder& order) const {
     return frame_.middle + (to_ns(bench_.timing.period_s(s.frame_rate_hz, s.exposure_s)) - to_middle_ns);
 }
 
-// Nobody else orders frames: picture after picture, then what no frame follows any more, and the run is over.
+// Takes picture after picture, because no sender orders frames; then carries out events that no frame
+// follows, and ends the run.
 void EventDirector::drive() {
     for (bool more = true; more && !picture_refused_;) {
         look();
@@ -110,7 +111,7 @@ void EventDirector::run() {
     }
 }
 
-// Returns when the frame after the one that was seen last begins, if nothing comes between.
+// Returns when the frame after the last seen one begins, if nothing changes.
 EventDirector::NextBegin EventDirector::next_begin() const {
     if (frame_.id == 0) return {};
     const SimulatedClock& clock = bench_.clock;
@@ -120,8 +121,7 @@ EventDirector::NextBegin EventDirector::next_begin() const {
     return {clock.when_due(camera_ns), clock.simulated_of_camera(camera_ns)};
 }
 
-// Returns the time of the next event that waits for its time: never, as long as simulated time stands before
-// it.
+// Returns the time of the next event with a known time: never while simulated time stands still before it.
 std::int64_t EventDirector::wait_until_ns() const {
     const std::optional<TimeTai> due = sequence_.next_time();
     const std::int64_t camera_ns = due ? bench_.clock.camera_of(*due) : SimulatedClock::kNever_ns;
@@ -130,7 +130,7 @@ std::int64_t EventDirector::wait_until_ns() const {
     return due_ns > begin_ns - kLead_ns && due_ns <= begin_ns ? begin_ns - kLead_ns : due_ns;
 }
 
-// Just before a frame begins, what is due when it does is due.
+// Shortly before a frame begins, everything that is due at its begin counts as due.
 TimeTai EventDirector::horizon() const {
     const std::int64_t now_ns = monotonic_ns();
     const TimeTai now = bench_.clock.at(now_ns);
@@ -141,7 +141,7 @@ TimeTai EventDirector::horizon() const {
 
 // --- what happens
 
-// False when there was nothing to happen.
+// Returns false when nothing was due.
 bool EventDirector::happen_until(TimeTai until) {
     bool any = false;
     while (!stopping_.load() && !asks_to_end_.load()) {
@@ -153,7 +153,7 @@ bool EventDirector::happen_until(TimeTai until) {
     return any;
 }
 
-// Up to the first that does something else then: events keep their order.
+// Stops at the first event that does something else, because events keep their order.
 void EventDirector::switch_lamps_until(TimeTai until) {
     for (std::optional<TimeTai> next = sequence_.next_switch_time(); next && *next < until;
          next = sequence_.next_switch_time())
@@ -182,7 +182,7 @@ void EventDirector::happen(const EventSequence::Due& due) {
     if (actions.ends_run) asks_to_end_.store(true);
 }
 
-// Times that an event's words left open.
+// Fills in times that an event's command left open.
 Command EventDirector::stamped(Command command, const EventSequence::Due& due) const {
     std::visit(Overloaded{
                    [&](PoseCommand& pose) {
@@ -194,7 +194,7 @@ Command EventDirector::stamped(Command command, const EventSequence::Due& due) c
                    [&](LampCommand& lamp) {
                        if (lamp.time.ns == 0) lamp.time = due.time;
                    },
-                   // A picture that a frame asks for is the next one that can be.
+                   // A picture caused by a frame is the next possible one.
                    [&](ExposeCommand& expose) {
                        if (expose.time.ns == 0 && due.by_clock) expose.time = due.time;
                    },

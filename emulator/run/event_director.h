@@ -1,23 +1,22 @@
 #pragma once
-// Lets a scenario's events happen while it runs: their commands go the same way as those from outside, so a
-// recording has them like any other.
+// Carries out a scenario's events during a run. Their commands take the same path as commands from outside,
+// so a recording contains them.
 //
-// An event takes effect from the first frame on whose exposure begins at its time or later; one that depends
-// on frames, from the next frame on after the one that it was true of. Frames are the first camera's.
+// An event acts on the first frame that begins its exposure at the event's time or later; an event that
+// depends on frames acts on the frame after the one for which it came true. Frames are the first camera's.
 //
-//   lockstep            the command dispatch asks before every frame that it orders: the same frames, the
-//                       same events, on any machine. A picture that an event takes at a time comes before a
-//                       frame that is ordered for a later time. Without a way for commands to come in, the
-//                       director itself lets the events' pictures be taken, one after the other, and ends
-//                       the run when there are no more. After `end` no frame is taken.
-//   free-run,           a thread of the director's own is woken by every frame and at the events' times; what
-//   triggered           is due when a frame begins is done 0.9 ms before that. When the machine does not let
-//                       it run in time, the event is a frame late: its log line says before which frame it
-//                       was done. Settings hold for what begins at its time or later, however late it or
-//                       a frame is (settings_history.h).
+//   lockstep    The command dispatch asks before every frame that it orders, so the same frames give the same
+//               events on any machine. A picture that an event takes comes before a frame that is ordered for
+//               a later time. If no commands can come in, the director orders the events' pictures one after
+//               the other and ends the run after the last. After `end` no frame is taken.
+//   free-run,   The director's own thread wakes for every frame and at the events' times. It carries out what
+//   triggered   is due at a frame's begin 0.9 ms earlier. If the machine delays the thread, the event is a
+//               frame late, and its log line says before which frame it was done. Settings apply to exposures
+//               that begin at the event's time or later, even if the event or the frame is late
+//               (settings_history.h).
 //
-// Joints turn, lamps are switched and poses hold from the event's time on; a fault without `--from-frame`
-// strikes from the next frame on.
+// Joints, lamps and poses change at the event's time. A fault without `--from-frame` strikes from the next
+// frame on.
 
 #include <atomic>
 #include <memory>
@@ -38,30 +37,31 @@ namespace hilcam {
 
 class EventDirector : public FrameWatcher {
   public:
-    // Everything it works on; all of it outlives it. placed_objects: those of the world (WorldState).
+    // Parts that the director works on. All must outlive it. placed_objects: number of objects in the world
+    // (WorldState).
     struct Bench {
         CommandHandler& commands;
-        const LiveSettings& settings;  // settings of the first camera
+        const LiveSettings& settings;  // the first camera's
         const SimulatedClock& clock;
         ShutterTiming timing;
         std::size_t placed_objects = 0;
-        bool self_driven = false;  // lockstep: no commands can come in
+        bool self_driven = false;  // lockstep, and no commands can come in
     };
     EventDirector(EventSequence sequence, const Bench& bench);
     ~EventDirector() override { stop(); }
 
-    // Is called before the loops start: what is due at once has then happened.
+    // Call before the loops start. Events that are due at once have happened when it returns.
     void start();
-    // No further event; to be called before the loops stop, which answer what waits for a frame.
+    // Prevents further events. Call before the loops stop, because they answer what waits for a frame.
     void ask_to_stop() noexcept { stopping_.store(true); }
     void stop() noexcept;
-    // An event has ended the run, or it was made of events and there are no more.
+    // True when an event has ended the run, or a run that consists of events has no more.
     bool asks_to_end() const { return asks_to_end_.load(); }
 
     void seen(const SeenFrame& frame, const WorldSnapshot& world) noexcept override;
-    // Lockstep: what is due before the frame of this order happens, and lamps are switched that are to be while the shutter is
-    // open, as switches hold from their own time. By the dispatch, one call at a time but
-    // for those that it makes itself.
+    // Lockstep: carries out what is due before this order's frame, and switches lamps that change while its
+    // shutter is open, because switches act at their own time. Called by the dispatch, one call at a time
+    // except for calls that it causes itself.
     void before_frame(const TriggerOrder& order);
 
   private:
@@ -88,11 +88,11 @@ class EventDirector : public FrameWatcher {
 
     EventSequence sequence_;
     Bench bench_;
-    Seen seen_;  // the loop's
+    Seen seen_;  // used by the loop
     Latest<Seen> newest_;
-    SeenFrame frame_;  // that the sequence knows
+    SeenFrame frame_;  // newest frame that the sequence has been given
     TimedSemaphore news_;
-    bool picture_refused_ = false;  // the driver's
+    bool picture_refused_ = false;  // used by the driving thread
     std::atomic<bool> stopping_{false}, asks_to_end_{false};
     std::thread thread_;
 };

@@ -25,7 +25,7 @@ Geodetic geodetic_of(Vec3d place) {
     return {longitude_deg(place) * kDegree_rad, latitude_deg(place) * kDegree_rad, 0};
 }
 
-// A frame's truth against the ground of a body that stands so.
+// A frame's truth, for ground on a body in a given attitude.
 class GroundView {
   public:
     GroundView(const FrameTruth& truth, const BodyState& body, const Figure& figure)
@@ -37,15 +37,15 @@ class GroundView {
     int width() const { return truth_.raster.width_px; }
     int height() const { return truth_.raster.height_px; }
     Vec3d camera_m() const { return camera_m_; }
-    // Pixels per radian in the middle of the frame.
+    // Returns pixels per radian at the centre of the frame.
     double focal_length_px() const {
         return truth_.geometry.focal_length_px / std::abs(truth_.raster.x.scale);
     }
-    // True where the picture's rays have told what each pixel shows.
+    // True when the record has what the picture's rays found in each pixel.
     bool has_rays() const {
         return truth_.layers.position_m.planes() > 0 && truth_.layers.object.planes() > 0;
     }
-    // The point of the terrain that a pixel's middle shows, camera axes; false: it shows none.
+    // Finds the point of the terrain at a pixel's centre, in camera axes; false: no terrain there.
     bool point_of(int x, int y, Vec3d& from_camera_m) const {
         const auto k = static_cast<std::size_t>(x);
         // The terrain is the last of the objects.
@@ -55,14 +55,15 @@ class GroundView {
         from_camera_m = to_double(Vec3f{p.row(y, 0)[k], p.row(y, 1)[k], p.row(y, 2)[k]});
         return is_finite(from_camera_m);
     }
-    // The normal of the ground that a pixel shows.
+    // Finds the ellipsoid's normal at the ground in a pixel; false: no ground there.
     bool place(int x, int y, Vec3d& place) const {
         Vec3d from_camera_m;
         if (!point_of(x, y, from_camera_m)) return false;
         place = ellipsoid_normal(figure_, camera_m_ + fixed_from_camera_ * from_camera_m);
         return true;
     }
-    // Where the ray through a place in the frame meets the body's ellipsoid, raised by a height; false: it does not.
+    // Finds where the ray through a place in the frame meets the body's ellipsoid, raised by a height; false:
+    // it does not.
     bool meet(Vec2d frame_px, double raised_m, Vec3d& place, double& distance_m) const {
         const Vec2d image_px = truth_.raster.image_px(frame_px);
         const Vec3d dir =
@@ -73,7 +74,7 @@ class GroundView {
         place = ellipsoid_normal(raised, camera_m_ + distance_m * dir);
         return true;
     }
-    // Finds where a thing is in the frame; false: it is beside it, or below the horizon.
+    // Finds a thing's place in the frame; false: outside the frame, or below the horizon.
     bool find(Vec3d place, Vec3d point_m, double diameter_m, SeenGroundThing& out) const {
         const Vec3d way_m = point_m - camera_m_;
         const Vec3d from_camera_m = transposed(fixed_from_camera_) * way_m;
@@ -88,7 +89,7 @@ class GroundView {
         out.diameter_m = diameter_m, out.distance_m = length(way_m);
         out.diameter_px = diameter_m / out.distance_m * focal_length_px();
         if (!has_rays()) return true;
-        // The pixel's middle, and the mesh, may be beside the point by some pixels.
+        // The pixel's centre, and the mesh, may be some pixels away from the point.
         constexpr double kBeside_px = 3;
         const double miss_m = 0.5 * diameter_m + kBeside_px * out.distance_m / focal_length_px();
         Vec3d met_m;
@@ -103,13 +104,13 @@ class GroundView {
     Vec3d camera_m_;  // body axes
 };
 
-// The part of the ground that holds all that a frame shows of it.
+// A part of the ground that contains everything in the frame.
 struct Extent {
     Vec3d middle;
     double within_m = 0, nearest_m = std::numeric_limits<double>::infinity();
 
     bool any() const { return within_m > 0; }
-    // The diameter that has so many pixels where the ground is nearest.
+    // Returns the diameter that is `px` wide where the ground is nearest.
     double smallest_m(double px, const GroundView& view) const {
         return px * nearest_m / view.focal_length_px();
     }
@@ -125,7 +126,7 @@ Extent extent_of(const std::vector<Vec3d>& places, double nearest_m, const Figur
         out.within_m = std::max(out.within_m, figure.equatorial_radius_m * length(at - out.middle));
     return out;
 }
-// Finds it by all of the picture's rays.
+// Finds the extent from all rays of the picture.
 Extent extent_by_rays(const GroundView& view, const Figure& figure) {
     std::vector<Vec3d> places;
     double nearest_m = std::numeric_limits<double>::infinity();
@@ -139,7 +140,8 @@ Extent extent_by_rays(const GroundView& view, const Figure& figure) {
         }
     return extent_of(places, nearest_m, figure);
 }
-// Finds it by some places of the frame and the height of the ground below the camera, with a margin for what lies between them and for relief.
+// Finds the extent from some places of the frame and the height of the ground below the camera, with a margin
+// for relief and for places in between.
 Extent extent_by_ellipsoid(const GroundView& view, const Figure& figure, double ground_m) {
     constexpr int kAcross = 16;
     constexpr double kMargin = 1.15;
@@ -162,11 +164,11 @@ Extent extent_by_ellipsoid(const GroundView& view, const Figure& figure, double 
 // Limits of a list of a frame's craters or boulders.
 struct ThingLimits {
     double smallest_m, smallest_px;
-    const char* keys;          // those that would make the list shorter
-    double most = kMaxListed;  // entries at most
+    const char* keys;          // keys that would shorten the list
+    double most = kMaxListed;  // largest number of entries
 };
 
-// The craters or boulders of a part of the ground that a frame shows.
+// Returns the craters or boulders in a part of the ground that are in the frame.
 std::vector<SeenGroundThing> seen_things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,
                                          GroundHeights& heights, const GroundView& view, const Extent& extent,
                                          const ThingLimits& limits) {
@@ -174,7 +176,7 @@ std::vector<SeenGroundThing> seen_things(GroundThings kind, const GlobeConfig& g
     const double min_m = std::max(limits.smallest_m, extent.smallest_m(limits.smallest_px, view));
     for (const GroundThing& thing :
          find_things(kind, globe, body, extent.middle, extent.within_m, min_m, limits.keys)) {
-        // A boulder's middle is on its top, a crater's on its floor.
+        // The centre of a boulder is on its top, that of a crater on its floor.
         constexpr double kFine = 0.05;
         const Vec3d point_m =
             heights.point_m(thing.place, heights.height_m(thing.place, kFine * thing.diameter_m));
@@ -183,7 +185,7 @@ std::vector<SeenGroundThing> seen_things(GroundThings kind, const GlobeConfig& g
             continue;
         seen.figure = thing.figure;
         out.push_back(seen);
-        // Heights of the rest would take long.
+        // Stops here, because computing more heights would take long.
         if (static_cast<double>(out.size()) > limits.most)
             throw InputError(fmt::format(
                 "{}: there are more of them in the picture than a list can have; accepted: {:.0f}",
@@ -192,7 +194,7 @@ std::vector<SeenGroundThing> seen_things(GroundThings kind, const GlobeConfig& g
     return out;
 }
 
-// A still picture's truth, with rays.
+// The truth of a still picture, with rays.
 class StillView {
   public:
     StillView(const ScenarioConfig& s, double time_offset_s)
@@ -261,13 +263,13 @@ class RunGround final : public GroundTruth {
     }
 
   private:
-    static constexpr double kMaxInLine = 4096;  // entries of each kind; a megabyte and a half of text in all
+    static constexpr double kMaxInLine = 4096;  // things of each kind; at most 1.5 MB of text
     GlobeConfig globe_;
     MappedBody body_;
     BodyId id_;
     OriginConfig origin_;
     double smallest_px_;
-    mutable std::mutex mutex_;  // heights are looked up by one at a time
+    mutable std::mutex mutex_;  // heights are looked up by one thread at a time
     mutable GroundHeights heights_;
 };
 

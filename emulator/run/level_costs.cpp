@@ -23,7 +23,7 @@ std::vector<LevelCost> measure_levels(const std::vector<double>& rays, double en
             costs[level].frame_ms = std::numeric_limits<double>::infinity();
             continue;
         }
-        // The first frame of a level makes what later ones have; where it takes long, that is a small part of it.
+        // The first frame of a level also prepares later ones; where frames take long, that is a small part.
         TrialCost cost = take(level);
         if (cost.render_ms < kLong_ms) cost = take(level);
         costs[level] = {frame_ms(cost, machine), cost.core_ms};

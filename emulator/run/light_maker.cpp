@@ -32,10 +32,10 @@ double LightMaker::share() const {
 }
 
 void LightMaker::run() {
-    // Frames come first; and one core of those that they leave is enough (as in
+    // Frames have priority, and one of the cores that they leave is enough (as in
     // render/vocabulary/ahead_thread.cpp).
     pthread_setname_np(pthread_self(), kLightThreadName);
-    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
+    constexpr int kNicer = 10;  // relative to the program's niceness
     setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
     tbb::task_arena alone(1, 1);
     const Stopwatch watch;
@@ -58,7 +58,7 @@ void LightMaker::make(Job& job) {
         tables.resize(std::max(tables.size(), order.objects.back() + 1));
         for (const std::size_t object : order.objects) tables[object] = table;
     }
-    job.orders = {};  // their meshes
+    job.orders = {};  // frees the meshes in the orders
     job.renderer->give_tables(tables);
 }
 

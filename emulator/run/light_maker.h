@@ -1,7 +1,6 @@
 #pragma once
-// Makes the transfer tables beside a run that has begun without them (loop.wait_for_light), and gives
-// them to the cameras' renderers: one camera after the other, on one thread that runs when nothing else wants
-// its core.
+// Makes transfer tables during a run that began without them (loop.wait_for_light), and gives them to the
+// cameras' renderers: one camera after the other, on one thread that runs when nothing else needs its core.
 
 #include <atomic>
 #include <exception>
@@ -18,7 +17,7 @@ inline constexpr const char* kLightThreadName = "light";
 
 class LightMaker {
   public:
-    // The tables that a camera's scene is still without; the renderer outlives this.
+    // The tables that a camera's scene still lacks. The renderer must outlive this object.
     struct Job {
         Renderer* renderer;
         std::vector<TableOrder> orders;
@@ -30,14 +29,14 @@ class LightMaker {
     LightMaker& operator=(const LightMaker&) = delete;
 
     void start();
-    // Gives up what is not made yet. Owner thread.
+    // Drops unfinished tables. Owner thread.
     void stop() noexcept;
 
-    // Returns how much of all tables is made, 0 to 1. Any thread.
+    // Returns the share of all tables that is finished, 0 to 1. Any thread.
     double share() const;
-    // All tables are made and given. Any thread.
+    // True when all tables are made and given. Any thread.
     bool is_done() const { return done_.load(std::memory_order_acquire); }
-    // The time that took; when it is done.
+    // Returns how long it took, once it is done.
     double seconds() const { return seconds_; }
 
   private:

@@ -18,7 +18,7 @@
 namespace hilcam {
 namespace {
 
-// The message, for the pattern's '%*'.
+// Writes the message for the pattern's '%*'.
 class HarmlessMessage final : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
@@ -30,7 +30,7 @@ class HarmlessMessage final : public spdlog::custom_flag_formatter {
     }
 };
 
-// Writes a line without allocating: memory may be what is missing.
+// Writes a line without allocating, because memory may be exhausted.
 void write_last_line(const char* what) noexcept {
     std::array<char, 16> thread{};
     pthread_getname_np(pthread_self(), thread.data(), thread.size());
@@ -45,7 +45,7 @@ void write_last_line(const char* what) noexcept {
     static_cast<void>(!write(STDERR_FILENO, line.data(), static_cast<std::size_t>(end - line.begin()) + 1));
 }
 
-// Is called where an exception leaves a thread, or a function that may not throw.
+// Called when an exception leaves a thread or a noexcept function.
 [[noreturn]] void end_with_last_words() {
     try {
         if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
@@ -66,7 +66,7 @@ void set_up_log() {
     std::set_terminate(end_with_last_words);
     spdlog::set_default_logger(spdlog::stderr_color_mt("hilcam"));
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
-    // On a terminal the line may have a Progress's words in it.
+    // On a terminal, the line may hold the text of a Progress.
     const bool terminal = isatty(STDERR_FILENO) == 1;
     formatter->add_flag<HarmlessMessage>('*').set_pattern(terminal ? "\r\x1b[Khilcam: %^%*%$"
                                                                    : "hilcam: %^%*%$");

@@ -1,12 +1,11 @@
 #pragma once
-// The program's log on standard error: "hilcam: " and a line of text that no terminal obeys.
+// Sets up the program's log on standard error: lines that begin with "hilcam: ", without control characters.
 
 namespace hilcam {
 
-// Makes it what spdlog writes to. Messages quote files, command lines and the wire: what each of them holds
-// is made harmless here once more (render/vocabulary/quoted.h), so that none is forgotten. Call it once,
-// before the first message. From then on also what an exception that nobody catches has to say is a line there, with the
-// name of the thread that it ends.
+// Makes spdlog write to this log. Messages may quote files, command lines and network data, so everything is
+// made harmless once more here (render/vocabulary/quoted.h), in case a caller forgot. Also makes uncaught
+// exceptions a line in the log, with the name of the thread they end. Call once, before the first message.
 void set_up_log();
 
 }  // namespace hilcam

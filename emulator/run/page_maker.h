@@ -1,13 +1,13 @@
 #pragma once
-// The Python programs beside this one that make pages with plots of what it has measured.
+// Runs the Python programs in this program's folder that make pages with plots of measurements.
 
 #include <string>
 #include <vector>
 
 namespace hilcam {
 
-// Starts the program of that name and waits for its end. DeviceError when it is missing, cannot be started,
-// or fails: it has then said why on standard error.
+// Runs the program of that name and waits for its end. Throws DeviceError when it is missing, cannot be
+// started or fails; in the last case it has printed the reason on standard error.
 void run_page_maker(const std::string& name, const std::vector<std::string>& arguments);
 
 }  // namespace hilcam

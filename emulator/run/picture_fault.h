@@ -1,5 +1,6 @@
 #pragma once
-// Says in one line what is wrong with the pictures of a run so far: with the renderer's work, and with the maps that it looks at.
+// Says in one line what is wrong with a run's pictures so far: with the renderer's work, or with the maps it
+// uses.
 
 #include <string>
 
@@ -7,7 +8,7 @@
 
 namespace hilcam {
 
-// Empty: nothing. Any thread.
+// Empty: nothing is wrong. Any thread.
 std::string picture_fault(const Renderer& renderer);
 
 }  // namespace hilcam

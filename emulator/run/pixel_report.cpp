@@ -24,7 +24,8 @@ std::string option(FramePixel pixel) {
     return "--pixel " + std::to_string(pixel.x) + ' ' + std::to_string(pixel.y);
 }
 
-// Returns the number of the filter over a pixel. InputError where pixels under several filters are binned into one.
+// Returns the number of the filter over a pixel. Throws InputError where pixels under different filters are
+// binned.
 int channel_of(const CameraModel& model, const FrameRaster& lies, int oversampling, FramePixel pixel) {
     const Mosaic mosaic(model);
     const PixelReach x = reach_of(lies.x, pixel.x), y = reach_of(lies.y, pixel.y);
@@ -56,9 +57,10 @@ std::string number(double value, const char* format = "%.4g") {
 // An object of the renderer by its name.
 struct Thing {
     std::string name;
-    const LoadedObject* loaded;  // the object with its turning parts; null: it is the terrain
+    const LoadedObject* loaded;  // the object with its parts on joints; null: the terrain
 };
-// The renderer has the scenario's objects, then all their turning parts, then the terrain (scene_loader.cpp).
+// The renderer has the scenario's objects, then all their parts on joints, then the terrain
+// (scene_loader.cpp).
 Thing thing_of(const StillCamera& camera, std::size_t number) {
     const std::vector<ObjectConfig>& objects = camera.scenario().objects;
     if (number < objects.size()) return {"object '" + objects[number].name + "'", &camera.objects()[number]};
@@ -72,12 +74,13 @@ Thing thing_of(const StillCamera& camera, std::size_t number) {
     return {"the ground", nullptr};
 }
 
-// The Sun lights surfaces alone: without one it is ground that is alone in the scene (ground_light.h).
+// The Sun lights only surfaces, so an entry without one is ground that is alone in the scene
+// (ground_light.h).
 bool is_ground(const PixelRecord::Entry& entry) {
     return entry.object == PixelRecord::kNoObject && entry.part == LightPart::kSun;
 }
 
-// The light that one surface adds to the pixel, part by part.
+// The light that one surface adds to the pixel, split into parts.
 struct Group {
     PixelRecord::Entry surface;  // the first of its entries
     struct Share {
@@ -120,7 +123,7 @@ class Report {
 
   private:
     const StillCamera& camera_;
-    bool is_one_;  // the pixel is one of the image
+    bool is_one_;  // the pixel is a single pixel of the image
     std::vector<Group> groups_;
     std::array<double, kLightParts> of_part_{};
     double all_ = 0;
@@ -153,7 +156,8 @@ class Report {
     }
 
     void add_groups(int of_rank, const char* title) {
-        // The brightest is always named, as what a mirror shows hangs on the mirror; others below a thousandth of the pixel are counted.
+        // Always names the brightest entry, because the light in a mirror depends on the mirror. Others below
+        // a thousandth of the pixel are only counted.
         constexpr double kMinShare = 1e-3;
         std::size_t count = 0, left_out = 0;
         double left_out_e = 0;

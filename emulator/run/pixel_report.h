@@ -1,5 +1,5 @@
 #pragma once
-// `hilcam render --pixel X Y`: what a pixel of the frame is made of, as text.
+// `hilcam render --pixel X Y`: describes what a pixel of the frame consists of, as text.
 
 #include <string>
 
@@ -10,17 +10,17 @@ namespace hilcam {
 
 class StillCamera;
 
-// A pixel of the published frame, from 0 at its upper left.
+// A pixel of the published frame, counted from 0 at the upper left.
 struct FramePixel {
     int x = 0, y = 0;
 };
 
-// Returns the pixels of the padded radiance image that a pixel of the frame is made of. InputError where the frame has no such pixel, where
-// no light reaches it, and where it is binned of pixels under several filters.
+// Returns the pixels of the padded radiance image that contribute to a pixel of the frame. Throws InputError
+// when the frame has no such pixel, when no light reaches it, or when it bins pixels under different filters.
 PixelBox radiance_pixels(const StillCamera& camera, FramePixel pixel);
 
-// Says what the light of the picture that was rendered last is made of: parts with their sums, then entry by entry the surface that sends
-// it, brightest first. Electrons are those that the pixel's own light makes on the axis, before the lens blurs it.
+// Describes the light of the last rendered picture: parts with their sums, then each surface that sends
+// light, brightest first. Electrons are those of the pixel's own light on the axis, before the lens blurs it.
 std::string pixel_report(const StillCamera& camera, FramePixel pixel, const PixelRecord& record);
 
 }  // namespace hilcam

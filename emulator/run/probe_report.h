@@ -1,5 +1,6 @@
 #pragma once
-// `hilcam prepare --probe OBJECT N`: what one probe of an object sees, as JSON (docs/rendering.md has the fields).
+// `hilcam prepare --probe OBJECT N`: describes what one probe of an object sees, as JSON (fields:
+// docs/rendering.md).
 
 #include <cstdint>
 #include <string>
@@ -9,12 +10,13 @@
 namespace hilcam {
 
 struct ProbeChoice {
-    std::string object;        // its name in the scenario
+    std::string object;        // name in the scenario
     std::uint32_t number = 0;  // number of the probe, as `hilcam render --pixel` prints it
 };
 
-// Loads the scene of the scenario's first camera, making the object's table if it is not on disk, and returns the report.
-// Throws InputError where there is no such object, where it has no table, or where it has fewer probes; and as load_scene().
+// Loads the scene of the scenario's first camera, makes the object's table if it is not on disk, and returns
+// the report. Throws InputError when there is no such object, when it has no table, or too few probes; also
+// what load_scene() throws.
 std::string probe_report(const ScenarioConfig& scenario, const ProbeChoice& choice);
 
 }  // namespace hilcam

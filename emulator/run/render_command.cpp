@@ -20,7 +20,7 @@
 namespace hilcam {
 namespace {
 
-// The first frame that the camera would take.
+// Returns the record of the first frame that the camera would take.
 FrameRecord record_of(const ScenarioConfig& s, const StillCamera& camera) {
     const Exposure& exposure = camera.exposure();
     FrameRecord record;
@@ -34,13 +34,13 @@ FrameRecord record_of(const ScenarioConfig& s, const StillCamera& camera) {
     return record;
 }
 
-// Returns how the pixels of a stage's picture lie on the sensor: charge and light are shown before they are binned.
+// Returns the layout of a stage's picture: light and charge are shown before binning.
 FrameLayout layout_of(const CameraModel& camera, PictureStage stage) {
     if (stage != PictureStage::kFrame) return {};
     return {camera.binning_x, camera.binning_y};
 }
 
-// Returns where the frame, neither binned nor mirrored, lies in the radiance image [px of that].
+// Returns the area of the frame, neither binned nor mirrored, in the radiance image [px of that].
 PixelRectangle frame_in_radiance(const CameraModel& camera, const ImageGeometry& image, int oversampling) {
     const auto [width, height] = array_size(camera);
     return {image.guard_px - static_cast<int>(camera.black_columns) * oversampling,
@@ -64,8 +64,7 @@ void write_truth(const PictureTruthFiles& files, const TruthSource& source, cons
                         document.legend(truth));
 }
 
-// Refuses what would be lost: a frame of a run, or the labels of another picture. A picture that is rendered
-// again is not.
+// Refuses to overwrite a frame of a run, or the labels of another picture. A picture may be rendered again.
 void require_unused(const RenderFiles& files) {
     if (files.overwrite) return;
     std::error_code error;
@@ -83,7 +82,7 @@ void require_unused(const RenderFiles& files) {
             refuse(file, "the truth of a picture that is there already");
 }
 
-// Refuses to say what a pixel is made of and to write nothing of what else is asked for.
+// Refuses options that write files beside a picture when there is no picture.
 void require_no_file(const RenderFiles& files) {
     const auto refuse = [](const std::string& option) {
         throw InputError(option + ": goes with a picture, and there is none; accepted: --out FILE beside it");
@@ -93,7 +92,7 @@ void require_no_file(const RenderFiles& files) {
     if (!files.truth.empty()) refuse("--truth " + files.truth.string());
 }
 
-// Refuses names that cannot be, before minutes of rendering.
+// Refuses impossible file names before rendering takes minutes.
 void check_names(PictureStage stage, const RenderFiles& files) {
     const auto is_one_of = [&](std::initializer_list<const char*> endings) {
         return std::any_of(endings.begin(), endings.end(),
@@ -119,7 +118,8 @@ void check_names(PictureStage stage, const RenderFiles& files) {
         throw InputError("--view " + files.view.string() + ": is the file of --out; accepted: another one");
 }
 
-// Refuses what cannot be taken apart. A pixel tells of itself where it is worked out itself.
+// Refuses pictures that cannot be split into parts. A described pixel must be shaded itself, not interpolated
+// from its neighbours.
 void require_parts(const ScenarioConfig& s, bool pixel) {
     if (const std::string why = apart_refusal(s); !why.empty())
         throw InputError("--parts and --pixel: " + why);
@@ -129,7 +129,7 @@ void require_parts(const ScenarioConfig& s, bool pixel) {
             "quality.ground_step_px: 2; accepted: --set quality.ground_step_px=1");
 }
 
-// The parts of a picture's light, and the record of a pixel, where they are asked for.
+// The requested parts of a picture's light, and the record of a pixel.
 struct AskedLight {
     std::optional<PartsBuffer> buffer;
     std::optional<PixelRecord> record;

@@ -1,5 +1,5 @@
 #pragma once
-// `hilcam render`: one picture of the scenario's first instant, at any stage of the chain.
+// `hilcam render`: makes one picture of the scenario's first instant, at any stage of the chain.
 
 #include <cstddef>
 #include <filesystem>
@@ -16,19 +16,19 @@ class StillCamera;
 enum class PictureStage { kRadiance, kElectrons, kFrame };
 
 struct RenderFiles {
-    std::filesystem::path out;  // radiance .exr; mean electrons .exr, .fits; a frame .png, .tiff, .fits, .raw
-    std::filesystem::path view{};  // a frame's picture to look at, .png; empty: none
-    // A folder for what the picture shows, in files that are named after it, with all layers unless
-    // outputs.truth says which; empty: none.
+    // By stage: radiance .exr; mean electrons .exr, .fits; a frame .png, .tiff, .fits, .raw.
+    std::filesystem::path out;
+    std::filesystem::path view{};  // .png picture of a frame for viewing; empty: none
+    // Folder for the truth, in files named after the picture, with all layers unless outputs.truth names
+    // some; empty: none.
     std::filesystem::path truth{};
-    bool parts = false;  // layers of the parts of the light are written, too; radiance alone
-    std::optional<FramePixel>
-        pixel{};             // say on the standard output what it is made of; `out` may then be empty
-    bool overwrite = false;  // a run's frame, or the truth of another picture
+    bool parts = false;  // true: also writes layers of the parts of the light; for radiance only
+    std::optional<FramePixel> pixel{};  // pixel to describe on standard output; `out` may then be empty
+    bool overwrite = false;             // true: replaces a run's frame, or the truth of another picture
 };
 
-// Writes what the camera of that number, from 1, sees first. Throws InputError, DeviceError; names of files
-// that cannot be, before anything is rendered. on_loaded: is called before it is rendered; may be empty.
+// Writes the first picture of the camera with that number, from 1. Checks file names before rendering.
+// on_loaded: called before rendering; may be empty. Throws InputError, DeviceError.
 void render_to_files(const ScenarioConfig& scenario, PictureStage stage, double time_offset_s,
                      const RenderFiles& files, std::size_t camera = 1,
                      const std::function<void(StillCamera&)>& on_loaded = {});

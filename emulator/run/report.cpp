@@ -62,7 +62,7 @@ std::vector<std::string> faults_of(const CameraStation& station) {
     return out;
 }
 
-// Faults on demand: how often each kind struck, and the first strike of each frame.
+// Reports ordered faults: how often each kind struck, and the first strike in each frame.
 json strikes_report(const CameraStation& station) {
     json counts = json::object(), log = json::array();
     for (const FaultKind kind : kAllFaults)
@@ -77,7 +77,7 @@ json strikes_report(const CameraStation& station) {
     return {{"counts", counts}, {"log", log}};
 }
 
-// Processor time of a frame of each level; null: none was timed.
+// Returns the processor time of a frame at each level; null: none was timed.
 json core_ms_at_level(const CameraStation& station) {
     const LoopCounters& counters = station.loop().counters();
     json out = json::array();

@@ -1,5 +1,5 @@
 #pragma once
-// Reports that scripts read: the JSON of `run --report` and `bench --json`. Keys are part of the interface.
+// Reports for scripts: the JSON of `run --report` and `bench --json`. Keys are part of the interface.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -17,24 +17,24 @@ struct Percentiles {
 };
 Percentiles percentiles_of(const DurationHistogram& histogram);
 void to_json(nlohmann::json& out, const Percentiles& percentiles);
-// Holds each stage's percentiles by the stage's name.
+// Percentiles of each stage, by the stage's name.
 using StageTimes = std::map<std::string, Percentiles>;
 StageTimes stage_times(const StageMeters& meters);
-// Returns null for nothing.
+// Returns null for an empty value.
 nlohmann::json or_null(const std::optional<double>& value);
 
-// Says how the run went: the first camera's figures, the faults of all.
+// Outcome of a run: figures of the first camera, faults of all.
 struct RunOutcome {
     std::uint64_t frames = 0, deadline_misses = 0;
-    std::vector<std::string> faults;  // faults of all outputs and the recording, a line each
+    std::vector<std::string> faults;  // faults of all outputs and of the recording, one line each
 };
 RunOutcome run_outcome(const Emulator& emulator);
-// Reports the whole run: the first camera's figures at the top, with several cameras each one's under
-// `cameras`.
+// Reports the whole run: the first camera's figures at the top level; with several cameras, each one's
+// figures under `cameras`.
 nlohmann::json run_report(const Emulator& emulator);
-// A folder for files, before anything is measured for them. Throws DeviceError when it cannot be made.
+// Makes a folder for files before anything is measured for them. Throws DeviceError when that fails.
 void make_folder(const std::filesystem::path& folder);
-// These throw DeviceError when the file cannot be written.
+// Both throw DeviceError when the file cannot be written.
 void write_text(const std::filesystem::path& file, const std::string& text);
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 

@@ -10,14 +10,15 @@
 namespace hilcam {
 namespace {
 
-// So few of a level's frames say what it costs.
+// This many frames at a level suffice to know its cost.
 constexpr std::uint64_t kEnoughFrames = 30;
 
 double core_ms_of(const LoopCounters& counters, std::size_t level) {
     return 1e-6 * static_cast<double>(counters.processor_ns_at_level[level].load());
 }
 
-// Returns how many times what they cost before it the run's frames took; nothing where no level has both.
+// Returns the ratio of the frames' processor time to the cost measured before the run; nothing if no level
+// has both.
 std::optional<double> load_of(const LoopCounters& counters, const std::vector<LevelCost>& costs) {
     double took_ms = 0, cost_ms = 0;
     for (std::size_t level = 0; level < std::min(costs.size(), kMaxLevels); ++level) {

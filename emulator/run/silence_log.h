@@ -1,6 +1,6 @@
 #pragma once
-// Says in the log, once each time, that poses have stopped, that they come again, and that time tags went
-// back. Owner thread, outside the loop.
+// Logs, once for each occurrence, that poses have stopped or come again, and that time tags went backwards.
+// Owner thread, outside the loop.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace hilcam {
 class SilenceLog {
   public:
     SilenceLog(const SimulatedClock& clock, const PoseWatch& poses) : clock_(clock), poses_(poses) {}
-    // Is called now and then while the loops run.
+    // Called periodically while the loops run.
     void look();
 
   private:
@@ -23,7 +23,7 @@ class SilenceLog {
     bool stale_ = false;
     TimeTai since_;
     std::uint64_t told_ = 0;
-    std::int64_t next_ns_ = 0;  // when the next line about tags may come
+    std::int64_t next_ns_ = 0;  // earliest time of the next line about tags
 };
 
 }  // namespace hilcam

@@ -33,7 +33,7 @@ json camera_status(const CameraModel& camera, const CameraLimits& l) {
               {"color_pattern", l.color_pattern},
               {"temperature_c", l.temperature_c},
               {"lockstep", l.lockstep}};
-    // A companded DN is no line over the charge.
+    // A companded DN is not linear in charge.
     if (camera.converter.companding == Companding::kNone) c["gain_dn_e_at_0_db"] = camera.system_gain_dn_e(0);
     return c;
 }
@@ -59,7 +59,7 @@ json settings_status(const CameraSettings& s) {
     return out;
 }
 
-// Says what the settings may be; a setting that the camera keeps to itself is fixed.
+// Describes the accepted settings; a setting that clients cannot change is fixed.
 json limits_status(const CameraLimits& l) {
     return {{"exposure_s", {l.min_exposure_s, l.max_exposure_s}},
             {"gain_db", {l.min_gain_db, l.max_gain_db}},
@@ -142,8 +142,8 @@ json flags_status() {
     return flags;
 }
 
-// The newest frame's level; 0 ms: the governor is off.
-// light_made: of the tables that frames wait for; null: of none.
+// Describes the newest frame's level; 0 ms: the governor is off. light: maker of the tables that frames wait
+// for; null: none.
 json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters, const LightMaker* light) {
     json quality = {{"level", counters.level.load()},
                     {"levels", 1 + lower_levels(scenario).size()},
@@ -177,7 +177,7 @@ std::string run_status(const StatusSources& s) {
                          {"outputs", outputs_status(s.sinks)},
                          {"faults", faults_status(s.faults, s.scenario)},
                          {"frame_flags", flags_status()}};
-    // Names come from files: bytes that are not UTF-8 are replaced.
+    // Replaces invalid UTF-8, because names come from files.
     return status.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

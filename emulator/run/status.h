@@ -1,6 +1,6 @@
 #pragma once
-// The run as it is now, in JSON: what the preview's page shows (docs/preview.md). A report is of a whole run
-// (report.h), this is of an instant.
+// The present state of the run as JSON, for the preview's page (docs/preview.md). A report (report.h) covers
+// a whole run; this covers an instant.
 
 #include <memory>
 #include <string>
@@ -15,14 +15,14 @@ namespace hilcam {
 
 class LightMaker;
 
-// A camera of the bench as a page of another one names it.
+// A camera as the page of another camera refers to it.
 struct CameraPage {
     std::string name;
-    std::int64_t port = 0;  // port of its preview; 0: it has none
+    std::int64_t port = 0;  // port of its preview; 0: none
 };
 
 struct StatusSources {
-    const ScenarioConfig& scenario;          // the scenario of the camera
+    const ScenarioConfig& scenario;          // scenario as the camera has it
     std::size_t number;                      // number of the camera, from 1
     const std::vector<CameraPage>& cameras;  // by number
     const FrameLoop& loop;
@@ -31,9 +31,9 @@ struct StatusSources {
     std::vector<FrameSink*> sinks;
     const CameraControl& camera;
     const FaultBoard& faults;
-    const LightMaker* light;  // null: nothing is made beside the run
+    const LightMaker* light;  // null: no tables are made during the run
 };
-// Any thread but the loop.
+// Any thread except the loop's.
 std::string run_status(const StatusSources& sources);
 
 }  // namespace hilcam

@@ -54,7 +54,7 @@ void StillCamera::report(FrameTruth& truth) {
     renderer_->report_truth(truth);
 }
 
-// Central differences: what they leave out is of the third order.
+// Uses central differences; their error is of third order.
 Vec3d StillCamera::velocity_m_s(std::size_t object) {
     constexpr std::int64_t kStep_ns = 50'000'000;
     ShownCommand shown;

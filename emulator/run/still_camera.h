@@ -1,6 +1,6 @@
 #pragma once
-// A scenario's camera at one instant: the frame that it would take then, as often as asked, stage by stage.
-// For pictures and for measurements; the loop has its own (frame_loop.h).
+// A scenario's camera at one instant: makes the frame that it would take then, any number of times, stage by
+// stage. For pictures and measurements; runs use frame_loop.h.
 
 #include <memory>
 #include <optional>
@@ -14,56 +14,56 @@ namespace hilcam {
 
 class StillCamera {
   public:
-    // Pictures hold radiance bin by bin, or what the detector's channels make of it, as frames of a run do: only then are
-    // charges those of a run to the last bit.
+    // kRadiance: pictures hold radiance for each bin. kCharge: they hold what the detector's channels make of
+    // it, as frames of a run do; only then are charges bit for bit those of a run.
     enum class Light { kCharge, kRadiance };
-    // Loads all that the scenario names. Throws InputError, DeviceError. Owner thread, as all here.
+    // Loads everything that the scenario names. Throws InputError, DeviceError. Owner thread, like all
+    // functions here.
     explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0,
                          Light light = Light::kCharge);
 
-    // Makes the body that the camera rides on stand there from now on, at rest against the object that is
-    // nearest; everything else is where it was. Throws InputError where the atmosphere does not cover what is
-    // seen from there.
+    // Moves the body that carries the camera to a new pose, at rest relative to the nearest object. Nothing
+    // else moves. Throws InputError where the atmosphere does not cover what is visible from there.
     void look_from(const Pose& body);
 
-    // Goes over to another scenario that has the same scene and the same camera, but for its settings: other
-    // poses, motions, exposure, gain and seed, and another time where nothing that was loaded depends on it.
-    // Its pictures are those of a camera that is made for it. Throws InputError.
+    // Switches to another scenario with the same scene and camera, but other settings: poses, motions,
+    // exposure, gain, seed, and the time if nothing loaded depends on it. Pictures are those of a camera made
+    // for that scenario. Throws InputError.
     void take(const ScenarioConfig& scenario, double time_offset_s = 0);
-    // Tells what the frame would show, pointing jitter apart, without a picture. truth: made for this renderer,
-    // its raster set.
+    // Reports what the frame would show, without pointing jitter and without rendering. truth: made for this
+    // renderer, its raster set.
     void report(FrameTruth& truth);
-    // Returns the velocity of an object in the world, from 0.
+    // Returns the velocity of an object in the world. object: from 0.
     Vec3d velocity_m_s(std::size_t object);
 
-    // These functions are called in this order; each gives what it fills, valid until the next call. The key
-    // chooses the light paths, and the noise.
+    // Call the functions below in this order. Each returns an image that stays valid until its next call. The
+    // key selects the light paths, and the noise.
     const RadianceImage& render(RandomKey key, FrameTruth* truth = nullptr);
     const ElectronImage& expose();
-    // The same of the picture that was rendered, moved to the right by whole columns of the radiance image: what a lens
-    // that is shifted by so much would show, but for the columns that come in from the guard band's edge. Light from beside
-    // the picture stays. Not for pictures with differences within their pixels (RadianceImage::moments).
+    // Exposes the rendered picture shifted to the right by whole columns of the radiance image, as a shifted
+    // lens would show it, except for the columns that enter from the guard band's edge. Light from outside
+    // the picture is not shifted. Not for pictures with moments within their pixels (RadianceImage::moments).
     const ElectronImage& expose_moved(int columns);
     const DnImage& digitise(RandomKey key);
-    // Returns the part that no light makes: dark current [e-].
+    // Returns the charge without light: dark current [e-].
     ElectronImage dark();
 
-    // The picture that render() fills, before it is first called: its size and planes.
+    // Returns the picture that render() fills. Before the first call, only its size and planes are valid.
     const RadianceImage& radiance() const { return radiance_; }
     const ScenarioConfig& scenario() const { return scenario_; }
     const SpectralGrid& grid() const { return grid_; }
     const Exposure& exposure() const { return exposure_; }
     TimeTai time() const { return time_; }
-    // Returns where the camera was in the last rendering, pointing jitter in it.
+    // Returns the camera's pose in the last rendering, including pointing jitter.
     const Pose& shown_camera() const { return exposures_->middle_world().camera; }
-    // Returns where everything is at mid-exposure, pointing jitter apart.
+    // Returns the world at mid-exposure, without pointing jitter.
     const WorldSnapshot& world() const { return snapshot_; }
     Renderer& renderer() { return *renderer_; }
     const std::vector<LoadedObject>& objects() const { return objects_; }
     const Renderer& renderer() const { return *renderer_; }
 
   private:
-    // Made at the first use: a radiance image needs none.
+    // Makes the chain on first use; a radiance image needs none.
     SensorChain& chain();
 
     ScenarioConfig scenario_;

@@ -1,5 +1,5 @@
 #pragma once
-// Makes frames of a scenario's first instant that go nowhere, to find out what frames cost on this machine.
+// Makes frames of a scenario's first instant and discards them, to measure what frames cost on this machine.
 
 #include <vector>
 
@@ -9,16 +9,16 @@
 
 namespace hilcam {
 
-// A frame of more primary rays takes a minute or more: none is made only to be measured.
+// A frame with more primary rays takes a minute or more, so none is made just to be measured.
 inline constexpr double kMaxTrialRays = 32e6;
-// Returns how many rays a frame of that quality starts at the camera, where it has no visibility buffer.
+// Returns how many rays a frame of that quality starts at the camera when it has no visibility buffer.
 double primary_rays(const ScenarioConfig& scenario, const RenderQuality& quality);
 
-// The time that one frame took.
+// Cost of one frame.
 struct TrialCost {
     double render_ms = 0;  // from the world to the radiance image, on all threads
-    double sensor_ms = 0;  // from there to DN
-    double core_ms = 0;    // processor time of both, of all threads of the program
+    double sensor_ms = 0;  // from the radiance image to DN
+    double core_ms = 0;    // processor time of both, over all threads of the program
 };
 
 class TrialFrames {
@@ -30,10 +30,10 @@ class TrialFrames {
         const ScenarioConfig& scenario;  // scenario as the camera has it
         std::uint64_t seed;
     };
-    // All parts outlive it. Owner thread; no loop runs meanwhile.
+    // All parts must outlive this object. No loop may run meanwhile. Owner thread.
     explicit TrialFrames(const Parts& parts);
 
-    // Makes a frame of the exposures' level. Owner thread.
+    // Makes a frame at the present level of the exposures. Owner thread.
     TrialCost take();
 
   private:

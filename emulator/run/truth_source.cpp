@@ -5,7 +5,8 @@
 
 namespace hilcam {
 
-// The renderer's objects: the scenario's, then all their turning parts, then the terrain (scene_loader.cpp).
+// The renderer's objects are the scenario's, then all their parts on joints, then the terrain
+// (scene_loader.cpp).
 TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std::size_t number,
                          const std::string& run_id) {
     TruthSource source;
@@ -37,7 +38,7 @@ TruthRequest truth_request(const ScenarioConfig& s) {
 }
 
 FrameTruth make_truth(const ScenarioConfig& s, const Renderer& renderer, const TruthRequest& request) {
-    const auto [width, height] = array_size(s.camera);  // frames are no larger
+    const auto [width, height] = array_size(s.camera);  // largest size of a frame
     return renderer.make_truth(request, width, height);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Finds what truth needs to know of a scenario: whose it is, and of which object each of the renderer's is a
-// part.
+// Collects what truth needs to know about a scenario: its names, and which object each of the renderer's
+// objects belongs to.
 
 #include <cstddef>
 #include <memory>
@@ -12,16 +12,16 @@
 
 namespace hilcam {
 
-// run_id: no other run's; empty: of none. number: of the camera that the scenario is about, from 1.
+// run_id: unique name of the run; empty: not of a run. number: number of the scenario's camera, from 1.
 TruthSource truth_source(const ScenarioConfig& scenario, const SpectralGrid& grid, std::size_t number,
                          const std::string& run_id);
-// Returns the request of outputs.truth, whether or not it is given.
+// Returns the request in outputs.truth, or the default when that is missing.
 TruthRequest truth_request(const ScenarioConfig& scenario);
-// A record for any frame of the camera. Owner thread.
+// Makes a record for any frame of the camera. Owner thread.
 FrameTruth make_truth(const ScenarioConfig& scenario, const Renderer& renderer, const TruthRequest& request);
 
-// The output outputs.truth, or what serves the listener alone; what the scenario is about is loaded. Throws
-// InputError.
+// Makes the output outputs.truth, or a sink that only serves a listener. The scenario's scene must be loaded.
+// Throws InputError.
 std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& scenario, const SpectralGrid& grid,
                                            std::size_t number, const Renderer& renderer,
                                            const std::string& run_id = {},

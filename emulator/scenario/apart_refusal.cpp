@@ -5,7 +5,7 @@
 namespace hilcam {
 
 std::string apart_refusal(const ScenarioConfig& s) {
-    // To a scanning line exact is fast (exposure_renderer.h).
+    // For a line scanner, exact motion is the same as fast (exposure_renderer.h).
     if (s.quality.motion == MotionQuality::kExact && s.camera.shutter.kind != ShutterKind::kLineScan)
         return "quality.motion: found exact, which averages several instants; the light of one can be taken "
                "apart; accepted: fast, off";

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures can be taken apart into the parts of their light where they are of one rendering.
+// A picture can be split into parts of its light if it is rendered in one piece.
 
 #include <string>
 
@@ -7,7 +7,7 @@ namespace hilcam {
 
 struct ScenarioConfig;
 
-// Says in one line why pictures cannot be taken apart; empty: they can.
+// Says in one line why pictures cannot be split; empty: they can.
 std::string apart_refusal(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

@@ -129,7 +129,7 @@ const char* rays_of(ShutterKind kind) {
     return "pinhole";
 }
 
-// A plug-in's rays may do as they like; the program's own must be those of the shutter.
+// Rays of a plug-in are free; the program's own must suit the shutter.
 void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
     const std::string expected = rays_of(shutter.kind);
     const bool own = rays.model == "pinhole" || rays.model == "rolling" || rays.model == "pushbroom";
@@ -143,8 +143,7 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
                                                 plain(shutter.line_time_s * 1e6));
 }
 
-// A picture that is asked for is one frame of a world that waits for it, seen from where the message says.
-// Files of two cameras have the same names.
+// Files of two cameras have the same names, so two cameras must not share a folder.
 void check_folders(const ScenarioConfig& s) {
     std::set<std::string> taken;
     const auto take = [&](const std::string& key, const std::filesystem::path& folder) {
@@ -221,7 +220,7 @@ SensorSampling sampling_of(const ScenarioConfig& s) {
 RenderModels models_of(const ScenarioConfig& s) {
     RenderModels models = s.models;
     if (!s.has_rays) models.rays = {rays_of(s.camera.shutter.kind), s.camera.shutter.line_time_s};
-    // Rows of the radiance image, of which there are more.
+    // The radiance image has more rows than the sensor.
     models.rays.line_time_s /= static_cast<double>(s.quality.oversampling);
     return models;
 }
@@ -255,7 +254,7 @@ void validate(const ScenarioConfig& s) {
 
 namespace {
 
-// Down is towards the body that the world belongs to, unless a pose names another.
+// Nadir points to the body that the origin belongs to, unless a pose names another.
 void settle_nadir(ScenarioConfig& s) {
     const std::optional<BodyId> home = s.origin.center();
     const auto settle = [&](PoseConfig& pose) {
@@ -265,7 +264,7 @@ void settle_nadir(ScenarioConfig& s) {
     for (ObjectConfig& object : s.objects) settle(object.pose);
 }
 
-// The ground of a whole body stands in that body's place.
+// The ground of a whole body replaces that body.
 void settle_ground(ScenarioConfig& s) {
     if (!s.terrain || !s.terrain->globe) return;
     const std::string& name = s.terrain->globe->body;
@@ -279,11 +278,11 @@ void settle_ground(ScenarioConfig& s) {
 
 namespace {
 
-// The kernels' leap seconds come before those of `leap_seconds`, and both before any time that is worked out.
+// Sets the kernels' leap seconds, then those of `leap_seconds`, before any time is computed.
 void take_kernels(ScenarioConfig& s) {
     if (s.spice) {
         const std::string warning = load_spice(*s.spice);
-        // A list of the scenario's own comes after the kernels'.
+        // The scenario's own list replaces the kernels'.
         if (!warning.empty() && !s.leap_seconds) s.warnings.push_back(warning);
     }
     if (!s.spice && s.origin.kind == OriginConfig::Kind::kSpice)
@@ -314,7 +313,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
         throw InputError(file.string() +
                          ": is a camera's data sheet; accepted: a scenario, which has it as 'camera: " +
                          file.filename().string() + "'");
-    use_leap_seconds({});  // those of a scenario that was read before end here
+    use_leap_seconds({});  // discards those of a previously read scenario
     ScenarioConfig scenario;
     SectionField root = section_of(scenario);
     root.validate = [&scenario] {

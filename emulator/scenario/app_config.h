@@ -1,5 +1,5 @@
 #pragma once
-// A scenario file: the world, the camera, the quality, and where commands come from and frames go.
+// A scenario file: the world, the camera, the quality, the sources of commands and the outputs of frames.
 
 #include <cstdint>
 #include <filesystem>
@@ -38,12 +38,12 @@ namespace hilcam {
 
 struct StarsConfig {
     std::filesystem::path catalogue;  // empty: no stars
-    std::string catalogue_where;      // the key's place in the scenario
+    std::string catalogue_where;      // place of the key in the scenario
     double faintest_magnitude = 8;
 };
 Fields fields(StarsConfig& stars);
 
-// The source that makes the camera take frames (frame_starter.h).
+// The cause of the camera's frames (frame_starter.h).
 enum class CameraMode { kFreeRun, kTriggered, kLockstep };
 
 struct PluginConfig {
@@ -55,16 +55,16 @@ struct ScenarioConfig {
     ScenarioConfig();
 
     std::string name;
-    KeyPlaces places;                   // no key: where each key is given, for warnings
-    std::vector<std::string> warnings;  // no key: what reading it found that need not be meant, a line each
+    KeyPlaces places;                   // not a key: where each key is given, for warnings
+    std::vector<std::string> warnings;  // not a key: possible mistakes found while reading, one line each
     std::string time_utc = "2026-01-01T00:00:00Z";
     ClockConfig clock;
     std::int64_t seed = 1;
-    bool has_seed = false;      // stated, or settled by settle_seed()
-    bool is_used_once = false;  // no key: what loading makes of it is not kept in the cache
+    bool has_seed = false;      // true: stated in the file, or settled by settle_seed()
+    bool is_used_once = false;  // not a key: true keeps derived data out of the cache
     std::int64_t threads = 0;
-    OriginConfig origin;              // has the key `earth_orientation`, too
-    std::optional<PlaceConfig> site;  // where local axes stand (site.h)
+    OriginConfig origin;              // includes the key `earth_orientation`
+    std::optional<PlaceConfig> site;  // origin of local axes (site.h)
     CameraModel camera;
     PoseConfig camera_pose;
     bool has_camera_pose = false;
@@ -87,8 +87,8 @@ struct ScenarioConfig {
     QualityConfig quality;
     LoopConfig loop;
     CameraMode mode = CameraMode::kFreeRun;
-    Mount mount;  // mount of the camera that this scenario is about; the first sits where poses say
-    std::vector<CameraConfig> more_cameras;  // kMaxCameras - 1 at most
+    Mount mount;  // mount of this scenario's camera; poses place the first camera directly
+    std::vector<CameraConfig> more_cameras;  // at most kMaxCameras - 1
     std::vector<FaultConfig> faults;
     std::vector<EventConfig> events;
     CommandsConfig commands;
@@ -98,34 +98,35 @@ struct ScenarioConfig {
 Fields fields(ScenarioConfig& scenario);
 void validate(const ScenarioConfig& scenario);
 
-// Returns what events can name.
+// Returns the names that events may use.
 EventWorld event_world(const ScenarioConfig& scenario);
 
-// Returns what the Vizard side is told of the bench.
+// Returns what the Vizard side needs to know about the bench.
 VizardBench vizard_bench(const ScenarioConfig& scenario);
 
-// The scenario as one of its cameras has it, counted from 0.
+// Returns the scenario as it is for one of its cameras. index: from 0.
 ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index);
-// The seed of its noise: cameras of one bench draw different noise.
+// Returns the seed of the camera's noise; cameras of one bench have different noise.
 std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index);
 
-// Says why the governor does not run, or empty: it has no budget, it is not wanted, or frames must not depend on how fast
-// the machine is.
+// Says why the governor does not run: it has no budget, it is turned off, or frames must not depend on the
+// machine's speed. Empty: it runs.
 std::string governor_off(const ScenarioConfig& scenario);
-// The qualities below the configured one that it may choose; none when it does not run.
+// Returns the qualities below the configured one that the governor may choose; empty when it does not run.
 std::vector<RenderQuality> lower_levels(const ScenarioConfig& scenario);
-// The scenario's quality as its first camera can have it: a visibility buffer needs a lens that leaves
-// straight lines straight, rows of one instant, and no terrain.
+// Returns the quality as the scenario's first camera can have it. Rays replace the visibility buffer for a
+// lens that bends straight lines too much (VisibilityBuffer::takes), for rays other than pinhole and rolling,
+// and for terrain with more than one sample a pixel.
 RenderQuality render_quality_of(const ScenarioConfig& scenario);
-// Returns how the radiance images of all of them are made.
+// Returns how the radiance images of all quality levels are sampled.
 SensorSampling sampling_of(const ScenarioConfig& scenario);
 
-// The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.
+// Returns the models to render with. Rays follow from the camera's shutter, unless the scenario sets them.
 RenderModels models_of(const ScenarioConfig& scenario);
 
-// Reads and checks a scenario; what is worth a warning is in its `warnings`. Throws InputError. From then on
-// the whole program's leap seconds are those of this scenario (use_leap_seconds): before other threads ask
-// for a time.
+// Reads and checks a scenario; possible mistakes are in its `warnings`. Also sets the whole program's leap
+// seconds to those of the scenario (use_leap_seconds), so call it before other threads ask for a time. Throws
+// InputError.
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides);
 
 }  // namespace hilcam

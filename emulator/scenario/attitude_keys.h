@@ -1,5 +1,5 @@
 #pragma once
-// An attitude in any of the forms that a scenario takes, wherever it takes a quaternion.
+// An attitude in any of the forms that a scenario accepts beside a quaternion.
 
 #include <string>
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace hilcam {
 
-// The forms in which an attitude is given, at most one; none: the frame's own axes.
+// The form in which an attitude is given; at most one. Without any, the attitude is that of the frame's axes.
 struct AttitudeForms {
     Quat wxyz;
     Vec3d mrp;
     std::vector<double> dcm;  // row by row
     Vec3d euler_rad;
-    std::size_t euler_sequence = 0;  // in kEulerSequences
+    std::size_t euler_sequence = 0;  // index in kEulerSequences
     Vec3d radec_rad;                 // right ascension, declination, roll
     bool has_wxyz = false, has_mrp = false, has_dcm = false, has_euler = false, has_sequence = false,
          has_radec = false;
@@ -23,22 +23,22 @@ struct AttitudeForms {
     bool given() const { return has_wxyz || has_mrp || has_dcm || has_euler || has_radec; }
 };
 
-// The words for the forms in a section: `body` axes are turned into those of `frame`.
+// Words for describing the forms in a section: the attitude rotates `body` axes into those of `frame`.
 struct AttitudeWords {
     const char* body = "body";
     const char* frame = "the world";
     const char* quaternion_key = "attitude_wxyz";
-    bool radec = true;  // false: the section's frame is not ICRF, so there is no such key
+    bool radec = true;  // false: the section's frame is not ICRF, so the key does not exist
 };
 
-// The keys of the forms.
+// Returns the keys of all forms.
 Fields attitude_keys(AttitudeForms& forms, const AttitudeWords& words);
-// The key that is given, or the quaternion's.
+// Returns the key that is given; without any, the quaternion's.
 const char* given_key(const AttitudeForms& forms, const AttitudeWords& words = {});
-// Throws KeyError when two forms are given, one is incomplete, or a matrix is off a rotation by more than
-// kDcmTolerance.
+// Throws KeyError when two forms are given, when one is incomplete, or when a matrix deviates from a rotation
+// by more than kDcmTolerance.
 void check_attitude(const AttitudeForms& forms, const AttitudeWords& words = {});
-// Body axes into the frame's. The forms have passed check_attitude().
+// Returns the rotation from body axes to the frame's. The forms must have passed check_attitude().
 Quat frame_from_body(const AttitudeForms& forms);
 
 }  // namespace hilcam

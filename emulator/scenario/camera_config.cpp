@@ -1,4 +1,4 @@
-// Cameras beside the first, and the scenario as each of a bench's cameras has it.
+// Additional cameras, and the scenario as it is for each camera of a bench.
 
 #include "emulator/scenario/camera_config.h"
 
@@ -42,7 +42,7 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
     own.outputs = more.outputs;
     const std::string of_camera = "more_cameras." + std::to_string(index - 1) + ".";
     own.places = own.places.with("camera.", of_camera + "camera.").with("outputs", of_camera + "outputs");
-    // `rays`, where the scenario gives them, are the first camera's; the others go by their shutters.
+    // The scenario's `rays` apply to the first camera; for others they follow from the shutter.
     own.has_rays = false;
     own.models.rays = {};
     return own;
@@ -60,7 +60,7 @@ VizardBench vizard_bench(const ScenarioConfig& s) {
     for (std::size_t i = 0; i <= s.more_cameras.size(); ++i) {
         const ScenarioConfig own = scenario_of_camera(s, i);
         const auto [width, height] = frame_size(own.camera);
-        // The field is that of the undistorted lens, over all rows that a frame shows.
+        // The field is that of the lens without distortion, over all rows of a frame.
         const double half_m = 0.5 * static_cast<double>(height * own.camera.binning_y) * own.camera.pitch_m;
         bench.cameras.push_back({{own.mount.position_m, own.mount.thing_from_camera},
                                  2 * std::atan2(half_m, own.camera.focal_length_m),

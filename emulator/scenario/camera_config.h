@@ -1,5 +1,5 @@
 #pragma once
-// The section `more_cameras`: cameras beside a scenario's first.
+// The section `more_cameras`: cameras in addition to a scenario's first.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace hilcam {
 
-// All of a bench: telemetry numbers them by a byte, from 1.
+// Largest number of cameras in a bench: telemetry numbers them from 1 in one byte.
 inline constexpr std::size_t kMaxCameras = 255;
 
-// A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
+// An additional camera on the same body or on an object: for a stereo pair, or a star tracker.
 struct CameraConfig {
     CameraModel camera;
-    Vec3d position_m;  // its mount, where `attitude` is given
+    Vec3d position_m;  // mount's place in the body that carries it
     AttitudeForms attitude;
     std::int64_t thing = 0;
     OutputsConfig outputs;

@@ -1,5 +1,5 @@
 #pragma once
-// The section `commands`: where commands come from, and how their poses are treated.
+// The section `commands`: the sources of commands, and the rules for their poses.
 
 #include "emulator/world/pose_watch.h"
 #include "io/commands/commands_functionfs.h"

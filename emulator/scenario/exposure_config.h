@@ -1,5 +1,5 @@
 #pragma once
-// The part of a scenario that the rendering of one exposure takes, beside the camera's data sheet
+// The parts of a scenario that the rendering of an exposure needs, in addition to the camera's data sheet
 // (emulator/loop/exposure_renderer.h).
 
 #include <cstdint>
@@ -15,10 +15,10 @@ struct ScenarioConfig;
 struct ExposureConfig {
     MotionQuality motion = MotionQuality::kFast;
     double motion_error_px = 0.25;
-    SensorSampling sampling;    // grid of the radiance images of all levels of quality
-    bool for_detector = false;  // pictures are charge rates of the detector's channels, not radiance
-    bool has_terrain = false;   // rows that are lit one after the other pass the ground, not an object
-    std::uint64_t seed = 1;     // a figure of the pointing jitter, as is the next
+    SensorSampling sampling;    // sampling of the radiance images at all quality levels
+    bool for_detector = false;  // true: pictures are charge rates of the detector's channels; false: radiance
+    bool has_terrain = false;  // true: rows exposed one after the other move across the ground, not an object
+    std::uint64_t seed = 1;    // seed and start determine the pointing jitter
     TimeTai start;
 };
 ExposureConfig exposure_config_of(const ScenarioConfig& scenario);

@@ -1,5 +1,5 @@
 #pragma once
-// The section `faults`: faults that strike by themselves.
+// The section `faults`: faults that occur without a command.
 
 #include <cstdint>
 
@@ -8,11 +8,11 @@
 
 namespace hilcam {
 
-// A fault on demand (io/contract/fault.h) that the scenario orders by itself.
+// A fault (io/contract/fault.h) that the scenario orders by itself.
 struct FaultConfig {
     FaultKind kind = FaultKind::kPacketDrop;
     FaultOrder order;
-    double at_s = 0;  // after the start, CLOCK_MONOTONIC
+    double at_s = 0;  // time after the start, CLOCK_MONOTONIC
     std::int64_t from_frame = 0, frames = 0;
 };
 Fields fields(FaultConfig& fault);

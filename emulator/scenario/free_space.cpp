@@ -17,7 +17,7 @@ void refuse_places(const SunConfig& sun) {
                                std::string(key) + "'");
 }
 
-// Sunlight comes from behind the camera's right shoulder at azimuth 90 and a phase angle below 90.
+// At azimuth 90 and a phase angle below 90, sunlight comes from behind the camera's right shoulder.
 Vec3d direction_by_phase(const ScenarioConfig& s) {
     const PoseConfig& pose = s.camera_pose;
     const bool fixed = !s.camera_motion && pose.frame == PoseConfig::Frame::kWorld &&
@@ -50,7 +50,7 @@ Vec3d sun_direction(const ScenarioConfig& s) {
     return sun.direction;
 }
 
-// Refuses nadir in free space, where no body is near.
+// Refuses nadir in free space, because no body is near.
 void check_nadir(const ScenarioConfig& s) {
     const auto check = [](const PoseConfig& pose, const std::string& key) {
         if (pose.attitude == PoseConfig::Attitude::kNadir && !pose.has_nadir_of)

@@ -1,13 +1,13 @@
 #pragma once
-// A world whose origin is in free space: where its Sun is, and what of the Solar System is shown.
+// A world with its origin in free space: the Sun's place in it, and the visible bodies of the Solar System.
 
 #include "emulator/scenario/app_config.h"
 
 namespace hilcam {
 
-// Takes the Sun's place, for `origin: {kind: free}`, from the keys of `sun`, and leaves out the bodies whose
-// `visible` is not given. Throws KeyError for keys of `sun` that are missing, that another origin does not
-// read, or that say it twice, and for a nadir of no named body.
+// For `origin: {kind: free}`, takes the Sun's place from the keys of `sun`, and hides bodies without a
+// `visible` key. Throws KeyError for keys of `sun` that are missing, contradictory, or not used with another
+// origin, and for a nadir without a named body.
 void settle_free_space(ScenarioConfig& scenario);
 
 }  // namespace hilcam

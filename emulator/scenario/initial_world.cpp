@@ -11,7 +11,7 @@ namespace hilcam {
 
 namespace {
 
-// Nadir is no direction at the centre of the body that it looks at.
+// Nadir has no direction at the centre of its own body.
 std::string undefined_nadir(const ScenarioConfig& s, const PoseConfig& pose) {
     if (attitude_of(pose) != PoseConfig::Attitude::kNadir) return {};
     const std::string body(kBodyNames[index_of(pose.nadir_of)]);

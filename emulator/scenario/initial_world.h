@@ -1,5 +1,5 @@
 #pragma once
-// The world as a scenario begins it, before anybody has commanded anything.
+// The world at a scenario's start, before any command.
 
 #include <vector>
 
@@ -8,11 +8,11 @@
 
 namespace hilcam {
 
-// The motions of camera and objects as the scenario begins them.
+// Returns the initial motions of camera and objects.
 std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time);
-// All objects' turning parts, object by object.
+// Returns the joints of all objects, object by object.
 std::vector<Joint> joints_of(const ScenarioConfig& scenario);
-// Returns what the scenario says of an instant, if no command comes.
+// Returns the world at an instant by the scenario alone, without commands.
 WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time);
 
 }  // namespace hilcam

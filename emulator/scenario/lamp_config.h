@@ -1,5 +1,5 @@
 #pragma once
-// `lamps` in a scenario: light sources on things, in the terms of their data sheets.
+// The section `lamps`: light sources on the camera's body or on objects, with data from their data sheets.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@ namespace hilcam {
 
 struct LampConfig {
     std::string name;
-    std::string on = "camera";  // an object's name, or the body of the first camera
+    std::string on = "camera";  // name of an object, or "camera" for the first camera's body
     std::int64_t joint = 0;     // joint of that object, from 1; 0: the object itself
     Vec3d position_m;
     Vec3d axis{0, 0, 1};

@@ -14,14 +14,14 @@ namespace {
     throw InputError("lamp " + in_quotes(lamp.name) + ": " + what);
 }
 
-// Fails where the file has the lamp's key.
+// Throws an error with the place of the lamp's key.
 [[noreturn]] void fail(const ScenarioConfig& s, std::size_t index, const std::string& key,
                        const std::string& what) {
     throw KeyError("lamps." + std::to_string(index) + "." + key,
                    "lamp " + in_quotes(s.lamps[index].name) + ": " + key + ": " + what);
 }
 
-// Counts as WorldState places things: the camera's body, objects, then all their turning parts.
+// Returns the index as in WorldState: the camera's body, objects, then all their parts on joints.
 std::size_t thing_of(std::size_t index, const ScenarioConfig& s) {
     const LampConfig& lamp = s.lamps[index];
     if (lamp.on == "camera") {
@@ -47,8 +47,8 @@ std::size_t thing_of(std::size_t index, const ScenarioConfig& s) {
     fail(s, index, "on", "found " + in_quotes(lamp.on) + "; accepted: " + all);
 }
 
-// The mean over each bin of a curve that is dark beyond its ends: a data sheet shows all that there is. One
-// number holds everywhere.
+// Returns the mean of a curve over each bin. The curve is dark beyond its ends, because a data sheet shows
+// all the light; a single number is valid everywhere.
 Spectrum average_dark_outside(const Curve& curve, const SpectralGrid& grid) {
     if (curve.wavelength_um.size() < 2) return grid.average(curve);
     Spectrum out;

@@ -1,5 +1,5 @@
 #pragma once
-// A scenario's lamps for the renderer, and for the world state that carries and switches them.
+// Makes a scenario's lamps for the renderer, and for the world state that moves and switches them.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// Throw InputError that names the lamp.
+// Both throw InputError that names the lamp.
 std::vector<LampMount> lamp_mounts(const ScenarioConfig& scenario);
 std::vector<SceneLamp> scene_lamps(const ScenarioConfig& scenario, const SpectralGrid& grid);
 

@@ -26,7 +26,7 @@ double area_of(const Mesh& mesh) {
     return std::isfinite(twice) ? 0.5 * twice : 0;
 }
 
-// Makes an order without the mesh, which is copied only for who makes the table later.
+// Makes an order without the mesh, which is copied only if the table is to be made later.
 TableOrder order_of(const SceneObject& object, float scale, std::size_t nodes,
                     const ScenarioConfig& scenario) {
     TableOrder order;
@@ -57,13 +57,13 @@ void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder ord
     }
 }
 
-// A size to a power of two: objects that become somewhat larger or smaller keep their share of places, and so their
-// table; a scene that grows as a whole does exactly.
+// Rounds a size to a power of two. Objects that become slightly larger or smaller then keep their share of
+// probes, and so their table; a scene that is scaled as a whole does so exactly.
 double rough(float scale) { return std::exp2(std::round(std::log2(static_cast<double>(scale)))); }
 
 }  // namespace
 
-// Objects share the places that light is cached at by their areas; each has some.
+// Divides the surface probes among the objects by area; each object has some.
 void load_tables(Scene& scene, const std::vector<float>& scales, const ScenarioConfig& scenario,
                  LightLoading& light) {
     if (!wants_indirect_cache(scenario)) return;

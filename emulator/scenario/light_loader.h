@@ -1,6 +1,6 @@
 #pragma once
-// The transfer tables of a scene's objects (render/probes/transfer_table.h): read from the cache folder,
-// made and written there, or ordered, for who begins without them.
+// Provides the transfer tables of a scene's objects (render/probes/transfer_table.h): reads them from the
+// cache folder, makes and stores them, or orders them for a run that begins without them.
 
 #include <string>
 #include <vector>
@@ -11,31 +11,31 @@
 
 namespace hilcam {
 
-// A table that is to be made: all that it depends on.
+// A table to be made, with everything it depends on.
 struct TableOrder {
-    std::string name;                  // name of the object, for people
-    std::vector<std::size_t> objects;  // objects of the scene that have it: one and those that are like it
+    std::string name;                  // object's name, for people
+    std::vector<std::size_t> objects;  // the object and others like it, which share the table
     Mesh mesh;                         // mesh as its file has it
-    float scale = 1;                   // the objects are so many times as large
+    float scale = 1;                   // size of the objects relative to the mesh
     std::vector<std::uint8_t> glass;   // by surface of the mesh
     TransferSettings settings;
 };
 
-// The way in which a scene is to get its tables, and the outcome.
+// The way in which a scene gets its tables, and the outcome.
 struct LightLoading {
-    bool later = false;               // tables that are not on disk are ordered instead of made
+    bool later = false;               // true: missing tables are ordered instead of made
     std::vector<TableOrder> orders;   // orders for those tables
-    std::size_t found = 0, made = 0;  // tables on disk; tables that were made
-    double seconds = 0;               // that this took
+    std::size_t found = 0, made = 0;  // tables found on disk; tables made
+    double seconds = 0;               // time for all of it
 };
 
-// Gives each object its table, where the scenario's qualities ask for any; objects that are like another have
-// that one's. The scene's meshes are as large as their files have them; scales: by object, brings them to size, as it
-// does their tables. Throws InputError when memory runs out.
+// Gives each object its table if any of the scenario's qualities needs one; objects that are alike share it.
+// The scene's meshes have their files' sizes, and `scales` (by object) brings objects and tables to size.
+// Throws InputError when memory runs out.
 void load_tables(Scene& scene, const std::vector<float>& scales, const ScenarioConfig& scenario,
                  LightLoading& light);
-// Makes what was ordered, or finds it where another camera had the same one made. Throws InputError, and what
-// the watcher throws. One thread, on oneTBB.
+// Makes an ordered table, or finds it in the cache if another camera had the same one made. Throws
+// InputError, and what the watcher throws. One thread, on oneTBB.
 std::shared_ptr<const TransferTable> make_table(const TableOrder& order, const WorkWatcher& watcher);
 
 }  // namespace hilcam

@@ -7,8 +7,8 @@
 namespace hilcam {
 namespace {
 
-// Keys by what they listen on. 0.0.0.0 and names of interfaces are taken as they are written: what they meet
-// is only known on the machine of the run.
+// Keys by the ports they listen on. 0.0.0.0 and interface names are compared as text, because only the
+// machine of the run knows what they overlap with.
 class Listeners {
   public:
     void add(const char* protocol, const std::string& key, const std::string& address, std::int64_t port) {

@@ -1,12 +1,12 @@
 #pragma once
-// The addresses and ports that a scenario listens on: two of its own parts on one is a mistake that can be
-// told before anything is opened.
+// The addresses and ports on which a scenario listens. Two parts with the same one are a mistake that shows
+// before anything is opened.
 
 #include "emulator/scenario/app_config.h"
 
 namespace hilcam {
 
-// Throws KeyError at the key of the second of two that are to listen on the same address and port.
+// Throws KeyError at the key of the second part that would listen on the same address and port.
 void check_listening_ports(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

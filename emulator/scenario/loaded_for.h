@@ -1,5 +1,5 @@
 #pragma once
-// Errors in files that a scenario names.
+// Adds the place in the scenario to errors in files that it names.
 
 #include <string>
 
@@ -7,7 +7,8 @@
 
 namespace hilcam {
 
-// Returns what `load` returns. An error of it in a file says where the scenario names that file; key_where: that place, or empty.
+// Returns the result of `load`. If it throws InputError, the message is preceded by key_where: the place
+// where the scenario names the file, or empty.
 template <class Load>
 auto loaded_for(const std::string& key_where, const Load& load) {
     try {

@@ -60,7 +60,7 @@ class Builder {
         begin(out);
         return out;
     }
-    // What the files of build() have that is not used, each with its motion's key.
+    // Returns remarks about unused contents of the files that build() has read, each with its motion's key.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
@@ -68,8 +68,8 @@ class Builder {
     TimeTai start_;
     std::vector<std::string> names_;
     std::optional<PlaceConfig> site_;
-    std::vector<std::optional<MotionConfig>> local_;  // local source of each thing whose pose is local
-    std::vector<std::size_t> asked_;                  // things on the way to the one whose orbit is asked for
+    std::vector<std::optional<MotionConfig>> local_;  // local motion of each thing with a pose in local axes
+    std::vector<std::size_t> asked_;                  // chain of things whose orbits are being computed
     std::vector<std::string> warnings_;
 
     static std::string key_of(std::size_t thing) {
@@ -83,7 +83,7 @@ class Builder {
         }
     }
 
-    // Refuses a scenario that begins with what cannot be.
+    // Refuses a scenario that begins with an impossible state.
     void begin(const MotionSources& sources) const {
         std::vector<Motion> motions = initial_motions(scenario_, start_);
         for (std::size_t thing = 0; thing < motions.size(); ++thing)
@@ -113,7 +113,7 @@ class Builder {
         frame.kind = static_cast<PlacedFrame::Kind>(kind);
         frame.center = center_of(m);
         if (kind == MotionFrame::kLocal) frame = local_frame(site_.value());
-        // An attitude against LVLH is by the thing's own orbit, unless another is named.
+        // An attitude against LVLH refers to the thing's own orbit, unless another thing is named.
         if (frame.follows_thing()) frame.thing = of.empty() ? self : thing_named(of);
         return frame;
     }
@@ -188,7 +188,7 @@ class Builder {
         const int object = require_kernel_code(set->set.pool, name, "spice.object");
         if (scenario_.origin.kind == OriginConfig::Kind::kSpice) {
             const int home = require_kernel_code(set->set.pool, scenario_.origin.object, "origin.object");
-            // The origin's own thing stands there.
+            // This is the object at the origin itself.
             if (home == object) return make_fixed({}, {}, start_);
             return make_spice_place(set, {object, home, {}}, name);
         }
@@ -207,7 +207,7 @@ class Builder {
             epoch);
     }
 
-    // A thing's state about a centre at the start, for its orbit's mean motion.
+    // Returns a thing's state about a centre at the start, to find the mean motion of its orbit.
     StateVector orbit_of(std::size_t thing, const OrbitCenter& center) {
         const WorldFrame frame(start_, scenario_.origin);
         std::vector<Motion> motions = initial_motions(scenario_, start_);
@@ -215,7 +215,7 @@ class Builder {
         const Motion& m = motions[thing];
         return about_center({frame, motions}, {m.pose.position_world_m, m.velocity_world_m_s}, center);
     }
-    // A part of a thing at the start, and what it needs.
+    // Evaluates a part of a thing at the start, and what it needs.
     void fill(const MotionNeed& part, const WorldFrame& frame, std::vector<Motion>& motions) {
         const MotionConfig* config = config_of(part.thing);
         if (!config) return;
@@ -260,8 +260,8 @@ class Builder {
         return make_pointing(pointing_of(m));
     }
 
-    // By the IAU's angles (Archinal et al. 2018, figure 1): about z to the node, about the node to the pole, about the
-    // pole to the prime meridian.
+    // Uses the IAU's angles (Archinal et al. 2018, figure 1): a rotation about z to the node, about the node
+    // to the pole, and about the pole to the prime meridian.
     AttitudeState pole_attitude(const AttitudeConfig& a) const {
         const double w =
             std::fmod(a.meridian_rad + a.pole_rate_rad_s * seconds_since_j2000(start_), kTurn_rad);

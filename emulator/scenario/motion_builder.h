@@ -6,9 +6,11 @@
 
 namespace hilcam {
 
-// Reads every file the scenario's motions name, and checks them at the scenario's start. Throws InputError.
+// Reads every file that the scenario's motions name, and evaluates them at the scenario's start. Throws
+// InputError.
 MotionSources load_motion_sources(const ScenarioConfig& scenario);
-// Says, with the key of each motion, what its orbit and attitude messages have that is not used. Throws InputError as above.
+// Returns remarks about contents of orbit and attitude messages that are not used, each with the motion's
+// key. Throws InputError as above.
 std::vector<std::string> motion_warnings(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

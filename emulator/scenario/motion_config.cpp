@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-// The bodies in their order, then the Sun.
+// Returns the names of the bodies in their order, then the Sun's.
 std::vector<std::string> center_names() {
     std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     names.emplace_back("sun");

@@ -1,5 +1,5 @@
 #pragma once
-// `motion` in a scenario: where a thing's positions and attitudes come from until commands say otherwise.
+// The section `motion`: the source of a thing's positions and attitudes until commands replace it.
 
 #include <filesystem>
 #include <optional>
@@ -28,7 +28,7 @@ struct KeplerConfig {
     double semi_major_axis_m = 0, eccentricity = 0, inclination_rad = 0, node_rad = 0, periapsis_rad = 0;
     double mean_anomaly_rad = 0, true_anomaly_rad = 0;
     bool has_mean = false, has_true = false;
-    std::string epoch_utc;  // empty: the scenario's start
+    std::string epoch_utc;  // empty: scenario's start
 };
 Fields fields(KeplerConfig& kepler);
 void validate(const KeplerConfig& kepler);
@@ -47,7 +47,7 @@ struct EphemerisFileConfig {
 };
 Fields fields(EphemerisFileConfig& file);
 
-// The kinds are those of PlacedFrame::Kind (emulator/motion/placed_frame.h).
+// The same kinds as PlacedFrame::Kind (emulator/motion/placed_frame.h).
 enum class MotionFrame { kWorld, kBodyFixed, kLvlh, kThing, kLocal };
 
 struct AttitudeConfig {
@@ -65,7 +65,7 @@ struct AttitudeConfig {
     MotionFrame frame = MotionFrame::kWorld;
     std::string of;
     AttitudeForms attitude;
-    std::size_t nadir_of = 2;  // counts like MotionConfig::center
+    std::size_t nadir_of = 2;  // numbered like MotionConfig::center
     Vec3d rate_body_rad_s;
     Vec3d axis{0, 0, 1}, second_axis{0, -1, 0};
     enum class Second { kNorth, kVelocity, kOrbitNormal, kNadir, kSun } second = Second::kNorth;
@@ -82,8 +82,8 @@ void validate(const AttitudeConfig& attitude);
 struct MotionConfig {
     enum class Kind { kFixed, kKeyframes, kKepler, kTle, kOem, kCw, kSpice } kind = Kind::kFixed;
     MotionFrame frame = MotionFrame::kWorld;
-    std::string of;          // the thing that lvlh and thing are about: an object's name, or "camera"
-    std::size_t center = 2;  // a BodyId's index, or kBodyCount for the Sun: the Earth
+    std::string of;          // thing for frames lvlh and thing: an object's name, or "camera"
+    std::size_t center = 2;  // index of a BodyId, or kBodyCount for the Sun; 2 is the Earth
     Vec3d position_m, velocity_m_s;
     std::vector<KeyframeConfig> keyframes;
     std::optional<KeplerConfig> kepler;
@@ -98,15 +98,15 @@ void validate(const MotionConfig& motion);
 
 Fields fields(EarthOrientation& orientation);
 
-// The scenario's leap seconds, instead of ERFA's own.
+// Leap seconds of the scenario, in place of ERFA's own.
 struct LeapSecondsConfig {
     std::filesystem::path file;
     enum class Expired { kRefuse, kWarn } expired = Expired::kRefuse;
 };
 Fields fields(LeapSecondsConfig& leap);
 
-// Puts the file's table in place for the whole program. Throws InputError when the scenario begins after it
-// expires, or gives the warning to print; empty: none. Before any other thread asks for a time.
+// Makes the file's table the whole program's. Returns the warning to print, or an empty text. Throws
+// InputError when the scenario begins after the table expires. Call before any other thread asks for a time.
 std::string apply_leap_seconds(const LeapSecondsConfig& config, const std::string& scenario_utc);
 
 }  // namespace hilcam

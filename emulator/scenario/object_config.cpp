@@ -88,8 +88,8 @@ Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
     Quat attitude = frame_from_body(p.forms);
     if (attitude_of(p) == PoseConfig::Attitude::kLookAt)
         attitude = look_along(p.look_at_m - p.position_m, p.up);
-    // +z down, +y along -north: then +x = y x z points east. North is the world's +z at the Earth, whose pole
-    // is near it, else the body's.
+    // +z points down and +y along -north, so +x = y x z points east. North is the world's +z at the Earth,
+    // which is close to its pole, and otherwise the body's own.
     if (p.attitude == PoseConfig::Attitude::kNadir) {
         const BodyState& body = bodies[p.nadir_of];
         const Vec3d north = p.nadir_of == BodyId::kEarth ? Vec3d{0, 0, 1} : body.fixed_from_world.z;

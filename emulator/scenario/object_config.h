@@ -1,5 +1,5 @@
 #pragma once
-// The things that stand in the world: objects with their poses, meshes and joints, and terrain.
+// The things in the world: objects with their poses, meshes and joints, and terrain.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace hilcam {
 
-// The pose of a thing when the run begins, until commands say otherwise.
+// The initial pose of a thing, until commands change it.
 struct PoseConfig {
     enum class Frame { kWorld, kLocal } frame = Frame::kWorld;
     enum class Attitude { kQuaternion, kLookAt, kNadir } attitude = Attitude::kQuaternion;
@@ -33,10 +33,10 @@ struct PoseConfig {
 };
 Fields fields(PoseConfig& pose);
 void validate(const PoseConfig& pose);
-// The attitude is what is named, or what the other keys mean: `look_at_m` and `up` mean look_at.
+// Returns the named attitude, or the one that other keys imply: `look_at_m` or `up` imply look_at.
 PoseConfig::Attitude attitude_of(const PoseConfig& pose);
-// The motion that a pose config in the world's frame describes at an instant (one in the local frame:
-// site.h). Throws InputError when look_at is not defined.
+// Returns the motion for a pose in the world's frame at an instant (for the local frame, see site.h). Throws
+// InputError when look_at is not defined.
 Motion initial_motion(const PoseConfig& pose, TimeTai time, const Bodies& bodies);
 
 struct GeneratedMeshConfig {
@@ -52,7 +52,7 @@ struct MaterialSet {
 };
 Fields fields(MaterialSet& set);
 
-// A part of an object that turns about an axis: a solar wing, a gimbal.
+// A part of an object that rotates about an axis: a solar wing, a gimbal.
 struct JointConfig {
     std::string node;
     Vec3d pivot_m;
@@ -66,10 +66,10 @@ void validate(const JointConfig& joint);
 struct ObjectConfig {
     std::string name;
     std::filesystem::path mesh;
-    std::string mesh_where;  // the key's place in the scenario
+    std::string mesh_where;  // place of the key in the scenario
     std::int64_t mesh_surface = 0;
     std::filesystem::path albedo_file;
-    std::string albedo_where;  // the key's place in the scenario
+    std::string albedo_where;  // place of the key in the scenario
     double albedo_reference = 0;
     std::optional<GeneratedMeshConfig> generate;
     double scale = 1;
@@ -91,7 +91,7 @@ struct PlaceConfig {
 };
 Fields fields(PlaceConfig& place);
 
-// Ground from a height map, at rest in the world or on a body that turns, or that of a whole body.
+// Ground from a height map, at rest in the world or on a turning body; or the ground of a whole body.
 struct TerrainConfig {
     std::string name = "terrain";
     std::optional<HeightMapConfig> heights;

@@ -37,7 +37,7 @@ std::vector<std::string> arguments_of(const GeneratedMeshConfig& g) {
             "--wing-angle-deg=" + angle};
 }
 
-// The file of an object's mesh, which is made if need be.
+// Returns the file of an object's mesh, generated if necessary.
 HeldFile mesh_file_of(const ObjectConfig& object, const Cache& cache) {
     if (object.has_mesh) return {object.mesh, {}, {}};
     return generated_mesh(object.generate.value().program, arguments_of(*object.generate), cache);
@@ -76,8 +76,7 @@ Vec3d by_component(Vec3d a, Vec3d b, const F& f) {
     return {f(a.x, b.x), f(a.y, b.y), f(a.z, b.z)};
 }
 
-// Adds a mesh, which is so many times as large, with its materials, to what was found of the object that it is or
-// is a part of.
+// Adds a mesh at its scale, with its materials, to what was found of its object.
 void tell(const Mesh& mesh, float scale, const std::vector<Material>& materials, const ObjectConfig& config,
           const SpectralGrid& grid, LoadedObject& out) {
     const bool first = out.surfaces.empty();
@@ -113,7 +112,7 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
-// Puts the object's table of albedos onto the mesh. Returns what its materials are to be multiplied with.
+// Applies the object's table of albedos to the mesh. Returns the factor for its materials.
 double paint(Mesh& mesh, const ObjectConfig& config) {
     if (!config.has_albedo_file) return 1;
     const Progress progress("albedos of " + config.name);
@@ -124,8 +123,8 @@ double paint(Mesh& mesh, const ObjectConfig& config) {
     });
 }
 
-// Refuses a factor with which a surface would send back more light than it gets: by its material's own rule, else by
-// what it reflects.
+// Refuses a factor with which a surface would reflect more light than it receives: by its material's own
+// rule, or else by its reflectance.
 void require_darkness(const MeshSurface& surface, const Material& material, double factor,
                       const ObjectConfig& config, const SpectralGrid& grid) {
     const auto refuse = [&](const std::string& why) {
@@ -161,8 +160,8 @@ void scale_mesh(Mesh& mesh, float factor) {
     for (Vec3f& vertex : mesh.vertices_m) vertex = factor * vertex;
 }
 
-// Brings a mesh whose file has other units than metres, by far, to the size of a metre, by a power of two: floats do
-// not hold its squared areas. Returns the factor to what it was.
+// Scales a mesh in units far from metres to about a metre, by a power of two, because floats cannot hold its
+// squared areas. Returns the factor back to the original size.
 double bring_near_one(Mesh& mesh) {
     constexpr int kFar = 20;  // powers of two
     float greatest = 0;
@@ -176,8 +175,8 @@ double bring_near_one(Mesh& mesh) {
     return std::ldexp(1.0, exponent);
 }
 
-// An object whose mesh and levels are as large as the mesh's file has them, but for bring_near_one(): objects of all
-// sizes share what is made of them. `scale` brings them to the object's size.
+// An object with mesh and levels at the size of the mesh's file, except for bring_near_one(). Objects of all
+// sizes share what is derived from them; `scale` brings them to the object's size.
 struct UnscaledObject {
     SceneObject object;
     float scale = 1;
@@ -190,7 +189,8 @@ UnscaledObject make_object(Mesh mesh, const ObjectConfig& config, const Scenario
     object.mesh = std::move(mesh);
     out.scale = static_cast<float>(config.scale * bring_near_one(object.mesh));
     const double brightest = paint(object.mesh, config);
-    // A level's vertices would each have the albedo of one of many facets, or the colour of one of many corners, not their mean.
+    // In a coarser level, a vertex would have the albedo of one of many facets, or the colour of one of many
+    // corners, instead of their mean.
     if (wants_levels_of_detail(scenario) && !config.has_albedo_file && object.mesh.colors.empty()) {
         const Progress progress("levels of detail of " + config.name);
         object.levels = cached_levels(object.mesh, user_cache(!scenario.is_used_once));
@@ -210,7 +210,7 @@ void scale_object(SceneObject& object, float factor) {
     }
 }
 
-// Objects of one prototype have the same meshes and the same looks, wherever they are and however they turn.
+// Objects with the same result have the same meshes and looks, whatever their places and motions.
 std::string make_of(const ObjectConfig& config) {
     std::string make = fmt::format("{}\n{}\n{}\n{}\n{}\n", mesh_name_of(config), config.scale,
                                    config.mesh_surface, config.albedo_file.string(), config.albedo_reference);
@@ -219,8 +219,8 @@ std::string make_of(const ObjectConfig& config) {
     return make + section_listing(section_of(materials));
 }
 
-// Throws InputError for a mesh that is larger than the Sun at its object's scale: the squares of its facets' areas
-// would leave single precision.
+// Throws InputError for a mesh that is larger than the Sun at its object's scale, because squares of its
+// facets' areas would exceed single precision.
 void require_size(const Mesh& mesh, double scale, const std::filesystem::path& file) {
     constexpr double kLargest_m = 1e9;
     for (const Vec3f& vertex : mesh.vertices_m)
@@ -244,8 +244,8 @@ std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::vector<std:
     });
 }
 
-// The objects in their order, then all their turning parts: as WorldState places them. The first of a make is
-// loaded, the others are like it.
+// Returns the objects in order, then all their parts on joints, as WorldState places them. The first of each
+// kind is loaded, and the others share it.
 std::vector<UnscaledObject> unscaled_objects(const ScenarioConfig& scenario, const SpectralGrid& grid,
                                              std::vector<LoadedObject>& found) {
     found.assign(scenario.objects.size(), {});

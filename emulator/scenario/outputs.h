@@ -1,11 +1,12 @@
 #pragma once
-// The outputs, where a camera's frames go: a new output is its header here and its configuration at the end of the list.
+// The list of outputs for a camera's frames. A new output adds its header here and its configuration at the
+// end of the list.
 //
-// An output is a FrameSink (io/contract/frame_sink.h) and its configuration, which says all that is asked of
-// it here: kKey and kMeaning; fields(), and validate() if keys depend on each other; make_sink(config, context,
-// shape). Where they hold, too: kFixedSize, when frames cannot change size while it runs; kLive, when it hands frames to
-// clients while they are made, who must not wait for a disk; listening(config),
-// what it listens on; run_folder(config), a folder that it fills. docs/extending.md adds one.
+// An output is a FrameSink (io/contract/frame_sink.h) and its configuration, which provides everything that
+// is needed here: kKey and kMeaning; fields(), and validate() if keys depend on each other; make_sink(config,
+// context, shape). Where they apply, also: kFixedSize, when frames cannot change size during a run; kLive,
+// when it hands frames to clients as they are made, which must not wait for a disk; listening(config), the
+// ports it listens on; run_folder(config), a folder that it fills. docs/extending.md shows how to add one.
 
 #include <tuple>
 
@@ -22,17 +23,17 @@
 
 namespace hilcam {
 
-// The outputs that a scenario gives a camera, of those that there are.
+// The outputs that a scenario gives a camera.
 template <class... Configs>
 class OutputList {
   public:
-    // Null where the scenario does not give this output.
+    // Returns null when the scenario does not give this output.
     template <class Config>
     const Config* find() const {
         const Given<Config>& output = std::get<Given<Config>>(all_);
         return output.given ? &output.config : nullptr;
     }
-    // Returns it as the scenario gives it, or its defaults.
+    // Returns the configuration, or its defaults when the scenario does not give this output.
     template <class Config>
     const Config& config() const {
         return std::get<Given<Config>>(all_).config;
@@ -42,17 +43,17 @@ class OutputList {
         std::get<Given<Config>>(all_).given = given;
     }
 
-    // Calls visit(config) for every output that is given.
+    // Calls visit(config) for every output that the scenario gives.
     template <class Visit>
     void for_each_given(const Visit& visit) const {
         (visit_given(std::get<Given<Configs>>(all_), visit), ...);
     }
-    // Calls visit(config, given) for every output that there is.
+    // Calls visit(config, given) for every output in the list.
     template <class Visit>
     void for_each(const Visit& visit) {
         (visit(std::get<Given<Configs>>(all_).config, std::get<Given<Configs>>(all_).given), ...);
     }
-    // True when one of those that are given is as asked for.
+    // True when ask(config) is true for one of the given outputs.
     template <class Ask>
     bool any(const Ask& ask) const {
         bool found = false;
@@ -81,13 +82,13 @@ using OutputsConfig =
     OutputList<GigeConfig, V4l2Config, UvcConfig, FilesConfig, PreviewConfig, TruthConfig, ShmConfig>;
 Fields fields(OutputsConfig& outputs);
 
-// Returns what they listen on, in the order of the list; key: "outputs.gige.interface".
+// Returns the ports that the outputs listen on, in the order of the list; key: "outputs.gige.interface".
 std::vector<ListeningPort> listening(const OutputsConfig& outputs);
-// The folders that they fill.
+// Returns the folders that the outputs fill.
 std::vector<RunFolder> run_folders(const OutputsConfig& outputs);
-// True when one of them needs frames of one size.
+// True when one of the outputs needs frames of constant size.
 bool have_fixed_size(const OutputsConfig& outputs);
-// True when one of them hands frames to clients while they are made.
+// True when one of the outputs hands frames to clients as they are made.
 bool have_live(const OutputsConfig& outputs);
 
 }  // namespace hilcam

@@ -40,7 +40,7 @@ std::function<StateVector(TimeTai)> kepler_orbit(const OwnBodyConfig& c, TimeTai
         [orbit, epoch](TimeTai time) { return orbit.at(static_cast<double>(time - epoch) * kSecondsPerNs); };
 }
 
-// The body stands outside the ephemeris as at its nearest instant.
+// Outside the ephemeris, the body stays at its nearest instant.
 std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, TimeTai start) {
     auto segments =
         std::make_shared<const std::vector<OemSegment>>(load_oem(c.oem.value().file, c.oem->object));
@@ -70,7 +70,7 @@ std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, Time
     };
 }
 
-// The same by the kernels; with them come its axes, unless the scenario says how it turns.
+// Does the same from the kernels. Its axes come from them, too, unless the scenario gives its rotation.
 void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernels>& kernels, TimeTai start,
                        OwnBody& body) {
     if (!kernels)
@@ -107,7 +107,7 @@ void require_possible(const StateVector& s, TimeTai start) {
 
 }  // namespace
 
-// A grey one, by the law of dark powder.
+// The default is a grey body with the law of dark powder.
 OwnBodyConfig::OwnBodyConfig() {
     look.law = SurfaceLaw::kLommelSeeliger;
     look.albedo = Curve::constant(0.5);

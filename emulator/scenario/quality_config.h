@@ -1,5 +1,5 @@
 #pragma once
-// The section `quality`: what is traded of speed against accuracy.
+// The section `quality`: the choice between speed and accuracy.
 
 #include <cstdint>
 
@@ -9,10 +9,10 @@
 
 namespace hilcam {
 
-// The part of the world's motion that is shown while the shutter is open (exposure_renderer.h).
+// The rendering of the world's motion while the shutter is open (exposure_renderer.h).
 enum class MotionQuality { kOff, kFast, kExact };
 
-// The way in which the picture gets its point spread function. kAuto: by a compact kernel where that is as accurate
+// The method that applies the point spread function. kAuto: by a compact kernel where that is as accurate
 // (sensor/convolution/compact_kernel.h).
 enum class PsfMethod { kAuto, kFft };
 
@@ -26,7 +26,7 @@ struct QualityConfig {
 };
 Fields fields(QualityConfig& quality);
 void validate(const QualityConfig& quality);
-// Returns how the radiance images of that quality are made.
+// Returns how radiance images of that quality are sampled.
 SensorSampling sampling_of(const QualityConfig& quality);
 
 }  // namespace hilcam

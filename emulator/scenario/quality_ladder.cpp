@@ -66,7 +66,7 @@ void validate(const LoopConfig& l) {
 
 namespace {
 
-// Gives one key's value to the same key of another list.
+// Copies the value of a key to the same key in another list.
 void copy_value(const Field& from, const Field& to) {
     std::visit(
         [&]<class Target>(const Target& target) {
@@ -82,7 +82,7 @@ void copy_value(const Field& from, const Field& to) {
 
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& l) {
     QualityLevelConfig level = l;
-    // A buffer that the quality has not is not there to be chosen.
+    // A level cannot choose the buffer when the configured quality has none.
     if (!configured.uses_buffer()) level.given["visibility"] = false;
     RenderQuality q = configured;
     const Fields from = per_frame_fields(level.values), to = per_frame_fields(q);
@@ -105,7 +105,7 @@ std::string difference(const RenderQuality& from, const RenderQuality& to) {
 
 namespace {
 
-// No better than these; what is worse already stays.
+// Upper limits on quality; settings that are worse stay.
 struct Limits {
     std::int64_t samples_per_axis, max_depth;
     double contribution_threshold, lod_error_px;
@@ -124,7 +124,7 @@ RenderQuality limited(const RenderQuality& from, const Limits& to) {
     return q;
 }
 
-// Nothing else makes ground that is alone faster, and rays take longer for it.
+// Nothing else makes a scene of ground alone faster, and rays would take longer.
 std::vector<RenderQuality> levels_of_ground(RenderQuality quality) {
     if (quality.ground_step_px > 1) return {};
     quality.ground_step_px = 2;

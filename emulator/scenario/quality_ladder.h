@@ -1,9 +1,9 @@
 #pragma once
-// The quality levels that the governor (governor.h) chooses from: level 0 is the scenario's `quality`, each
-// further one says what is different in it and is faster than the one before.
+// The quality levels that the governor (governor.h) chooses from. Level 0 is the scenario's `quality`; each
+// further level states its differences from it and is faster than the one before.
 //
-// Only what may change from one frame to the next is in a level. Without `loop.levels` the ladder is the
-// program's own (built_in_levels).
+// A level contains only what may change between frames. Without `loop.levels`, the program's own levels are
+// used (built_in_levels).
 
 #include <map>
 #include <string>
@@ -16,14 +16,14 @@
 
 namespace hilcam {
 
-// Keys that are not given are as in `quality`.
+// Keys that are not given have the value in `quality`.
 struct QualityLevelConfig {
     RenderQuality values;
     std::map<std::string, bool> given;  // by key
 };
 Fields fields(QualityLevelConfig& level);
 
-inline constexpr std::size_t kMaxLevels = 16;  // includes level 0
+inline constexpr std::size_t kMaxLevels = 16;  // including level 0
 
 // The aim of the frame loop (frame_loop.h).
 enum class LoopPreference { kThroughput, kLatency };
@@ -35,10 +35,10 @@ struct LoopConfig {
     bool wait_for_light = false;
     double frame_budget_s = kBudgetOfRate_s;  // 0: no governor
     std::vector<QualityLevelConfig> levels;
-    bool levels_fixed = false;  // every frame has the configured quality
+    bool levels_fixed = false;  // true: every frame has the configured quality
     RealTime real_time;
-    // No key, but for who runs the scenario: frames have to come at the camera's rate, so that a budget of the rate
-    // counts.
+    // Not a key: true when the run's frames must come at the camera's rate, so that a budget derived from the
+    // rate applies.
     bool holds_rate = false;
 
     bool budget_is_of_rate() const { return frame_budget_s < 0; }
@@ -46,19 +46,19 @@ struct LoopConfig {
 Fields fields(LoopConfig& loop);
 void validate(const LoopConfig& loop);
 
-// The keys of a quality that may change from one frame to the next (render/frame/render_quality.cpp).
+// The quality keys that may change between frames (render/frame/render_quality.cpp).
 Fields per_frame_fields(RenderQuality& quality);
 
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& level);
 
-// Steps down from a quality, each as far as it makes anything faster: towards configs/quality/fast.yaml,
-// then coarser meshes, no bounce, direct light alone. Sixteen samples a pixel stay where there is a
-// visibility buffer. For ground that is alone in the scene: to every second pixel of it.
+// Returns steps down from a quality, leaving out those that change nothing: towards
+// configs/quality/fast.yaml, then coarser meshes, no bounce, direct light alone. A visibility buffer then has
+// at most sixteen samples a pixel. For a scene of ground alone, the only step is to shade every second pixel.
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured);
 
-// Returns how that quality places its rays in a pixel.
+// Returns how rays are placed within a pixel at that quality.
 RayGrid ray_grid_of(const RenderQuality& quality);
-// Says what changes from one to the other, for people: "max_depth 1, lod_error_px 2".
+// Describes the changes from one quality to another, for people: "max_depth 1, lod_error_px 2".
 std::string difference(const RenderQuality& from, const RenderQuality& to);
 
 }  // namespace hilcam

@@ -48,7 +48,7 @@ void require_cores(const RealTime& wishes) {
                                           allowed_cores(allowed)));
 }
 
-// Tries the priority on this thread only, and goes back.
+// Tries the priority on this thread only, and restores it.
 void require_priority(const RealTime& wishes) {
     if (wishes.priority == 0) return;
     const int policy = sched_getscheduler(0);
@@ -74,7 +74,7 @@ std::vector<pid_t> other_threads() {
 
 int niceness_of(pid_t thread) { return getpriority(PRIO_PROCESS, static_cast<id_t>(thread)); }
 
-// A thread that has ended meanwhile needs nothing.
+// Ignores threads that have ended meanwhile.
 void require_done(int result, const char* what) {
     if (result != 0 && errno != ESRCH)
         throw DeviceError(

@@ -1,11 +1,11 @@
 #pragma once
-// The wishes of the frame loop's threads to the machine: priority over everything else, cores of their own,
-// memory that is never paged out. All of it on request only: a program that takes a core whatever else wants
-// it must be asked to.
+// Requests of the frame loop's threads to the machine: priority over other programs, cores of their own,
+// memory that is never paged out. All of it only on request, because a program should not take a core from
+// others unasked.
 //
-// Raised are all threads of the process but the calling one, which reports, and those that have made
-// themselves nicer than it: the preview's, which must never delay a frame. What a raised thread starts is
-// raised too.
+// The priority applies to all threads of the process except the calling one, which reports, and threads that
+// have made themselves nicer than it, such as the preview's, which must never delay a frame. Threads that a
+// raised thread starts are raised as well.
 
 #include <cstdint>
 #include <vector>
@@ -15,17 +15,17 @@
 namespace hilcam {
 
 struct RealTime {
-    std::int64_t priority = 0;  // priority of SCHED_FIFO, 1 to 99; 0: the system's usual scheduling
-    std::vector<double> cores;  // numbers; none: wherever the system likes
+    std::int64_t priority = 0;  // for SCHED_FIFO, 1 to 99; 0: the system's normal scheduling
+    std::vector<double> cores;  // numbers of the cores; empty: any core
     bool lock_memory = false;
 };
 Fields fields(RealTime& wishes);
 
-// Throws DeviceError with the reason when this process may not have what is wished for. Any thread.
+// Throws DeviceError with the reason when this process lacks the rights for its requests. Any thread.
 void require_rights(const RealTime& wishes);
-// Locks all memory that the process has and will have. Throws DeviceError.
+// Locks all present and future memory of the process. Throws DeviceError.
 void lock_memory(const RealTime& wishes);
-// Raises the threads that there are. Throws DeviceError.
+// Raises the threads that exist. Throws DeviceError.
 void raise_threads(const RealTime& wishes);
 
 }  // namespace hilcam

@@ -16,7 +16,7 @@
 namespace hilcam {
 namespace {
 
-// Writes as many digits as it takes to read the same number back.
+// Writes enough digits to read the same number back.
 std::string exact(double value) {
     std::array<char, 32> text;
     const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
@@ -41,7 +41,7 @@ std::string file_text(const std::filesystem::path& file) {
     std::error_code error;
     std::string out = file.filename().string();
     if (file.empty() || !std::filesystem::is_regular_file(file, error)) return out;
-    // It was read for the scene, whose readers know how large it may be.
+    // The file has been read for the scene, by readers that limit its size.
     InputStream in(file, {std::numeric_limits<std::int64_t>::max(), "a file"});
     std::vector<std::uint8_t> piece(1u << 20);
     std::uint32_t crc = 0;
@@ -55,7 +55,7 @@ std::string file_text(const std::filesystem::path& file) {
     return out + " (" + std::to_string(size) + " bytes, CRC-32 " + std::to_string(crc) + ")";
 }
 
-// A value that is a line of text; sections are not.
+// Returns a value as a line of text; sections have none.
 std::string value_of(const Field& field) {
     return std::visit(
         Overloaded{
@@ -112,7 +112,7 @@ std::map<std::string, std::string> parsed(const std::string& listing) {
     for (std::string line; std::getline(lines, line);) {
         const std::size_t equals = std::min(line.find(" = "), line.size());
         std::string key = line.substr(0, equals), value = line.substr(std::min(equals + 3, line.size()));
-        // Recordings of an earlier version have its names.
+        // Recordings use the names of an earlier version.
         const std::size_t last = key.rfind('.') + 1;
         if (const std::string_view now = renamed_key(key.substr(last)); !now.empty())
             key = key.substr(0, last) + std::string(now);
@@ -133,7 +133,7 @@ std::string section_listing(const SectionField& section) {
 }
 
 std::string scenario_listing(ScenarioConfig scenario) {
-    scenario.has_seed = true;  // frames have one, stated or not
+    scenario.has_seed = true;  // frames have a seed, stated or not
     return section_listing(section_of(scenario));
 }
 

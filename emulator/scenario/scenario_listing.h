@@ -1,10 +1,12 @@
 #pragma once
-// A scenario as lines "key = value": all that its frames depend on, so that two can be compared.
+// A scenario as lines "key = value": everything that its frames depend on, so that two scenarios can be
+// compared.
 //
-// Every key of the configuration, given or not, in the order of the manual; of a file that a key names, its
-// name, length and CRC-32. Not in it: keys whose definition says that frames do not depend on them
-// (Field::changes_frames: outputs, commands, threads, ...); events and faults are among those, as a recording
-// holds what they did. Files that those files name in turn (a glTF file's textures) are not looked at.
+// The listing has every key of the configuration, given or not, in the manual's order; for a file that a key
+// names, its name, length and CRC-32. It leaves out keys that are defined not to affect frames
+// (Field::changes_frames: outputs, commands, threads, ...), and events and faults, because a recording
+// contains what they did. Files that those files name in turn, such as a glTF file's textures, are not
+// examined.
 
 #include <string>
 
@@ -13,14 +15,14 @@
 namespace hilcam {
 
 std::string scenario_listing(ScenarioConfig scenario);
-// The same of a part of it.
+// Returns the listing of one section.
 std::string section_listing(const SectionField& section);
 
-// The value of a key in a listing; empty where it has none.
+// Returns the value of a key in a listing; empty when the listing does not have the key.
 std::string listed_value(const std::string& listing, const std::string& key);
 
-// Says where two listings differ, for people: "camera.exposure_ms: 2 there, 5 here (and 3 more)". Empty:
-// nowhere.
+// Describes the difference between two listings for people: "camera.exposure_ms: 2 there, 5 here (and 3
+// more)". Empty: they are equal.
 std::string listing_difference(const std::string& there, const std::string& here);
 
 }  // namespace hilcam

@@ -30,8 +30,8 @@ bool frees_camera(const EventConfig& event) {
     });
 }
 
-// Frames are asked for by commands, the preview's button and events; in triggered mode by GigE Vision's
-// software trigger and action commands, too, which are refused in lockstep.
+// Frames are requested by commands, the preview's button and events; in triggered mode also by GigE Vision's
+// software trigger and action commands, which are refused in lockstep.
 void look_at_askers(const ScenarioConfig& s, Lines& out) {
     if (s.mode == CameraMode::kFreeRun) return;
     const bool lockstep = s.mode == CameraMode::kLockstep;
@@ -56,7 +56,7 @@ void look_at_askers(const ScenarioConfig& s, Lines& out) {
             "outputs.gige, outputs.preview, or an event that exposes; 'hilcam send expose' then takes one"));
 }
 
-// Says what thing a command is for that the scenario does not have, or empty.
+// Returns the thing that a command is for if the scenario does not have it; otherwise empty.
 std::string missing_thing(const Command& command, const ScenarioConfig& s) {
     if (const auto* pose = std::get_if<PoseCommand>(&command); pose && pose->object > s.objects.size())
         return fmt::format("object {}, and there are {}", pose->object, s.objects.size());
@@ -82,7 +82,7 @@ void look_at_actions(const ScenarioConfig& s, Lines& out) {
                                 fmt::format("events.{}.do: will be refused: it is for {}", i, what)));
 }
 
-// Lamps, motions and events name the first of several objects of one name.
+// Lamps, motions and events refer to the first of several objects with the same name.
 void look_at_names(const ScenarioConfig& s, Lines& out) {
     std::set<std::string> names;
     for (std::size_t i = 0; i < s.objects.size(); ++i)
@@ -120,7 +120,7 @@ bool is_inside(const BodyState& body, const Figure& figure, Vec3d place_world_m)
     return length(Vec3d{p.x, p.y, stretch * p.z}) < figure.equatorial_radius_m;
 }
 
-// Says where a camera stands that is inside a body, and what it may have been meant as.
+// Says where the camera is that is inside a body, and what may have been intended.
 std::string report_inside(const ScenarioConfig& s, std::size_t camera, std::size_t body,
                           const WorldSnapshot& world) {
     const Vec3d from_centre_m = world.camera.position_world_m - world.bodies.body[body].world_m;
@@ -150,7 +150,7 @@ void look_at_cameras(const ScenarioConfig& bench, Lines& out) {
     }
 }
 
-// A rover may stand in a basin some kilometres below the ellipsoid.
+// A rover may be in a basin some kilometres below the ellipsoid.
 constexpr double kDeep = 0.95;
 
 void look_at_objects(const ScenarioConfig& s, Lines& out) {
@@ -197,7 +197,7 @@ void look_at_lamps(const ScenarioConfig& s, Lines& out) {
                                  s.lamps[i].name)));
 }
 
-// A bench's camera that shows its frames to nobody is forgotten; a scenario without any output is for
+// A camera of a bench without any output was probably forgotten; a scenario without any output is for
 // `render`.
 void look_at_outputs(const ScenarioConfig& s, Lines& out) {
     const auto shows = [](const OutputsConfig& o) { return o.any(); };
@@ -226,7 +226,7 @@ void look_at_shutters(const ScenarioConfig& s, Lines& out) {
                         out);
 }
 
-// Warns of places and bodies that are named and that the scenario does not have.
+// Warns of places and bodies that are named but missing in the scenario.
 void look_at_frames(const ScenarioConfig& s, Lines& out) {
     const bool shows_earth = s.bodies[index_of(BodyId::kEarth)].visible;
     const auto warn = [&](bool about, const char* key, const char* text) {
@@ -245,7 +245,8 @@ void look_at_frames(const ScenarioConfig& s, Lines& out) {
          "earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
 }
 
-// Beyond this no orbit about a body lasts: Hill's sphere of the Earth has 1.5e6 km, that of Neptune 1.2e8.
+// Returns a distance beyond which no orbit about the body lasts: Hill's sphere of the Earth has 1.5e6 km,
+// that of Neptune 1.2e8.
 double farthest_of(BodyId body) {
     return index_of(body) >= index_of(BodyId::kJupiter) && index_of(body) <= index_of(BodyId::kNeptune) ? 2e11
                                                                                                         : 2e9;
@@ -267,7 +268,7 @@ void look_at_orbit(const ScenarioConfig& s, const std::string& key, const Motion
                    static_cast<BodyId>(motion.center), out);
 }
 
-// Says which rules of an object have no effect, and the surfaces that there are; empty: all have one.
+// Says which rules of an object have no effect, and which surfaces exist; empty: all have an effect.
 std::string meaning_of_idle_rules(const LoadedObject& object) {
     if (object.idle_rules.empty()) return {};
     std::vector<std::string> names;

@@ -1,6 +1,5 @@
 #pragma once
-// Warns of what a scenario says that has no effect, or hides everything: it may be meant, so it is no error,
-// but whoever runs it is told.
+// Warns of settings that have no effect, or hide everything. They may be intended, so they are not errors.
 
 #include <string>
 #include <vector>
@@ -11,23 +10,24 @@ namespace hilcam {
 
 struct LoadedObject;
 
-// A line each, with the place of the key (KeyPlaces). What a run will not do: lockstep in which nobody can ask for a
-// frame, events that will be refused, faults that no output or port can show, one camera of several whose frames nobody
-// gets.
+// Each returns one line for each warning, with the place of the key (KeyPlaces). This one warns of what a run
+// will not do: lockstep without a source of orders, events that will be refused, faults that no output or
+// port can show, one camera of several without any receiver for its frames.
 std::vector<std::string> idle_run_warnings(const ScenarioConfig& scenario);
-// A run that gives its frames to nobody at all; scenarios for `render` are such.
+// Warns of a run without any receiver for its frames, as with scenarios made for `render`.
 std::vector<std::string> no_output_warnings(const ScenarioConfig& scenario);
-// Keys that do nothing beside the others, objects of one name.
+// Warns of keys that have no effect beside others, and of objects with the same name.
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario);
-// Heights and orbits so far out that their unit is probably another.
+// Warns of heights and orbits so large that they are probably given in another unit.
 std::vector<std::string> length_warnings(const ScenarioConfig& scenario);
-// Says what a kind of fault needs to be seen and the outputs of some cameras and the bench's commands lack;
-// empty: it is there.
+// Says what a kind of fault needs in order to be seen, if these outputs and commands lack it; empty: it can
+// be seen.
 std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, const CommandsConfig& commands,
                            FaultKind kind);
-// Cameras and objects that begin inside a body, and objects on the same place. Throws InputError where the scenario's motions cannot be had.
+// Warns of cameras and objects that begin inside a body, and of objects at the same place. Throws InputError
+// when the scenario's motions cannot be built.
 std::vector<std::string> place_warnings(const ScenarioConfig& scenario);
-// Says which rules of objects have no effect, and the surfaces that there are; once for those that are alike in that.
+// Warns of material rules without effect, and lists the existing surfaces; once for objects that are alike.
 std::vector<std::string> warnings_of(const std::vector<LoadedObject>& objects, const KeyPlaces& places);
 
 }  // namespace hilcam

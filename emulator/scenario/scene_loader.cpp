@@ -33,7 +33,7 @@ namespace hilcam {
 
 namespace {
 
-// A frame's radiance is the largest of all images: where it alone does not fit, nothing is begun.
+// A frame's radiance is the largest of all images. If that alone does not fit, nothing is begun.
 void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
     constexpr double kGigabyte = 1e9;
     const double frame_gb =

@@ -11,7 +11,7 @@ bool is_local(const MotionConfig& m) {
     return m.frame == MotionFrame::kLocal || m.attitude.frame == MotionFrame::kLocal;
 }
 
-// The key of the first thing in local axes, or empty.
+// Returns the key of the first thing in local axes, or an empty text.
 std::string first_local_key(const ScenarioConfig& s) {
     if (s.camera_pose.frame == PoseConfig::Frame::kLocal) return "camera_pose.frame";
     if (s.camera_motion && is_local(*s.camera_motion)) return "camera_motion.frame";
@@ -23,7 +23,7 @@ std::string first_local_key(const ScenarioConfig& s) {
     return "";
 }
 
-// Refuses rates of what looks at another body: it turns as that moves.
+// Refuses rates of things that point at another body, because they turn as it moves.
 void check_rates(const ScenarioConfig& s, BodyId site_body) {
     const auto check = [&](const PoseConfig& pose, const std::string& key) {
         if (pose.frame == PoseConfig::Frame::kLocal && pose.has_rate && pose.has_nadir_of &&

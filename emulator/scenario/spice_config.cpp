@@ -67,7 +67,7 @@ void validate(const SpiceFrameConfig& f) {
 
 namespace {
 
-// Says which leap seconds of the program's own table a kernel ends before; empty: none.
+// Names the leap seconds of the program's own table that a kernel lacks at its end; empty: none.
 std::string missing_leap_seconds(const KernelPool& pool, const std::vector<LeapSecond>& kernel,
                                  const std::vector<LeapSecond>& own) {
     if (kernel.empty()) return {};
@@ -113,7 +113,7 @@ std::string apply_instrument(const SpiceConfig& s, CameraModel& camera) {
     camera.focal_length_m = *k.focal_length_m, camera.pitch_m = *k.pitch_m;
     if (k.samples) camera.width_px = *k.samples;
     if (k.lines) camera.height_px = *k.lines;
-    // A kernel's point is one of its own pixels.
+    // A kernel's principal point is in its own pixels.
     if (k.center_px && k.samples && k.lines && camera.principal_point_px.empty())
         camera.principal_point_px = {k.center_px->x, k.center_px->y};
     if (!k.half_field_rad || !k.samples || !k.lines) return "";

@@ -1,5 +1,5 @@
 #pragma once
-// `spice` in a scenario: SPICE's kernels, and what of the world they say (docs/spice.md).
+// The section `spice`: SPICE kernels, and what they determine in the world (docs/spice.md).
 
 #include <filesystem>
 #include <memory>
@@ -20,20 +20,20 @@ Fields fields(KernelFileConfig& kernel);
 struct SpiceConfig {
     std::vector<KernelFileConfig> kernels;
     enum class Bodies { kKernels, kOwn } bodies = Bodies::kKernels;
-    std::string camera;  // empty: the data sheet is all
+    std::string camera;  // empty: only the data sheet describes the camera
     double tolerance_s = 0;
-    std::shared_ptr<SpiceKernels> loaded;  // no key: load_spice()
+    std::shared_ptr<SpiceKernels> loaded;  // not a key: set by load_spice()
 };
 Fields fields(SpiceConfig& spice);
 void validate(const SpiceConfig& spice);
 
-// A thing of the kernels, as the place of a motion or of a body.
+// An object of the kernels that gives the place of a motion or body.
 struct SpiceObjectConfig {
     std::string object;
 };
 Fields fields(SpiceObjectConfig& object);
 
-// A frame of the kernels as an attitude, and how a camera sits in it.
+// A frame of the kernels that gives an attitude, and how a camera is mounted in it.
 struct SpiceFrameConfig {
     std::string frame, instrument;
     Vec3d boresight{0, 0, 1}, right{1, 0, 0};
@@ -42,13 +42,13 @@ struct SpiceFrameConfig {
 Fields fields(SpiceFrameConfig& frame);
 void validate(const SpiceFrameConfig& frame);
 
-// Reads the kernels, and makes their leap seconds those of the program. Returns a warning where they end before those in use,
-// or empty. Throws InputError.
+// Reads the kernels and makes their leap seconds the program's. Returns a warning when these end before the
+// leap seconds in use; otherwise empty. Throws InputError.
 std::string load_spice(SpiceConfig& spice);
-// Puts an instrument kernel's focal length, pixel pitch and pixels into a camera; returns a line for what of the kernel's
-// field of view does not agree, or nothing. Throws InputError.
+// Sets a camera's focal length, pixel pitch and pixel numbers from an instrument kernel. Returns a line about
+// any disagreement with the kernel's field of view; otherwise empty. Throws InputError.
 std::string apply_instrument(const SpiceConfig& spice, CameraModel& camera);
-// The frame's name, and the camera's axes in it: z along the boresight, x as near as can be to `right`.
+// A frame's name, and the camera's axes in it: z along the boresight, x as close as possible to `right`.
 struct SpiceMounting {
     std::string frame;
     Quat frame_from_camera;

@@ -1,5 +1,5 @@
 #pragma once
-// Command-line options that take one of a few words, and what is said of a subcommand that there is none of.
+// Command-line options that accept one of a few words, and the error message for an unknown subcommand.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace hilcam {
 
-// Adds an option whose help lists its words: "--stage radiance|electrons|frame".
+// Adds an option that lists its words in its help: "--stage radiance|electrons|frame".
 template <class E>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, E& value,
                         const std::vector<std::pair<std::string, E>>& words, const std::string& help) {
@@ -22,9 +22,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, E& value,
     return app.add_option_function<std::string>(name, take, help)->type_name(list);
 }
 
-// Makes the message for a command line that has a word in the place of a subcommand where there is none of
-// that name: what was found, the nearest name, all names. Empty: that is not what was wrong. The app has just
-// failed to parse.
+// Returns the message for a command line with an unknown subcommand: what was found, the nearest name, all
+// names. Empty when something else was wrong. Call right after the app failed to parse.
 std::string unknown_subcommand(const CLI::App& app);
 
 }  // namespace hilcam

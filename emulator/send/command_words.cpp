@@ -23,7 +23,7 @@ using Take = std::function<void(const Command&)>;
 // Latest time of a script's lines: 30 years, which 64 bits hold in nanoseconds.
 constexpr double kLatest_s = 1e9;
 
-// Words that cannot be made into a command are the user's error.
+// Reports words that cannot become a command as the user's error.
 template <class Make>
 void hand_over(const CLI::App* app, const Take& take, const Make& make) {
     Command command;
@@ -72,7 +72,7 @@ void add_settings(CLI::App& app, const Take& take) {
     });
 }
 
-// An attitude in one of the forms that a scenario takes, too (docs/conventions.md).
+// An attitude in one of the forms that a scenario accepts as well (docs/conventions.md).
 struct AttitudeOptions {
     std::array<double, 4> wxyz{1, 0, 0, 0};
     std::array<double, 3> mrp{}, euler_deg{}, radec_deg{};
@@ -80,7 +80,7 @@ struct AttitudeOptions {
     std::size_t sequence = 0;
 };
 
-// The options in the order of AttitudeOptions' forms: wxyz, mrp, dcm, euler, radec.
+// Adds options in the order of AttitudeOptions' forms: wxyz, mrp, dcm, euler, radec.
 std::vector<CLI::Option*> add_attitudes(CLI::App& pose, AttitudeOptions& o) {
     std::vector<CLI::Option*> forms = {
         pose.add_option("--attitude", o.wxyz, "w x y z, body to world"),
@@ -312,7 +312,7 @@ void add_fault(CLI::App& app, const Take& take, const std::function<void()>& lis
     });
 }
 
-// "@2.5" or "+0.1" before a line's words; false when there is none.
+// Reads "@2.5" or "+0.1" before a line's words; false when there is none.
 bool read_time(const std::string& word, double before_s, double& at_s) {
     if (word.empty() || (word[0] != '@' && word[0] != '+')) return false;
     std::size_t end = 0;

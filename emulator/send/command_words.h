@@ -10,25 +10,25 @@
 
 namespace hilcam {
 
-// Adds a subcommand for each command: ping, start, stop, settings, pose, joint, lamp, expose, mode,
-// clock, fault.
-// `take` gets the one that was chosen, when parsing ends well; `list_faults` is called for "fault list",
-// which is no command, unless it is empty.
+// Adds a subcommand for each command: ping, start, stop, settings, pose, joint, lamp, expose, mode, clock,
+// fault. take: receives the chosen command after successful parsing. list_faults: called for "fault list",
+// which is not a command, unless the function is empty.
 void add_command_words(CLI::App& app, const std::function<void(const Command&)>& take,
                        const std::function<void()>& list_faults = {});
 
-// The command of such words: "settings --exposure-ms 5". Throws what says why it is none.
+// Returns the command for words like "settings --exposure-ms 5". Throws when the words are not a command; the
+// message says why.
 Command command_of_words(const std::string& words);
 
-// One line of a script: when, and what. Times are seconds since the script's start.
+// One line of a script: a time in seconds since the script's start, and a command.
 struct ScriptLine {
     double at_s = 0;
     Command command;
     std::size_t number = 0;  // number of the line in its file
 };
-// A script: on each line an optional time ("@2.5" since the start, "+0.1" since the line before), then the
-// words of a command as `hilcam send` takes them. '#' begins a comment. Throws InputError that names the
-// line.
+// Parses a script. Each line has an optional time ("@2.5" since the start, "+0.1" since the line before),
+// then the words of a command as `hilcam send` accepts them. '#' begins a comment. Throws InputError that
+// names the line.
 std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name);
 
 }  // namespace hilcam

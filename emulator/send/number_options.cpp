@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-// A validator gives nothing, or what is wrong with the text.
+// A validator returns an empty text, or what is wrong with the text.
 template <class Whole>
 std::string whole_number(std::string& text, const char* accepted) {
     Whole value{};
@@ -21,7 +21,7 @@ std::string whole_number(std::string& text, const char* accepted) {
     const auto [end, error] = std::from_chars(first, last, value);
     if (error != std::errc{} || end != last)
         return "found " + in_quotes(text) + "; accepted: a whole number" + accepted;
-    text = std::to_string(value);  // without the zeros in front, by which CLI11 would take it for octal
+    text = std::to_string(value);  // without leading zeros, which CLI11 would read as octal
     return {};
 }
 
@@ -33,7 +33,7 @@ std::string finite_number(std::string& text) {
                                               : "found " + in_quotes(text) + "; accepted: a number";
 }
 
-// CLI11 names the kind of an option's value first: "UINT", "INT:INT in [1 - 9]", "[FLOAT,FLOAT,FLOAT]".
+// CLI11 begins the type name with the kind of value: "UINT", "INT:INT in [1 - 9]", "[FLOAT,FLOAT,FLOAT]".
 void read_strictly(CLI::Option& option) {
     const std::string named = option.get_type_name();
     const std::string kind = named.starts_with('[') ? named.substr(1) : named;

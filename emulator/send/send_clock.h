@@ -1,5 +1,5 @@
 #pragma once
-// The simulated time as a sender on this machine, or another, knows it; and `hilcam send clock`.
+// A sender's estimate of simulated time, and `hilcam send clock`.
 
 #include "emulator/send/send_target.h"
 #include "io/commands/clock_filter.h"
@@ -7,16 +7,16 @@
 
 namespace hilcam {
 
-// An exchange of clock readings by CLOCK_MONOTONIC of this machine, which carries `order`: into the filter.
-// Gives the answer. Throws DeviceError.
+// Exchanges clock readings by this machine's CLOCK_MONOTONIC in a packet that carries `order`, and adds the
+// result to the filter. Returns the answer. Throws DeviceError.
 Acknowledgement exchange_clock(CommandSender& sender, ClockCommand order, int timeout_ms,
                                ClockFilter& filter);
-// Measures as many times as the filter keeps; the first carries `order`. Gives its answer.
+// Measures as many times as the filter can hold. The first packet carries `order`; returns the answer to it.
 Acknowledgement measure_clock(CommandSender& sender, const ClockCommand& order, int timeout_ms,
                               ClockFilter& filter);
 
-// Carries out the order, if it is one, and prints how simulated time goes and how well it is known. Gives the
-// exit status.
+// Carries out the order, if there is one, and prints how simulated time runs and how well it is known.
+// Returns the exit status.
 int send_clock(const SendTarget& target, const ClockCommand& order);
 
 }  // namespace hilcam

@@ -28,9 +28,10 @@ struct SendOptions {
     std::filesystem::path script;
 };
 
-// Reports name the command that a frame shows by its sequence number, and 0 is none: so a program that sends
-// one command and ends takes a number from the nanoseconds. It lies far from that of the program before it,
-// so that nothing in between is counted as lost (sequence_window.h). cFS's 14 bits are too few for that.
+// Returns a sequence number from the clock's nanoseconds, never 0. Reports name the command in a frame by its
+// sequence number, and 0 means none. A program that sends a single command and ends thereby uses a number far
+// from that of the program before it, so that no number in between counts as lost (sequence_window.h). The 14
+// bits of cFS are too few for that.
 std::uint32_t sequence_by_clock(Dialect dialect) {
     if (dialect == Dialect::kCfs) return 0;
     return static_cast<std::uint32_t>(std::chrono::system_clock::now().time_since_epoch().count() | 1);
@@ -55,7 +56,7 @@ int list_faults() {
     return 0;
 }
 
-// Each line at its time; a line that comes late is sent at once.
+// Sends each line at its time; a late line is sent at once.
 int play_script(const SendOptions& o) {
     const std::string text = read_input_file(o.script, {64u << 20, "a text file of commands"});
     const std::vector<ScriptLine> lines = parse_script(text, o.script.string());

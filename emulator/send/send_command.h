@@ -6,8 +6,8 @@
 
 namespace hilcam {
 
-// Adds the subcommand. When it is chosen, `action` is set to what is to be done; it gives the exit status and
-// throws InputError, DeviceError.
+// Adds the subcommand. Choosing it sets `action`, which returns the exit status and throws InputError,
+// DeviceError.
 void add_send_command(CLI::App& app, std::function<int()>& action);
 
 }  // namespace hilcam

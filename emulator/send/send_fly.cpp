@@ -13,8 +13,8 @@
 namespace hilcam {
 namespace {
 
-// The time until the clock is asked again; until then a change of how time goes is not known, nor what clocks
-// of two machines have drifted apart.
+// Interval between clock measurements. Until the next one, a change in how time runs is not noticed, nor the
+// drift between two machines' clocks.
 constexpr std::int64_t kAskAgain_ns = 500'000'000;
 
 Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
@@ -41,8 +41,8 @@ void add_fly_options(CLI::App& app, FlyOptions& o) {
     app.add_option("--duration-s", o.duration_s, "duration of the flight")->check(CLI::Range(0.0, 1e7));
 }
 
-// Poses with time tags, on the emulator's own simulated time, which may go at another speed than this
-// machine's, or come to go at another: the flight goes with it.
+// Sends poses with time tags in the emulator's simulated time, which may run faster or slower than this
+// machine's, or change its speed; the flight follows it.
 int send_flight(const SendTarget& target, const FlyOptions& o) {
     CommandSender sender(target.endpoint, target.dialect);
     const CircleFlight flight = flight_of(o);
@@ -50,7 +50,7 @@ int send_flight(const SendTarget& target, const FlyOptions& o) {
     measure_clock(sender, {}, target.timeout_ms, clock);
     const std::int64_t start_ns = monotonic_ns();
     std::int64_t asked_ns = start_ns;
-    // Where nobody tells it: the poses are true on arrival.
+    // Without a clock reading, poses are valid on arrival.
     const TimeTai start = clock.simulated_at(start_ns).value_or(TimeTai{});
     std::vector<double> round_trips_ms;
     std::uint64_t accepted = 0, refused = 0;

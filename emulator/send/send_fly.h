@@ -1,5 +1,5 @@
 #pragma once
-// `hilcam send fly`: a flight on a circle, as time-tagged poses.
+// `hilcam send fly`: flies a circle with time-tagged poses.
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -14,7 +14,7 @@ struct FlyOptions {
     double period_s = 60, rate_hz = 50, duration_s = 20;
 };
 void add_fly_options(CLI::App& app, FlyOptions& options);
-// Prints counts and round trips; gives the exit status.
+// Prints counts and round-trip times. Returns the exit status.
 int send_flight(const SendTarget& target, const FlyOptions& options);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// The target that `hilcam send` sends to.
+// The emulator that `hilcam send` talks to.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@ struct SendTarget {
     std::string endpoint = "127.0.0.1:5010";
     DialectConfig dialect{};
     int timeout_ms = 1000;
-    std::uint16_t camera = 0;  // 0: every one
+    std::uint16_t camera = 0;  // 0: all cameras
 };
 
 }  // namespace hilcam

@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// Period of renewal: over UDP a subscription ends a minute after the last word from its sender.
+// Period of renewal: over UDP a subscription ends a minute after the last packet from its sender.
 constexpr std::int64_t kRenew_ns = 20'000'000'000;
 constexpr int kWait_ms = 500;
 
@@ -102,7 +102,7 @@ int watch_telemetry(const SendTarget& target, const WatchOptions& o) {
     const std::int64_t start_ns = monotonic_ns();
     std::int64_t renew_ns = start_ns;
     std::uint64_t frames = 0;
-    bool several = false;  // from the first report of another camera than the first on
+    bool several = false;  // set at the first report of a second camera
     while (true) {
         const std::int64_t now_ns = monotonic_ns();
         if (o.duration_s > 0 && static_cast<double>(now_ns - start_ns) * 1e-9 >= o.duration_s) return 0;

@@ -1,5 +1,5 @@
 #pragma once
-// `hilcam send watch`: telemetry on the terminal, one line a packet.
+// `hilcam send watch`: prints telemetry on the terminal, one line for each packet.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -10,15 +10,15 @@
 namespace hilcam {
 
 struct WatchOptions {
-    double duration_s = 0;     // 0: until it is stopped
+    double duration_s = 0;     // 0: until stopped
     std::uint64_t frames = 0;  // 0: no limit
     bool housekeeping_only = false, json = false;
 };
 void add_watch_options(CLI::App& app, WatchOptions& options);
-// Gives the exit status; throws DeviceError when the emulator is not there or goes.
+// Returns the exit status. Throws DeviceError when the emulator cannot be reached or goes away.
 int watch_telemetry(const SendTarget& target, const WatchOptions& options);
 
-// A line for people, or a JSON object. several: there are cameras to be told apart.
+// Return a line for people, or a JSON object. several: names the camera.
 std::string text_of(const Telemetry& telemetry, bool several = false);
 std::string json_of(const Telemetry& telemetry);
 

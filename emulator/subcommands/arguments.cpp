@@ -11,7 +11,7 @@ namespace hilcam {
 
 namespace {
 
-// Refuses what is neither a file, a path nor one of `names`. A path is told when it is read.
+// Refuses what is neither a file, a path nor one of `names`. Errors in a path show when the file is read.
 std::string refusal_of_name(const std::string& name, const std::filesystem::path& file,
                             const std::string& what, std::span<const std::string> names) {
     std::error_code error;

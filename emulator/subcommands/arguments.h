@@ -1,6 +1,5 @@
 #pragma once
-// The arguments that several subcommands take on the command line, and the tie between a subcommand and what
-// it does.
+// Arguments that several subcommands share, and the connection between a subcommand and its function.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -20,23 +19,23 @@ struct ConfigArguments {
     std::filesystem::path file;
     std::vector<std::string> overrides;
 };
-// Adds the positional CONFIG, which is required, and --set.
+// Adds the positional argument CONFIG, which is required, and --set.
 void add_config(CLI::App* command, ConfigArguments& config);
-// Adds --set alone. whose: "the scenario", as the help says whose keys are replaced.
+// Adds only --set. whose: what the help calls the owner of the keys, as in "the scenario".
 void add_overrides(CLI::App* command, std::vector<std::string>& overrides, const std::string& whose);
-// Puts a shipped file's path in the place of its name, and refuses a name that is neither that nor a file: of a
-// scenario or a camera; of a part of that kind (io/system/shipped_parts.h).
+// Replaces the name of a shipped file by its path; refuses a name that is neither shipped nor a file. Without
+// a kind, for scenarios and cameras; with one, for that kind (io/system/shipped_parts.h).
 CLI::Validator name_of_shipped();
 CLI::Validator name_of_shipped(const ShippedKind& kind);
-// Says why there is no shipped part on this machine; empty: there are.
+// Says why this machine has no shipped parts; empty: it has them.
 std::string without_shipped_parts();
 
-// Adds --camera, which counts from 1; 0 stays where the command line does not say it.
+// Adds --camera, which counts from 1. Without it on the command line, camera stays 0.
 void add_camera(CLI::App* command, std::size_t& camera);
-// Throws InputError when the scenario has fewer cameras than that.
+// Throws InputError when the scenario has fewer cameras.
 void require_camera(std::size_t camera, const ScenarioConfig& scenario);
 
-// Has `action` call `carry_out` with the arguments when the command line names the subcommand.
+// Makes `action` call `carry_out` with the arguments when the command line names the subcommand.
 template <class Arguments>
 void when_named(CLI::App* command, Action& action, std::shared_ptr<Arguments> arguments,
                 std::type_identity_t<int (*)(const Arguments&)> carry_out) {

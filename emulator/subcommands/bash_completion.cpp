@@ -12,14 +12,13 @@ std::string joined(const std::vector<std::string>& words) {
     return out;
 }
 
-// "-" stands for files.
+// Returns the words for an option's value; "-" stands for files.
 std::string value_words(const std::string& name, const OptionText& o) {
     if (name == "--set") return "@set";
     return o.words.empty() ? (o.takes_files ? "-" : "") : joined(o.words);
 }
 
-// Returns what stands in the place of a positional argument: words, or the name of a list that is made when
-// it is asked for.
+// Returns the completions of a positional argument: words, or the name of a list that is made on demand.
 std::string argument_words(const std::string& path, const OptionText& o) {
     const std::string& name = o.names.front();
     if (path == "manual") return "@keys";
@@ -33,7 +32,7 @@ std::string argument_words(const std::string& path, const OptionText& o) {
     return value_words(name, o);
 }
 
-// One line for each command: what its table says for a path of words, "send pose".
+// One table line for each command, keyed by its path of words, "send pose".
 struct Tables {
     std::string commands, options, values, arguments;
 };
@@ -56,7 +55,7 @@ void add(const CommandText& command, const std::string& path, Tables& out) {
         below.push_back(next.name);
         add(next, path.empty() ? next.name : path + " " + next.name, out);
     }
-    // Bash has no empty keys.
+    // Bash does not allow empty keys.
     const std::string key = path.empty() ? "." : path;
     if (!below.empty()) out.commands += fmt::format("    ['{}']='{}'\n", key, joined(below));
     out.options += fmt::format("    ['{}']='{}'\n", key, joined(names));

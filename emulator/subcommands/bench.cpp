@@ -1,4 +1,4 @@
-// `hilcam bench`: how fast a scenario runs here, or how far off its frames are.
+// `hilcam bench`: how fast a scenario runs on this machine, or how large the errors of its frames are.
 
 #include <spdlog/spdlog.h>
 
@@ -25,10 +25,10 @@ struct BenchArguments {
     bool json = false, sensor = false, error = false;
     BenchOptions speed;
     SoakOptions soak;
-    std::filesystem::path out;  // folder of the soak
+    std::filesystem::path out;  // folder for the results of the soak
     ErrorBenchOptions errors;
     ZooOptions zoo;
-    int reference_frames = 0;  // 0: as each kind of measurement has it
+    int reference_frames = 0;  // 0: the default of each kind of measurement
 };
 
 void print_lines(const std::string& text, const nlohmann::json& report, bool as_json) {
@@ -80,7 +80,7 @@ int carry_out(const BenchArguments& o) {
     return 0;
 }
 
-// A reference's frames come in halves and halves of halves.
+// The frames of a reference form halves, and halves of halves.
 CLI::Validator power_of_two_from_4() {
     return {[](std::string& text) {
                 int value = 0;

@@ -1,4 +1,4 @@
-// `hilcam cache`: what earlier runs have kept, and how to be rid of it.
+// `hilcam cache`: lists and deletes what earlier runs have stored.
 
 #include <spdlog/fmt/fmt.h>
 

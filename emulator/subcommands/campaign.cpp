@@ -20,7 +20,7 @@ namespace {
 struct CampaignArguments {
     ConfigArguments config;
     CampaignOptions options;
-    std::uint64_t only = 0;  // --case; 0: not told
+    std::uint64_t only = 0;  // --case; 0: not given
     std::string cases;       // "1-1000"
     bool slurm = false, submit = true;
     double task_s = 900;
@@ -52,7 +52,7 @@ void say_outcome(const CampaignOutcome& outcome, const std::filesystem::path& fo
                  folder.string());
 }
 
-// Cases that are there say how long one takes; without any, the first is made here.
+// Estimates the time of a case from existing cases; if there are none, makes the first one here.
 double seconds_of_case(const CampaignConfig& campaign, const CampaignOptions& options) {
     const CaseRange all{1, static_cast<std::uint64_t>(campaign.count)};
     if (CampaignFolder(campaign, options.out, true).missing(all, false).size() ==

@@ -1,4 +1,4 @@
-// `hilcam characterise`: a camera measured as in a laboratory.
+// `hilcam characterise`: measures a camera as in a laboratory.
 
 #include <spdlog/fmt/fmt.h>
 

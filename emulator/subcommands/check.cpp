@@ -18,9 +18,9 @@ namespace {
 
 struct CheckArguments {
     ConfigArguments config;
-    std::size_t camera = 0;  // from 1; 0: all of them
+    std::size_t camera = 0;  // from 1; 0: all cameras
     bool json = false;
-    bool strict = false;  // warnings are failures
+    bool strict = false;  // true: warnings count as failures
     CalibrationFormat calibration = CalibrationFormat::kNone;
 };
 

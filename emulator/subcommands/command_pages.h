@@ -1,5 +1,5 @@
 #pragma once
-// Manual pages and shell completion of a command line, made from its option tree. Pure: text in, text out.
+// Makes manual pages and shell completion from a command line's option tree. Pure functions on text.
 
 #include <string>
 #include <vector>
@@ -12,12 +12,12 @@ struct NamedText {
     std::string name, text;
 };
 
-// "hilcam.1", and "hilcam-run.1" for each subcommand with those below it, in the macros of man(7).
-// version: "hilcam 0.2.0".
+// Returns "hilcam.1", and a page like "hilcam-run.1" for each subcommand including its own subcommands, in
+// the macros of man(7). version: "hilcam 0.2.0".
 std::vector<NamedText> manual_pages(const CommandText& program, const std::string& version);
 
-// A script for bash that completes subcommands, options, their words, files, and in the place of a
-// configuration the shipped ones. keys: of a scenario, "objects.N.mesh", for --set and manual.
+// Returns a bash script that completes subcommands, options, their words, files, and names of shipped
+// configurations. keys: keys of a scenario, like "objects.N.mesh", for --set and manual.
 std::string bash_completion(const CommandText& program, const std::vector<std::string>& keys);
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-// `hilcam ground`: what a scenario's ground has about a place, as comma-separated values.
+// `hilcam ground`: lists a scenario's ground around a place, as comma-separated values.
 
 #include <spdlog/fmt/fmt.h>
 
@@ -44,7 +44,7 @@ int carry_out_footprint(const GroundArguments& o, const ScenarioConfig& scenario
     return 0;
 }
 
-// The site's axes at the scenario's start.
+// Prints the site's axes at the scenario's start.
 int list_axes(const ScenarioConfig& scenario) {
     const std::optional<PlaceConfig> site = site_of(scenario);
     if (!site)

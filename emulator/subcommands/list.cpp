@@ -1,4 +1,4 @@
-// `hilcam list`: the parts that are shipped and named by a word.
+// `hilcam list`: lists the shipped parts that can be named by a word.
 
 #include <spdlog/fmt/fmt.h>
 

@@ -7,8 +7,8 @@
 namespace hilcam {
 namespace {
 
-// Escapes what roff takes for itself: a backslash, and a dot or quote that begins a line. A hyphen that is
-// typed is "\-".
+// Escapes what roff would interpret: a backslash, and a dot or quote at the begin of a line. A literal hyphen
+// is "\-".
 std::string roff(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -70,7 +70,7 @@ std::string option_list(const CommandText& command) {
 }
 
 std::string header(const std::string& name, const std::string& meaning, const std::string& version) {
-    // No date: what is built twice is the same twice.
+    // Without a date, so that two builds give the same bytes.
     return fmt::format(".TH {} 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n", upper(roff(name)),
                        version, roff(name), roff(meaning));
 }
@@ -83,7 +83,7 @@ std::string see_also(const std::string& pages) {
            "bin/hilcam.\n";
 }
 
-// The examples of a command and of those below it; empty: there are none.
+// Returns the examples of a command and its subcommands; empty: none.
 std::string examples(const CommandText& command) {
     std::string lines;
     const auto add = [&](const CommandText& of) {
@@ -124,7 +124,7 @@ std::string main_page(const CommandText& program, const std::string& version) {
     for (const CommandText& command : program.commands)
         out += ".TP\n.BR hilcam\\-" + roff(command.name) + " (1)\n" + roff(command.meaning) + "\n";
     out += ".SH OPTIONS\n" + option_list(program);
-    CommandText alone = program;  // those of subcommands are in their own pages
+    CommandText alone = program;  // the examples of subcommands are in their own pages
     alone.commands.clear();
     out += examples(alone) + kEnds;
     out +=

@@ -23,7 +23,7 @@ int carry_out(const MeshArguments& o) {
     const MeshSurvey found = survey_mesh(load_mesh_contents(o.file, o.surface), o.file.string());
     fmt::print("{}", o.json ? to_json(found) : to_text(found));
     if (found.unreadable_textures.empty()) return 0;
-    std::fflush(stdout);  // the list comes before the message
+    std::fflush(stdout);  // prints the list before the message
     throw InputError(
         fmt::format("{}: {} of its textures cannot be read (they are listed under 'problems'); accepted: "
                     "textures that are there and decode",

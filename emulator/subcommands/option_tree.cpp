@@ -22,7 +22,7 @@ std::string_view word_of(std::string_view kind) {
     return kind == "FLOAT" ? "NUMBER" : kind == "INT" || kind == "UINT" ? "N" : kind;
 }
 
-// CLI11 writes the kind of a value and then its checks: "INT:INT in [1 - 65535]", "TEXT:{on,off}".
+// CLI11 writes the kind of a value, then its checks: "INT:INT in [1 - 65535]", "TEXT:{on,off}".
 void read_type(const std::string& type, OptionText& out) {
     const std::size_t colon = type.find(':');
     const std::string kind = type.substr(0, colon);
@@ -43,7 +43,7 @@ void read_type(const std::string& type, OptionText& out) {
         out.accepted = check;
     }
     out.takes_files = kind == "TEXT" && out.words.empty();
-    // Several are "[FLOAT,FLOAT,FLOAT]".
+    // Several values are written as "[FLOAT,FLOAT,FLOAT]".
     const bool several = kind.starts_with('[') && kind.ends_with(']');
     for (const std::string& one : split(several ? kind.substr(1, kind.size() - 2) : kind, ','))
         out.value += (out.value.empty() ? "" : " ") + std::string(word_of(one));

@@ -1,6 +1,6 @@
 #pragma once
-// The command line as data: what CLI11 knows of commands and options, in the words that people read. Manual
-// pages and completions are made from it.
+// The command line as data: commands and options from CLI11 in the words that people read. Manual pages and
+// completions are made from it.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -9,12 +9,12 @@
 namespace hilcam {
 
 struct OptionText {
-    std::vector<std::string> names;  // "-h", "--help"; of a positional argument its one name
-    std::string value;               // "NUMBER", "TEXT", "on|off"; empty: it takes none
-    std::string accepted;            // "1 to 65535"; empty: nothing more to say
-    std::vector<std::string> words;  // that the value is one of; empty: anything
+    std::vector<std::string> names;  // "-h", "--help"; for a positional argument, its only name
+    std::string value;               // "NUMBER", "TEXT", "on|off"; empty: the option has no value
+    std::string accepted;            // "1 to 65535"; empty: any value
+    std::vector<std::string> words;  // the only accepted values; empty: not limited to words
     std::string meaning;
-    std::string usual;  // the value that holds without it; empty: not told
+    std::string usual;  // value when the option is not given; empty: unknown
     bool is_positional = false, is_required = false, takes_files = false;
 };
 
@@ -26,7 +26,7 @@ struct CommandText {
     std::vector<std::string> examples;  // command lines (emulator/send/command_examples.h)
 };
 
-// A command with all below it, but for what is hidden (of the group ""). Owner thread.
+// Returns a command with all its subcommands, without hidden ones (in the group ""). Owner thread.
 CommandText described(const CLI::App& app);
 
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-// `hilcam prepare`: makes what a run would make beside its first frames.
+// `hilcam prepare`: makes what a run would otherwise make during its first frames.
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -19,7 +19,7 @@ namespace {
 
 struct PrepareArguments {
     ConfigArguments config;
-    std::vector<std::string> probe;  // an object's name and a number; empty: not asked
+    std::vector<std::string> probe;  // an object's name and a number; empty: not requested
 };
 
 ProbeChoice probe_of(const std::vector<std::string>& words) {
@@ -32,10 +32,10 @@ ProbeChoice probe_of(const std::vector<std::string>& words) {
     return choice;
 }
 
-// Loads what a camera loads for a run, and makes what of it is not on disk.
+// Loads what a camera loads for a run, and makes the parts that are not on disk.
 LightLoading prepare_camera(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid) {
     ScenarioConfig own = scenario_of_camera(bench, index);
-    own.loop.holds_rate = true;  // levels of quality that a run may have
+    own.loop.holds_rate = true;  // includes all quality levels that a run may have
     RunLimits limits;
     limits.outputs = limits.paced = false;
     CameraStation station(own, index + 1, limits);
@@ -54,7 +54,7 @@ int carry_out(const PrepareArguments& o) {
     const SpectralGrid grid(scenario.spectrum_edges_um);
     const Stopwatch watch;
     std::size_t made = 0, found = 0;
-    // One after the other: the scene of each is large.
+    // One camera after the other, because each scene is large.
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         const LightLoading light = in_memory(scenario, [&] { return prepare_camera(scenario, i, grid); });
         made += light.made, found += light.found;

@@ -1,4 +1,4 @@
-// `hilcam recording`: what a recording holds.
+// `hilcam recording`: lists the contents of a recording.
 
 #include <spdlog/fmt/fmt.h>
 

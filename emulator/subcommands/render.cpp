@@ -1,4 +1,4 @@
-// `hilcam render`: one picture.
+// `hilcam render`: makes one picture.
 
 #include <spdlog/spdlog.h>
 
@@ -23,10 +23,10 @@ struct RenderArguments {
     RenderFiles files;
     PictureStage stage = PictureStage::kFrame;
     double time_offset_s = 0;
-    std::size_t camera = 0;  // from 1; 0: not told
+    std::size_t camera = 0;  // from 1; 0: not given
 };
 
-// Is called before minutes go into a picture that is black.
+// Called before minutes go into a picture that would be black.
 void log_picture_verdict(StillCamera& camera) {
     const LoadedView view{camera.scenario(), camera.renderer(), camera.objects()};
     log_warnings(verdict_on_objects(view, VerdictOn::kPicture));

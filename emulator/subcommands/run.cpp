@@ -1,4 +1,4 @@
-// `hilcam run`: the camera, in real time.
+// `hilcam run`: runs the camera in real time.
 
 #include <spdlog/spdlog.h>
 
@@ -26,7 +26,7 @@ struct RunArguments {
     ConfigArguments config;
     std::filesystem::path report;
     RunLimits limits;
-    std::uint16_t preview_port = 0;  // 0: as the scenario says
+    std::uint16_t preview_port = 0;  // 0: as in the scenario
 };
 
 void warn_of_dark_pictures(const ScenarioConfig& scenario) {
@@ -37,8 +37,8 @@ void warn_of_dark_pictures(const ScenarioConfig& scenario) {
     }
 }
 
-// Judges what each camera sees at the first instant, by the truth's rays. Terrain is made for the pose that it is asked for: that
-// is the first frame's affair.
+// Judges what each camera sees at the first instant, by the truth's rays. Skips scenes with terrain, because
+// that is made for a pose when the first frame asks for it.
 void log_run_verdict(Emulator& emulator) {
     const TimeTai start = parse_utc(emulator.first().scenario().time_utc);
     const Pose first_camera = snapshot_at(emulator.first().scenario(), start, start).camera;
@@ -64,7 +64,7 @@ void say_that_it_runs(const ScenarioConfig& scenario) {
     spdlog::info("running; Ctrl-C ends it");
 }
 
-// Says in one line for each camera what has become of its frames, and of the recording's.
+// Reports in one line for each camera what happened to its frames, and to the recording's.
 void say_outputs(const Emulator& emulator) {
     for (const auto& station : emulator.stations()) {
         std::vector<SinkReport> outputs = output_reports(*station);
@@ -88,15 +88,15 @@ std::string waits_text(const Emulator& emulator) {
     return max_s < kWorthTelling_s ? "" : fmt::format(", {:.1f} s of it waiting for outputs", max_s);
 }
 
-// Says how late frames went out, which a count of missed exposures does not tell; nothing where none went out, or where
-// frames have no time to be late for.
+// Returns how late frames went out, which the count of missed exposures does not show. Empty when no frame
+// went out, and in lockstep.
 std::string lateness(const Emulator& emulator) {
     const DurationHistogram& late = emulator.first().delivery().exposure_to_last;
     if (late.count() == 0 || emulator.first().settings().limits().lockstep) return "";
     return fmt::format(", mid-exposure to last packet p99 {:.1f} ms", late.quantile_ms(0.99));
 }
 
-// Writes and says how the run went; returns the exit status.
+// Writes the report, prints how the run went, and returns the exit status.
 int conclude(const Emulator& emulator, const std::filesystem::path& report_file) {
     std::uint64_t outside = 0;
     for (const auto& station : emulator.stations()) outside += station->renderer().rays_outside_air();
@@ -125,7 +125,7 @@ int carry_out(const RunArguments& o) {
     ScenarioConfig scenario = load_scenario(config.file, config.overrides);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
-    // A limited number of frames is wanted for what they show. A replay may have frames of any level.
+    // With a limited number of frames, each must have its light. A replay may have frames of any level.
     limits.light_beside = limits.frames == 0;
     scenario.loop.holds_rate = limits.frames == 0 || !limits.replay.empty();
     log_info(settle_seed(scenario, limits.replay));

@@ -1,5 +1,5 @@
 #pragma once
-// The common part of subcommands that compute a scenario's frames: threads, memory, warnings.
+// Shared code of subcommands that compute frames: threads, memory, warnings.
 
 #include <tbb/global_control.h>
 
@@ -13,22 +13,22 @@
 
 namespace hilcam {
 
-// Holds oneTBB to the scenario's number of threads for as long as it lives.
+// Limits oneTBB to the scenario's number of threads while the result exists.
 std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario);
 
-// Reads and checks a scenario, and logs the warnings of that. Throws InputError.
+// Reads and checks a scenario, and logs its warnings. Throws InputError.
 ScenarioConfig load_and_warn(const ConfigArguments& config);
 
-// Each line is logged; an empty one says nothing.
+// Log each line that is not empty.
 void log_info(const std::string& line);
 void log_warning(const std::string& line);
 void log_warnings(const std::vector<std::string>& lines);
 
-// Throws a DeviceError that says which of the scenario's keys ask for most of the memory.
+// Throws a DeviceError that names the scenario's keys with the largest need for memory.
 [[noreturn]] void refuse_for_memory(const ScenarioConfig& scenario);
 
-// Returns what `action` returns; where memory does not suffice for that, the message names the keys that need
-// most.
+// Returns the result of `action`. If memory runs out, throws an error that names the keys with the largest
+// need.
 template <class Action>
 auto in_memory(const ScenarioConfig& scenario, const Action& action) {
     try {

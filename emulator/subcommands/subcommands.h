@@ -1,10 +1,9 @@
 #pragma once
-// The subcommands of the program, in the order in which `hilcam --help` lists them; each has a file of its
-// name.
+// The subcommands of the program in the order of `hilcam --help`; each has a file of the same name.
 //
-// Each function adds one subcommand to `app`. When the command line names it, `action` is set to what it
-// does: that returns the exit status and throws InputError, DeviceError. `app` and `action` outlive both.
-// `hilcam send` has a room of its own (emulator/send/send_command.h).
+// Each function adds one subcommand to `app`. When the command line names it, `action` is set to a function
+// that returns the exit status and throws InputError, DeviceError. `app` and `action` must outlive the
+// parsing and the action. `hilcam send` has its own room (emulator/send/send_command.h).
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -28,8 +27,8 @@ void add_characterise_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
 void add_cache_command(CLI::App& app, Action& action);
 void add_manual_command(CLI::App& app, Action& action);
-// Adds `make-pages`, which is hidden: by it the build makes manual pages and the completion out of the
-// command line itself.
+// Adds the hidden subcommand `make-pages`, with which the build makes manual pages and the completion from
+// the command line itself.
 void add_pages_command(CLI::App& app, Action& action);
 
 }  // namespace hilcam

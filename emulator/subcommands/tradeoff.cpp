@@ -1,4 +1,4 @@
-// `hilcam tradeoff`: speed against accuracy.
+// `hilcam tradeoff`: measures speed against accuracy.
 
 #include <spdlog/spdlog.h>
 

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-// Returns the one key of that name: "camera.exposure_ms" of "exposure_ms". Empty: there are none or several.
+// Returns the only key with that name: "camera.exposure_ms" for "exposure_ms". Empty: none, or several.
 std::string key_named(const std::string& name) {
     ScenarioConfig scenario;
     std::string found;
@@ -30,7 +30,7 @@ std::vector<std::string> options_of(const CLI::App& command) {
     return names;
 }
 
-// value: the word behind the option; empty: there is none.
+// value: the word after the option; empty: none.
 std::string advice(const CLI::App& command, const std::string& word, const std::string& value) {
     const std::string option = word.substr(0, word.find('='));
     const std::vector<std::string> options = options_of(command);
@@ -40,7 +40,7 @@ std::string advice(const CLI::App& command, const std::string& word, const std::
     if (const std::string key = takes_keys ? key_named(name) : ""; !key.empty())
         return "; " + in_quotes(key) + " is a key of the scenario: --set " + key + "=" +
                (value.empty() ? "VALUE" : harmless(value));
-    // A slip of the pen leaves the first letter.
+    // A misspelling usually keeps the first letter.
     if (const std::string nearest = nearest_of(option, options); nearest.substr(0, 3) == option.substr(0, 3))
         return "; nearest: " + nearest;
     return "; 'hilcam " + command.get_name() + " --help' lists what is accepted";

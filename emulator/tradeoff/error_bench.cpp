@@ -12,15 +12,15 @@ namespace {
 
 using Log = std::function<void(const std::string&)>;
 
-constexpr std::uint64_t kFrames = 2;  // frames of a view: one more than one tells what is chance
+constexpr std::uint64_t kFrames = 2;  // frames of a view; the second shows how much is chance
 
 struct View {
     double angle_deg = 0;
-    std::optional<Pose> body;  // none: where the scenario has it
+    std::optional<Pose> body;  // empty: as in the scenario
 };
 
-// The flight of the bench; where things have motions of their own, about where those have them. world: at the
-// start.
+// Uses the bench's flight; where things have their own motions, a circle about the places at the start.
+// world: at the start.
 std::vector<View> views_of(const ScenarioConfig& scenario, const WorldSnapshot& world, int count) {
     if (scenario.objects.empty()) return {View{}};
     CircleFlight flight = circle_around_target(scenario);
@@ -39,7 +39,7 @@ struct ViewErrors {
     std::vector<double> errors, scatter;  // by lit pixel, in sensor noise
 };
 
-// Two frames, each with a seed of its own.
+// Renders two frames with independent seeds.
 ViewErrors measure(StillCamera& camera, const PictureJudge& judge, std::uint64_t seed) {
     ViewErrors out;
     MeanErrors mean;
@@ -59,7 +59,7 @@ ViewErrors measure(StillCamera& camera, const PictureJudge& judge, std::uint64_t
     return out;
 }
 
-// The references of the views, those that are kept from the disk. The camera is loaded for the first that is
+// The references of the views, from disk where they exist. The camera is loaded for the first one that does
 // not.
 class References {
   public:
@@ -67,7 +67,7 @@ class References {
                const Log& log)
         : scenario_(scenario), limits_(limits), cache_(cache), log_(log) {}
 
-    // camera_world: where the view has the camera.
+    // camera_world: the camera's pose in the view.
     ReferencePicture of(const View& view, const Pose& camera_world) {
         const std::string key = reference_key(scenario_, view.body.value_or(camera_world), limits_);
         const std::filesystem::path file = cache_.folder() / reference_name(key);

@@ -1,10 +1,11 @@
 #pragma once
-// `hilcam bench --error`: how far a scenario's frames are from the truth, in views all around its target.
+// `hilcam bench --error`: measures how far a scenario's frames are from the truth, in views all around its
+// target.
 //
-// Views are spaced evenly over the flight of `hilcam bench` (bench/pilot.h), the camera at rest against the
-// target; time is the scenario's start, so that nothing but the camera moves. A scenario without objects has
-// one view, its own. In each view two frames with light paths of their own are compared with a reference
-// (picture_judge.h), which is kept in the cache folder (reference_cache.h).
+// Views are spaced evenly over the flight of `hilcam bench` (bench/pilot.h), with the camera at rest relative
+// to the target. The time is always the scenario's start, so that only the camera moves. A scenario without
+// objects has one view, its own. In each view, two frames with independent light paths are compared with a
+// reference (picture_judge.h) from the cache folder (reference_cache.h).
 
 #include <filesystem>
 #include <functional>
@@ -22,20 +23,20 @@ namespace hilcam {
 struct ErrorBenchOptions {
     int views = 6;
     ReferenceLimits reference{.max_frames = 4};
-    std::vector<std::string> reference_set;  // KEY=VALUE, in place of reference_overrides()
+    std::vector<std::string> reference_set;  // KEY=VALUE, replaces reference_overrides()
 };
 
-// The errors of pictures. For a view they are means over its frames, and those in sensor noise over all lit
-// pixels of its frames together. Over all views, those in sensor noise are over all lit pixels of all views
-// together, false lights are summed up, and the others are the mean over the views that have them.
+// Errors of pictures. A view's figures are means over its frames, except those in sensor noise, which are
+// taken over all lit pixels of its frames together. Over all views, errors in sensor noise are taken over all
+// lit pixels of all views, false lights are added up, and the others are means over the views that have them.
 struct ErrorFigures {
-    PictureErrors picture;  // errors except its noise
+    PictureErrors picture;  // all errors except picture.noise
     NoiseError error, scatter;
 };
 
 struct ErrorView : ErrorFigures {
     double angle_deg = 0;
-    Vec3d position_m;  // place of the camera in the world
+    Vec3d position_m;  // the camera's position in the world
     int reference_frames = 0;
     double reference_seconds = 0;
     NoiseError reference_standard_error;
@@ -47,13 +48,13 @@ struct ErrorBench {
     std::vector<ErrorView> views;
     ErrorFigures all_views;
     std::uint64_t frames_per_view = 0;
-    std::vector<std::string> reference_set;  // KEY=VALUE, what the references have in place of the scenario's
+    std::vector<std::string> reference_set;  // KEY=VALUE that the references have instead of the scenario's
 };
 
 // Throws InputError, DeviceError. Owner thread.
 ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& options, const Cache& cache,
                        const std::function<void(const std::string&)>& log);
-// Null in it: there is no such thing in the picture.
+// Null means that the picture contains nothing of that kind.
 nlohmann::json error_bench_json(const ErrorBench& result);
 std::string error_bench_text(const ErrorBench& result);
 

@@ -46,8 +46,8 @@ NoiseError noise_error(const ElectronImage& image, const ElectronImage& referenc
 std::size_t false_lights(const ElectronImage& image, const ElectronImage& reference,
                          const ElectronImage& dark, const SensorNoise& noise) {
     HILCAM_CHECK(image.pixels() == reference.pixels() && image.pixels() == dark.pixels());
-    // Far enough out that the reference's own scatter makes none; dim enough that no frame shows an edge
-    // there.
+    // Far enough above the noise that the reference's scatter causes none, and dim enough that edges in a
+    // frame cause none.
     constexpr double kMin_sigma = 5, kMaxTrue_e = 100;
     std::size_t count = 0;
     for (std::size_t i = 0; i < image.pixels(); ++i) {

@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kStep_px = 0.25;
 constexpr std::size_t kSamples = static_cast<std::size_t>(2 * kLimbReach_px / kStep_px) + 1;
-// Places on the whole limb: enough that a narrow field, in which a thousandth of it is, still has some.
+// Candidates on the whole limb: enough for a narrow field that contains a thousandth of it.
 constexpr int kCandidates = 65536;
 constexpr std::size_t kMaxPoints = 512, kMinPoints = 8;
 
-// The body as the camera has it.
+// The limb of a body, seen by the camera.
 class Limb {
   public:
     Limb(const BodyState& body, const Figure& figure, const Pose& camera)
@@ -28,7 +28,7 @@ class Limb {
         const double distance = length(stretched);
         outside_ = distance > a;
         if (!outside_) return;
-        // The middle of the circle on which rays touch the sphere.
+        // The centre of the circle on which rays touch the sphere.
         middle_m_ = (a * a / (distance * distance)) * stretched;
         radius_m_ = a * std::sqrt((1 - a / distance) * (1 + a / distance));
         const Vec3d axis = stretched / distance;
@@ -38,7 +38,7 @@ class Limb {
     }
     bool outside() const { return outside_; }
 
-    // Returns the direction from the camera to a place on the limb, camera axes.
+    // Returns the direction from the camera to a place on the limb, in camera axes.
     Vec3d direction_camera(double angle_rad) const {
         const Vec3d p = middle_m_ + radius_m_ * (std::cos(angle_rad) * across_ + std::sin(angle_rad) * up_);
         return camera_from_fixed_ * (Vec3d{p.x, p.y, p.z / stretch()} - camera_m_);
@@ -61,12 +61,12 @@ class Limb {
 std::optional<Vec2d> in_view(const ImageGeometry& g, Vec3d direction_camera) {
     if (!(direction_camera.z > 0.01 * length(direction_camera))) return std::nullopt;
     const Vec2d p = g.project_px(direction_camera);
-    // Samples are read between the middles of pixels.
+    // Samples are interpolated between pixel centres.
     constexpr double kMargin_px = kLimbReach_px + 1;
     const bool inside = p.x > kMargin_px && p.y > kMargin_px && p.x < g.width_px - kMargin_px &&
                         p.y < g.height_px - kMargin_px;
     if (!inside) return std::nullopt;
-    // A strong lens distortion folds over, far outside its field.
+    // A strong lens distortion folds over far outside the field.
     const Vec3d back = g.direction_camera(p.x, p.y);
     if (length(normalized(back) - normalized(direction_camera)) * g.focal_length_px > 0.01)
         return std::nullopt;
@@ -75,7 +75,7 @@ std::optional<Vec2d> in_view(const ImageGeometry& g, Vec3d direction_camera) {
 
 std::optional<LimbPlace> place_at(const Limb& limb, const ImageGeometry& g, double angle_rad) {
     const std::optional<Vec2d> p = in_view(g, limb.direction_camera(angle_rad));
-    // A neighbour for the tangent, along the picture's curve.
+    // A neighbour gives the tangent along the limb in the picture.
     const std::optional<Vec2d> q = in_view(g, limb.direction_camera(angle_rad + 1e-6));
     if (!p || !q) return std::nullopt;
     const Vec2d tangent{q->x - p->x, q->y - p->y};
@@ -109,7 +109,7 @@ Profile profile_at(const ElectronImage& image, const LimbPlace& place, Vec2d off
     return out;
 }
 
-// Means over the outer quarters.
+// Means over the outermost quarters.
 struct Ends {
     double sky_e = 0, disk_e = 0;
 };
@@ -123,7 +123,8 @@ Ends ends_of(const Profile& profile) {
     return ends;
 }
 
-// Coming from the sky [px on the way in]; the profile's length when it never gets there.
+// Returns how far the profile goes inwards from the sky until it reaches a level [px]; its length if it never
+// does.
 double first_reach_px(const Profile& profile, double level_e) {
     for (std::size_t i = 0; i < kSamples; ++i) {
         if (profile[i] < level_e) continue;

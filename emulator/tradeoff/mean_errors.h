@@ -1,5 +1,5 @@
 #pragma once
-// The mean of what is measured of several frames of one picture.
+// Averages the errors of several frames of one picture.
 
 #include "emulator/tradeoff/picture_judge.h"
 
@@ -29,7 +29,7 @@ class MeanErrors {
     }
 
   private:
-    // Adds a value; a figure that one frame lacks, the mean has not.
+    // Adds a value to a sum. If any frame lacks the figure, the mean lacks it, too.
     void add(std::optional<double>& sum, const std::optional<double>& value) const {
         if (!value || (count_ > 1 && !sum)) return sum.reset();
         sum = sum.value_or(0) + *value;

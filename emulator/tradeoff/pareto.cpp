@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-// Sorts by time, of equal times the more accurate first, of equal points the first.
+// Sorts by time, then by error, then by order.
 std::vector<std::size_t> by_time(std::span<const TimedError> points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -28,7 +28,7 @@ std::vector<std::size_t> front_of(std::span<const TimedError> points, const std:
     return front;
 }
 
-// 0 .. count-1 by their bits read backwards: 0, 4, 2, 6, 1, 5, 3, 7 of eight.
+// Returns 0 .. count-1 in the order of their reversed bits: 0, 4, 2, 6, 1, 5, 3, 7 for eight.
 std::vector<std::size_t> spread(std::size_t count) {
     int bits = 0;
     while ((std::size_t{1} << bits) < count) ++bits;

@@ -16,15 +16,15 @@ namespace hilcam {
 namespace {
 
 constexpr int kTargetMargin_px = 8;
-// Their light paths are none that a measured frame has (tradeoff.cpp counts from 0).
+// No measured frame uses these light paths (tradeoff.cpp counts from 0).
 constexpr std::uint64_t kFirstReferenceFrame = std::uint64_t{1} << 32;
 
-// Returns the gain of the frame that StillCamera takes.
+// Returns the gain of a frame by StillCamera.
 double gain_db_of(const CameraModel& camera) {
     return camera.sequence.empty() ? camera.gain_db : camera.sequence[0].gain_db;
 }
 
-// A sum of pictures, in double.
+// A sum of pictures in double precision.
 class PictureSum {
   public:
     explicit PictureSum(const ElectronImage& like) : width_(like.width()), height_(like.height()) {
@@ -56,7 +56,7 @@ PixelBox join(const PixelBox& a, const PixelBox& b) {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-// Returns the first object and its joints' parts, which stand behind all objects (scene_loader.cpp).
+// Returns the first object and its parts on joints, which follow all objects (scene_loader.cpp).
 std::vector<std::size_t> target_parts(const ScenarioConfig& s) {
     if (s.objects.empty()) return {};
     std::vector<std::size_t> parts = {0};
@@ -80,7 +80,7 @@ double saturation_of(const CameraModel& camera) {
 
 constexpr double kLongReference_s = 1800;
 
-// Tenths of seconds where it is a matter of seconds.
+// Writes tenths of a second for short times.
 std::string wait_text(double seconds) {
     return seconds < 10 ? fmt::format("{:.2g} s", seconds) : duration_text(seconds);
 }
@@ -110,7 +110,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
             log(fmt::format("a frame of the reference takes {}: {} for 4, up to {} for {}",
                             wait_text(frame_s), wait_text(4 * frame_s),
                             wait_text(limits.max_frames * frame_s), limits.max_frames));
-            // Half an hour before the sweep begins is seldom what was meant.
+            // A wait of half an hour before the sweep is probably not intended.
             if (4 * frame_s > kLongReference_s)
                 log("that is long: --set camera.window_px=[LEFT, TOP, WIDTH, HEIGHT] measures a part of the "
                     "picture, "
@@ -169,18 +169,18 @@ void PictureJudge::find_target(const StillCamera& camera, const ScenarioConfig& 
 }
 
 void PictureJudge::find_limbs(const StillCamera& camera, const ScenarioConfig& s) {
-    // The lines of a line camera are not of one instant.
+    // The lines of a line camera have different instants.
     if (s.camera.shutter.kind == ShutterKind::kLineScan) return;
     const ImageGeometry geometry = geometry_of(s.camera, 0);
     const WorldSnapshot& world = camera.world();
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         if (!s.bodies[i].visible) continue;
-        // Where terrain stands the smooth body's limb is not what is seen.
+        // Terrain hides the smooth body's limb.
         if (s.terrain && s.terrain->place && i == index_of(s.terrain->place->body)) continue;
         for (const LimbPlace& place :
              limb_places(world.bodies.body[i], kFigures[i], world.camera, geometry)) {
             const double x = place.position_px.x + offset_px_.x, y = place.position_px.y + offset_px_.y;
-            // The target may stand before it.
+            // The target may be in front of it.
             const bool free = x < target_.x0 || x > target_.x1 || y < target_.y0 || y > target_.y1;
             if (free) limbs_.push_back(place);
         }

@@ -19,7 +19,7 @@ std::uint64_t hash_of(const std::string& text) {
     return hash.value();
 }
 
-// No holes between the members.
+// Has no padding between members.
 struct Header {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'R', 'P'};
     std::uint32_t version = kReferenceVersion;
@@ -32,7 +32,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == 80 && std::is_trivially_copyable_v<Header>);
 
-// A size that no file can have allocates nothing.
+// Refuses impossible sizes before memory is allocated.
 bool is_size(const Header& header) {
     constexpr std::int32_t kMax_px = 1 << 16;
     return header.width >= 1 && header.height >= 1 && header.width <= kMax_px && header.height <= kMax_px;

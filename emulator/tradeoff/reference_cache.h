@@ -1,5 +1,5 @@
 #pragma once
-// Reference pictures kept on disk: one takes minutes.
+// Keeps reference pictures on disk, because one takes minutes to make.
 
 #include <optional>
 #include <span>
@@ -11,25 +11,25 @@
 
 namespace hilcam {
 
-// All that a reference depends on, and more than that, as text: the limits, where the camera's body stands,
-// and the scenario at the reference's settings (scenario_listing.h: a file by its name, length and CRC-32; a
-// generated mesh by the generator's arguments). A key of the quality at its default is not in it, so that a
-// new one that the reference has no use for makes no other reference; kReferenceVersion stands for the
+// Returns everything that a reference depends on, and more, as text: the limits, the pose of the camera's
+// body, and the scenario at the reference's settings (scenario_listing.h: a file by its name, length and
+// CRC-32, a generated mesh by the generator's arguments). Quality keys at their defaults are left out, so
+// that a new key with no effect on the reference does not invalidate it; kReferenceVersion covers changes of
 // defaults.
 std::string reference_key(const ScenarioConfig& reference, const Pose& body, const ReferenceLimits& limits);
 
-// Raised when the same key would give another reference: the path tracer, the sensor's optics, a default, a
-// generated mesh.
+// Raised when the same key would give another reference, after changes of the path tracer, the sensor's
+// optics, a default, or a generated mesh.
 inline constexpr std::uint32_t kReferenceVersion = 4;
 
-// The name of that key's file in the cache.
+// Returns the name of the key's file in the cache.
 std::string reference_name(const std::string& key);
-// Returns the reference that is kept there, bit by bit, and fills the images `beside` it, which have its size. None when
-// there is no file, or it is damaged, has another number of images, or is another key's or version's; `beside` then
-// holds anything.
+// Returns the stored reference bit by bit, and fills the images `beside` it, which have its size. Returns
+// nothing when the file is missing, damaged, of another key or version, or has another number of images; the
+// content of `beside` is then undefined.
 std::optional<ReferencePicture> kept_reference(const Cache& cache, const std::string& key,
                                                std::span<ElectronImage* const> beside = {});
-// A folder that cannot be written is no failure.
+// Stores a reference. A folder that cannot be written is ignored.
 void keep_reference(const Cache& cache, const std::string& key, const ReferencePicture& picture,
                     std::span<const ElectronImage* const> beside = {});
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kWindow_px = 11;
 
-// Weights of the window along one axis; their sum is 1.
+// Returns the weights of the window along one axis; their sum is 1.
 std::array<double, kWindow_px> window_weights() {
     constexpr double kSigma_px = 1.5;
     std::array<double, kWindow_px> weights{};
@@ -24,7 +24,7 @@ std::array<double, kWindow_px> window_weights() {
     return weights;
 }
 
-// Numbers on the pixels of a picture, row by row.
+// Values for the pixels of a picture, row by row.
 struct Plane {
     int width, height;
     std::vector<double> values;
@@ -49,8 +49,8 @@ Plane as_doubles(const ElectronImage& image) {
     return out;
 }
 
-// Returns the window's means along each row, at the places where it fits, with rows and columns exchanged: done twice, this is the
-// mean under the whole window.
+// Returns the window's means along each row, where the window fits, with rows and columns exchanged. Applied
+// twice, this gives the mean over the whole window.
 Plane means_along_rows(const Plane& in) {
     static const std::array<double, kWindow_px> kWeights = window_weights();
     Plane out{in.height, in.width - kWindow_px + 1, {}};

@@ -18,7 +18,7 @@ namespace {
 using Log = std::function<void(const std::string&)>;
 using Kind = MeasuredSetting::Kind;
 
-// One frame of a setting: whole, and its rendering [ms].
+// Times of one frame: in total, and for rendering [ms].
 struct FrameTime {
     double frame_ms, render_ms;
 };
@@ -76,13 +76,13 @@ class Sweep {
             ++tried_;
         }
     }
-    // Returns the share that is done, by settings or by the budget, whichever ends it sooner.
+    // Returns the finished share, by settings or by the budget, whichever ends sooner.
     double share_done() const {
         return std::max(static_cast<double>(tried_) / static_cast<double>(planned_),
                         1 - left_s() / options_.budget_s);
     }
 
-    // A setting that cannot be is left out with its reason, unless it is the scenario itself.
+    // Leaves out an impossible setting with its reason, unless it is the scenario itself.
     void try_setting(Kind kind, const std::vector<std::size_t>& choices) {
         try {
             measure(kind, choices);

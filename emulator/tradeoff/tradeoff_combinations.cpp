@@ -11,22 +11,21 @@ namespace {
 
 using Choices = std::vector<std::size_t>;
 
-// A value that is neither so much faster nor so much more accurate than the scenario's own does nothing:
-// smaller differences are the clock's, and those of the light paths that happened to be drawn.
+// Smallest changes that count: smaller ones come from the clock, or from the random light paths.
 constexpr double kFaster = 0.03, kMoreAccurate = 0.05;
-// Gain between neighbours of the predicted front, whose errors are guesses.
+// Smallest gain between neighbours on the predicted front, where errors are guesses.
 constexpr double kPredictedGain = 0.05;
 constexpr std::size_t kMaxCandidates = 200'000;
 
-// Returns the error of a setting: squares of this add, where percentiles hide the lesser of two errors behind
-// the greater.
+// Returns the rms error of a setting, because squares add up, whereas percentiles hide the smaller of two
+// errors behind the larger.
 double error_of(const MeasuredSetting& s) { return s.errors.noise.rms; }
 
-// A value of a knob against the scenario's own.
+// The effect of a knob's value relative to the scenario's own.
 struct KnobEffect {
     std::size_t choice = 0;
     double time_ratio = 1;
-    double error_squared = 0;  // added to the own setting's
+    double error_squared = 0;  // added to that of the own setting
 };
 
 double weight_of(const std::vector<KnobEffect>& effects, double own_error_squared) {
@@ -37,8 +36,8 @@ double weight_of(const std::vector<KnobEffect>& effects, double own_error_square
     return most;
 }
 
-// Returns those of one knob's measured values that are on its own front. The scenario's own is always among
-// them: what another value spoils may not be seen beside the scenario's other errors.
+// Returns the measured values of one knob that are on its own front. They always include the scenario's own,
+// because the loss from another value may be invisible beside the scenario's other errors.
 std::vector<KnobEffect> front_of_knob(std::size_t knob, const std::vector<MeasuredSetting>& settings) {
     const MeasuredSetting& own = settings.front();
     std::vector<TimedError> points;
@@ -63,7 +62,7 @@ std::vector<KnobEffect> front_of_knob(std::size_t knob, const std::vector<Measur
 TimedError predicted(const MeasuredSetting& own, const std::vector<std::vector<KnobEffect>>& fronts,
                      const Choices& place) {
     double time_ratio = 1, squared = error_of(own) * error_of(own);
-    // No guess is better than this share of what is known.
+    // A prediction never goes below this share of the known error.
     const double least = 0.0025 * squared;
     for (std::size_t k = 0; k < fronts.size(); ++k) {
         time_ratio *= fronts[k][place[k]].time_ratio;
@@ -72,7 +71,7 @@ TimedError predicted(const MeasuredSetting& own, const std::vector<std::vector<K
     return {own.times.frame_ms * time_ratio, std::sqrt(std::max(squared, least))};
 }
 
-// The next place, as the digits of a counter; false after the last.
+// Advances like a counter's digits; false after the last combination.
 bool advance(Choices& place, const std::vector<std::vector<KnobEffect>>& fronts) {
     for (std::size_t k = 0; k < place.size(); ++k) {
         if (++place[k] < fronts[k].size()) return true;
@@ -81,7 +80,7 @@ bool advance(Choices& place, const std::vector<std::vector<KnobEffect>>& fronts)
     return false;
 }
 
-// Leaves the knobs that do least at their own values until the rest can be gone through.
+// Keeps the knobs with the least effect at their own values, until the remaining combinations are few enough.
 void limit_candidates(std::vector<std::vector<KnobEffect>>& fronts, double own_error_squared) {
     const auto candidates = [&] {
         double count = 1;

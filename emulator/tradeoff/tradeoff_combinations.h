@@ -1,5 +1,5 @@
 #pragma once
-// Finds which combinations of settings are worth a measurement, from what each knob does alone.
+// Predicts from single knobs which combinations of settings are worth measuring.
 
 #include <cstddef>
 #include <vector>
@@ -8,13 +8,14 @@
 
 namespace hilcam {
 
-// Combinations of choices in the order in which to measure them, so many at most; without those that differ
-// from the scenario's own setting in one knob or none. settings: the scenario's own, then single ones.
+// Returns combinations of choices in the order in which to measure them, at most `most`. Combinations that
+// differ from the scenario's own setting in fewer than two knobs are left out. settings: the scenario's own,
+// then settings with one changed knob.
 //
-// Of each knob there are its own value and those on its own front of time and error. Of all their
-// combinations those come first that promise to be on the front of all: times are taken to multiply and mean
-// squares of errors to add, each knob's share as it was alone. The promise sets the order only; what counts
-// is measured.
+// Of each knob, the scenario's value and those on the knob's own front of time and error are combined.
+// Combinations that are predicted to be on the overall front come first. The prediction multiplies times and
+// adds mean squares of errors, with each knob's contribution as it was alone. It only determines the order;
+// results are measured.
 std::vector<std::vector<std::size_t>> promising_combinations(const std::vector<Knob>& knobs,
                                                              const std::vector<MeasuredSetting>& settings,
                                                              std::size_t most);

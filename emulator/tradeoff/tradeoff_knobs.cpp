@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-// The parts that a scenario must have for a knob to do something.
+// The parts of a scenario without which a knob has no effect.
 enum class Needs { kNothing, kSurfaces, kMeshes, kTerrain, kAir };
 
 struct KnobRow {
@@ -88,7 +88,7 @@ Knob knob_of(const KnobRow& row, const ScenarioSource& source, ScenarioConfig& o
     return knob;
 }
 
-// Sub-steps of an exposure: how many follows from how far a step may be.
+// The knob for sub-steps of an exposure; their number follows from the allowed length of a step.
 Knob motion_knob(const ScenarioConfig& own) {
     constexpr double kSteps_px[] = {1, 0.25};
     const auto exact = [](double step_px) { return fmt::format("exact, {} px", step_px); };
@@ -115,9 +115,9 @@ std::string edges_override(const std::vector<double>& edges_um) {
     return fmt::format("spectrum_edges_um=[{}]", list);
 }
 
-// Returns the oversampling of the reference. Detail that is finer than a pixel of the radiance image aliases
-// before the lens has dimmed it, which takes 8 % of an edge's height and falls with the square
-// (docs/sensor.md): as much as fits into two images of 1 GiB of 8 bins.
+// Returns the oversampling of the reference, as much as fits into two images of 1 GiB with 8 bins. Detail
+// finer than a pixel of the radiance image aliases before the lens attenuates it; this costs 8 % of an edge's
+// height, and falls with the square of the oversampling (docs/sensor.md).
 std::int64_t reference_oversampling(const ScenarioConfig& s, std::int64_t guard_px) {
     constexpr std::int64_t kMaxPixels = std::int64_t{1} << 25;
     const PixelRectangle w = window_of(s.camera);
@@ -187,19 +187,19 @@ void reset_idle(const std::vector<Knob>& knobs, std::vector<std::size_t>& choice
 std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
     const std::int64_t guard_px = std::max<std::int64_t>(64, s.quality.guard_px);
     const std::int64_t oversampling = reference_oversampling(s, guard_px);
-    constexpr std::int64_t kRaysPerAxis = 8;  // rays per axis of a pixel of the detector, at least
+    constexpr std::int64_t kRaysPerAxis = 8;  // at least this many for each detector pixel
     std::vector<std::string> out = {
         "quality.path_model=path",
-        // A ninth surface adds less than 0.9^8 of what nearly white ones send on: below any noise asked for
-        // here.
+        // A ninth surface adds less than 0.9^8 of what nearly white surfaces reflect: below any noise level
+        // of interest.
         "quality.max_depth=8",
         fmt::format("quality.samples_per_axis={}", (kRaysPerAxis + oversampling - 1) / oversampling),
         "quality.contribution_threshold=0.0001",
-        // This scatters the rays in their pixels, too, so that frames that are averaged do not share a grid.
+        // Also scatters rays within their pixels, so that averaged frames do not share a grid.
         "quality.visibility=rays",
         "quality.sun_disk=true",
         "quality.facets_behind_diffuse=0",
-        // Not used; as they are by default, so that references do not depend on them.
+        // Unused; at its default, so that references do not depend on it.
         fmt::format("quality.probe_directions={}", RenderQuality{}.probe_directions),
         fmt::format("quality.probes={}", RenderQuality{}.probes),
         fmt::format("quality.source_step_deg={}", RenderQuality{}.source_step_rad / kDegree_rad),

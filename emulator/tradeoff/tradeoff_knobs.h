@@ -1,10 +1,9 @@
 #pragma once
-// The knobs that `hilcam tradeoff` turns: the choices of a scenario that trade speed for accuracy, as a
-// table.
+// The knobs of `hilcam tradeoff`: a table of a scenario's choices between speed and accuracy.
 //
-// A value is what `--set` takes, so that it is read and checked as a user's would be, and can be handed back
-// to one. Not here: single or double precision, which geometry decides (bodies and world in double, rays in
-// single); `watertight` is the one choice of precision.
+// A value has the form that `--set` takes, so that it is read and checked like a user's input and can be
+// shown to a user. Single or double precision is not a knob, because geometry decides it (bodies and world in
+// double, rays in single); `watertight` is the one choice of precision.
 
 #include <filesystem>
 #include <string>
@@ -16,27 +15,27 @@ namespace hilcam {
 
 struct KnobValue {
     std::string label;
-    std::vector<std::string> overrides;  // KEY=VALUE; none: as the scenario has it
+    std::vector<std::string> overrides;  // KEY=VALUE; empty: as in the scenario
 };
 
-// The things on which a knob's effect hangs.
+// The condition under which a knob has an effect.
 enum class KnobRole {
     kAlways,
     kPathModel,
-    kDepth,    // idle where the path model is direct
-    kBounces,  // likewise, and where there is but one surface
+    kDepth,    // no effect with the direct path model
+    kBounces,  // no effect with the direct path model, or with a single surface
 };
 
 struct Knob {
     std::string name;
     KnobValue own;                  // the scenario's value
-    std::vector<KnobValue> others;  // each differs from it
+    std::vector<KnobValue> others;  // each differs from `own`
     KnobRole role = KnobRole::kAlways;
     const KnobValue& value(std::size_t choice) const { return choice == 0 ? own : others[choice - 1]; }
     std::size_t choices() const { return 1 + others.size(); }
 };
 
-// A scenario as the user named it.
+// A scenario as the user specified it.
 struct ScenarioSource {
     std::filesystem::path file;
     std::vector<std::string> overrides;
@@ -45,25 +44,26 @@ struct ScenarioSource {
     ScenarioConfig load(const std::vector<std::string>& more = {}) const;
 };
 
-// Joins overrides; of two values for a key the later one counts.
+// Joins overrides. The later of two values for a key counts.
 std::vector<std::string> joined_overrides(const std::vector<std::string>& first,
                                           const std::vector<std::string>& second);
 
-// Those that the scenario has a use for: no level of detail without an object, no air without an atmosphere.
+// Returns the knobs that matter to the scenario: no level of detail without an object, no air without an
+// atmosphere.
 std::vector<Knob> knobs_of(const ScenarioSource& source);
 
-// Puts knobs that do nothing beside the others' choices back to the scenario's own values: what differs in
-// these alone is the same picture.
+// Resets knobs without effect beside the other choices to the scenario's own values. Settings that differ
+// only in such knobs give the same picture.
 void reset_idle(const std::vector<Knob>& knobs, std::vector<std::size_t>& choices);
 
-// The best that there is, as overrides: what errors are measured against.
+// Returns the best available quality as overrides. Errors are measured against it.
 std::vector<std::string> reference_overrides(const ScenarioConfig& scenario);
 
-// Edges for the same range in `bins` bins: some of the given edges for fewer bins, parts of equal width of
-// each bin for more. [um]
+// Returns edges [um] that divide the same range into `bins` bins: a selection of the given edges for fewer
+// bins, equal parts of each bin for more.
 std::vector<double> regrouped_edges_um(const std::vector<double>& edges_um, std::size_t bins);
 
-// A setting's quality section as a file that a scenario's `quality:` can name.
+// Returns a setting's quality section as a file that a scenario's `quality:` can name.
 std::string quality_yaml(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

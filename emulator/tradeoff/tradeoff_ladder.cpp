@@ -22,7 +22,7 @@ bool may_change_between_frames(const std::vector<std::string>& overrides) {
     });
 }
 
-// Indices of settings, best first; more than the ladder can have are thinned out evenly.
+// Returns indices of settings, best first, thinned out evenly to the largest number of levels.
 std::vector<std::size_t> rungs(const Tradeoff& t) {
     const double own_ms = t.settings.front().times.frame_ms;
     std::vector<std::size_t> which;
@@ -33,7 +33,7 @@ std::vector<std::size_t> rungs(const Tradeoff& t) {
         which.push_back(i);
         points.push_back({s.times.frame_ms, s.error()});
     }
-    // Steps that gain less than a twentieth are not worth a change of the picture.
+    // A step must gain at least a twentieth to be worth a change of the picture.
     const std::vector<std::size_t> front = pareto_front(points, 0.05);
     const std::size_t count = std::min(front.size(), kMaxLevels - 1);
     std::vector<std::size_t> out;

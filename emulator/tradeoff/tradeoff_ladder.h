@@ -1,7 +1,7 @@
 #pragma once
-// Makes a ladder for the governor (quality_ladder.h) of what `hilcam tradeoff` has measured: the settings
-// that are faster than the scenario's own and that none of those beats in both time and error, best first.
-// Only such settings count whose every change may be made from one frame to the next.
+// Makes levels for the governor (quality_ladder.h) from the results of `hilcam tradeoff`: settings that are
+// faster than the scenario's own and that no other of them beats in both time and error, best first. Only
+// settings with changes that may happen between frames are used.
 
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// A file that the scenario's `loop:` can name, with frame_budget_ms as it was asked for; empty when no
+// Returns a file that the scenario's `loop:` can name, with frame_budget_ms as requested; empty when no
 // setting is faster than the scenario's own.
 std::string ladder_yaml(const Tradeoff& tradeoff);
 

@@ -32,7 +32,7 @@ bool resolved(const Tradeoff& t, const MeasuredSetting& s) {
     return s.error() >= 3 * t.reference_standard_error.p99;
 }
 
-// Figures by their column's name.
+// A column: its name and its value.
 struct Column {
     const char* name;
     std::optional<double> value;
@@ -59,7 +59,7 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
     return out;
 }
 
-// Says what differs from the scenario's own setting.
+// Describes the differences from the scenario's own setting.
 std::string changes_of(const Tradeoff& t, const MeasuredSetting& s) {
     std::vector<std::string> words;
     for (std::size_t k = 0; k < t.knobs.size(); ++k)
@@ -67,7 +67,7 @@ std::string changes_of(const Tradeoff& t, const MeasuredSetting& s) {
     return words.empty() ? "as the scenario has it" : joined(words, ", ");
 }
 
-// Words with commas in quotes (RFC 4180).
+// Quotes cells with commas (RFC 4180).
 std::string cell(const std::string& text) {
     if (text.find_first_of(",\"") == std::string::npos) return text;
     std::string out = "\"";
@@ -128,7 +128,7 @@ std::vector<std::size_t> front_by_time(const Tradeoff& t) {
     return front;
 }
 
-// `quality` as a file; what else a setting changes does not belong there and is a comment.
+// Writes `quality` as a file; other changes of the setting do not belong there and become a comment.
 std::string preset(const Tradeoff& t, const std::string& title, const std::vector<std::string>& overrides) {
     std::vector<std::string> others;
     for (const std::string& o : overrides)

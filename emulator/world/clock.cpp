@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::int64_t kEver_ns = std::numeric_limits<std::int64_t>::min();
-// A century and more: what goes beyond stays there instead of overflowing.
+// More than a century; later times stop there instead of overflowing.
 constexpr double kFarthestClock_ns = 4e18;
 
 std::int64_t scaled(std::int64_t ns, double scale) {
@@ -49,7 +49,7 @@ std::int64_t SimulatedClock::Piece::camera_at(std::int64_t monotonic) const {
 std::int64_t SimulatedClock::Piece::simulated_of(std::int64_t camera) const {
     return std::clamp(camera + shift_ns, min_ns, max_ns);
 }
-// Rounded up: the first nanosecond that is there.
+// Rounds up to the first nanosecond at which the camera's time is reached.
 std::int64_t SimulatedClock::Piece::monotonic_of(std::int64_t camera) const {
     if (scale == 1) return monotonic_ns + (camera - camera_ns);
     const double ahead_ns = std::ceil(static_cast<double>(camera - camera_ns) / scale);
@@ -83,8 +83,8 @@ SimulatedClock::Piece SimulatedClock::piece_from(const Beginning& from, double s
     return piece;
 }
 
-// The camera's time begins as the simulated one does: they differ by pauses alone. In lockstep simulated time
-// may go before the start.
+// The camera's time begins equal to simulated time; later they differ only by pauses. In lockstep simulated
+// time may go before the start.
 SimulatedClock::State SimulatedClock::first_state(std::int64_t monotonic_start_ns) const {
     const std::int64_t stand_ns = config_.paused ? start_.ns : kNever_ns;
     const Piece piece =
@@ -141,8 +141,8 @@ CommandStatus SimulatedClock::order(const ClockCommand& c) {
     if (lockstep_) return CommandStatus::kNotNow;
     const std::lock_guard lock(writers_);
     const State old = state_.read();
-    // A caller that asks for an instant before this one gets the old piece, now and later. Held if this
-    // thread is not stopped for longer than the lead on the few lines from here to write().
+    // A caller that asks for an earlier instant gets the old piece, now and later. This holds unless the
+    // thread is stopped for longer than the lead between here and write().
     const std::int64_t from_ns = monotonic_ns() + kLead_ns;
     const Piece& running = old.at(from_ns);
     const std::int64_t camera_ns = running.camera_at(from_ns);
@@ -160,7 +160,7 @@ CommandStatus SimulatedClock::order(const ClockCommand& c) {
             break;
         case Action::kStep:
             if (old.stand_ns == kNever_ns) return CommandStatus::kNotNow;
-            // Steps add up, also while the one before is still on its way.
+            // Steps add up, even while an earlier one is not finished.
             next.stand_ns = std::min(old.stand_ns, kNever_ns - 1 - c.step_ns) + c.step_ns;
             break;
         case Action::kAsk:

@@ -1,38 +1,37 @@
 #pragma once
-// Simulated time against the machine's clock, and the camera's time between the two. All are int64 ns.
+// Simulated time, the machine's clock, and the camera's time between the two. All are int64 ns.
 //
 //     machine     CLOCK_MONOTONIC
-//     camera      what frame periods, exposures, shutters and trigger delays are counted in: the camera is
-//     part
-//                 of the simulated world. It goes `scale` times as fast as the machine's time.
-//     simulated   TAI of the world. Goes with the camera's time, or stands.
+//     camera      counts frame periods, exposures, shutters and trigger delays, because the camera belongs to
+//                 the simulated world. It runs `scale` times as fast as the machine's time.
+//     simulated   TAI of the world. Runs with the camera's time, or stands still.
 //
-// So a bench whose machine or simulator is too slow runs at scale 0.1 and gets the frames that it would get
-// in real time: the same instants, the same blur, ten times as far apart for who receives them.
+// A bench with a machine or simulator that is too slow can run at scale 0.1. It gets the frames that it would
+// get in real time, with the same instants and the same blur; receivers see them ten times as far apart.
 //
-// While simulated time stands (paused, or a step is over)
-//     camera_in_pause: streams   the camera's time goes on: frames keep coming at their rate, of the standing
-//                                world, without blur. Flight software sees a living camera. Frame ids count
-//                                frames, not simulated time.
-//     camera_in_pause: waits     the camera's time stands, too: no frame begins, and one whose exposure has
-//                                begun is handed over when time has gone on to its end.
-// A step lets time run, at the scale in force, for exactly that long: every frame that begins in it is taken.
+// While simulated time stands still (paused, or after a step), camera_in_pause decides:
+//     streams     the camera's time goes on. Frames of the unmoving world, without blur, keep coming at their
+//                 rate, so that flight software sees a working camera. Frame ids count frames, not simulated
+//                 time.
+//     waits       the camera's time stands still, too. No frame begins; a frame with an exposure that has
+//                 begun is handed over after time has gone on to its end.
+// A step lets time run, at the present scale, for exactly its length; every frame that begins meanwhile is
+// taken.
 //
-// A change takes effect kLead_ns after it was asked for, when every thread has it: each instant of the
-// machine's has one simulated time, whoever asks and whenever. Simulated time never jumps and never goes
-// back.
+// A change takes effect kLead_ns after it was ordered, when every thread knows it. So each instant of the
+// machine has exactly one simulated time, whichever thread asks and whenever. Simulated time never jumps and
+// never runs backwards.
 //
-//     camera    = min(c0 + scale (machine - m0), c_most)      a piece from m0, c0 on
+//     camera    = min(c0 + scale (machine - m0), c_most)      one piece, from m0, c0 on
 //     simulated = clamp(camera + shift, s_least, s_most)
-// Example: from m0 = 5 s on at scale 0.5, c0 = 3 s, shift = 100 s: the machine's 7 s are the camera's 4 s and
-// simulated 104 s.
-// Scaled times are rounded to 1 ns; at scale 1 they are exact.
+// Example: from m0 = 5 s at scale 0.5, c0 = 3 s, shift = 100 s: 7 s of the machine are 4 s of the camera and
+// 104 s of simulated time. Scaled times are rounded to 1 ns; at scale 1 they are exact.
 //
-// Lockstep: simulated time stands until it is told to step, `now` is that of the last frame, no scale means
-// anything, and changes are refused. The two other axes then run as if it were not so: they only name
+// Lockstep: simulated time stands still until a step is ordered, `now` is the time of the last frame, the
+// scale has no meaning, and changes are refused. The other two time axes run as usual, and only name
 // instants.
 //
-// Threads: any, without a lock, but for order(), which takes one and returns when the change is in effect.
+// Threads: any, without a lock, except order(), which takes one and returns when the change is in effect.
 
 #include <atomic>
 #include <cstdint>
@@ -50,11 +49,11 @@ namespace hilcam {
 enum class CameraInPause : std::uint8_t { kStreams, kWaits };
 struct ClockConfig {
     double scale = 1;
-    bool paused = false;  // at the start
+    bool paused = false;  // initial state
     CameraInPause camera_in_pause = CameraInPause::kStreams;
 };
 Fields fields(ClockConfig& clock);
-// Throws InputError for what makes no sense in lockstep, where simulated time goes from frame to frame.
+// Throws InputError for settings without meaning in lockstep, where simulated time steps from frame to frame.
 void require_lockstep(const ClockConfig& clock);
 
 class SimulatedClock {
@@ -64,7 +63,7 @@ class SimulatedClock {
 
     SimulatedClock(TimeTai start, std::int64_t monotonic_start_ns, bool lockstep = false,
                    const ClockConfig& config = {});
-    // The run begins: as made anew. Before other threads know the clock.
+    // Resets the clock at the begin of the run. Call before other threads use it.
     void restart(TimeTai start, std::int64_t monotonic_start_ns);
 
     TimeTai start() const { return start_; }
@@ -73,28 +72,28 @@ class SimulatedClock {
     // --- from the machine's time
     std::int64_t camera_at(std::int64_t monotonic_ns) const;
     TimeTai at(std::int64_t monotonic_ns) const;
-    // Returns what a message of that arrival means by "now": at(), in lockstep the last frame's time.
+    // Returns what "now" means in a message with that arrival: at(), or in lockstep the last frame's time.
     TimeTai of_arrival(std::int64_t arrival_ns) const {
         return lockstep_ ? TimeTai{stepped_ns_.load()} : at(arrival_ns);
     }
     TimeTai now() const { return of_arrival(monotonic_ns()); }
-    // Reads the clock for a sender that sets its own by this one.
+    // Returns a reading for a sender that synchronises its own clock.
     ClockReading read(std::int64_t arrival_monotonic_ns) const;
 
     // --- from the camera's time
     TimeTai simulated_of_camera(std::int64_t camera_ns) const;
-    // The machine's, as if nothing stopped the camera.
+    // Returns the machine's time, as if nothing stopped the camera.
     std::int64_t monotonic_of_camera(std::int64_t camera_ns) const;
-    // Returns when the camera gets there as things are now: kNever_ns where it waits.
+    // Returns when the camera's time gets there as the clock runs now; kNever_ns while it waits.
     std::int64_t when_due(std::int64_t camera_ns) const;
 
     // --- from simulated time
-    // When the camera gets there as things are now: kNever_ns where time stands before it.
+    // Returns when simulated time gets there as the clock runs now; kNever_ns if it stands still before.
     std::int64_t camera_of(TimeTai simulated) const;
 
-    // A `clock` command. kNotNow: in lockstep, or a step while time runs.
+    // Carries out a `clock` command. Returns kNotNow in lockstep, and for a step while time runs.
     CommandStatus order(const ClockCommand& command);
-    // Lockstep.
+    // Lockstep: moves simulated time to the next frame.
     void step_to(TimeTai time) { stepped_ns_.store(time.ns); }
 
   private:
@@ -109,8 +108,9 @@ class SimulatedClock {
     };
     struct State {
         Piece before, now;
-        double scale;           // in force, or to be when time goes on
-        std::int64_t stand_ns;  // simulated: where time stands or will; kNever_ns: nowhere
+        double scale;  // in force, or to be in force when time goes on
+        // Simulated time at which the clock stands or will stand; kNever_ns: it runs on.
+        std::int64_t stand_ns;
 
         const Piece& at(std::int64_t monotonic) const { return monotonic < now.monotonic_ns ? before : now; }
         const Piece& of(std::int64_t camera) const { return camera < now.camera_ns ? before : now; }

@@ -1,5 +1,5 @@
 #pragma once
-// A frame watcher wants to know what a loop has seen.
+// Interface for observers of the world that a loop has seen.
 
 #include <cstdint>
 
@@ -8,17 +8,18 @@
 namespace hilcam {
 
 struct SeenFrame {
-    std::uint64_t id = 0;       // 0: none yet
-    std::int64_t begin_ns = 0;  // begin of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it
-    TimeTai middle;             // middle of the exposure, simulated
+    std::uint64_t id = 0;  // 0: none yet
+    // Begin of the exposure, CLOCK_MONOTONIC; in lockstep, as if that clock ran with simulated time.
+    std::int64_t begin_ns = 0;
+    TimeTai middle;  // middle of the exposure in simulated time
     double exposure_s = 0;
-    bool dark = false;  // its shutter was closed: the world is that of a frame before, or none
+    bool dark = false;  // true: the shutter was closed, so the world is an earlier frame's, or empty
 };
 
 class FrameWatcher {
   public:
     virtual ~FrameWatcher() = default;
-    // A frame has been rendered; the world is that of its middle. Loop: no lock, no allocation.
+    // Called when a frame has been rendered, with the world at its middle. Loop: no lock, no allocation.
     virtual void seen(const SeenFrame& frame, const WorldSnapshot& world) noexcept = 0;
 };
 

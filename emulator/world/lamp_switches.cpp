@@ -16,7 +16,7 @@ void LampSwitches::insert(const LampSwitch& order) {
         *at = order;
         ++count_;
     } else if (at != begin) {
-        // The oldest makes room.
+        // Drops the oldest.
         before_ = begin->level;
         std::move(begin + 1, at, begin);
         *(at - 1) = order;
@@ -46,7 +46,7 @@ double LampSwitches::mean(TimeTai from, TimeTai until) const {
         sum_ns += level * static_cast<double>(s.time - since);
         since = s.time, level = s.level;
     }
-    // Lit all the time is exactly its level.
+    // Avoids rounding: without a switch, the mean is exactly the level.
     if (since == from) return level;
     return (sum_ns + level * static_cast<double>(until - since)) / static_cast<double>(until - from);
 }

@@ -1,8 +1,8 @@
 #pragma once
-// The brightness of a lamp over time: a step function, by the switches that are known of it, in any order.
+// The brightness of a lamp over time: a step function, from switches that arrive in any order.
 //
-// A switch holds from its time on, until the next. Before the first of them the lamp is as it was before that
-// came. The newest 8 are kept: what is older than those has no effect.
+// A switch holds from its time until the next one. Before the first known switch, the lamp has the level that
+// it had before that one arrived. The newest 8 are kept; older ones have no effect.
 
 #include <array>
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace hilcam {
 
-// A level that holds from an instant on.
+// A level that is valid from an instant on.
 struct LampSwitch {
     TimeTai time;
-    double level = 0;  // 0: off; 1: as its data sheet says
+    double level = 0;  // 0: off; 1: as in its data sheet
 };
 
 class LampSwitches {
@@ -24,13 +24,13 @@ class LampSwitches {
     LampSwitches() = default;
     explicit LampSwitches(double level) : before_(level) {}
 
-    // Inserts a switch; of two of the same instant, the later one counts.
+    // Inserts a switch. The later call counts if two switches have the same instant.
     void insert(const LampSwitch& order);
-    // Forgets what was known; the lamp goes on from how it was at last.
+    // Forgets all switches; the lamp keeps its latest level.
     void begin_anew();
 
     double at(TimeTai time) const;
-    // The mean over a span of time; of a span without length, that instant's.
+    // Returns the mean over a span of time; for a span without length, the level at that instant.
     double mean(TimeTai from, TimeTai until) const;
 
   private:

@@ -47,7 +47,7 @@ PoseWatch::PoseWatch(const PoseRules& rules, bool lockstep)
 PoseWatch::Verdict PoseWatch::judge(Subject subject, TimeTai tag) const {
     const std::lock_guard lock(mutex_);
     const auto newest = newest_tags_.find(subject);
-    // Tags of lockstep may be anything: compared without overflow.
+    // Tags in lockstep may have any value, so they are compared without overflow.
     if (newest == newest_tags_.end() || tag >= newest->second) return Verdict::kForwards;
     const auto back_ns = static_cast<std::uint64_t>(newest->second.ns) - static_cast<std::uint64_t>(tag.ns);
     if (back_ns <= static_cast<std::uint64_t>(late_ns_)) return Verdict::kForwards;
@@ -72,7 +72,7 @@ void PoseWatch::took(Subject subject, TimeTai tag, TimeTai arrival, Verdict verd
 PoseWatch::Silence PoseWatch::at(TimeTai time) const {
     const std::int64_t newest_ns = newest_ns_.load(std::memory_order_acquire);
     if (stale_after_ns_ == 0 || newest_ns == kNone_ns) return {};
-    // In lockstep both may be anything: no sum may overflow.
+    // In lockstep both values may be anything, so the sum must not overflow.
     if (newest_ns > std::numeric_limits<std::int64_t>::max() - stale_after_ns_) return {};
     const TimeTai since{newest_ns + stale_after_ns_};
     return {since < time, since};

@@ -10,8 +10,8 @@ namespace hilcam {
 struct ShownCommand {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;  // 0: none yet
-    TimeTai time{};                         // its tag; set by WorldState
-    std::uint64_t number = 0;               // in the recording, from 1; 0: in none
+    TimeTai time{};                         // time tag; set by WorldState
+    std::uint64_t number = 0;               // number in the recording, from 1; 0: not recorded
 };
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// The lamps of the world state: what carries them, and how they are switched.
+// The lamps of the world state: the things that carry them, and their switches.
 
 #include <cstdint>
 #include <memory>
@@ -13,12 +13,13 @@
 
 namespace hilcam {
 
-// The thing that a lamp is fixed to, in that thing's axes.
+// The mount of a lamp on a thing, in that thing's axes.
 struct LampMount {
-    std::size_t thing = 0;  // 0: the body with the cameras; 1, 2, ...: of WorldSnapshot::objects
+    // 0: the body with the cameras; 1, 2, ...: index in WorldSnapshot::objects, from 1
+    std::size_t thing = 0;
     Vec3d position_m;
     Vec3d axis{0, 0, 1};  // unit
-    double level = 1;     // when the run begins
+    double level = 1;     // at the begin of the run
 };
 
 class WorldLamps {
@@ -27,18 +28,18 @@ class WorldLamps {
     explicit WorldLamps(std::span<const LampMount> mounts);
 
     std::size_t size() const { return lamps_.size(); }
-    // One thread at a time, not the loop. alone: what was known of it is forgotten.
+    // Sets a lamp. alone: earlier switches are forgotten. One thread at a time, not the loop.
     void set(std::size_t lamp, const LampSwitch& order, const ShownCommand& command, bool alone);
 
-    // --- the loop's; no allocation, no lock
+    // --- for the loop; no allocation, no lock
 
-    // Takes the newest switches; `shown` becomes the newest command of all, if that is newer.
+    // Takes over the newest switches. shown: replaced by the newest command if that is newer.
     void read(ShownCommand& shown);
-    // Places them at an instant of which the objects are placed already, and finds how bright they are then.
+    // Places the lamps at an instant for which the objects have been placed, and sets their brightness.
     void place(TimeTai time, const Pose& camera_body, WorldSnapshot& world) const;
-    // Finds how bright they are from then until then, on average.
+    // Sets their mean brightness over a span of time.
     void average(TimeTai from, TimeTai until, WorldSnapshot& world) const;
-    // Returns, for each, the number of the newest command that the last read() knew.
+    // Returns, for each lamp, the number of the newest command at the last read().
     void shown_numbers(std::span<std::uint64_t> numbers) const;
 
   private:
@@ -48,9 +49,9 @@ class WorldLamps {
     };
     struct Lamp {
         LampMount mount;
-        State written;  // the writers' copy
+        State written;  // written by the senders' threads
         Latest<State> latest;
-        const State* sampled = nullptr;  // the loop's
+        const State* sampled = nullptr;  // read by the loop
     };
     std::vector<std::unique_ptr<Lamp>> lamps_;
 };

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// The pose of a part that is turned about its joint: object_from_part takes p to pivot + R (p - pivot).
+// Returns the pose of a part on a joint: object_from_part takes p to pivot + R (p - pivot).
 Pose turned(const Pose& object, const Joint& joint, double angle_rad) {
     const Quat turn = from_rotation_vector(angle_rad * joint.axis);
     const Vec3d shift_m = joint.pivot_m - to_matrix(turn) * joint.pivot_m;
@@ -16,7 +16,7 @@ Pose turned(const Pose& object, const Joint& joint, double angle_rad) {
             object.world_from_body * turn};
 }
 
-// Moves what rides on a body: v + w x r, and the body's rate in its own axes.
+// Returns the motion of something mounted on a body: v + w x r, and the body's rate in its own axes.
 Motion mounted(const Motion& body, const Mount& mount) {
     const Mat3d world_from_body = to_matrix(body.pose.world_from_body);
     Motion out = body;
@@ -35,7 +35,7 @@ void WorldState::History::insert(const Motion& motion) {
     auto* at = std::lower_bound(motions.data(), end, motion,
                                 [](const Motion& a, const Motion& b) { return a.time < b.time; });
     if (at != end && at->time == motion.time) {
-        *at = motion;  // a correction of the same instant
+        *at = motion;  // corrects a pose with the same time tag
         return;
     }
     if (count < kLength) {
@@ -43,7 +43,7 @@ void WorldState::History::insert(const Motion& motion) {
         *at = motion;
         ++count;
     } else if (at != motions.data()) {
-        std::move(motions.data() + 1, at, motions.data());  // the oldest makes room
+        std::move(motions.data() + 1, at, motions.data());  // drops the oldest
         *(at - 1) = motion;
     }
 }
@@ -63,7 +63,8 @@ Motion WorldState::History::motion_at(TimeTai time) const {
     const Pose before = at(time + -kHalf_ns), after = at(time + kHalf_ns);
     constexpr double kStep_s = 2 * kHalf_ns * kSecondsPerNs;
     const Quat turn = conjugate(before.world_from_body) * after.world_from_body;
-    // The small rotation's vector is twice the quaternion's; its sign is the quaternion's own.
+    // For a small rotation, the rotation vector is twice the quaternion's vector part, up to the quaternion's
+    // sign.
     const double twice = turn.w < 0 ? -2 : 2;
     return {time, at(time), (after.position_world_m - before.position_world_m) / kStep_s,
             (twice / kStep_s) * Vec3d{turn.x, turn.y, turn.z}};
@@ -136,7 +137,7 @@ bool WorldState::set_lamp(std::size_t lamp, const LampSwitch& order, ShownComman
 bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command, bool alone) {
     const std::lock_guard lock(writers_);
     History& history = thing.written;
-    // The scenario file's word holds only until the first command.
+    // The pose from the scenario file is valid only until the first command.
     if (alone || history.command.arrival_monotonic_ns == 0) history.count = 0;
     history.insert(motion);
     history.command = command;
@@ -161,8 +162,8 @@ void WorldState::shown_numbers(std::span<std::uint64_t> numbers) const {
     lamps_.shown_numbers(numbers.subspan(things_.size()));
 }
 
-// Finds where the things are that sources move, after those that are commanded or at rest: sources may follow
-// them.
+// Evaluates the motions of things with sources, after those that are commanded or at rest, because sources
+// may follow them.
 void WorldState::evaluate_sources(TimeTai time) const {
     if (sources_.empty()) return;
     for (std::size_t i = 0; i <= objects_; ++i) {
@@ -176,7 +177,7 @@ void WorldState::evaluate_sources(TimeTai time) const {
     held_.fetch_add(held.unknown, std::memory_order_release);
 }
 
-// One writer: the loop.
+// The loop is the only writer.
 void WorldState::count_impossible(std::size_t thing, TimeTai time, std::uint64_t times) const {
     if (times == 0) return;
     if (impossible_.load(std::memory_order_relaxed) == 0) {
@@ -201,7 +202,7 @@ void WorldState::take_bodies(TimeTai time) const {
     if (!take_possible(bodies_at(time, origin_), bodies_)) count_impossible(things_.size(), time);
 }
 
-// Returns where a thing is that commands move, or the scenario's pose.
+// Returns the motion of a commanded thing, or the scenario's pose.
 const Motion& WorldState::commanded(std::size_t thing, TimeTai time) const {
     if (!take_possible(things_[thing]->sampled->motion_at(time), now_[thing])) count_impossible(thing, time);
     return now_[thing];
@@ -217,7 +218,7 @@ void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& wor
     world.time = time;
     if (with_bodies) take_bodies(time), world.bodies = bodies_;
     evaluate_sources(time);
-    // What sources may follow has been taken in by evaluate_sources().
+    // evaluate_sources() has computed what sources may follow.
     const auto motion = [&](std::size_t thing) -> const Motion& {
         return sources_.empty() ? commanded(thing, time) : now_[thing];
     };
@@ -238,7 +239,7 @@ void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& wor
     lamps_.place(time, lamps_.size() > 0 ? motion(0).pose : Pose{}, world);
 }
 
-// The nearest by its origin, but for what carries the camera.
+// Compares distances to the objects' origins, without the object that carries the camera.
 Vec3d WorldState::nearest_velocity_m_s(const WorldSnapshot& world) const {
     std::size_t nearest = objects_;
     double min_m = 0;

@@ -14,18 +14,20 @@ namespace hilcam {
 namespace {
 
 constexpr int kLongest_px = kGridPeriods_px.back();
-// A reference has few pixels that are off by far more than the others; they would have all the energy.
+// Limits steps: a few pixels of a reference are off by far more than the others, and would have all the
+// energy.
 constexpr double kMostOfMedian = 4;
 
-// Returns the side of a square that holds the picture, a multiple of the longest period so that each has a
-// frequency of its own.
+// Returns the side of a square that contains the picture: a multiple of the longest period, so that each
+// period has its own frequency.
 int side_for(int width, int height) {
     int side = std::max(2, (std::max(width, height) + kLongest_px - 1) / kLongest_px) * kLongest_px;
     while (fft_size(side) != side) side += kLongest_px;
     return side;
 }
 
-// Steps from each pixel to the next one along x (or y) without their sign, less their mean; 0 where there is none.
+// Returns absolute steps from each pixel to the next one along x (or y), minus their mean; 0 where there is
+// no step.
 std::vector<std::complex<float>> steps_of(const MaskedValues& error, bool along_x, std::size_t side) {
     std::vector<std::complex<float>> steps(side * side);
     std::vector<std::size_t> places;
@@ -49,9 +51,9 @@ std::vector<std::complex<float>> steps_of(const MaskedValues& error, bool along_
     return steps;
 }
 
-// Adds the powers of the frequencies along x that are even down y, or the other way round.
+// Adds the powers of the frequencies along x that are constant down y, or the reverse.
 void add_powers(std::span<const std::complex<float>> spectrum, bool along_x, int side, GridEnergy& energy) {
-    const int grid = side / kLongest_px;  // step of the spectrum of the longest period
+    const int grid = side / kLongest_px;  // frequency of the longest period in the spectrum
     const auto power = [&](int k) {
         const auto i = static_cast<std::size_t>(k) * (along_x ? 1 : static_cast<std::size_t>(side));
         return static_cast<double>(std::norm(spectrum[i]));

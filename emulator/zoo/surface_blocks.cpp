@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kJudgedBlock_px = 4;
 
-// A pixel of the layers.
+// A pixel in the layers.
 struct Place {
     std::uint32_t part = 0;
     Vec3f normal, position_m;

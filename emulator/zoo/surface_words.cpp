@@ -10,7 +10,8 @@ namespace {
 struct Word {
     std::string_view part, material;
 };
-// A longer word comes before a shorter one that is part of the same names: a panel's back is no panel, black foil is no gold.
+// A longer word comes before a shorter one that occurs in the same names: the back of a panel is not a panel,
+// and black foil is not gold.
 constexpr std::array kSurfaceWords = std::to_array<Word>({
     {"panel_back", "cfrp"},
     {"panelback", "cfrp"},
@@ -48,7 +49,8 @@ constexpr std::array kSurfaceWords = std::to_array<Word>({
     {"asteroid", "asteroid_s"},
     {"regolith", "lunar_regolith"},
 });
-// A metallic factor of 0 is a dielectric and of 1 a metal (glTF 2.0, section 3.9.2). From here on a surface is taken for metal.
+// A metallic factor of 0 is a dielectric, and 1 is a metal (glTF 2.0, section 3.9.2). From this value on a
+// surface counts as metal.
 constexpr float kMetal = 0.5f;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Materials for the surfaces of a mesh that nobody has described: by the words in their names, else by what
-// the mesh file itself says.
+// Chooses materials for the surfaces of a mesh without a description: by words in their names, or else by the
+// mesh file's own material.
 
 #include <string>
 #include <string_view>
@@ -9,8 +9,9 @@
 
 namespace hilcam {
 
-// Returns the name of a shipped material (configs/materials) for a surface: the first word of a fixed list that its name
-// contains, in capitals or not; without one bare aluminium for what the file calls a metal, and white paint for the rest.
+// Returns the name of a shipped material (configs/materials) for a surface: by the first word of a fixed list
+// that its name contains, whatever the case. Otherwise bare aluminium for a metal by the file, and white
+// paint for all else.
 std::string_view shipped_material_for(const MeshSurface& surface);
 
 }  // namespace hilcam

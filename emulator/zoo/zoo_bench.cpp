@@ -17,7 +17,7 @@ namespace {
 
 using Log = std::function<void(const std::string&)>;
 
-// The scenario's own quality does not count, so that all qualities are held against one reference.
+// Removes the scenario's own quality, so that all qualities are compared with the same reference.
 std::vector<std::string> without_quality(std::vector<std::string> overrides) {
     std::erase_if(overrides, [](const std::string& text) {
         return text.starts_with("quality.") || text.starts_with("quality=");
@@ -33,7 +33,7 @@ ScenarioConfig reference_of(const ScenarioSource& source, const std::vector<std:
     return plain.load(joined_overrides(overrides, more));
 }
 
-// The same camera with its lens shifted, so that all of the picture moves to the right.
+// Returns the same camera with a shifted lens, so that the whole picture moves to the right.
 ScenarioConfig panned(const ScenarioConfig& scenario, double pan_px) {
     ScenarioConfig out = scenario;
     CameraModel& camera = out.camera;
@@ -44,7 +44,8 @@ ScenarioConfig panned(const ScenarioConfig& scenario, double pan_px) {
     return out;
 }
 
-// The references of a member, from the disk where they are kept. The camera is loaded for the first that is not.
+// The references of a member, from disk where they exist. The camera is loaded for the first one that does
+// not.
 class ZooReferences {
   public:
     ZooReferences(const ScenarioConfig& scenario, const ReferenceLimits& limits, const Cache& cache,
@@ -83,7 +84,7 @@ ElectronImage picture_of(StillCamera& camera, std::uint64_t frame) {
     return picture;
 }
 
-// The first frame of a view makes what the next ones have; the second is timed.
+// The first frame of a view prepares what the next ones need; the second is timed.
 Pictures take_pictures(ZooCamera& still, ZooCamera& panned, const ZooShot& shot) {
     Pictures out;
     picture_of(still.camera(), 1);
@@ -95,7 +96,8 @@ Pictures take_pictures(ZooCamera& still, ZooCamera& panned, const ZooShot& shot)
     return out;
 }
 
-// A view of things that are smaller than a pixel, or whose pixels nobody can name, counts as a whole and has no smooth surface.
+// In a view of things smaller than a pixel, or with pixels that cannot be assigned, all pixels count and none
+// is smooth surface.
 SurfacePixels surface_of(StillCamera& camera, const ElectronImage& like) {
     std::optional<SurfacePixels> seen = seen_surface(camera);
     if (seen && seen->smooth.size() == like.pixels() &&
@@ -111,7 +113,7 @@ std::optional<double> larger(const std::optional<double>& a, const std::optional
     return a && b ? std::optional(std::max(*a, *b)) : (a ? a : b);
 }
 
-// Adds a view to the figures of all of them; errors in sensor noise are set from pixels.
+// Adds a view to the figures of all views; errors in sensor noise are computed from pixels.
 void add(const ZooFigures& view, ZooFigures& all) {
     all.blocks += view.blocks, all.grid += view.grid, all.pan += view.pan;
     all.false_lights += view.false_lights, all.lost_lights += view.lost_lights;

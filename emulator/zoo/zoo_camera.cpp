@@ -12,8 +12,8 @@ namespace hilcam {
 namespace {
 
 constexpr int kFewAround = 2, kAllAround = 6;
-// An inspection camera's exposure of what the Earth alone lights, over that of what the Sun does: its light is some 6 to 12 % of
-// the Sun's in low orbits.
+// Ratio of an inspection camera's exposures by the Earth's light alone and by the Sun's. In low orbits the
+// Earth's light is some 6 to 12 % of the Sun's.
 constexpr double kShadowExposure = 7;
 
 bool can_be_turned(const ScenarioConfig& s) {

@@ -1,5 +1,5 @@
 #pragma once
-// This makes the views of a member of the zoo into scenarios, and has the camera that takes them.
+// Turns the views of a member of the zoo into scenarios, and provides the camera that takes them.
 
 #include <optional>
 #include <string>
@@ -10,16 +10,15 @@
 
 namespace hilcam {
 
-// A shot is what a view changes of a member's scenario.
+// A shot: the changes that a view makes to a member's scenario.
 struct ZooShot {
     std::string name;
-    std::optional<ZooStand> stand;  // stands of the camera and the target
-    double exposure_factor = 1;     // on the scenario's
-    std::optional<Pose>
-        camera_body;  // without a stand: where the camera's body is; none: where the scenario has it
+    std::optional<ZooStand> stand;    // poses of the camera and the target
+    double exposure_factor = 1;       // factor on the scenario's exposure
+    std::optional<Pose> camera_body;  // without a stand: pose of the camera's body; empty: as in the scenario
 };
 
-// camera: of that scenario, as loaded.
+// camera: loaded for that scenario.
 std::vector<ZooShot> zoo_shots(const ScenarioConfig& scenario, const StillCamera& camera, bool all_views);
 
 // A camera that goes from shot to shot.
@@ -29,7 +28,7 @@ class ZooCamera {
         : scenario_(scenario), shown_(scenario), camera_(scenario) {}
 
     void take(const ZooShot& shot);
-    // The scenario with the shot's poses and exposure.
+    // Returns the scenario with the shot's poses and exposure.
     const ScenarioConfig& shown() const { return shown_; }
     StillCamera& camera() { return camera_; }
 
@@ -37,13 +36,13 @@ class ZooCamera {
     ScenarioConfig scenario_, shown_;
     StillCamera camera_;
 };
-// Returns the scenario as a shot has it.
+// Returns the scenario with the shot's changes.
 ScenarioConfig scenario_of_shot(const ScenarioConfig& scenario, const ZooShot& shot);
-// Returns what --set must replace for `hilcam render` to show the shot: KEY=VALUE.
+// Returns KEY=VALUE overrides with which `hilcam render` shows the shot.
 std::vector<std::string> overrides_of_shot(const ScenarioConfig& scenario, const ZooShot& shot);
 
-// The surface that a camera sees, its places on the read-out array; none where frames have other pixels than that: binning.
-// camera: as it stands.
+// Returns the surfaces that the camera sees, on the read-out array's pixels; nothing with binning, where
+// frames have other pixels. camera: in its present position.
 struct SurfacePixels;
 std::optional<SurfacePixels> seen_surface(StillCamera& camera);
 

@@ -21,14 +21,14 @@ bool is_mesh(const std::filesystem::path& file) {
     return std::find(kMeshEndings.begin(), kMeshEndings.end(), file.extension()) != kMeshEndings.end();
 }
 
-// A text as YAML takes it between single quotes.
+// Escapes a text for YAML's single quotes.
 std::string yaml_text(const std::string& text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
     return out + "'";
 }
 
-// The mesh in place of the shipped scenario's object.
+// Replaces the shipped scenario's object by the mesh.
 std::string object_override(const std::filesystem::path& file) {
     const MeshContents contents = load_mesh_contents(file);
     std::string surfaces;
@@ -39,7 +39,7 @@ std::string object_override(const std::filesystem::path& file) {
                        yaml_text(std::filesystem::absolute(file).string()), surfaces);
 }
 
-// The same view on fewer pixels.
+// Returns overrides that show the same view with fewer pixels.
 std::vector<std::string> smaller(const ScenarioSource& source, std::int64_t picture_px) {
     const CameraModel camera = source.load().camera;
     const std::int64_t longer = std::max(camera.width_px, camera.height_px);

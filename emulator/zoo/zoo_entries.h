@@ -1,5 +1,5 @@
 #pragma once
-// The members of a zoo: scenarios and meshes of a folder, each as a scenario that can be loaded.
+// Finds the members of a zoo: scenarios and meshes in a folder, each as a scenario that can be loaded.
 
 #include <filesystem>
 #include <string>
@@ -10,20 +10,20 @@
 namespace hilcam {
 
 struct ZooEntry {
-    std::string name;  // name of the file, without its ending
+    std::string name;  // file name without its extension
     ScenarioSource source;
 };
 
 struct ZooEntriesOptions {
-    std::int64_t picture_px = 320;       // the picture's longer side; a smaller picture stays as it is
-    std::vector<std::string> overrides;  // KEY=VALUE of every scenario, after all else
+    std::int64_t picture_px = 320;       // longer side of the picture; a smaller picture keeps its size
+    std::vector<std::string> overrides;  // KEY=VALUE for every scenario, applied last
 };
 
-// Finds the *.yaml and the meshes (*.obj, *.glb, *.gltf, *.stl, *.ply) of a folder by name, not those of folders in it. A mesh beside a
-// scenario of the same name is that scenario's; any other
-// stands in the shipped scenario `mesh_in_orbit`, its surfaces of the materials of surface_words.h. Pictures are made smaller by a
-// shorter focal length, so that they show the same. Throws InputError where the folder has none of them or one of them cannot
-// be loaded.
+// Finds the *.yaml files and the meshes (*.obj, *.glb, *.gltf, *.stl, *.ply) of a folder in order of names,
+// without subfolders. A mesh with the name of a scenario belongs to that scenario. Any other mesh is placed
+// in the shipped scenario `mesh_in_orbit`, with materials from surface_words.h. Pictures are made smaller by
+// a shorter focal length, so that they show the same. Throws InputError when the folder has no members, or
+// one of them cannot be loaded.
 std::vector<ZooEntry> zoo_entries(const std::filesystem::path& folder, const ZooEntriesOptions& options);
 
 }  // namespace hilcam

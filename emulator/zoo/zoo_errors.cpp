@@ -8,8 +8,8 @@ namespace {
 
 double at(const ElectronImage& image, std::size_t i) { return static_cast<double>(image.data()[i]); }
 
-// Returns the reference's standard error about a pixel [e-]: the root of the mean square of the 3 x 3 pixels, as one
-// pixel's estimate is often near 0 by chance.
+// Returns the reference's standard error near a pixel [e-]: the rms over 3 x 3 pixels, because the estimate
+// for one pixel is often near 0 by chance.
 double error_about(const ElectronImage& error, std::size_t i) {
     const auto width = static_cast<std::size_t>(error.width());
     const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
@@ -23,8 +23,8 @@ double error_about(const ElectronImage& error, std::size_t i) {
     return std::sqrt(squares / count);
 }
 
-// Counts the pixels of `bright` that shine where `dim` does not, as false_lights() of image_error.h does, but beyond five
-// times both the noise and the reference's own error.
+// Counts pixels of `bright` that shine where `dim` does not, like false_lights() of image_error.h, but above
+// five times both the noise and the reference's own error.
 double lights_of_one_alone(const ElectronImage& bright, const ElectronImage& dim,
                            const ZooReference& reference, const SensorNoise& noise) {
     constexpr double kMin_sigma = 5, kMaxDim_e = 100;
@@ -40,7 +40,7 @@ double lights_of_one_alone(const ElectronImage& bright, const ElectronImage& dim
     return count;
 }
 
-// Errors in the sensor's noise of smooth surface, for what follows the grid.
+// Returns errors on smooth surface in units of sensor noise, for grid_energy().
 std::vector<float> errors_in_noise(const ElectronImage& picture, const ZooReference& reference,
                                    const SensorNoise& noise) {
     std::vector<float> out(picture.pixels());

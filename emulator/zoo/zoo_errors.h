@@ -1,5 +1,5 @@
 #pragma once
-// The errors of one frame of a zoo's view, in the terms of zoo_bench.h.
+// Computes the errors of one frame of a zoo's view, as defined in zoo_bench.h.
 
 #include <vector>
 
@@ -8,21 +8,22 @@
 
 namespace hilcam {
 
-// Errors of single pixels, to put several pictures together.
+// Errors of single pixels, to combine several pictures.
 struct ZooPixels {
-    std::vector<double> errors, reference_errors;  // |off| / sigma of lit pixels on objects and near them
+    // |difference| / sigma of lit pixels on objects and near them
+    std::vector<double> errors, reference_errors;
 };
 
 struct ZooFrame {
     const ElectronImage& still;
     const ElectronImage& panned;
 };
-// Returns the figures that follow from the pictures alone: all but the centre of light, the light and the time. Pictures are cut off at
-// saturation. pixels: the single pixels' errors are added to it.
+// Returns the figures that depend on the pictures alone: all except centroid, photometry and time. Pictures
+// are cut off at saturation. pixels: receives the errors of single pixels in addition.
 ZooFigures zoo_errors(const ZooFrame& frame, const ZooReference& reference, const SurfacePixels& surface,
                       const SensorNoise& noise, ZooPixels& pixels);
 
-// Sets the errors in sensor noise from single pixels' errors.
+// Computes the errors in sensor noise from those of single pixels.
 void set_errors(const ZooPixels& pixels, ZooFigures& figures);
 
 }  // namespace hilcam

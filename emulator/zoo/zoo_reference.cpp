@@ -13,11 +13,11 @@
 namespace hilcam {
 namespace {
 
-// Their light paths are none that a measured frame has.
+// No measured frame uses these light paths.
 constexpr std::uint64_t kFirstFrame = std::uint64_t{1} << 33;
 constexpr int kFewestFrames = 4;
 
-// Sums of every other frame.
+// Sums over even and over odd frames.
 class Halves {
   public:
     explicit Halves(std::size_t pixels) : sums_{std::vector<double>(pixels), std::vector<double>(pixels)} {}
@@ -25,7 +25,7 @@ class Halves {
         std::vector<double>& sum = sums_[static_cast<std::size_t>(frame % 2)];
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<double>(picture.data()[i]);
     }
-    // frames: of both halves together, an even number.
+    // frames: total number in both halves, an even number.
     double mean_of_half(std::size_t half, std::size_t i, int frames) const {
         return 2 * sums_[half][i] / frames;
     }
@@ -38,7 +38,7 @@ struct Sums {
     Halves still, moved;
 };
 
-// Light is averaged first and cut off then, as a frame without chance would be.
+// Averages light first and cuts it off afterwards, like a frame without randomness.
 void fill(const Sums& sums, double full_e, ZooReference& out) {
     const auto cut = [full_e](double charge_e) { return std::min(charge_e, full_e); };
     for (std::size_t i = 0; i < out.mean.pixels(); ++i) {

@@ -1,4 +1,4 @@
-// The report of `hilcam bench --error --zoo`: JSON for scripts, a table for people.
+// Reports of `hilcam bench --error --zoo`: JSON for scripts, a table for people.
 
 #include <spdlog/fmt/fmt.h>
 
@@ -20,13 +20,14 @@ std::optional<double> share_of(std::size_t part, std::size_t all) {
 }
 std::optional<double> if_any(bool any, double value) { return any ? std::optional(value) : std::nullopt; }
 
-// A column of the table: what it is called in two lines and in JSON, and its value; none: there is no such thing.
+// A column of the table: its title in two lines, its name in JSON, and its value; empty: the picture contains
+// nothing of that kind.
 struct ZooColumn {
     const char* above;
     const char* below;
     const char* key;
     int digits;
-    double factor;  // on the value, for people
+    double factor;  // factor on the value in the table
     std::optional<double> (*value)(const ZooFigures&);
 };
 constexpr std::array kColumns = {
@@ -88,7 +89,7 @@ json member_json(const ZooMember& member) {
             {"all_views", figures_json(member.all)}};
 }
 
-// A figure of all members that have it.
+// Summarises a figure over all members that have it.
 template <class Summary>
 std::optional<double> over_members(const ZooBench& zoo, const ZooColumn& column, const Summary& summary) {
     std::vector<double> values;

@@ -13,14 +13,16 @@ namespace {
 constexpr std::array kDistances_sizes = {0.5, 1.2, 9.0};
 constexpr std::array<double, 4> kPhases_deg = {25, 88, 150, 150};
 
-// Returns the part of `of` that stands on `axis`, as a unit vector; any such vector where there is no such part.
+// Returns the unit vector of the component of `of` perpendicular to `axis`; any perpendicular vector if that
+// component is zero.
 Vec3d part_across(Vec3d axis, Vec3d of) {
     Vec3d part = of - dot(of, axis) * axis;
     if (!(length(part) > 1e-6)) part = cross(axis, std::abs(axis.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
     return normalized(part);
 }
 
-// A side is looked at aslant, so that walls beside it are seen, too, and no edge follows the picture's rows.
+// Returns an oblique view of a side, so that adjacent walls are visible and no edge is parallel to the
+// picture's rows.
 Vec3d direction_of_side(std::size_t side) {
     constexpr double kAside = 0.25, kFurtherAside = 0.15;
     const std::size_t axis = side / 2;
@@ -36,7 +38,8 @@ Vec3d camera_direction(ZooLight light, const LightDirections& at) {
     return std::cos(phase_rad) * at.to_sun + std::sin(phase_rad) * part_across(at.to_sun, wanted);
 }
 
-// Returns the rotation whose columns are the frame of z and what is nearest to y across it.
+// Returns the rotation with columns that are a frame of z and of the vector closest to y_hint perpendicular
+// to it.
 Mat3d frame_of(Vec3d z, Vec3d y_hint) {
     const Vec3d y = part_across(z, y_hint), x = cross(y, z);
     return {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
@@ -68,7 +71,7 @@ ZooStand stand_of(const ZooView& view, const TargetBox& box, Vec3d position_worl
     const Vec3d up = -light.to_earth;
     const std::size_t axis = view.side / 2;
     const Vec3d next{axis == 2 ? 1.0 : 0.0, axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0};
-    // Its up is turned a little against the picture's, as no target stands upright.
+    // Rolls the target slightly in the picture, because real targets are not upright.
     constexpr double kRoll_rad = 0.3;
     const Vec3d up_seen = part_across(to_camera, up);
     const Vec3d leaning = std::cos(kRoll_rad) * up_seen + std::sin(kRoll_rad) * cross(to_camera, up_seen);

@@ -6,7 +6,7 @@ namespace hilcam {
 namespace {
 
 constexpr float kBrightWells = 10;
-constexpr std::size_t kMaxBright = 4096;  // pixels in one channel
+constexpr std::size_t kMaxBright = 4096;  // largest number in one channel
 
 }  // namespace
 
@@ -23,7 +23,7 @@ float BrightPixels::take_out(const Picture& picture) {
     return limit_e;
 }
 
-// False when there are too many: nothing is taken out.
+// Returns false, without removing light, when there are too many.
 bool BrightPixels::find_over(const Picture& picture, float limit_e, std::size_t before) {
     std::size_t count = 0;
     const auto each_over = [&](const auto& use) {
@@ -46,7 +46,7 @@ bool BrightPixels::find_over(const Picture& picture, float limit_e, std::size_t 
     return true;
 }
 
-// The middle of a pixel's light, as far as its halves tell [px of the detector's frame].
+// Returns the centroid of a pixel's light, as far as its moments tell [px of the detector's frame].
 Vec2d BrightPixels::place_of(const Picture& picture, int x, int y, float charge_e) const {
     const Vec2d middle_px{detector_px(x), detector_px(y)};
     const SubpixelLight* const moments = picture.moments;
@@ -57,7 +57,7 @@ Vec2d BrightPixels::place_of(const Picture& picture, int x, int y, float charge_
         illumination_[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width) + at];
     const double share_per_rate =
         picture.exposure_s * static_cast<double>(lens) / static_cast<double>(charge_e);
-    constexpr double kHalfsMiddle_px = 0.25;  // from that of the pixel
+    constexpr double kHalfsMiddle_px = 0.25;  // distance of the centre of a half from the pixel's centre
     const auto way_px = [&](int difference) {
         const double share =
             share_per_rate * static_cast<double>(moments->row(y, difference, picture.channel)[at]);

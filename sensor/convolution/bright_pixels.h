@@ -1,6 +1,7 @@
 #pragma once
-// Takes what is far too bright out of a picture before it is convolved, to be drawn as points: in the FFT the Sun would
-// ring along its rows and columns and come back over the picture's edges. The limit stays in the picture.
+// Removes pixels that are far too bright from a picture before it is convolved; they are drawn as points
+// instead. In the FFT the Sun would ring along its rows and columns, and wrap around the picture's edges.
+// Light up to a limit stays in the picture.
 
 #include <vector>
 
@@ -9,37 +10,37 @@
 
 namespace hilcam {
 
-// A pixel of the picture that is drawn as a point.
+// The removed light of a pixel, which is drawn as a point.
 struct BrightPixel {
-    Vec2d position_px;  // place in the detector's frame
+    Vec2d position_px;  // in the detector's frame
     double electrons = 0;
     int channel = 0;
 };
 
 class BrightPixels {
   public:
-    // The radiance image's pixels: how many, the border on each side in pixels of the detector, and how many of them
-    // are across one of the detector.
+    // Pixels of the radiance image: their number, the border on each side in detector pixels, and image
+    // pixels across one detector pixel.
     struct Grid {
         int width, height, guard_px, oversampling;
     };
-    // illumination: the lens' factors over the image, row by row; outlives it. Owner thread.
+    // illumination: the lens's factors over the image, row by row; must outlive this object. Owner thread.
     BrightPixels(const Grid& grid, double full_well_e, int channels, const std::vector<float>& illumination);
 
-    // One channel's picture [e-], and the brightest pixel of each of its rows.
+    // The picture of one channel [e-], and the brightest pixel of each row.
     struct Picture {
         Convolver& charge_e;
         std::span<const float> row_peaks_e;
         int channel;
-        const SubpixelLight* moments;  // where in them light falls; null: nobody knows
+        const SubpixelLight* moments;  // where light falls within pixels; null: unknown
         double exposure_s;
     };
-    // Forgets the last frame's. Loop, as all from here on.
+    // Forgets the pixels of the last frame. Loop; so are all functions below.
     void clear() { pixels_.clear(); }
-    // Takes out what is over ten full wells; where that is of more pixels than there is room for, over ten times as much,
-    // and so on. Returns the limit [e-].
+    // Removes light above ten full wells from each pixel. If there is no room for that many pixels, the limit
+    // is multiplied by ten until there is. Returns the limit [e-].
     float take_out(const Picture& picture);
-    // Those of all channels, each channel's after the one before.
+    // Returns the removed light of all channels, one channel after the other.
     std::span<const BrightPixel> all() const { return pixels_; }
 
   private:

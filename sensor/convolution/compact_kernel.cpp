@@ -13,9 +13,9 @@
 namespace hilcam {
 namespace {
 
-constexpr int kGrid = 64;  // frequencies along an axis on which functions are compared
+constexpr int kGrid = 64;  // number of frequencies along an axis at which functions are compared
 
-// Weights of a real, even function of one frequency, by the trapezoidal rule over one period.
+// Returns the weights for a real, even function of one frequency, by the trapezoidal rule over one period.
 std::vector<double> weights_of(const std::function<double(double)>& transfer, int radius) {
     std::vector<double> weights;
     for (int x = -radius; x <= radius; ++x) {
@@ -26,7 +26,7 @@ std::vector<double> weights_of(const std::function<double(double)>& transfer, in
         }
         weights.push_back(sum);
     }
-    // Even light stays as it is.
+    // Normalises, so that uniform light is unchanged.
     const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
     for (double& w : weights) w /= all;
     return weights;
@@ -50,7 +50,7 @@ double largest_error(const CompactKernel& kernel, const Transfer& transfer) {
     return most;
 }
 
-// Computes count outputs from the input that begins `radius` before them.
+// Computes `count` outputs from an input that begins `radius` before them.
 HILCAM_CLONES void along(const float* in, std::size_t count, const float* weights, std::size_t taps,
                          float* out) {
     for (std::size_t x = 0; x < count; ++x) out[x] = weights[0] * in[x];

@@ -26,7 +26,7 @@ Block allocate(std::size_t floats) {
     return block;
 }
 
-// The frequency of value i of n [cycles/px]: -1/2 .. 1/2, the upper half of the values being negative.
+// Returns the frequency of value i of n [cycles/px]: -1/2 .. 1/2, negative for the upper half of the values.
 double frequency(int i, int n) { return static_cast<double>(i <= n / 2 ? i : i - n) / n; }
 
 double along_axis(const FrameBlur& blur, double sigma_px, double cycles_px) {
@@ -37,23 +37,23 @@ double along_axis(const FrameBlur& blur, double sigma_px, double cycles_px) {
 }  // namespace
 
 struct Convolver::Implementation {
-    // One layer's image and what its spectrum is multiplied by.
+    // The image of one layer, and the factors for its spectrum.
     struct Layer {
         Block data;
-        // [frequencies along y, lanes() together][x][lane], scaled by 1 / (width height); imaginary may be
-        // empty.
+        // Factors [frequencies along y, lanes() together][x][lane], scaled by 1 / (width height); imaginary
+        // may be empty.
         std::vector<float> real, imaginary;
     };
     int width, height;
     std::unique_ptr<PlaneFourier> fourier;
     std::size_t lanes, groups, stride;  // groups of frequencies along y; floats per row
     std::vector<Layer> layers;
-    // A thread works in this scratch memory.
+    // Scratch memory of one thread.
     struct Scratch {
         Block room, block, sum;
     };
     std::vector<Scratch> scratch;
-    std::vector<float> along_u, along_v;  // the blur's factors, smear apart
+    std::vector<float> along_u, along_v;  // factors of the blur, without the smear
 
     Implementation(int w, int h, const std::vector<Transfer>& transfers)
         : width(w),
@@ -92,7 +92,7 @@ struct Convolver::Implementation {
         if (v > height / 2) return 0;
         const std::complex<double> value =
             transfer(frequency(x, width), frequency(v, height)) / (static_cast<double>(width) * height);
-        // At the image's own Nyquist frequency opposite frequencies are one.
+        // At the image's Nyquist frequency, opposite frequencies coincide.
         const bool own_opposite = 2 * x == width || 2 * v == height;
         return {static_cast<float>(value.real()), own_opposite ? 0.0f : static_cast<float>(value.imag())};
     }
@@ -102,7 +102,7 @@ struct Convolver::Implementation {
         return scratch[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
     }
 
-    // work(first) for the columns of every whole vector.
+    // Calls work(first) for the columns of every whole vector.
     template <typename Work>
     void for_columns(const Work& work) {
         const std::size_t step = PlaneFourier::kMaxLanes;

@@ -12,8 +12,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-// PocketFFT's functions take vectors by value and are all inlined: there is no call whose convention could
-// change.
+// Suppresses a warning about calling conventions: PocketFFT passes vectors by value, but all its functions
+// are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 #include <pocketfft/pocketfft-inl.h>
@@ -37,13 +37,14 @@ HWY_INLINE Lanes load(const float* from) {
 }
 HWY_INLINE void store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof lanes); }
 
-// The lower or upper halves of two vectors, value by value in turns.
+// Interleaves the lower or upper halves of two vectors.
 template <std::size_t kFirst, std::size_t... kIndex>
 HWY_INLINE Lanes interleaved(const Lanes& a, const Lanes& b, std::index_sequence<kIndex...>) {
     return __builtin_shufflevector(a, b, (kFirst + kIndex / 2 + kIndex % 2 * kLanes)...);
 }
 
-// Each pass pairs vector i with the one half the square further; after log2(kLanes) passes rows are columns.
+// Transposes: each pass pairs vector i with the one half a square further; after log2(kLanes) passes rows are
+// columns.
 HWY_INLINE void transpose(Lanes (&square)[kLanes]) {
     constexpr std::make_index_sequence<kLanes> all;
     for (std::size_t pass = 1; pass < kLanes; pass *= 2) {
@@ -56,7 +57,7 @@ HWY_INLINE void transpose(Lanes (&square)[kLanes]) {
     }
 }
 
-// sin(pi x) / (pi x) to 2e-7: x less the nearest whole number, sin by its series to x^11.
+// Returns sin(pi x) / (pi x) to 2e-7: x minus the nearest whole number, sine by its series to x^11.
 HWY_INLINE float fast_sinc(float x) {
     const float whole = std::floor(x + 0.5f);
     const float r = (x - whole) * 3.14159265f;
@@ -104,7 +105,7 @@ class LanesFourier final : public PlaneFourier {
     void rows_back(float* block, std::size_t v, float* plane, float* room) const override {
         auto* values = reinterpret_cast<Complex*>(block);
         along_x_.exec(values, reinterpret_cast<Complex*>(room), false);
-        // Beyond the width the plane stays zero: what is there goes through the columns' transforms, too.
+        // Beyond the width the plane stays zero, because it takes part in the transforms of columns.
         for (std::size_t x = width_; x % kLanes != 0; ++x) values[x] = {Lanes{}, Lanes{}};
         for (std::size_t x = 0; x < width_; x += kLanes) {
             Lanes real[kLanes], imaginary[kLanes];
@@ -189,8 +190,8 @@ std::size_t whole_vectors(int count) {
 
 namespace lines = pocketfft::HWY_NAMESPACE;
 
-// `count` lines of `length` values; the first values of two lines are `next_line` apart, two values of a
-// line `next_value`.
+// `count` lines of `length` values. next_line: distance between the first values of two lines; next_value:
+// between two values of a line.
 struct Lines {
     std::size_t count, next_line, length, next_value;
 };
@@ -238,8 +239,8 @@ void real_from_half_spectrum(std::span<const std::complex<float>> spectrum, std:
     std::vector<float> room(size);
     for (std::size_t y = 0; y < size; ++y) {
         const std::complex<float>* const row = rows.data() + y * half;
-        // PocketFFT's order: the real part of frequency 0, then both parts of each that follows; the last
-        // one of an even size has no imaginary part.
+        // PocketFFT's order: the real part of frequency 0, then both parts of each following frequency; the
+        // last one of an even size has no imaginary part.
         float* const line = square.data() + y * size;
         line[0] = row[0].real();
         for (std::size_t i = 1; i < size; ++i)

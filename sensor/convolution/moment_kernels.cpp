@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kQuarter_px = 0.25;
 
-// Nodes and weights on -1/2 .. 1/2 (Gauss and Legendre; Abramowitz & Stegun 1964, table 25.4). A smear is a mean over
-// them: up to the lengths of nodes_of() its modulation is right to 2e-3 up to half a cycle per pixel.
+// Nodes and weights on -1/2 .. 1/2 (Gauss and Legendre; Abramowitz & Stegun 1964, table 25.4). A smear is a
+// mean over them; for lengths up to those of nodes_of(), its modulation is right to 2e-3 up to half a cycle
+// per pixel.
 struct Node {
     double at, weight;
 };
@@ -34,7 +35,7 @@ std::span<const Node> nodes_of(double smear_px) {
     if (smear_px <= 1.2) return kThree;
     return kFive;
 }
-// The same of a Gaussian of standard deviation 1 (Gauss and Hermite, table 25.10).
+// The same for a Gaussian with standard deviation 1 (Gauss and Hermite, table 25.10).
 constexpr Node kGaussian[] = {{-1.7320508076, 1.0 / 6}, {0, 2.0 / 3}, {1.7320508076, 1.0 / 6}};
 constexpr double kMaxSigma_px = 0.7;
 std::span<const Node> gaussian_nodes(double sigma_px) {
@@ -92,7 +93,8 @@ HILCAM_CLONES bool any_lit(const float* row, std::size_t count) {
 }  // namespace
 
 std::complex<double> smooth_transfer(const Transfer& fine, double u, double v) {
-    // A frequency that others fold back to, and what the middles of the two halves and their smooth difference make of each.
+    // A frequency that others alias to, with the effect on it of the centres of the two halves and of their
+    // smooth difference.
     struct Folded {
         std::array<double, 3> frequency, factor;
     };
@@ -165,14 +167,14 @@ void MomentKernels::make_weights(const FrameBlur& blur) {
                 sums[part] += of[part];
             }
         }
-    // Light that moves is neither made nor lost.
+    // The weights of each kernel add up to zero, because light only moves.
     for (std::size_t part = 0; part < kParts; ++part)
         weights_[part][index_of(0, 0)] -= static_cast<float>(sums[part]);
 }
 
 float MomentKernels::weight(std::size_t part, int x, int y) const { return weights_[part][index_of(x, y)]; }
 
-// Returns the sum of the moduli of what the kernels lose that end there, the greatest of them.
+// Returns the largest sum, over the kernels, of absolute weights beyond that reach.
 double MomentKernels::rest_beyond(int reach_px) const {
     double most = 0;
     for (std::size_t part = 0; part < kParts; ++part) {
@@ -193,7 +195,7 @@ void MomentKernels::add(const Parts& parts, int columns, int rows, float* out, s
     for (std::size_t part = 0; part < kParts; ++part) {
         const float* const all = parts[part].data();
         for (std::size_t j = 0; j < kSide_px; ++j) lit[j] = any_lit(all + j * kSide_px, kSide_px);
-        // A pixel gets light of what is at (i, j) from it by the weight at (-i, -j).
+        // A pixel receives light from (i, j) relative to it by the weight at (-i, -j).
         const float* const last = &weights_[part][index_of(reach_px_, reach_px_)];
         for (int y = 0; y < rows; y += kRowsAtOnce) {
             const int first = y + skipped;

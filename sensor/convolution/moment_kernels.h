@@ -1,15 +1,16 @@
 #pragma once
-// Three small kernels change a convolved picture by what is known of parts of its pixels (subpixel_light.h), one for each
-// of the differences.
+// Three small kernels that correct a convolved picture for where light falls within its pixels
+// (subpixel_light.h), one for each of the differences.
 //
-// A pixel's light is a quarter each from the middles of its quarters, plus what its differences move between them. With
-// p(x, y) the image of a point by samples that are twice as dense each way as pixels, (x, y) from it to a pixel's
-// middle [px], the difference of the right half and the left one adds to that pixel
+// A pixel's light is modelled as four equal points at the centres of its quarters; the differences move light
+// between them. Let p(x, y) be the image of a point, sampled twice as densely as pixels in each direction,
+// with (x, y) the vector from the point to a pixel's centre [px]. The difference of the right and left halves
+// then adds to that pixel
 //     (p(x - 1/4, y - 1/4) - p(x + 1/4, y - 1/4) + p(x - 1/4, y + 1/4) - p(x + 1/4, y + 1/4)) / 4,
-// and likewise for the other two. The picture as a whole is convolved as if light changed smoothly from pixel to pixel,
-// with the differences that follow from that (smooth_difference(), smooth_transfer()); the kernels are for those that are
-// known to be others. The approximation: what the three change further away than reach_px() is left out, less than
-// kMaxRest of the light in each.
+// and the other two differences add corresponding terms. The picture as a whole is convolved as if light
+// changed smoothly from pixel to pixel, with the differences that this implies (smooth_difference(),
+// smooth_transfer()). The kernels apply to known deviations from these. The approximation: effects beyond
+// reach_px() are left out, less than kMaxRest of the light for each difference.
 
 #include <array>
 #include <complex>
@@ -20,17 +21,18 @@
 
 namespace hilcam {
 
-// Returns the difference of the right half's mean and the left one's [of twice the pixel's mean] in light that changes
-// smoothly, from the means of pixels one and two to either side: a fifth of the way to them is right up to 0.3 cycles per
-// pixel (within 3 %).
+// Returns the difference of the right half's mean and the left one's [in units of twice the pixel's mean] for
+// light that changes smoothly, from the means of pixels one and two to either side. Right up to 0.3 cycles
+// per pixel (within 3 %).
 inline constexpr float kNextWeight = 0.2071068f;  // tan(pi / 8) / 2: exact at 1/4 cycle per pixel
-inline constexpr float kSecondWeight = (0.125f - kNextWeight) / 2;  // exact for what is even slower
+inline constexpr float kSecondWeight = (0.125f - kNextWeight) / 2;  // exact for even slower changes
 constexpr float smooth_difference(float second_left, float left, float right, float second_right) {
     return kNextWeight * (right - left) + kSecondWeight * (second_right - second_left);
 }
 
-// Frequencies in cycles per pixel. fine: the transfer function of light by halves, asked to 1. Returns that of a picture of
-// pixels whose differences are smooth, with what the pixels' sampling folds back.
+// Returns the transfer function for a picture of pixels with smooth differences, including the aliasing
+// caused by the pixels' sampling. u, v: in cycles per pixel. fine: transfer function of light by halves,
+// called up to frequency 1.
 std::complex<double> smooth_transfer(const Transfer& fine, double u, double v);
 
 class MomentKernels {
@@ -38,28 +40,29 @@ class MomentKernels {
     static constexpr double kMaxRest = 5e-3;
     static constexpr int kMaxReach_px = 8, kBlock_px = 32;
     static constexpr int kSide_px = kBlock_px + 2 * kMaxReach_px;
-    // Differences of a block and about it, in the order of SubpixelMoments, less the smooth ones; row by row.
+    // Differences in a block and around it, in the order of SubpixelMoments, minus the smooth ones; row by
+    // row.
     static constexpr std::size_t kParts = 3;
     using Parts = std::array<std::array<float, kSide_px * kSide_px>, kParts>;
 
     // Owner thread.
     explicit MomentKernels(const Transfer& fine);
 
-    // Makes the kernels of a frame's blur (its `axis` apart). False: it blurs by so much that they would not
-    // reach far enough. Loop: no allocation, no lock; one thread.
+    // Makes the kernels for a frame's blur (without its `axis`). Returns false when the blur is so wide that
+    // the kernels would not reach far enough. Loop: no allocation, no lock; one thread.
     bool prepare(const FrameBlur& blur);
     int reach_px() const { return reach_px_; }
-    // Returns the weight of a difference (0 to 2) in the pixel at (x, y) from it.
+    // Returns the weight of a difference (0 to 2) for the pixel at (x, y) relative to it.
     float weight(std::size_t part, int x, int y) const;
 
-    // Adds what a block's parts, and those about it, give to its rows: `rows` of `columns` pixels, at most kBlock_px,
-    // stride floats apart. Loop, any thread.
+    // Adds the effect of the differences in a block and around it to the block: `rows` rows of `columns`
+    // pixels, at most kBlock_px, stride floats apart. Loop, any thread.
     void add(const Parts& parts, int columns, int rows, float* out, std::size_t stride) const;
 
   private:
     static constexpr int kAcross = 2 * kMaxReach_px + 1;
 
-    std::vector<float> point_;  // the image of a point; what lies before it is at the end
+    std::vector<float> point_;  // image of a point; negative places are at the end
     int still_reach_px_ = 0, reach_px_ = 0;
     FrameBlur prepared_;
     std::array<std::array<float, kAcross * kAcross>, kParts> weights_{};

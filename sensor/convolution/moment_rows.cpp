@@ -13,15 +13,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 16>;
 using V = hn::Vec<Floats>;
 constexpr std::size_t kLanes = hn::MaxLanes(Floats());
-// Vectors of a row whose sums are made together: with both rows' they stay in the registers, sixteen of which are the fewest.
+// Vectors of a row with sums computed together: for both rows they fit into registers, of which there are at
+// least sixteen.
 constexpr std::size_t kVectors = kSubpixelBlock_px / kLanes < 4 ? kSubpixelBlock_px / kLanes : 4;
 static_assert(kSubpixelBlock_px % (kVectors * kLanes) == 0);
 
-// Some columns of the two rows.
+// Sums for some columns of the two rows.
 struct Columns {
     V upper[kVectors], lower[kVectors];
 
-    // One row of differences; null weights: it is beyond the kernel.
+    // Adds one row of differences; null weights: it is beyond the kernel.
     template <bool kUpper, bool kLower>
     HWY_INLINE void add(const float* in, const float* of_upper, const float* of_lower, int taps) {
         const Floats d;

@@ -11,16 +11,16 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kMin = 64;  // numbers of a least image
+constexpr std::size_t kMin = 64;  // numbers in the smallest image
 
-// Numbers side by side, in as many vectors as they take.
+// Numbers side by side, in as many vectors as necessary.
 template <std::size_t kCount>
 struct Numbers {
     using Floats = hn::CappedTag < float, kCount<16 ? kCount : 16>;
     static constexpr std::size_t kLanes = hn::MaxLanes(Floats());
     hn::Vec<Floats> vector[kCount / kLanes];
 
-    // The tables' sum, from a number of theirs on.
+    // Computes the sum of the tables, starting at one of their numbers.
     HWY_INLINE void sum(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t from) {
         const Floats d;
         for (auto& v : vector) v = hn::Zero(d);
@@ -33,7 +33,7 @@ struct Numbers {
     HWY_INLINE void store(float* to) const {
         for (const auto& v : vector) hn::StoreU(v, Floats(), to), to += kLanes;
     }
-    // Adds the first of them to what is there: `count`, or all.
+    // Adds the first `count` of them, or all, to memory.
     HWY_INLINE void add_to(float* to, std::ptrdiff_t count) const {
         const Floats d;
         auto rest = static_cast<float>(count);
@@ -46,7 +46,7 @@ struct Numbers {
 };
 
 void copy(const ShiftedTable* tables, std::size_t count, float* out) {
-    // The sums of so many numbers stay in the registers, however narrow vectors are.
+    // The sums of this many numbers stay in registers, however narrow vectors are.
     constexpr std::size_t kTogether = kMin < 8 * Numbers<kMin>::kLanes ? kMin : 8 * Numbers<kMin>::kLanes;
     for (std::size_t first = 0; first < kMin; first += kTogether) {
         Numbers<kTogether> part;

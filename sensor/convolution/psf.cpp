@@ -22,21 +22,21 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
             const double u = static_cast<double>(x) / kField_px;
             const double v = static_cast<double>(y < n / 2 ? y : y - n) / kField_px;
             const std::complex<double> value = transfer(u, v) * (fill_factor / (kField_px * kField_px));
-            // The table runs over where a pixel lies from the point.
+            // The table is indexed by the vector from the point to a pixel.
             spectrum[static_cast<std::size_t>(y) * half + static_cast<std::size_t>(x)] =
                 std::complex<float>(value);
         }
     real_from_half_spectrum(spectrum, n, fine);
 
-    // fine(x) is the share that a pixel takes whose centre lies x/16 px from the point; split by phase.
+    // fine(x) is the share of a pixel with its centre x/16 px from the point; it is split by phase.
     phases_.resize(std::size_t{n} * n + kField_px);
     std::size_t at = 0;
     for (int py = 0; py < kOversampling; ++py)
         for (int px = 0; px < kOversampling; ++px)
             for (int y = 0; y < kField_px; ++y)
                 for (int x = 0; x < kField_px; ++x) {
-                    // Pixel (x, y) of the field is x - 32 px from the middle; sample 0 of `fine` is distance
-                    // 0.
+                    // Pixel (x, y) of the field is x - 32 px from the middle; sample 0 of `fine` is at
+                    // distance 0.
                     const int fx = ((x - kField_px / 2) * kOversampling + px + n) % n;
                     const int fy = ((y - kField_px / 2) * kOversampling + py + n) % n;
                     phases_[at++] = fine[static_cast<std::size_t>(fy) * n + static_cast<std::size_t>(fx)];
@@ -84,7 +84,7 @@ void PointSpread::sum_up() {
 
 namespace {
 
-// A distance in sixteenths of a pixel: the phase that has it, and by how many pixels that is shifted.
+// A distance in sixteenths of a pixel, as a phase and a shift by whole pixels.
 struct Shift {
     int phase, pixels;
 };
@@ -92,14 +92,15 @@ Shift shift_of(int sixteenths) { return {sixteenths & 15, sixteenths >> 4}; }
 
 }  // namespace
 
-// The value at a place of a pixel so far from the middle one.
+// Returns the value for a pixel relative to the middle one, at that distance of the middle pixel's centre
+// from the point.
 float PointSpread::value(int x, int y, int px, int py) const {
     const Shift sx = shift_of(x), sy = shift_of(y);
     return phase(sx.phase,
                  sy.phase)[(py + sy.pixels + kField_px / 2) * kField_px + px + sx.pixels + kField_px / 2];
 }
 
-// Finds how far a line between neighbours leaves the curve: an eighth of the second difference, along either axis.
+// Computes the error of linear interpolation: an eighth of the second difference along each axis.
 void PointSpread::find_linear_errors() {
     linear_errors_.assign(kMaxRadius_px + 1, 0.0);
     for (int y = 0; y < kOversampling; ++y)
@@ -117,8 +118,8 @@ void PointSpread::find_linear_errors() {
         linear_errors_[r] = std::max(linear_errors_[r], linear_errors_[r + 1]);
 }
 
-// The sums over squares about the middle pixel, place by place, and the least images, which have the light of the
-// whole field.
+// Computes, for each place, the sums over squares about the middle pixel, and the smallest image, which
+// contains the light of the whole field.
 void PointSpread::make_places() {
     constexpr std::size_t kCount = std::size_t{kPlacesAcross} * kPlacesAcross;
     least_.resize(kCount * kMinSize);
@@ -164,15 +165,17 @@ int PointSpread::radius_for(double electrons) const {
     return kMaxRadius_px;
 }
 
-// A point's place: the pixel that holds it, and how far that pixel's centre lies from the point, in sixteenths.
+// A point's place: the pixel that contains it, and the vector from it to that pixel's centre in sixteenths of
+// a pixel.
 struct PointSpread::Place {
     int x_px, y_px, x, y;
-    double beyond_x, beyond_y;  // the rest
+    double beyond_x, beyond_y;  // fractions of the steps
 
     Place(double at_x_px, double at_y_px) {
         const double cx = std::floor(at_x_px), cy = std::floor(at_y_px);
         const double sx = (cx + 0.5 - at_x_px) * kOversampling, sy = (cy + 0.5 - at_y_px) * kOversampling;
-        // On a pixel's edge it is the end of the last step: a cubic has a sample farther, and there is no table for one more.
+        // A point on a pixel's edge is at the end of the last step, because the cubic needs one more sample,
+        // for which there is no further table.
         constexpr int kLast = kOversampling / 2 - 1;
         x = std::min(static_cast<int>(std::floor(sx)), kLast);
         y = std::min(static_cast<int>(std::floor(sy)), kLast);
@@ -214,7 +217,7 @@ bool PointSpread::is_linear(double electrons, int ring_px) const {
 bool PointSpread::add(double x_px, double y_px, double electrons, const PictureWindow& window) const {
     const int radius = radius_for(electrons);
     const bool least = radius == kMinRadius_px;
-    // The cubic's outer samples are lost to sight in faint points.
+    // For faint points the cubic's outer samples do not matter.
     if (least && !is_linear(electrons, 0)) return false;
     const Place place(x_px, y_px);
     const int left = place.x_px - radius, top = place.y_px - radius, size = 2 * radius + 1;
@@ -240,7 +243,8 @@ bool PointSpread::add(double x_px, double y_px, double electrons, const PictureW
     return true;
 }
 
-// The image is a sum of those at the places around. weights: of two, or of four about those.
+// The image is a weighted sum of the images at surrounding places. weights: for two places along each axis,
+// or four.
 template <std::size_t kSamples>
 PointPatch PointSpread::least(const Place& place, const std::array<double, kSamples>& x_weights,
                               const std::array<double, kSamples>& y_weights, double electrons,
@@ -256,11 +260,11 @@ PointPatch PointSpread::least(const Place& place, const std::array<double, kSamp
     return {place.x_px - kMinRadius_px, place.y_px - kMinRadius_px, kMinAcross_px, kMinPitch_px, room.data()};
 }
 
-// All pixels share one sub-pixel phase: the kernel is a sum of shifted tables.
+// All pixels share one sub-pixel phase, so the image is a sum of shifted tables.
 LargeImage PointSpread::large(const Place& place, int radius, double electrons) const {
     const std::array<double, 4> x_weights = cubic_weights(place.beyond_x),
                                 y_weights = cubic_weights(place.beyond_y);
-    double whole = 0, inside = 0;  // sums over the full field and the image
+    double whole = 0, inside = 0;  // sums over the full field, and over the image
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
             const double weight =
@@ -283,7 +287,7 @@ LargeImage PointSpread::large(const Place& place, int radius, double electrons) 
         down{1 - place.beyond_y, place.beyond_y};
     for (std::size_t k = 0; k < 4; ++k)
         out.linear[k] = table(static_cast<int>(k % 2), static_cast<int>(k / 2), across[k % 2] * down[k / 2]);
-    int near = 0;  // rings about the middle pixel, and that
+    int near = 0;  // number of rings, including the middle pixel
     while (near <= radius && !is_linear(electrons, near)) ++near;
     out.pitch = kField_px;
     out.size = 2 * radius + 1;

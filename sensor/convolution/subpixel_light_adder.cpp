@@ -13,7 +13,7 @@ namespace {
 constexpr int kAddedBlock_px = MomentKernels::kBlock_px, kReach_px = MomentKernels::kMaxReach_px;
 static_assert(kAddedBlock_px == RadianceImage::kBlock_px);
 
-// --- rows of pixels
+// --- operations on rows of pixels
 
 HILCAM_CLONES void add_scaled(float factor, const float* in, std::size_t count, float* sum) {
     for (std::size_t x = 0; x < count; ++x) sum[x] += factor * in[x];
@@ -22,7 +22,8 @@ HILCAM_CLONES void multiply(const float* a, const float* b, std::size_t count, f
     for (std::size_t x = 0; x < count; ++x) product[x] = a[x] * b[x];
 }
 
-// Charge from rates, and the factor between them: of a pixel that was cut, of as much of it as was left. zone: null with one.
+// Input for computing charge from rates. A pixel that was cut has only the charge that was left. zone: null
+// with one zone.
 struct ChargeRow {
     const float *rate_e_s, *lens, *zone;
     float exposure_s, max_e;
@@ -41,7 +42,7 @@ HILCAM_CLONES void to_charge(const ChargeRow& of, std::size_t count, float* fact
     }
 }
 
-// Light two pixels and one pixel before a place, one and two behind it.
+// Light two pixels and one pixel before a place, and one and two after it.
 struct Neighbors {
     const float *second_before, *before, *behind, *second_behind;
 };
@@ -50,7 +51,8 @@ HILCAM_CLONES void find_smooth(const Neighbors& light, std::size_t count, float*
         difference[x] = smooth_difference(light.second_before[x], light.before[x], light.behind[x],
                                           light.second_behind[x]);
 }
-// Takes the smooth difference from those of the pixels that are not known to be smooth. False: none of these has any left.
+// Subtracts the smooth difference in pixels that are not known to be smooth. Returns false when nothing
+// remains in any of these.
 HILCAM_CLONES bool take(const float* smooth, const std::uint8_t* sharp, std::size_t count,
                         float* difference) {
     std::uint32_t left = 0;
@@ -64,12 +66,12 @@ HILCAM_CLONES bool take(const float* smooth, const std::uint8_t* sharp, std::siz
 
 }  // namespace
 
-// True when there are differences in the block that holds the pixel, which may lie beside the picture.
+// True when there are differences in the block that contains the pixel, which may be outside the picture.
 bool SubpixelLightAdder::Source::knows(int x, int y) const {
     return x >= 0 && y >= 0 && x < light.width() && y < light.height() && !light.unknown(x, y) &&
            !radiance.dark(x, y);
 }
-// Returns charge rates of pixels from (x, y) on, which `room` may hold [e-/s].
+// Returns charge rates of pixels from (x, y) on [e-/s], in `room` if they have to be computed.
 const float* SubpixelLightAdder::Source::rates_e_s(int x, int y, std::size_t count, float* room) const {
     const auto from = [&](int plane) { return radiance.row(y, plane).data() + x; };
     if (!response) return from(number);
@@ -109,7 +111,8 @@ void SubpixelLightAdder::add(const RadianceImage& radiance, const Channel& chann
     }
 }
 
-// Collects the differences of a block, and about it, that are known not to be smooth. False: there are none.
+// Collects the differences in a block and around it that are known not to be smooth. Returns false when there
+// are none.
 bool SubpixelLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& scratch) const {
     const auto known = [&](int y) {
         bool any = false;
@@ -123,7 +126,7 @@ bool SubpixelLightAdder::gather(const Source& source, int x_px, int y_px, Scratc
     return take_smooth(scratch);
 }
 
-// Copies a row of what lies in and about the block at (x_px, y_px).
+// Copies a row of the block at (x_px, y_px) and its surroundings.
 void SubpixelLightAdder::copy_row(const Source& source, int x_px, int y_px, int row, Scratch& scratch) const {
     const int width = source.light.width(), y = y_px - kRim_px + row, left = x_px - kRim_px;
     const int part_row = row - (kRim_px - kReach_px);
@@ -165,7 +168,7 @@ void SubpixelLightAdder::copy_row(const Source& source, int x_px, int y_px, int 
     }
 }
 
-// Finds the pixels whose light is not smooth: what is known of them, or an object up to two pixels beside.
+// Finds the pixels with light that is not smooth: known differences, or an object at most two pixels away.
 void SubpixelLightAdder::find_sharp(Scratch& scratch) {
     std::array<std::array<std::uint8_t, kArea_px>, kArea_px> along;
     for (std::size_t y = 0; y < kArea_px; ++y) {
@@ -181,7 +184,8 @@ void SubpixelLightAdder::find_sharp(Scratch& scratch) {
                                   along[y + 2][x] | (scratch.kinds[y][x] != SubpixelKind::kSmooth ? 1 : 0);
 }
 
-// Takes what the picture as a whole has been given already from the differences. False: nothing is left.
+// Subtracts from the differences what the whole picture has already received. Returns false when nothing
+// remains.
 bool SubpixelLightAdder::take_smooth(Scratch& scratch) {
     constexpr auto kSide_px = static_cast<std::size_t>(MomentKernels::kSide_px);
     const Area& e = scratch.charge_e;

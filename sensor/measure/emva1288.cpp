@@ -12,8 +12,8 @@ namespace {
 
 // The variance of a uniform rounding error of one DN (section 2.4).
 constexpr double kQuantisation_dn2 = 1.0 / 12;
-// Fourth degree takes away falloff and vignetting over a window to 1e-5; of a random pattern it takes fifteen
-// degrees of freedom.
+// A polynomial of fourth degree removes falloff and vignetting over a window to 1e-5; it also removes fifteen
+// degrees of freedom from a random pattern.
 constexpr int kShadingOrder = 4;
 
 std::vector<double> sum_of_images(std::vector<double> a, std::span<const double> b, double factor) {
@@ -21,18 +21,20 @@ std::vector<double> sum_of_images(std::vector<double> a, std::span<const double>
     return a;
 }
 
-// Slope through the origin, unweighted.
+// Fits a slope through the origin, without weights.
 Measured slope(std::span<const double> x, std::span<const double> y, std::span<const double> variance) {
     const std::vector<double> equal(x.size(), 1.0);
     const Fitted fit = fit_polynomial(x, y, equal, variance, 1, true);
     return {fit.coefficient[0], std::sqrt(fit.variance(0))};
 }
 
-// The standard deviation of what stays, from the variance of an average of frames less its temporal rest.
+// Returns the standard deviation of the constant part, from the variance of averaged frames minus the rest of
+// their temporal noise.
 Measured deviation(double measured, double temporal_rest, double samples) {
     const double net = measured - temporal_rest;
     const double error = std::max(measured, temporal_rest) * std::sqrt(2 / std::max(samples - 1, 1.0));
-    // Nothing is found where chance alone could have made it: then the error of the variance is the bound.
+    // If chance alone could explain the variance, the result is zero, with the error of the variance as its
+    // bound.
     if (net <= 0) return {0, std::sqrt(error)};
     return {std::sqrt(net), std::min(error / (2 * std::sqrt(net)), std::sqrt(error))};
 }
@@ -47,7 +49,7 @@ Nonuniformity split(std::vector<double> image, const PixelSelection& selection, 
     out.pixel = deviation(s.pixel, pixel_rest, s.pixels);
     out.row = deviation(s.row, row_rest, s.rows);
     out.column = deviation(s.column, 0, s.columns);
-    // Means of rows and columns keep a share of the pixels' scatter, and with it its chance.
+    // Means of rows and columns contain a share of the pixels' scatter, with its random error.
     const double of_row = (s.pixel / (s.pixels / s.rows)) * std::sqrt(2 / s.rows);
     const double of_column = (s.pixel / (s.pixels / s.columns)) * std::sqrt(2 / s.columns);
     const auto widen = [](Measured& f, double chance) {
@@ -135,29 +137,28 @@ Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const Respon
         if (p.signal_dn() > 0.7 * saturation_dn) continue;
         const double photons = response.photons(p.signal_dn());
         const double straighten = small.value / response.slope_dn_photon(photons);
-        // Light outside the exposure is part of the signal and of its shot noise.
+        // Light from outside the exposure is part of the signal and of its shot noise.
         signal.push_back(small.value * photons + response.offset_dn());
         shot.push_back(p.shot_dn2() * square(straighten));
         variance.push_back(p.shot_variance() * square(square(straighten)));
     }
     Measured gain = slope(signal, shot, variance);
-    // The scale of the straight line is the responsivity's.
+    // The scale of the straight line has the error of the responsivity.
     gain.uncertainty = std::hypot(gain.uncertainty, gain.value * small.uncertainty / small.value);
     return gain;
 }
 
-// --- darkness
+// --- in the dark
 
 Measured dark_noise_e(const TemporalStatistics& dark, double dark_signal_dn, const Measured& gain,
                       double bandwidth) {
     const double shot_dn2 = gain.value * dark_signal_dn;
     const double white = (dark.pixel_dn2() - kQuantisation_dn2) / bandwidth - shot_dn2;
     const double noise_dn = std::sqrt(std::max(white, 0.0) + dark.row_dn2 + dark.frame_dn2);
-    // The rounding error is not uniform where there is too little noise to cross a step: nothing but a bound
-    // is known.
+    // If noise is too small to span a step, the rounding error is not uniform, and only a bound is known.
     if (dark.variance_dn2.value < 0.24 || noise_dn == 0)
         return {noise_dn / gain.value, std::sqrt(0.24) / gain.value};
-    // K errs in the scale, and in what is taken off for the dark current.
+    // Errors of K enter through the scale, and through the correction for the dark current.
     const double of_variance = dark.variance_dn2.uncertainty / bandwidth / (2 * noise_dn);
     const double of_gain = (noise_dn / gain.value + dark_signal_dn / (2 * noise_dn)) * gain.uncertainty;
     return {noise_dn / gain.value, std::hypot(of_variance, of_gain) / gain.value};
@@ -214,12 +215,12 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
         error += variance[i] / square(line);
     }
     const auto n = static_cast<double>(photons.size());
-    // Magnitudes of chance alone do not average out: its root mean square, not that over sqrt(n).
+    // Magnitudes of random deviations do not average out, so the error is their rms, without 1 / sqrt(n).
     out.error_fraction = {sum / n, std::sqrt(error / n)};
     return out;
 }
 
-// --- what stays
+// --- fixed patterns
 
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
                      const PixelSelection& selection, const Measured& gain, double bandwidth) {
@@ -248,7 +249,7 @@ Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& fl
                  rest([](const TemporalStatistics& t) { return t.row_dn2; }), bandwidth);
 }
 
-// --- what follows
+// --- derived figures
 
 Measured absolute_threshold_e(const Measured& noise, const Measured& gain) {
     const double dark = std::sqrt(square(noise.value) + kQuantisation_dn2 / square(gain.value));

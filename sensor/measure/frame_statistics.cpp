@@ -10,7 +10,7 @@
 namespace hilcam {
 namespace {
 
-// A row of the rectangle in the frame.
+// Returns a row of the selection's rectangle.
 std::span<const std::uint16_t> row_of(const DnImage& frame, const PixelSelection& s, int y) {
     return frame.row(s.top + y).subspan(static_cast<std::size_t>(s.left), static_cast<std::size_t>(s.width));
 }
@@ -26,7 +26,7 @@ std::size_t PixelSelection::count() const {
 }
 
 void PairSeries::add(const DnImage& a, const DnImage& b) {
-    // Whole numbers: exact, whatever the order.
+    // Sums of whole numbers are exact in any order.
     std::int64_t sum = 0, difference = 0, squares = 0, pixels = 0;
     std::vector<double> row_means;
     double pixels_of_row = 0;
@@ -55,7 +55,7 @@ void PairSeries::add(const DnImage& a, const DnImage& b) {
     sum_ += static_cast<double>(sum) / (2 * n);
     square_ += variance;
     frame_ += 0.5 * square(mean_difference);
-    // Means of rows vary by the row's own noise and by what is left of the pixels'.
+    // Means of rows vary with the row's own noise and with the remaining noise of its pixels.
     if (row_means.size() > 1) {
         double between = 0;
         for (const double mean : row_means) between += square(mean - mean_difference);
@@ -74,11 +74,11 @@ TemporalStatistics PairSeries::result() const {
     TemporalStatistics out;
     out.pairs = pairs_;
     const double variance = square_ / pairs;
-    // The uncertainties are those of white noise: the row noise that chance alone may pretend is left out.
+    // The uncertainties assume white noise: row noise that chance alone can produce is left out.
     const double rows = selection_.height;
     const double chance = variance / (pixels / rows) * std::sqrt(2 / (rows * pairs));
     out.row_dn2 = row_ / pairs > 4 * chance ? row_ / pairs : 0;
-    // The frame's mean varies by chance, too.
+    // The frame's mean also varies by chance.
     const double of_frame = frame_ / pairs - (variance / pixels + out.row_dn2 / rows);
     out.frame_dn2 =
         of_frame > 3 * std::sqrt(2 / pairs) * (variance / pixels + out.row_dn2 / rows) ? of_frame : 0;
@@ -157,8 +157,8 @@ SpatialParts spatial_parts(std::span<const double> image, const PixelSelection& 
     };
     const double of_rows = between(row_sum, row_count, out.rows);
     const double of_columns = between(column_sum, column_count, out.columns);
-    // Means of rows vary by s^2_row + s^2_pixel / N, of columns by s^2_col + s^2_pixel / M, all pixels by the
-    // sum of the three; solved for the three, this is the standard's set of equations.
+    // Means of rows vary by s^2_row + s^2_pixel / N, those of columns by s^2_col + s^2_pixel / M, and all
+    // pixels by the sum of the three. Solved for these three, this is the standard's set of equations.
     const double n = out.pixels / out.rows, m = out.pixels / out.columns;
     out.pixel = (out.total - of_rows - of_columns) / (1 - 1 / n - 1 / m);
     out.row = of_rows - out.pixel / n;
@@ -167,7 +167,7 @@ SpatialParts spatial_parts(std::span<const double> image, const PixelSelection& 
 }
 
 std::vector<double> smooth_surface(std::span<const double> image, const PixelSelection& s, int order) {
-    // Means of blocks carry the shape; the fit needs no more. Few blocks tell little shape.
+    // Means of blocks are enough to fit the shape. With few blocks, the shape is determined badly.
     constexpr int kBlock_px = 16;
     const int order_x = std::min(order, (s.width - 1) / kBlock_px);
     const int order_y = std::min(order, (s.height - 1) / kBlock_px);
@@ -252,7 +252,7 @@ NoiseSums noise_sums(const DnImage& a, const DnImage& b, const PixelSelection& s
             if (use[x])
                 row[x] = static_cast<double>(row_a[x]) - static_cast<double>(row_b[x]), sum += row[x],
                 ++pixels;
-        // Noise of the whole row is not the filter's.
+        // Removes noise that is common to the row, which the filter does not cause.
         for (std::size_t x = 0; x < width; ++x)
             if (use[x]) row[x] -= sum / pixels;
     }
@@ -271,8 +271,8 @@ NoiseSums noise_sums(const DnImage& a, const DnImage& b, const PixelSelection& s
     for (int dx = 1; dx <= reach.columns; ++dx) total += 2 * covariance(dx, 0);
     for (int dy = 1; dy <= reach.rows; ++dy)
         for (int dx = -reach.columns; dx <= reach.columns; ++dx) total += 2 * covariance(dx, dy);
-    // A row's mean, taken out above, holds 1/width of the sum and is missing from each of 2 columns + 1
-    // terms.
+    // The row's mean, which was subtracted, contains 1/width of the sum, and is missing from each of 2
+    // columns + 1 terms.
     return {variance, total / (1 - (2.0 * reach.columns + 1) / s.width)};
 }
 

@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// The inverse of a symmetric positive definite matrix by Cholesky's method, scaled to a unit diagonal first.
+// Inverts a symmetric positive definite matrix by Cholesky's method, after scaling it to a unit diagonal.
 std::vector<double> inverse(std::vector<double> a, std::size_t n) {
     std::vector<double> scale(n), lower(n * n, 0.0), out(n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) scale[i] = a[i * n + i] > 0 ? 1 / std::sqrt(a[i * n + i]) : 0;
@@ -19,7 +19,7 @@ std::vector<double> inverse(std::vector<double> a, std::size_t n) {
             if (i == j && !(sum > 1e-13)) throw InputError("a fit has fewer data than coefficients");
             lower[i * n + j] = i == j ? std::sqrt(sum) : sum / lower[j * n + j];
         }
-    // Column by column: L L^T x = e.
+    // Solves L L^T x = e column by column.
     for (std::size_t column = 0; column < n; ++column) {
         std::vector<double> x(n, 0.0);
         for (std::size_t i = 0; i < n; ++i) {

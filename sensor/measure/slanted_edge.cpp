@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kBinsPerPixel = 8;
 constexpr double kBin_px = 1.0 / kBinsPerPixel;
-constexpr int kFrequencies = 64;  // steps to 1 cycle/px
+constexpr int kFrequencies = 64;  // steps up to 1 cycle/px
 
-// The picture with its edge near the columns.
+// The picture, transposed if necessary so that its edge is near the columns.
 struct Upright {
     int width, height;
     std::vector<double> value;
@@ -35,14 +35,14 @@ Upright upright(const EdgePicture& p, bool transpose) {
     return out;
 }
 
-// x = offset + slope y of the edge [px, pixel centres at +0.5].
+// The edge: x = offset + slope y [px, pixel centres at +0.5].
 struct Line {
     double offset = 0, slope = 0;
     double at(double y) const { return offset + slope * y; }
 };
 
-// Centroid of a row's derivative under a Hann window about `center`, of the half width given; NaN when the
-// row has no step there.
+// Returns the centroid of a row's derivative under a Hann window about `center` with the given half width;
+// NaN when the row has no step there.
 double edge_in_row(const Upright& p, int y, double center, double half_width) {
     double sum = 0, moment = 0, before = 0;
     int last = -1;
@@ -64,7 +64,7 @@ double edge_in_row(const Upright& p, int y, double center, double half_width) {
 
 Line find_edge(const Upright& p, double half_width) {
     Line line{0.5 * p.width, 0};
-    // From wide to narrow windows about the line found before.
+    // Narrows the window step by step about the previous line.
     for (const double reach :
          {1.0 * p.width, 0.5 * p.width, half_width, 0.5 * half_width, 0.5 * half_width}) {
         std::vector<double> y, x;
@@ -81,15 +81,15 @@ Line find_edge(const Upright& p, double half_width) {
 }
 
 struct SpreadFunction {
-    std::vector<double> value;  // mean over each bin, moved to the bin's middle
+    std::vector<double> value;  // mean over each bin, moved to the bin's centre
     std::vector<double> count;
-    double first_px = 0;  // middle of the first bin
+    double first_px = 0;  // centre of the first bin
 };
 
 SpreadFunction spread_function(const Upright& p, const Line& line, double half_width) {
     const double slope = std::abs(line.slope);
     const double cosine = 1 / std::hypot(1.0, line.slope);
-    // Whole cycles of two pixels where there is room, for colour filters that repeat so.
+    // Uses whole cycles of two pixels if possible, for colour filters with that period.
     const double cycle = slope * p.height >= 2 ? 2 : 1;
     const double cycles = std::floor(slope * p.height / cycle);
     if (cycles < 1) throw InputError("slanted edge: too few rows for its angle");
@@ -122,7 +122,7 @@ SpreadFunction spread_function(const Upright& p, const Line& line, double half_w
     for (std::size_t k = 0; k < mean.size(); ++k) {
         if (out.count[k] > 0)
             mean[k] = out.value[k] / out.count[k], place[k] /= out.count[k];
-        else  // a bin that no pixel fell into is as its neighbour
+        else  // a bin without pixels takes its neighbour's value
             mean[k] = k > 0 ? mean[k - 1] : p.value[0],
             place[k] = out.first_px + kBin_px * static_cast<double>(k);
     }
@@ -134,7 +134,7 @@ SpreadFunction spread_function(const Upright& p, const Line& line, double half_w
     return out;
 }
 
-// Tukey's window: 1 over the middle half, cosine to 0 at both ends.
+// Returns Tukey's window: 1 over the middle half, falling as a cosine to 0 at both ends.
 double window(double from_middle) {
     const double a = std::abs(from_middle);
     return a < 0.5 ? 1 : a < 1 ? 0.5 + 0.5 * std::cos(2 * kPi * (a - 0.5)) : 0;
@@ -146,7 +146,7 @@ EdgeMtf slanted_edge_mtf(const EdgePicture& picture, const SlantedEdgeOptions& o
     HILCAM_CHECK(picture.value.size() == picture.use.size() &&
                  picture.value.size() ==
                      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-    // The steeper of the two directions is across the edge.
+    // The direction with the larger gradient is across the edge.
     double across = 0, along = 0;
     for (int y = 0; y + 1 < picture.height; ++y)
         for (int x = 0; x + 1 < picture.width; ++x) {
@@ -183,7 +183,7 @@ EdgeMtf slanted_edge_mtf(const EdgePicture& picture, const SlantedEdgeOptions& o
             sum += wave[k] * (esf.value[k + 1] - esf.value[k]);
         }
         const double correction = std::abs(step) * sinc(f * kBin_px) * sinc(f * kBin_px);
-        // Noise along the sum's own direction is what changes its modulus.
+        // Only noise in the direction of the sum changes its modulus.
         const std::complex<double> direction = std::abs(sum) > 0 ? std::conj(sum) / std::abs(sum) : 1.0;
         double variance = 0;
         for (std::size_t k = 0; k <= steps; ++k) {

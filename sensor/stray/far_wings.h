@@ -1,12 +1,12 @@
 #pragma once
-// Very bright light, the Sun above all, reaches across the whole picture by the wings of its image, which the
-// point spread function's table ends before and which an FFT would fold over the picture's edges.
+// The far wings of very bright light, above all the Sun's, across the whole picture. The table of the point
+// spread function ends before them, and an FFT would fold them over the picture's edges.
 //
-// Far out an image is what its transfer function's cusp at zero frequency says: with slope -s there, s / (4
-// pi^2 r^3) averaged over the rings (the transform of |f|; for a clear aperture s = 4 lambda N / pi and this
-// is the Airy pattern's envelope lambda N / (pi^3 r^3)); and the halo of veiling glare as it is. On cells of
-// 8 px, smooth as it is. Nearer than 24 px the wings stay level; what is near is the table's, less the level
-// (point_light.h). Not modelled: the spikes of a spider.
+// Far from the centre an image is determined by the cusp of its transfer function at zero frequency: with
+// slope -s there, it is s / (4 pi^2 r^3), averaged over the rings (the transform of |f|; for a clear aperture
+// s = 4 lambda N / pi, and this is the Airy pattern's envelope lambda N / (pi^3 r^3)), plus the halo of
+// veiling glare. The wings are smooth, so they are computed on cells of 8 px. Nearer than 24 px they stay
+// level; there the table is used, minus that level (point_light.h). Not modelled: the spikes of a spider.
 
 #include <vector>
 
@@ -22,14 +22,14 @@ class FarWings {
     // slope_px: s of the lens alone. Owner thread.
     FarWings(double slope_px, const StrayLightConfig& stray, const ImageGeometry& geometry);
 
-    // These functions are called in this order each frame; loop, one thread.
+    // Call these functions in this order for each frame. Loop, one thread.
     void clear();
     void collect(double x_px, double y_px, double electrons);  // px of the sensor frame
     void spread();
     bool empty() const { return sources_.empty(); }
-    // Electrons that the wings put into a pixel. Any thread.
+    // Returns the electrons that the wings add to a pixel. Any thread.
     float at(int x_px, int y_px) const;
-    // Share of a source's light in a pixel at a distance. Any thread.
+    // Returns the share of a source's light in a pixel at a distance. Any thread.
     double density(double distance_px) const;
 
   private:
@@ -44,7 +44,7 @@ class FarWings {
     std::vector<float> shares_;    // density by distance in cells, [down][across]
     std::vector<double> cells_;    // collected light, by cell of the padded picture
     std::vector<Source> sources_;  // lit cells
-    std::vector<float> wings_;     // at the cells' middles
+    std::vector<float> wings_;     // at the centres of the cells
 };
 
 }  // namespace hilcam

@@ -61,8 +61,9 @@ void validate(const OutsideLightConfig& c) {
 double lit_share(double angle_rad, double field_rad, double baffle_rad) {
     if (baffle_rad <= 0 || angle_rad <= field_rad) return angle_rad < 0.5 * kPi ? 1 : 0;
     if (angle_rad >= baffle_rad) return 0;
-    // The baffle's rim, seen along the light, is a disk of radius R that has moved by L tan theta; the aperture's
-    // radius is 1. All is lit up to L tan(field) = R - 1 and none from L tan(baffle) = R + 1 on.
+    // Seen along the light, the baffle's rim is a disk of radius R that has moved by L tan theta; the
+    // aperture's radius is 1. The whole aperture is lit up to L tan(field) = R - 1, and none of it from L
+    // tan(baffle) = R + 1 on.
     const double far = std::tan(baffle_rad), near = std::tan(field_rad);
     const double rim = (far + near) / (far - near), d = 2 / (far - near) * std::tan(angle_rad);
     if (d <= rim - 1) return 1;
@@ -108,7 +109,7 @@ double OutsideLight::electrons_of(const SideLight& light, double exposure_s) con
 
 namespace {
 
-// Between samples of a curve that falls by decades: straight in its logarithm, where it is above zero.
+// Interpolates a curve that falls by decades: linear in its logarithm where it is above zero.
 double by_logarithm(const Table& curve, double x) {
     if (x > curve.x.back()) return 0;
     if (x <= curve.x.front()) return curve.y.front();
@@ -123,7 +124,8 @@ double by_logarithm(const Table& curve, double x) {
 
 }  // namespace
 
-// The veil in a pixel over the light that the whole aperture would take from a source before it.
+// Returns the veil in a pixel relative to the light that the whole aperture receives from a source in front
+// of it.
 double OutsideLight::veil_px(Vec3f source, double cosine, Vec2d across) const {
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
     if (!curve_.empty()) return measured_px_ * by_logarithm(curve_, angle / kDegree_rad);
@@ -150,7 +152,7 @@ void OutsideLight::add_ghosts(const SideLight& light, double angle_rad, double e
         if (!(fade > 0) || !(cosine > 1e-3) || ghosts_.size() == ghosts_.capacity()) continue;
         const Vec2d center = geometry_.center_px();
         const double reach = kind.scale * geometry_.focal_length_px / cosine;
-        // A sharp one is a pixel wide at least.
+        // A sharp ghost is at least a pixel wide.
         const double radius = std::max(0.6, kind.defocus_m / (2 * lens_.f_number) / lens_.pitch_m);
         const double hole = radius > 2 ? lens_.obscuration_ratio * radius : 0;
         ghosts_.push_back({{center.x + reach * static_cast<double>(light.camera_dir.x),
@@ -197,7 +199,7 @@ void OutsideLight::add_to_row(int y, std::size_t first, std::size_t step, std::s
         row[x] += (1 - below) * ((1 - right) * a[0] + right * a[1]) +
                   below * ((1 - right) * a[kNodes] + right * a[kNodes + 1]);
     }
-    // A disk's rim runs through its pixels: half of one is lit where it is half a pixel inside.
+    // A pixel is half lit where a disk\'s rim passes through its centre, and fully lit half a pixel inside.
     for (const Ghost& g : ghosts_) {
         const double dy = y + 0.5 - g.at_px.y, outer = g.radius_px + 0.5;
         if (std::abs(dy) >= outer) continue;

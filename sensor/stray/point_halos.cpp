@@ -12,10 +12,10 @@
 
 namespace hilcam {
 
-// The halo, and from a distance inwards the parabola that goes on from it without a kink: as a function of the square of the
-// distance the halo's tangent, which is below it.
+// The halo's profile. Within a given distance it continues as a parabola without a kink: the tangent of the
+// halo as a function of the squared distance, which is below the halo.
 struct HaloLaw {
-    float scale, radius2, level2;  // g r / 2 pi, by electrons; squares of r and of that distance
+    float scale, radius2, level2;  // g r / 2 pi, times electrons; squares of r and of that distance
 
     float at(float distance2) const {
         const float inside2 = level2 > distance2 ? level2 - distance2 : 0.0f;
@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kSeenHalo_e = 0.02;
 
-// Places a step apart along x, from a source.
+// Places along x with a fixed step, relative to a source.
 struct Places {
     float first_x, step, y_squared;
     std::size_t count;
@@ -42,7 +42,7 @@ HILCAM_CLONES void add(const HaloLaw& law, const Places& places, float* out) {
     for (std::size_t i = 0; i < places.count; ++i) out[i] += law.at(places.squared(i));
 }
 
-// Adds what one law has more than another.
+// Adds the difference between two laws.
 HILCAM_CLONES void add_difference(const HaloLaw& law, const HaloLaw& other, const Places& places,
                                   std::size_t stride, float* out) {
     for (std::size_t i = 0; i < places.count; ++i) {
@@ -136,7 +136,7 @@ void PointHalos::add_to_row(int y, std::size_t first, std::size_t step, std::spa
         const Cell& cell = cells_[number];
         const float dy = static_cast<float>(y) + 0.5f - cell.at_y_px;
         if (std::abs(dy) >= kNear_px) continue;
-        // The first pixel of the step that is near, and the one behind the last.
+        // The first near pixel of the step, and one past the last.
         const float reach = std::sqrt(static_cast<float>(kNear_px * kNear_px) - dy * dy);
         const float from = std::max(0.0f, cell.at_x_px - reach - 0.5f),
                     to = std::min(static_cast<float>(row.size()), cell.at_x_px + reach + 0.5f);

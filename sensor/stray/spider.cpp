@@ -53,7 +53,7 @@ SpiderSpikes::SpiderSpikes(const SpiderConfig& c, const SpiderPupil& pupil, cons
     const Spectrum sun = solar_irradiance_1au_w_m2_um(grid);
     double total = 0;
     for (int b = 0; b < grid.size(); ++b) total += static_cast<double>(response[b] * sun[b]);
-    // Narrow bins, so that the spikes' minima wash out as they do in a broad band.
+    // Narrow bins, so that the minima of the spikes average out as they do in a broad band.
     constexpr int kParts = 8;
     double length_px = 0;
     for (int b = 0; b < grid.size(); ++b) {

@@ -1,17 +1,19 @@
 #pragma once
-// The spikes of a spider: vanes that hold a secondary mirror cover strips of the pupil.
+// The spikes of a spider: the vanes that hold a secondary mirror cover strips of the pupil.
 //
-// A strip of width w and length l sends, by Babinet's principle, the light of a slit of its size:
-//     (w l)^2 / (lambda f)^2 sinc^2(w x / (lambda f)) sinc^2(l y / (lambda f)),   x across the vane, y along it
-// (a slit's Fraunhofer pattern and Babinet's principle: Born & Wolf, Principles of Optics, chapter 8), a long spike across the vane and a short one along it.
-// All of its light is what the open area loses once more beside what the vane covers (Parseval): vanes of area A_v
-// before an open area A leave A - A_v of light, of which A_v / (A - A_v) goes into spikes. Strips are taken as each
-// for itself: opposite vanes make one pattern on one another, whose fringes are finer than the core. The core's
-// own change of shape (its rings' modulation by the vanes) is not in it.
+// By Babinet's principle, a strip of width w and length l diffracts the light of a slit of its size:
+//     (w l)^2 / (lambda f)^2 sinc^2(w x / (lambda f)) sinc^2(l y / (lambda f)),   x across the vane, y along
+//                                                                                 it
+// (a slit's Fraunhofer pattern and Babinet's principle: Born & Wolf, Principles of Optics, chapter 8): a long
+// spike across the vane and a short one along it. The open area loses that light in addition to the light
+// that the vane covers (Parseval): with vanes of area A_v in front of an open area A, A - A_v of the light
+// remains, of which A_v / (A - A_v) goes into spikes. Strips are treated independently: the patterns of
+// opposite vanes coincide, with fringes that are finer than the core. The change of the core's own shape (the
+// vanes modulate its rings) is not modelled.
 //
-// In the picture spikes are part of MTF_sys (`transfer`); points and what is far too bright get them drawn, as far
-// as the frame reaches: the mean of sinc^2 over the spectrum along the spike, across it a Gaussian of
-// the same width at half height with the pixel's.
+// In the picture, spikes are part of MTF_sys (`transfer`). For points and light that is far too bright they
+// are drawn across the frame: along the spike the mean of sinc^2 over the spectrum, across it a Gaussian with
+// the same width at half height, including the pixel's.
 
 #include <algorithm>
 #include <cmath>
@@ -29,39 +31,39 @@ struct SpiderConfig {
 };
 Fields fields(SpiderConfig& spider);
 
-// The figures of a camera's data sheet that it uses.
+// The camera data that this model uses.
 struct SpiderPupil {
     double diameter_m = 0, obscuration_ratio = 0, focal_length_m = 0, pitch_m = 0, diffusion_m = 0;
-    double reach_px = 0;  // a frame is no longer across
+    double reach_px = 0;  // at least the frame's diagonal
 
-    double open_area_m2() const;  // without vanes
+    double open_area_m2() const;  // area without the vanes
 };
 
-// Returns the area of all vanes, from the central obscuration's rim to the aperture's [m^2].
+// Returns the area of all vanes, from the rim of the central obscuration to that of the aperture [m^2].
 double vane_area_m2(const SpiderConfig& spider, const SpiderPupil& pupil);
-// Throws InputError where the vanes cover the pupil, or there are vanes without width.
+// Throws InputError when the vanes cover the pupil, or have no width.
 void check_spider(const SpiderConfig& spider, const SpiderPupil& pupil);
 
-// The spikes of one channel of light.
+// The spikes in one channel of light.
 class SpiderSpikes {
   public:
-    SpiderSpikes() = default;  // no spider
+    SpiderSpikes() = default;  // without a spider
     // response: electrons of each bin per unit of radiance. Owner thread.
     SpiderSpikes(const SpiderConfig& spider, const SpiderPupil& pupil, const SpectralGrid& grid,
                  const Spectrum& response);
 
-    // The share of a point's light that goes into spikes; 0: no spider.
+    // Returns the share of a point's light in the spikes; 0: no spider.
     double share() const { return share_; }
-    // The greatest part of a point's light that they put into a pixel.
+    // Returns the largest share of a point's light that the spikes put into a pixel.
     double peak() const { return peak_; }
-    // Their transfer function, 1 at (0, 0) [cycles/px of the detector].
+    // Returns their transfer function, 1 at (0, 0). u, v: in cycles/px of the detector.
     double transfer(double u, double v) const;
 
     struct Rows {
         int begin, end;
     };
-    // Adds `electrons` of spikes from a point [px of the frame] to the rows of a window, by add(x, y, electrons).
-    // Loop, any thread.
+    // Adds the spikes of a point [px of the frame], with `electrons` in total, to rows of a window by calling
+    // add(x, y, electrons). Loop, any thread.
     template <class Add>
     void draw(double x_px, double y_px, double electrons, int width_px, Rows rows, const Add& add) const;
 
@@ -72,7 +74,7 @@ class SpiderSpikes {
     struct Vane {
         double cosine, sine;  // direction of its spike
     };
-    // Light of a spike in a step of a pixel, at whole pixels from the point, one side of it.
+    // Returns the light of one side of a spike in a step of a pixel, at whole pixels from the point.
     double along(double distance_px) const;
 
     double share_ = 0, peak_ = 0;
@@ -87,7 +89,7 @@ void SpiderSpikes::draw(double x_px, double y_px, double electrons, int width_px
                         const Add& add) const {
     const double each = electrons / static_cast<double>(vanes_.size());
     for (const Vane& vane : vanes_) {
-        // Steps of a pixel along the axis that the spike is nearer to; across it by the other.
+        // Step by pixels along the axis that the spike is closer to, and spread the light along the other.
         const bool flat = std::abs(vane.cosine) >= std::abs(vane.sine);
         const double step = std::abs(flat ? vane.cosine : vane.sine);
         const double slope = flat ? vane.sine / vane.cosine : vane.cosine / vane.sine;

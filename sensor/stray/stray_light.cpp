@@ -23,13 +23,13 @@ Fields fields(StrayLightConfig& c) {
 
 namespace {
 
-// A disk's transform, 2 J1(a) / a with a = 2 pi r f.
+// Returns the transform of a disk, 2 J1(a) / a with a = 2 pi r f.
 double disk_mtf(double frequency, double radius) {
     const double a = 2 * kPi * radius * frequency;
     return a < 1e-6 ? 1 : 2 * std::cyl_bessel_j(1.0, a) / a;
 }
 
-// Cells across, with a border as wide as the ghost, so that it does not come back on the other side.
+// Returns the number of cells across, with a border as wide as the ghost, so that it does not wrap around.
 int cells_of(int padded_px, double radius_px, int cell_px) {
     return fft_size((padded_px + static_cast<int>(radius_px)) / cell_px + 2);
 }
@@ -52,7 +52,7 @@ void Ghost::clear() {
 
 void Ghost::collect(double x_px, double y_px, double electrons) {
     const Vec2d center = geometry_.center_px();
-    // Cell (0, 0) begins at the padded image's corner; its value is that of its middle.
+    // Cell (0, 0) begins at the padded image's corner; its value belongs to its centre.
     const double x = (center.x + scale_ * (x_px - center.x) + geometry_.guard_px) / kCell_px - 0.5;
     const double y = (center.y + scale_ * (y_px - center.y) + geometry_.guard_px) / kCell_px - 0.5;
     if (!(x >= 0 && y >= 0 && x < cells_.width() - 1 && y < cells_.height() - 1)) return;
