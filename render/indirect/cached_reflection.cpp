@@ -24,10 +24,8 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own, float where_none = 1) 
 Spectrum facet_tint(const Bsdf& at) { return ratio(at.highlight, at.material->highlight); }
 bool has_own_colors(const Bsdf& at) { return at.material->varies() && at.material->is_bare(); }
 bool is_tinted(const Bsdf& at) { return at.base.bin != at.material->base.bin; }
-// True when a material scatters by a diffuse law other than Lambert's and has no facets.
-bool has_own_law(const Material& of) {
-    return !of.has_facets() && !of.transmits() && of.brdf.index() != kModel<brdf::Lambert>;
-}
+// True when the diffuse part of a material scatters by a law other than Lambert's.
+bool has_own_law(const Material& of) { return !of.transmits() && of.brdf.index() != kModel<brdf::Lambert>; }
 Spectrum base_tint(const Bsdf& at) { return ratio(at.base, at.material->base); }
 
 // Lobes at least seven degrees wide treat directions within a degree as the same.
@@ -279,7 +277,7 @@ Spectrum IndirectCache::reflect_body(std::size_t body, const Place& place) const
         const float ni = dot(at.normal, dir);
         if (!(ni > 0)) return;
         met += ni * facing;
-        sent += ni * facing * brdf_value(plain, {no, ni, dot(at.view_dir, dir)});
+        sent += ni * facing * brdf_diffuse_value(plain, {no, ni, dot(at.view_dir, dir)});
     });
     return max_component(met) > 0 ? ratio(sent, met, 0) * irradiance : radiance_of(place, irradiance);
 }

@@ -390,10 +390,9 @@ Planetshine::Glossy Planetshine::glossy(std::size_t body, Vec3f normal, Vec3f vi
 void Planetshine::glossy(std::size_t body, const Lobes& lobes, std::span<Glossy> out) const {
     const Disks& disks = disks_[body];
     const float alpha = lobes.alpha;
-    // Few parts if facets turn by at most a quarter of alpha from one part to the next. With half of alpha a
-    // wide lobe loses 1.5 % of a disk of 70 degrees, of which the surface sees a part.
+    // Few parts if facets turn by at most half of alpha from one part to the next.
     const std::size_t parts =
-        alpha < disks.of[kEven].min_alpha ? 2 : (alpha < 4 * disks.of.front().min_alpha ? 1 : 0);
+        alpha < disks.of[kEven].min_alpha ? 2 : (alpha < 2 * disks.of.front().min_alpha ? 1 : 0);
     const Disk& disk = disks.of[parts];
     Seen seen;
     look(disks, disk, kParts[parts], bodies_[body].world_dir, lobes, seen);

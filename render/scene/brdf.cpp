@@ -119,6 +119,11 @@ Spectrum brdf_mirrored(const Bsdf& at, float cosine) {
     return std::visit([&](const auto& model) { return model.mirrored(at, cosine); }, at.material->brdf);
 }
 
+Spectrum brdf_diffuse_value(const Bsdf& at, Cosines c) {
+    const LobeAlbedo* const facets = facets_of(*at.material);
+    return facets ? below_facets(*facets, c.no, c.ni) * at.base : brdf_value(at, c);
+}
+
 float brdf_below_facets(const Material& material, float no) {
     const LobeAlbedo* const facets = facets_of(material);
     return facets ? 1 - (*facets)(no) : 1.0f;

@@ -45,6 +45,8 @@ struct BrdfSample {
 
 // Returns f for light from above the surface (no, ni > 0); zero otherwise.
 Spectrum brdf_value(const Bsdf& at, Cosines c);
+// Returns the part of it that facets do not mirror at once; all of it without facets.
+Spectrum brdf_diffuse_value(const Bsdf& at, Cosines c);
 // Returns the albedo of a material's facets; null if it has none.
 const LobeAlbedo* facets_of(const Material& material);
 
