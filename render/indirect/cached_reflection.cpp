@@ -24,8 +24,14 @@ Spectrum ratio(const Spectrum& here, const Spectrum& own, float where_none = 1) 
 Spectrum facet_tint(const Bsdf& at) { return ratio(at.highlight, at.material->highlight); }
 bool has_own_colors(const Bsdf& at) { return at.material->varies() && at.material->is_bare(); }
 bool is_tinted(const Bsdf& at) { return at.base.bin != at.material->base.bin; }
-// True when the diffuse part of a material scatters by a law other than Lambert's.
-bool has_own_law(const Material& of) { return !of.transmits() && of.brdf.index() != kModel<brdf::Lambert>; }
+// True when the diffuse part of a material scatters by a law other than Lambert's. Smooth metal counts as
+// Lambert's: a hundredth of its light is diffuse, and is better off so where the body is hidden in part.
+bool has_own_law(const Material& of) {
+    constexpr float kSmoothMetal = 0.9f;  // albedo of the facets
+    const LobeAlbedo* const facets = facets_of(of);
+    return !of.transmits() && of.brdf.index() != kModel<brdf::Lambert> &&
+           !(facets && facets->average > kSmoothMetal);
+}
 Spectrum base_tint(const Bsdf& at) { return ratio(at.base, at.material->base); }
 
 // Lobes at least seven degrees wide treat directions within a degree as the same.

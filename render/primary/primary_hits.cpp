@@ -31,10 +31,6 @@ constexpr float kFarFromLobe = 2;
 constexpr float kTextureWidth = 0.5f;
 constexpr float kMinFacing =
     1e-4f;  // smallest cosine of a shading point's normal to the viewer, as in find_surface_frame()
-// Some meshes have faces twice, or faces that cross within a pixel. Rays start above both, at this share of
-// the pixel's width. Without it Hubble's rods are black in the light of the Earth (p99 25 instead of 21 sensor
-// noises); 0.05 leaks light into crevices.
-constexpr float kClearOfDoubles = 0.02f;
 constexpr float kFlattest = 1e-4f;  // smallest sine of elevation at which a coverage map is used
 
 bool has_narrow_lobe(const Bsdf& surface) {
@@ -355,7 +351,6 @@ std::size_t PrimaryHits::make_shading_points(std::span<ShadingPoint> points, std
         ShadingPoint& point = points[count++];
         make_shading_point(frame, hits_, static_cast<int>(k), surface_frame, origins_[k], dir, 0,
                            {pixel_rad * from_m, pixel_rad}, point);
-        point.offset_m = std::max(point.offset_m, kClearOfDoubles * point.footprint_m);
         // Seen edge-on, the parts on top hide the ground.
         if (facing > 0) set_surface(frame, coverage_map->surface[1], point);
         if (is_textured(k)) paint(texture_of(k, point), point);
