@@ -23,7 +23,8 @@ LAYERS = ("emulator", "io", "sensor", "render")
 WORDS = TOP / "tests/layout/spelling.txt"
 # Pages that a program writes of what the four folders say.
 GENERATED = ("docs/configuration.md", "docs/man/")
-CODE = re.compile(r"`[^`\n]*`")
+# Spans of code, and addresses of other sites.
+CODE = re.compile(r"`[^`\n]*`|https?://\S+")
 # A string, a character, or a comment, whichever begins first.
 TOKEN = re.compile(r'"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)\'|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
