@@ -6,7 +6,7 @@
 
 namespace hilcam {
 
-// "hilcam 0.2.0", from CMakeLists.txt.
+// "hilcam 0.3.0", from CMakeLists.txt.
 extern const std::string_view kProgramVersion;
 
 }  // namespace hilcam

@@ -18,7 +18,7 @@
 namespace hilcam {
 
 struct RecordingHeader {
-    std::string program;      // "hilcam 0.1.0"
+    std::string program;      // "hilcam 0.3.0"
     std::uint32_t build = 0;  // CRC-32 of the program file
     std::string processor;
     TimeTai start;  // in simulated time

@@ -13,7 +13,7 @@ struct NamedText {
 };
 
 // Returns "hilcam.1", and a page like "hilcam-run.1" for each subcommand including its own subcommands, in
-// the macros of man(7). version: "hilcam 0.2.0".
+// the macros of man(7). version: "hilcam 0.3.0".
 std::vector<NamedText> manual_pages(const CommandText& program, const std::string& version);
 
 // Returns a bash script that completes subcommands, options, their words, files, and names of shipped

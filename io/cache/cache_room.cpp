@@ -26,7 +26,7 @@ struct Entry {
     bool is_unfinished() const { return file.filename().string().find(kUnfinished) != std::string::npos; }
 };
 
-// Recognizes the names that caches give their files, "levels_123.bin", "hilcam-make-spacecraft_seed_1.glb",
+// Recognises the names that caches give their files, "levels_123.bin", "hilcam-make-spacecraft_seed_1.glb",
 // and their unfinished files, "levels_123.bin.part-Ab3dE6", in older versions "levels_123.bin.4711".
 std::vector<Entry> entries_of(const fs::path& folder, const std::string& prefix) {
     static const std::regex own(

@@ -26,7 +26,7 @@ inline constexpr std::array kCacheKinds = {
     CacheKind{"tables of air", "atmosphere_"}, CacheKind{"references", "reference_"},
     CacheKind{"generated meshes", "hilcam-"}};
 
-// Returns the number and size of hilcam's files in a cache folder, of all ages, recognized by their names.
+// Returns the number and size of hilcam's files in a cache folder, of all ages, recognised by their names.
 // Other files are neither counted nor removed. prefix: only files of that kind.
 CacheSize cache_size(const std::filesystem::path& folder, const std::string& prefix = "");
 // Removes these files, except meshes that some program is loading, and returns what was removed. A program

@@ -141,7 +141,7 @@ ElementSet read_set(const TextLines& lines, const Line& one, const Line& two) {
 }
 
 // True for a line with a satellite's name. A name that begins like a line of a set ("1 KUNS-PF") is
-// recognized by the whole line 1 that follows.
+// recognised by the whole line 1 that follows.
 bool is_name(const TextLines& lines, std::string_view line) {
     if (!line.starts_with("1 ") && !line.starts_with("2 ")) return true;
     TextLines ahead = lines;

@@ -19,7 +19,7 @@ namespace hilcam {
 
 // The notes that all pictures of a camera share.
 struct PictureRun {
-    std::string software;  // "hilcam 0.1.0"
+    std::string software;  // "hilcam 0.3.0"
     std::string scenario;  // its name
     std::int64_t camera = 1;
     std::int64_t seed = 1;

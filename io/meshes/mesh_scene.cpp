@@ -114,7 +114,7 @@ bool lists_word(std::string_view list, std::string_view word) {
 }
 
 // Keeps only the importer for this kind of file. assimp has fifty, and gives contents that do not suit the
-// file's ending to any importer that recognizes them; a file of any kind could then pass under one of our
+// file's ending to any importer that recognises them; a file of any kind could then pass under one of our
 // names.
 void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     const std::string_view ending = std::string_view(kind).substr(1);

@@ -95,7 +95,7 @@ bool leads_outside(const Path& mesh, const FileName& name) {
     return outside(mesh.parent_path()) || std::any_of(name.folders.begin(), name.folders.end(), outside);
 }
 
-// Textures are recognized by their first bytes; a JPEG may have a preview of itself before its size.
+// Textures are recognised by their first bytes; a JPEG may have a preview of itself before its size.
 bool opens_as_picture(const Path& file) {
     constexpr std::uintmax_t kOpening_bytes = 1u << 20;
     const InputFile in = open_input_file(file, picture_kind());

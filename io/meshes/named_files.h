@@ -42,7 +42,7 @@ struct GrantedFile {
 using GrantedFiles = std::map<FileName, GrantedFile>;
 
 // Finds a file outside the mesh's folders, with the parent's rights, and decides whether the child may read
-// it. Pictures are recognized by their first bytes, materials (.mtl) and buffers (.bin) by their ending; all
+// it. Pictures are recognised by their first bytes, materials (.mtl) and buffers (.bin) by their ending; all
 // must be regular files. An untrusted mesh must not open anything else.
 GrantedFile granted_file(const std::filesystem::path& mesh, const FileName& name);
 

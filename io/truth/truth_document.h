@@ -20,7 +20,7 @@ struct RunLabel {
     std::string id;        // different in every run
     std::string scenario;  // its name
     std::int64_t seed = 0;
-    std::string program;  // "hilcam 0.1.0"
+    std::string program;  // "hilcam 0.3.0"
 };
 
 // Facts that are the same for all frames of a run.

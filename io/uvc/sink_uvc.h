@@ -65,7 +65,7 @@ class UvcSink : public FrameSink {
     std::atomic<bool> stopping_{false};
     std::thread answering_, feeding_;
 
-    std::mutex buffers_mutex_;  // serializes the stream's start and end with pictures
+    std::mutex buffers_mutex_;  // serialises the stream's start and end with pictures
     V4l2Buffers buffers_;
     std::size_t queued_ = 0;
     bool streaming_ = false;

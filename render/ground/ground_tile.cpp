@@ -29,7 +29,7 @@ template <class T>
 void add_between(const std::vector<T>& nodes, int node_side, int side, std::vector<T>& texels) {
     std::array<std::array<double, 4>, kTexels> shares;
     for (int t = 0; t < kTexels; ++t) shares[static_cast<std::size_t>(t)] = node_shares(t);
-    // A color is three numbers.
+    // A colour is three numbers.
     using N = std::conditional_t<std::is_same_v<T, double>, double, float>;
     constexpr std::size_t kNumbers = std::is_same_v<T, double> ? 1 : 3;
     static_assert(sizeof(T) == kNumbers * sizeof(N));

@@ -31,7 +31,7 @@ void spread_evenly(std::size_t items, std::uint64_t seed, const AreaOf& area_of,
     }
 }
 
-// color: sum over the points.
+// `color` is the sum over the points.
 void finish(SurfaceProbe& probe, Vec3f color) {
     probe.color = color / static_cast<float>(SurfaceProbe::kPoints);
     Vec3f mean{};

@@ -16,9 +16,9 @@
 //     V(1, a) = -8.914 - 1.825 sin B + 0.026 a - 0.378 sin B e^(-2.25 a),
 // where sin^2 B is the product of the sines of the Saturnicentric latitudes of Sun and viewer, 0 if they are
 // on opposite sides of the rings. The drawn rings (saturn_rings.h) and the globe between them sum up to that
-// within 15 %, and `SaturnLight::factor` corrects both. Beyond 27 deg the factor stays as for Sun and viewer
-// at 27 deg. From 6.5 to 15 deg of phase it goes from its value at 6.5 deg to 1, because there only the globe
-// alone was measured, by Cassini, and the rings are the model's.
+// within 15 %, and the factor of `SaturnLight` corrects both. Beyond 27 deg the factor stays as for Sun and
+// viewer at 27 deg. From 6.5 to 15 deg of phase it goes from its value at 6.5 deg to 1, because there only the
+// globe alone was measured, by Cassini, and the rings are the model's.
 
 #include <vector>
 

@@ -22,8 +22,8 @@
 
 namespace hilcam {
 
-// A factor for frequency (u, v) of a block: along_u[x] along_v[v] sinc(smear_x u + smear_y v), with u in -1/2
-// .. 1/2 [cycles/px].
+// A factor for frequency (u, v) of a block: along_u[x] along_v[v] sinc(smear_x u + smear_y v), with u from
+// -1/2 to 1/2 [cycles/px].
 struct SpectrumBlur {
     std::span<const float> along_u;  // one for each x of the width
     std::span<const float> along_v;  // one for each v, up to a whole number of lanes

@@ -6,6 +6,8 @@
 - Each record there has a date (year-month, newest first within its theme) and at most 120 words, and the
   index at the top names all of them in their order. There are four themes.
 - The notebook is linked from docs/decisions.md alone.
+- The table of docs/README.md has each page of docs/ and docs/tutorials/ once, with its words: to a fifth, and
+  --write counts them anew.
 - No line of a page is wider than 110 columns, but for as many as tests/layout/wide_lines.txt allows in that
   page. These numbers only go down: --write writes the smaller ones, and never a greater one.
 
@@ -25,10 +27,15 @@ WIDTH = 110
 WORDS = 120
 ALLOWED = TOP / "tests/layout/wide_lines.txt"
 DECISIONS = TOP / "docs/decisions.md"
+TABLE = TOP / "docs/README.md"
 # Tables that a program writes.
 GENERATED = ("docs/configuration.md", "docs/man/", "tests/units.md")
 SOURCES = {".h", ".hpp", ".c", ".cpp", ".py", ".yaml", ".cmake", ".txt", ".in", ".sh", ""}
 DATE = re.compile(r"^\*(\d{4}-(?:0[1-9]|1[0-2]))\.\* ")
+# A line that is one address of another site cannot be broken.
+ADDRESS = re.compile(r"^\s*<https?://\S+>$")
+# | [page.md](page.md) | 1,200 | ...
+ROW = re.compile(r"^\| \[[^\]]+\]\(([\w./-]+)(?:#[\w-]+)?\) \| ([\d,]+) \|", re.MULTILINE)
 MENTION = re.compile(r"decisions\.md(?:#([\w-]+))?")
 
 
@@ -96,8 +103,38 @@ def wrong_records(text):
         yield "docs/decisions.md: the index is not in the order of the records"
 
 
+def words_of(text):
+    """The words of a page, to two figures."""
+    count = len(text.split())
+    step = 10 ** max(len(str(count)) - 2, 0)
+    return round(count / step) * step
+
+
+def wrong_rows(texts):
+    """Pages that the tables of docs/README.md lack, have twice, or give other words."""
+    rows = [((TABLE.parent / row[1]).resolve(), int(row[2].replace(",", ""))) for row in ROW.finditer(texts[TABLE])]
+    wanted = {page for page in texts if page.parent in (TOP / "docs", TOP / "docs/tutorials") and page != TABLE}
+    for page in sorted(wanted | {page for page, _ in rows if page in texts}):
+        said = [words for row, words in rows if row == page]
+        count = words_of(texts[page])
+        if len(said) != 1:
+            yield f"docs/README.md: {name_of(page)} is {len(said)} times in the tables; accepted: once"
+        elif abs(said[0] - count) > 0.2 * count:
+            yield f"docs/README.md: {name_of(page)} has {count:,} words, not {said[0]:,}: documents_test.py --write"
+
+
+def write_words(texts):
+    """Counts the words of the tables of docs/README.md anew."""
+    def counted(row):
+        page = (TABLE.parent / row[1]).resolve()
+        return row[0].replace(f"| {row[2]} |", f"| {words_of(texts[page]):,} |") if page in texts else row[0]
+
+    texts[TABLE] = ROW.sub(counted, texts[TABLE])
+    TABLE.write_text(texts[TABLE])
+
+
 def wide_lines(text):
-    return [number for number, line in enumerate(text.split("\n"), 1) if len(line) > WIDTH]
+    return [number for number, line in enumerate(text.split("\n"), 1) if len(line) > WIDTH and not ADDRESS.match(line)]
 
 
 def allowed_lines():
@@ -123,6 +160,8 @@ def wrong_widths(wide, allowed):
 
 def main():
     texts = {page: page.read_text() for page in markdown_pages.pages(TOP)}
+    if "--write" in sys.argv[1:]:
+        write_words(texts)
     anchors = {page: markdown_pages.anchors(text) for page, text in texts.items()}
     wide = {name_of(page): lines for page, text in texts.items()
             if not name_of(page).startswith(GENERATED) and (lines := wide_lines(text))}
@@ -131,6 +170,7 @@ def main():
     faults = [line for page, text in texts.items() for line in wrong_links(page, text, anchors.get)]
     faults += wrong_mentions(anchors[DECISIONS])
     faults += wrong_records(texts[DECISIONS])
+    faults += wrong_rows(texts)
     faults += wrong_widths(wide, allowed_lines())
     print(f"{len(texts)} pages, {sum(map(len, anchors.values()))} headings, {len(faults)} faults")
     print("\n".join(faults))

@@ -2,7 +2,7 @@
 
 Gem::Specification.new do |s|
   s.name = 'openc3-cosmos-hilcam'
-  s.version = ENV['VERSION'] || '0.2.0'
+  s.version = ENV['VERSION'] || '0.3.0'
   s.summary = 'Commands and telemetry of hilcam, an emulator of a spacecraft camera'
   s.authors = ['The authors of hilcam']
   s.licenses = ['Apache-2.0']

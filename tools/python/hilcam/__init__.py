@@ -29,7 +29,7 @@ if typing.TYPE_CHECKING:
     from .shm import Overtaken, SharedFrame, SharedFrameReport, SharedFrames, SharedMemoryError
 
 # The version of the hilcam that it belongs to (project() in CMakeLists.txt).
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 # What needs numpy, and where it is: loaded when it is asked for, so that a bench and its commands need nothing beside Python.
 _WITH_NUMPY = {
