@@ -1,7 +1,7 @@
 #pragma once
 // The background, which a ray sees that meets no object: the Moon and the planets with their air, the Sun's
 // disk, or black sky. Stars are point sources, not here. Where the bodies are is in placed_bodies.h, what they send in body_radiance.h,
-// how they stand before the Sun in eclipses.h.
+// how they stand before the Sun in eclipses.h. Where the air bends rays (render/sky/air_refraction.h), those of this class are bent.
 
 #include <array>
 #include <optional>
@@ -13,6 +13,7 @@
 #include "render/earth/earth_moment.h"
 #include "render/earth/earth_rays.h"
 #include "render/scene/scene.h"
+#include "render/sky/air_refraction.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/pixel_box.h"
 
@@ -39,6 +40,8 @@ class Background {
     // The same without eclipses and air.
     const Spectrum& sun_clear_irradiance_w_m2_um() const { return sun_clear_irradiance_; }
     double sun_disk_cosine() const { return sun_disk_cosine_; }
+    // Cosine of the cone about the Sun's direction that holds its disk as the camera sees it, lifted by air.
+    double sun_seen_cosine() const { return sun_seen_cosine_; }
     const SunDisk& sun_disk() const { return disk_; }
     // Returns the Sun's direction as the camera sees it.
     Vec3d sun_camera_dir() const { return sun_camera_dir_; }
@@ -89,9 +92,20 @@ class Background {
     bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
         return add_bodies_from({}, dir, weight, radiance, {pixel_rad_, true});
     }
+    // Returns where the camera sees a point in the sky, and by how much the air spreads its light; distance_m: infinite for stars. Such a
+    // point's light goes on to add_bodies_seen(). Loop, any thread.
+    AirRefraction::Seen seen_through_air(Vec3d dir, double distance_m) const;
+    // No point is seen farther from its place than this, whatever the frame [rad].
+    double max_turn_rad() const {
+        return scene_.air && scene_.air->refraction() ? scene_.air->refraction()->max_turn_rad() : 0;
+    }
     // Adds the radiance of the Sun's disk as they do: mean radiance E_s / (pi sin^2 rho) inside its angular
     // radius rho, darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
     void add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
+    // The same of a ray of the camera, which the air may have bent.
+    void add_sun_disk_seen(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const {
+        add_sun_disk(beyond_air(dir), weight, radiance);
+    }
     // True when a body lies before `distance`, in lengths of the direction. Loop, any thread.
     bool hides(Vec3f origin_m, Vec3d dir, double distance) const {
         return hides_from(to_double(origin_m) + objects_from_camera_m_, dir, distance);
@@ -105,10 +119,7 @@ class Background {
     };
     BodyMet first_body_seen(Vec3d dir) const;
     // A ray of the camera that meets nothing else meets the Sun's disk.
-    bool meets_sun_disk(Vec3d dir) const {
-        const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
-        return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
-    }
+    bool sees_sun_disk(Vec3d dir) const { return meets_sun_disk(beyond_air(dir)); }
     // Returns the distance from the camera to the nearest place that any body can have.
     double nearest_m() const { return placed_.nearest_m(); }
     // Light and transmittance of the air before an object at a distance; only where camera_in_air().
@@ -158,7 +169,7 @@ class Background {
     Vec3d objects_from_camera_m_;
     Spectrum sun_irradiance_, sun_clear_irradiance_;
     Vec3d sun_world_dir_{0, 0, 1}, sun_camera_dir_{0, 0, 1};
-    double sun_disk_cosine_ = 1;
+    double sun_disk_cosine_ = 1, sun_seen_cosine_ = 1;
     double pixel_rad_ = 0;
     bool earth_in_patches_ = false;
 
@@ -167,6 +178,17 @@ class Background {
         double width_rad;
         bool of_pixel;  // for one of the camera's
     };
+    // A ray in a body's axes, from its centre.
+    struct BodyRay {
+        Vec3d origin_m, dir;
+    };
+    bool meets_sun_disk(Vec3d dir) const {
+        const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
+        return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
+    }
+    BodyRay ray_to(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
+    void pass_air(const PlacedBody& body, Vec3d& origin_m, Vec3d& dir) const;
+    Vec3d beyond_air(Vec3d dir) const;
     void place_sun(const WorldSnapshot& world, Vec3d objects_world_m);
     void choose_quick_ways();
     bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance, Cone cone) const;

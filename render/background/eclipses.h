@@ -1,5 +1,6 @@
 #pragma once
-// Eclipses: the share of the Sun that bodies leave at a place, by discs that have limbs, and by the Earth's air.
+// Eclipses: the share of the Sun that bodies leave at a place, by discs that have limbs, and by the Earth's air, which dims light and
+// bends it into the shadow.
 
 #include "render/background/scene_bodies.h"
 #include "render/sky/bodies.h"
@@ -29,6 +30,8 @@ class Eclipses {
     SunDisk disk_;
     int bins_;
     Bodies bodies_;
+
+    Spectrum passed_by(BodyId body, const Figure& figure, Vec3d origin_m, Vec3d dir) const;
 };
 
 }  // namespace hilcam

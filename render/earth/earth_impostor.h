@@ -3,8 +3,9 @@
 // a few tens of nanoseconds a pixel instead of microseconds.
 //
 // Light lies in rings about the Earth's middle, somewhat closer than the camera's pixels, and three times as close
-// where ground ends and air goes on, linear between them. In space with z stretched so that the Earth is a sphere of radius R, a ring is told by
-// its rays' closest approach to the middle, so the limb of each camera falls onto R.
+// where ground ends and air goes on, linear between them. In space with z stretched so that the Earth is a sphere, a ring is told by
+// its rays' closest approach to the middle if they went on straight, so the limb of each camera falls onto the radius R at which the air, which
+// bends them, has the ground end.
 //
 // Cameras and Suns belong to a grid of whole steps (Key), never to what was shown before: a frame is a function of its own
 // place and time. What a camera off the grid's place sees is looked for by the place on the ground (Tile), so coasts stay
@@ -37,8 +38,9 @@ class EarthImpostor {
     // than there is room for. Loop.
     static bool is_for(Vec3d camera_m, double pixel_rad);
 
-    // pixel_rad: the camera's. top_m: the height up to which there is light.
-    EarthImpostor(double pixel_rad, double top_m);
+    // pixel_rad: the camera's. top_m: the height up to which there is light. edge_m: the height at which the ground ends
+    // (EarthModel::seen_height_m).
+    EarthImpostor(double pixel_rad, double top_m, double edge_m);
     // Begins a picture: begun, none of its pieces is made. Loop; allocates nothing.
     void begin(const Key& key);
     // Works out, on all threads of the arena, the pieces that nobody is at; the picture is there when all who called this
@@ -88,6 +90,7 @@ class EarthImpostor {
     };
 
     double pixel_rad_, top_m_;
+    double radius_m_;  // R
     Vec3d camera_m_, sun_dir_;
     MapNumbers numbers_;
     double distance_m_ = 1;       // stretched

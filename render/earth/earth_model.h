@@ -1,7 +1,7 @@
 #pragma once
 // The Earth as a camera in space sees it: land, sea and ice under clouds, all within the air, and lights of cities.
 //
-// A ray ends on the ground where it meets the ellipsoid, and passes the cloud whose top it meets above that. Clouds are plane
+// A ray is bent by the air; it ends on the ground where it meets the ellipsoid, and passes the cloud whose top it meets above that. Clouds are plane
 // layers (cloud_table.h), each texel by itself; what they leave of the Sun is looked for at the cloud towards the Sun,
 // so shadows lie where they fall. Between ground and cloud light goes up and down (1 / (1 - A r)). The air (atmosphere.h) above a cloud
 // and below it are told apart; below it is dimmed as the ground is. Lights shine through cloud and air.
@@ -48,6 +48,11 @@ class EarthModel {
     // Light is not linear in what the maps hold: one look for a pixel of clouds and gaps is 1 to 3 % off. So many looks at
     // its parts, each way, are mostly within 1 %, and within 2 % (means of 8 x 8 px of geo_inspection).
     static constexpr int kLooksOfPixel = 2;
+    // Rays are as a camera sees them; the air bends them (air_refraction.h). Returns the straight one that meets ground, clouds and air where
+    // such a ray does.
+    Ray bent(const Ray& ray) const;
+    // Returns the height at which a level seems to be from afar.
+    double seen_height_m(double height_m) const;
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.
     bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;
@@ -62,7 +67,7 @@ class EarthModel {
     };
     Sides texels_across(const MapFootprint& footprint, const EarthMoment& moment) const;
     // Where a ray meets the ground, as EarthMap has it: u, v. False where it does not.
-    static bool map_place(const Ray& ray, float& u, float& v);
+    bool map_place(const Ray& ray, float& u, float& v) const;
     // Radiance by an aspect and the maps, per unit of irradiance [sr^-1], and that of lights [W m^-2 sr^-1 um^-1].
     struct Shade {
         Spectrum over_sun_sr, lights_w_m2_sr_um;

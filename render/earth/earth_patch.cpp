@@ -40,7 +40,7 @@ void EarthPatch::place_node(int at, const EarthModel::Ray& ray) {
 
 void EarthPatch::place_half(int row, int column, const EarthModel::Ray& ray) {
     MapPlace& at = halves_[static_cast<std::size_t>(row * kHalves + column)];
-    if (!EarthModel::map_place(ray, at.u, at.v)) at = {};  // no node about it carries
+    if (!earth_->map_place(ray, at.u, at.v)) at = {};  // no node about it carries
 }
 
 void EarthPatch::choose_steps() {

@@ -22,15 +22,18 @@ class PointField {
     PointField(const FrameContext& frame, const WorldSnapshot& world);
 
     void add_stars(const StarSky& stars, std::vector<PointSource>& points) const;
-    // Calls use(star, apparent direction) for each star that can be in the image.
+    // Calls use(star, apparent direction) for each star that can be in the image, the air's bending left out (Background::seen_through_air).
     template <class Use>
     void each_star(const StarSky& stars, const Use& use) const {
-        stars.each_within(observer_of(stars.time()), boresight_dir_, field_rad_, use);
+        stars.each_within(observer_of(stars.time()), boresight_dir_, field_rad_ + lifted_rad_, use);
     }
     // A thing at a distance [m] in a direction (unit, world) with this irradiance at the camera; part of an
     // object, or of the sky.
     void add(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
              std::vector<PointSource>& points, std::uint32_t object = PointSource::kSky) const;
+    // The same for a star or a body, which is seen where the air before it has it.
+    void add_from_sky(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
+                      std::vector<PointSource>& points, std::uint32_t thing = PointSource::kSky) const;
     // True when the thing is in the padded image.
     bool sees(Vec3d dir, double distance_m) const {
         Sighting ignored;
@@ -47,6 +50,7 @@ class PointField {
     Vec3d boresight_dir_;
     double field_rad_;   // from the boresight at the frame's time, of what can be in the image
     double min_cosine_;  // cosine of that angle
+    double lifted_rad_;  // by which the air may move what is seen through it
 
     StarObserver observer_of(TimeTai star_time) const;
     bool find(Vec3d dir, double distance_m, Sighting& seen) const;

@@ -8,7 +8,7 @@
 //   ozone      absorption only: cross sections of Serdyuchenko et al., Atmos. Meas. Tech. 7 (2014), at 233 K, 0.36 to 0.83 um
 //              (held below, none above); by height as in the same standard, scaled to its column
 // Coefficients are means over a bin, so transmittances of wide bins err where they vary much inside one.
-// Not modelled: water vapour and oxygen bands, refraction, polarisation, clouds, seasons.
+// Not modelled here: water vapour and oxygen bands, polarisation, clouds, seasons; refraction is in air_refraction.h.
 
 #include <vector>
 
