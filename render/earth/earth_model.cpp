@@ -6,6 +6,7 @@
 
 #include "render/earth/earth_figure.h"
 #include "render/earth/map_looks.h"
+#include "render/sky/air_refraction.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
@@ -129,6 +130,20 @@ float EarthModel::cloud_of(const EarthSample& sample) const {
     return thickened_cloud(sample.cloud(), cloud_factor_);
 }
 
+EarthModel::Ray EarthModel::bent(const Ray& ray) const {
+    const AirRefraction* air = air_ ? air_->refraction() : nullptr;
+    if (!air) return ray;
+    const AirRefraction::Line line = line_within(*air, kEarthFigure, ray.origin_m, ray.dir);
+    Ray out = ray;
+    out.origin_m = line.origin_m, out.dir = line.dir;
+    return out;
+}
+
+double EarthModel::seen_height_m(double height_m) const {
+    const AirRefraction* air = air_ ? air_->refraction() : nullptr;
+    return air ? air->apparent_height_m(height_m) : height_m;
+}
+
 void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const {
     const float mu0 = std::max(0.0f, place.mu0);
     // From a height the Sun is visible when it is below the level; such light is grazing.
@@ -217,7 +232,8 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     return out;
 }
 
-bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
+bool EarthModel::aspect_of(const Ray& seen, EarthAspect& aspect) const {
+    const Ray ray = bent(seen);
     const double distance_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
     // Sine of 4.6 degrees: above that, pixels that share an aspect differ by 0.31 % of the mean
@@ -235,7 +251,8 @@ EarthModel::Sides EarthModel::texels_across(const MapFootprint& f, const EarthMo
     return {ellipse.shorter, ellipse.longer};
 }
 
-bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
+bool EarthModel::map_place(const Ray& seen, float& u, float& v) const {
+    const Ray ray = bent(seen);
     const double distance_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
     const MapPlace at = hilcam::map_place(earth_normal(ray.origin_m + distance_m * ray.dir));
@@ -334,7 +351,8 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
     return seen ? *seen : air_->look(origin, dir, kEndless_m, sun);
 }
 
-bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
+bool EarthModel::add(const Ray& seen_ray, Spectrum& weight, Spectrum& radiance) const {
+    const Ray ray = bent(seen_ray);
     const double to_ground_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
         const Shade seen = shade_by_parts(aspect_at(ray, to_ground_m, 0), ray.moment, ray.looks_across);
