@@ -22,6 +22,8 @@ struct CatalogueStar {
 
 struct StarCatalogue {
     std::vector<CatalogueStar> stars;
+    bool tells_red_stars =
+        false;  // it has V-I or spectral classes; without them M stars are those of their B-V
 };
 
 }  // namespace hilcam
