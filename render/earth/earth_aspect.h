@@ -22,16 +22,17 @@ struct EarthAspect {
     Spectrum air_high, seen_high, sun_high, sky_high;
     // Cloud reflection: many + share * once.
     Spectrum once;
+    Spectrum land_shape;  // reflection of land without snow, in the beam, over that of an even surface
     Steps many{}, share{};
-    Steps seen{};  // share of light from below on its way to the viewer
-    Steps lit{};   // share of sunlight on its way down, the beam included
-    Steps beam{};  // the beam's part alone
+    Steps seen{};         // share of light from below on its way to the viewer
+    Steps lit{};          // share of sunlight on its way down, the beam included
+    Steps beam{};         // the beam's part alone
     float glint_sr = 0, mirrored = 0;
     // Places on the map: of the ground; how far from it clouds are met and shadows come from, per metre of height.
     float u = 0, v = 0, cloud_u = 0, cloud_v = 0, shade_u = 0, shade_v = 0;
     MapFootprint footprint;
     std::array<float, 7> unused{};
 };
-static_assert(sizeof(EarthAspect) == 136 * sizeof(float));
+static_assert(sizeof(EarthAspect) == 144 * sizeof(float));
 
 }  // namespace hilcam

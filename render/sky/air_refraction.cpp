@@ -33,7 +33,7 @@ struct Sideways {
     }
 };
 
-// What is straight down or up is not bent.
+// Rays straight down or up are not bent.
 constexpr double kStraight = 1e-9;
 
 }  // namespace
@@ -103,7 +103,7 @@ void AirRefraction::sum_turns(double refractivity, double (*density)(double heig
     }
 }
 
-// Of a ray that does not meet the ground; below the lowest level as there, above the highest straight.
+// Returns the lowest point of a ray that does not meet the ground, and its turn from there to space; below the lowest level as there, above the highest straight.
 AirRefraction::Lowest AirRefraction::lowest(double impact_m) const {
     if (!(impact_m < levels_.back().impact_m)) return {impact_m - ground_m_, {}};
     if (impact_m <= edge_m()) return {levels_.front().height_m, {levels_.front().turn_rad, 0}};
@@ -139,7 +139,7 @@ struct AirRefraction::Observer {
     double whole_m() const { return (1 + refractivity) * radius_m; }  // impact of a level ray
 };
 
-// Of a ray from there on its way up to space.
+// Returns by how much a ray turns from the observer on its way up to space.
 double AirRefraction::turn_outwards(const Observer& from, double impact_m) const {
     if (!(from.refractivity > 0)) return 0;
     const double x = from.whole_m(), level_turn = lowest(x).turn.rad;
@@ -152,7 +152,7 @@ double AirRefraction::turn_outwards(const Observer& from, double impact_m) const
            ((kRen - 1) * s + std::sqrt(s * s + 2 * kRen * kRen * impact_m * scale_m));
 }
 
-// What air makes of a ray: its turn up to its lowest point, which is closest_m from the middle, or to the ground; and all of it.
+// A ray and what air makes of it: its turn up to its lowest point, which is closest_m from the middle, or to the ground; and all of it.
 struct AirRefraction::Way {
     Sideways ray;
     double radius_m, impact_m;

@@ -41,7 +41,7 @@ class Atmosphere {
     virtual std::string missing(Vec3d, Vec3d, double, Vec3d) const { return {}; }
     // Rays so far for which something was missing; they were given the nearest that there is.
     virtual std::uint64_t rays_outside() const { return 0; }
-    // How it bends rays; null: not at all. look() and the rest take straight rays, which who asks has bent before (AirRefraction::within).
+    // Returns how it bends rays; null: not at all. look() and the rest take straight rays, which who asks has bent before (AirRefraction::within).
     virtual const AirRefraction* refraction() const { return nullptr; }
     // One line for `hilcam check`.
     virtual std::string describe() const = 0;
