@@ -24,9 +24,9 @@ struct EarthAspect {
     Spectrum once;
     Spectrum land_shape;  // reflection of land without snow, in the beam, over that of an even surface
     Steps many{}, share{};
-    Steps seen{};         // share of light from below on its way to the viewer
-    Steps lit{};          // share of sunlight on its way down, the beam included
-    Steps beam{};         // the beam's part alone
+    Steps seen{};  // share of light from below on its way to the viewer
+    Steps lit{};   // share of sunlight on its way down, the beam included
+    Steps beam{};  // the beam's part alone
     float glint_sr = 0, mirrored = 0;
     // Places on the map: of the ground; how far from it clouds are met and shadows come from, per metre of height.
     float u = 0, v = 0, cloud_u = 0, cloud_v = 0, shade_u = 0, shade_v = 0;
