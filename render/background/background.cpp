@@ -79,7 +79,7 @@ Background Background::with(const std::array<SceneBody, kMaxBodies>& bodies, con
     return out;
 }
 
-// Returns the straight ray that meets a body's ground and air where the bent one does.
+// Returns the straight ray, in a body's axes, that meets the body's ground and air where the bent one does.
 Background::BodyRay Background::ray_to(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const {
     const BodyRay straight{body.camera_m + body.fixed_from_world * origin_m, body.fixed_from_world * dir};
     const AirRefraction* air = scene_.refraction(body.id);

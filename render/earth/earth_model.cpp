@@ -47,6 +47,7 @@ struct Mix {
     float share, passed;         // light that passes the cloud downwards and upwards
     float high;                  // 0: its top is on the ground; 1: at kHigh_m
     float many, once, from_sky;  // reflection by the cloud
+    float shaped;                // share of the land that is not snow: LandShape holds for it
 };
 
 // Combines ground, air below the cloud, cloud, and air above it; per bin.
@@ -58,7 +59,8 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
         const float light =
             (a.sun_low[b] * m.direct + sky) / (1 - (land[b] + m.water * sea_albedo[b]) * m.back);
         const float ground_sr =
-            kPerPi * ((land[b] + m.water * sea_diffuse[b]) * light + m.water * m.mirrored * sky) +
+            kPerPi * ((land[b] + m.water * sea_diffuse[b]) * light + m.water * m.mirrored * sky +
+                      m.shaped * land[b] * (a.land_shape[b] - 1) * m.direct * a.sun_low[b]) +
             m.glint_sr * a.sun_low[b];
         out[b] = a.seen_low[b] * ground_sr;
     }
@@ -106,6 +108,7 @@ EarthModel::EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps c
       detail_bytes_(static_cast<std::size_t>(config.memory_mb) << 20),
       air_(air),
       land_(grid),
+      land_shape_(grid),
       sea_(config.wind_m_s, grid),
       cloud_factor_(static_cast<float>(config.cloud_thickness)),
       bins_(grid.size()),
@@ -200,6 +203,7 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     if (place.mu0 > 0 && glints_)
         out.glint_sr = sea_.glint_sr(place.mu0, place.mu, place.cos_phase) / std::max(0.02f, place.mu0);
     out.mirrored = sea_.sky_mirrored(place.mu);
+    out.land_shape = land_shape_.of(std::max(0.0f, place.mu0), place.mu, place.cos_phase);
 
     // East and north on the level; a step there, as a share of the map.
     const Vec3d n = place.normal;
@@ -301,11 +305,20 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
             high = (1 - std::exp(-over.cloud_top_m() / EarthAspect::kHigh_m)) * 1.5819767f;
         }
     }
-    Mix mix{water,     a.mirrored, water * direct * a.glint_sr,
-            direct,    diffuse,    back,
-            cloud > 0, share,      passed,
-            high,      0,          0,
-            0};
+    Mix mix{water,
+            a.mirrored,
+            water * direct * a.glint_sr,
+            direct,
+            diffuse,
+            back,
+            cloud > 0,
+            share,
+            passed,
+            high,
+            0,
+            0,
+            0,
+            land_.without_snow(ground)};
     if (cloud > 0) {
         mix.many = by_steps(a.many, cloud), mix.once = by_steps(a.share, cloud);
         mix.from_sky = table_->spherical_albedo(cloud);

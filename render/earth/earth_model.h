@@ -29,6 +29,7 @@
 #include "render/earth/earth_moment.h"
 #include "render/earth/ground_maps.h"
 #include "render/earth/land.h"
+#include "render/earth/land_shape.h"
 #include "render/earth/sea.h"
 
 namespace hilcam {
@@ -123,6 +124,7 @@ class EarthModel {
     std::shared_ptr<const AirColumns> columns_;  // null without air
     std::shared_ptr<const CloudTable> table_;    // null without clouds
     LandBands land_;
+    LandShape land_shape_;
     Sea sea_;
     float cloud_factor_;
     Spectrum city_w_m2_sr_um_;  // radiance of the brightest
