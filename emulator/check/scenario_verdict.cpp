@@ -8,9 +8,11 @@
 #include "emulator/check/machine_verdict.h"
 #include "emulator/check/mesh_survey.h"
 #include "emulator/loop/shutter_timing.h"
+#include "emulator/scenario/loaded_for.h"
 #include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/scenario_warnings.h"
 #include "emulator/scenario/scene_loader.h"
+#include "io/files/catalogue_file.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -42,6 +44,26 @@ Lines mesh_warnings(const ObjectConfig& object, const std::string& key, const Ke
     return out;
 }
 
+// Returns a warning of stars that have no certain colour in the catalogue: V-I is 1.7 (M0) to 2.9 (M5) for
+// giants of B-V 1.6, and 1.9 to 2.8 for dwarfs of B-V 1.5.
+Lines star_warnings(const ScenarioConfig& s) {
+    if (!s.stars || s.stars->catalogue.empty()) return {};
+    const StarCatalogue catalogue =
+        loaded_for(s.stars->catalogue_where, [&] { return load_catalogue(s.stars->catalogue); });
+    if (catalogue.tells_red_stars) return {};
+    constexpr double kTellsLittle_mag = 1.5;
+    const auto red =
+        std::count_if(catalogue.stars.begin(), catalogue.stars.end(), [&](const CatalogueStar& star) {
+            return star.color_b_v > kTellsLittle_mag && star.magnitude_v <= s.stars->faintest_magnitude;
+        });
+    if (red == 0) return {};
+    return {s.places.at(
+        "stars.catalogue",
+        fmt::format("{} of its stars have a B-V above 1.5, which says little of M stars: in the red "
+                    "they are up to 0.8 mag off; columns v_i or spectral_type tell",
+                    red))};
+}
+
 }  // namespace
 
 std::vector<std::string> early_verdict(const ScenarioConfig& bench, VerdictOn on, bool keeps_frames) {
@@ -53,6 +75,7 @@ std::vector<std::string> early_verdict(const ScenarioConfig& bench, VerdictOn on
     append(place_warnings(bench), out);
     append(motion_warnings(bench), out);
     if (on != VerdictOn::kAll) return out;
+    append(star_warnings(bench), out);
     for (std::size_t i = 0; i <= bench.more_cameras.size(); ++i)
         append(machine_warnings(scenario_of_camera(bench, i)), out);
     return out;

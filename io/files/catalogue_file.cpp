@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/files/m_stars.h"
 #include "io/system/input_file.h"
 #include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
@@ -25,6 +27,7 @@ struct Column {
     void (*set)(CatalogueStar& star, double value);
     bool must_be_there = false;
     bool may_be_empty = false;  // may be empty in some lines
+    bool is_text = false;       // the spectral class, which gives V-I where v_i is missing
 };
 
 constexpr std::array kStarColumns = {
@@ -45,6 +48,7 @@ constexpr std::array kStarColumns = {
     Column{"v_mag", -3, 30, [](CatalogueStar& s, double v) { s.magnitude_v = v; }, true},
     Column{"b_v", -3, 10, [](CatalogueStar& s, double v) { s.color_b_v = v; }},
     Column{"v_i", -3, 15, [](CatalogueStar& s, double v) { s.color_v_i = v; }, false, true},
+    Column{"spectral_type", 0, 0, nullptr, false, true, true},
 };
 
 std::string_view without_line_end(std::string_view line) {
@@ -101,9 +105,14 @@ CatalogueStar parse_row(const std::string& where, std::string_view line,
         throw refused(where, std::to_string(fields) + " values in " + in_quotes(whole),
                       std::to_string(columns.size()) + ": " + names_of(columns));
     CatalogueStar star;
+    std::optional<double> v_i_of_class;
     for (const Column* column : columns) {
         const std::string_view field = take_field(line);
         if (field.empty() && column->may_be_empty) continue;
+        if (column->is_text) {
+            v_i_of_class = m_star_v_i(field);
+            continue;
+        }
         const auto value = parsed_as<double>(field);
         if (!value || !(*value >= column->least && *value <= column->most))
             throw refused(where + ": " + std::string(column->name),
@@ -111,6 +120,7 @@ CatalogueStar parse_row(const std::string& where, std::string_view line,
                           "a number, " + plain(column->least) + " to " + plain(column->most));
         column->set(star, *value);
     }
+    if (!star.color_v_i) star.color_v_i = v_i_of_class;
     return star;
 }
 
@@ -131,6 +141,9 @@ StarCatalogue load_catalogue(const std::filesystem::path& file) {
                 throw refused(
                     where, in_quotes(line),
                     "the names of the columns, each once: ra_deg, dec_deg and v_mag of " + all_columns());
+            catalogue.tells_red_stars = std::any_of(columns.begin(), columns.end(), [](const Column* c) {
+                return c->name == "v_i" || c->is_text;
+            });
             continue;
         }
         catalogue.stars.push_back(parse_row(where, line, columns));

@@ -46,6 +46,11 @@ void Background::place_sun(const WorldSnapshot& world, Vec3d objects_world_m) {
     sun_camera_dir_ = normalized(
         seen_in_motion(world.bodies.sun_world_m - world.camera.position_world_m, kSunRadius_m, velocity_m_s));
     sun_disk_cosine_ = cone_cosine_of(kSunRadius_m, sun_distance_m);
+    sun_seen_cosine_ = sun_disk_cosine_;
+    for (const PlacedBody& body : disks())
+        if (scene_.refraction(body.id) && (camera_in_air() || can_cover(dot(body.world_dir, sun_camera_dir_),
+                                                                        body.cone_cosine, sun_disk_cosine_)))
+            sun_seen_cosine_ = std::cos(std::acos(sun_disk_cosine_) + max_turn_rad());
     const double au = kAstronomicalUnit_m / sun_distance_m;
     sun_clear_irradiance_ = static_cast<float>(au * au) * sun_irradiance_1au_;
     sun_irradiance_ = sun_clear_irradiance_ * sun_seen_from(objects_world_m, kNoBody);
@@ -74,15 +79,53 @@ Background Background::with(const std::array<SceneBody, kMaxBodies>& bodies, con
     return out;
 }
 
+// Returns the straight ray, in a body's axes, that meets the body's ground and air where the bent one does.
+Background::BodyRay Background::ray_to(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const {
+    const BodyRay straight{body.camera_m + body.fixed_from_world * origin_m, body.fixed_from_world * dir};
+    const AirRefraction* air = scene_.refraction(body.id);
+    if (!air) return straight;
+    const AirRefraction::Line line = line_within(*air, body.figure, straight.origin_m, straight.dir);
+    return {line.origin_m, line.dir};
+}
+
+// Replaces a ray from the camera's place by the same ray behind a body's air.
+void Background::pass_air(const PlacedBody& body, Vec3d& origin_m, Vec3d& dir) const {
+    const AirRefraction* air = scene_.refraction(body.id);
+    if (!air) return;
+    const Mat3d world_from_fixed = transposed(body.fixed_from_world);
+    const AirRefraction::Line line = line_beyond(
+        *air, body.figure, body.camera_m + body.fixed_from_world * origin_m, body.fixed_from_world * dir);
+    origin_m = world_from_fixed * (line.origin_m - body.camera_m), dir = world_from_fixed * line.dir;
+}
+
+Vec3d Background::beyond_air(Vec3d dir) const {
+    Vec3d origin_m{};
+    for (const PlacedBody& body : disks()) pass_air(body, origin_m, dir);
+    return dir;
+}
+
+AirRefraction::Seen Background::seen_through_air(Vec3d dir, double distance_m) const {
+    for (const PlacedBody& body : disks()) {
+        const AirRefraction* air = scene_.refraction(body.id);
+        // The air moves nothing outside its cone, which is half the sky for a camera in the air.
+        if (!air || (body.cone_cosine > 0 && dot(dir, body.world_dir) < body.cone_cosine)) continue;
+        const AirRefraction::Seen seen =
+            seen_through(*air, body.figure, body.camera_m, body.fixed_from_world * dir, distance_m);
+        return {transposed(body.fixed_from_world) * seen.dir, seen.light};
+    }
+    return {dir, 1};
+}
+
 bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
                                  Cone cone) const {
     for (const PlacedBody& body : disks()) {
-        const Vec3d origin = body.camera_m + body.fixed_from_world * origin_m;
-        const Vec3d d = body.fixed_from_world * dir;
         if (scene_.is_modelled(body.id)) {
-            if (add_earth(body, origin, d, cone, weight, radiance)) return true;
+            const Vec3d origin = body.camera_m + body.fixed_from_world * origin_m;
+            if (add_earth(body, origin, body.fixed_from_world * dir, cone, weight, radiance)) return true;
+            pass_air(body, origin_m, dir);
             continue;
         }
+        const auto [origin, d] = ray_to(body, origin_m, dir);
         const double distance = light_.met(body, origin, d);
         const bool hit = distance >= 0;
         if (scene_.has_air(body.id)) add_air(body, origin, d, hit ? distance : kInfinity, weight, radiance);
@@ -90,7 +133,10 @@ bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Sp
         if (scene_.has_rings(body.id))
             light_.add_rings(body, origin, d, {hit ? distance : kInfinity, pixel_rad_, lit}, weight,
                              radiance);
-        if (!hit) continue;
+        if (!hit) {
+            pass_air(body, origin_m, dir);
+            continue;
+        }
         if (lit) radiance += weight * light_.surface(body, origin + distance * d, -normalized(d), eclipses_);
         return true;
     }
@@ -124,11 +170,13 @@ bool Background::add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, Co
                         earth_moment_,
                         cone.of_pixel ? EarthModel::kLooksOfPixel : 1};
     if (body.may_be_eclipsed) {
-        const double distance_m = intersect_ellipsoid(kFigures[index_of(body.id)], origin_m, ray.dir);
+        const EarthModel::Ray met = scene_.earth->bent(ray);
+        const double distance_m = intersect_ellipsoid(kFigures[index_of(body.id)], met.origin_m, met.dir);
         if (distance_m >= 0)
-            ray.irradiance_w_m2_um = ray.irradiance_w_m2_um *
-                                     eclipses_.sun_seen_from(body.id, transposed(body.fixed_from_world) *
-                                                                          (origin_m + distance_m * ray.dir));
+            ray.irradiance_w_m2_um =
+                ray.irradiance_w_m2_um *
+                eclipses_.sun_seen_from(
+                    body.id, transposed(body.fixed_from_world) * (met.origin_m + distance_m * met.dir));
     }
     return scene_.earth->add(ray, weight, radiance);
 }
@@ -196,21 +244,24 @@ EarthRays Background::plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_d
 
 bool Background::hides_from(Vec3d origin_m, Vec3d dir, double distance) const {
     for (const PlacedBody& body : disks()) {
-        const double there =
-            light_.met(body, body.camera_m + body.fixed_from_world * origin_m, body.fixed_from_world * dir);
+        const BodyRay ray = ray_to(body, origin_m, dir);
+        const double there = light_.met(body, ray.origin_m, ray.dir);
         if (there >= 0 && there < distance) return true;
+        pass_air(body, origin_m, dir);
     }
     return false;
 }
 
 Background::BodyMet Background::first_body_seen(Vec3d dir) const {
+    Vec3d origin_m{};
     for (const PlacedBody& body : disks()) {
-        const Figure& figure = body.figure;
-        const Vec3d d = body.fixed_from_world * dir;
-        const double distance = light_.met(body, body.camera_m, d);
-        if (distance < 0) continue;
-        return {&body, distance,
-                transposed(body.fixed_from_world) * ellipsoid_normal(figure, body.camera_m + distance * d)};
+        const BodyRay ray = ray_to(body, origin_m, dir);
+        const double distance = light_.met(body, ray.origin_m, ray.dir);
+        if (distance >= 0)
+            return {&body, distance,
+                    transposed(body.fixed_from_world) *
+                        ellipsoid_normal(body.figure, ray.origin_m + distance * ray.dir)};
+        pass_air(body, origin_m, dir);
     }
     return {};
 }

@@ -1,7 +1,8 @@
 #pragma once
 // The background that a ray sees if it meets no object: the Moon and the planets with their air, the Sun's
 // disk, or black sky. Stars are point sources and not included. placed_bodies.h has the positions of bodies,
-// body_radiance.h their light, eclipses.h how they cover the Sun.
+// body_radiance.h their light, eclipses.h how they cover the Sun. The air bends the camera's rays
+// (render/sky/air_refraction.h).
 
 #include <array>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "render/earth/earth_moment.h"
 #include "render/earth/earth_rays.h"
 #include "render/scene/scene.h"
+#include "render/sky/air_refraction.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/pixel_box.h"
 
@@ -39,6 +41,9 @@ class Background {
     // The same without eclipses and air.
     const Spectrum& sun_clear_irradiance_w_m2_um() const { return sun_clear_irradiance_; }
     double sun_disk_cosine() const { return sun_disk_cosine_; }
+    // Returns the cosine of the cone around the Sun's direction that contains its disk as seen through the
+    // air.
+    double sun_seen_cosine() const { return sun_seen_cosine_; }
     const SunDisk& sun_disk() const { return disk_; }
     // Returns the Sun's direction as the camera sees it.
     Vec3d sun_camera_dir() const { return sun_camera_dir_; }
@@ -90,10 +95,22 @@ class Background {
     bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
         return add_bodies_from({}, dir, weight, radiance, {pixel_rad_, true});
     }
+    // Returns the direction in which the camera sees a point of the sky, and the share of its light that is
+    // left after the air has spread it. distance_m: infinite for stars. add_bodies_seen() dims the light
+    // further. Loop, any thread.
+    AirRefraction::Seen seen_through_air(Vec3d dir, double distance_m) const;
+    // Returns the largest angle between a point and the direction in which it is seen, in any frame [rad].
+    double max_turn_rad() const {
+        return scene_.air && scene_.air->refraction() ? scene_.air->refraction()->max_turn_rad() : 0;
+    }
     // Adds the radiance of the Sun's disk in the same way: mean radiance E_s / (pi sin^2 rho) inside its
     // angular radius rho, darker towards the edge. Without eclipses: what covers the Sun blocks the ray
     // itself.
     void add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
+    // Does the same for a ray of the camera, which the air may bend.
+    void add_sun_disk_seen(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const {
+        add_sun_disk(beyond_air(dir), weight, radiance);
+    }
     // True when a body is nearer than `distance`, in lengths of the direction. Loop, any thread.
     bool hides(Vec3f origin_m, Vec3d dir, double distance) const {
         return hides_from(to_double(origin_m) + objects_from_camera_m_, dir, distance);
@@ -107,10 +124,7 @@ class Background {
     };
     BodyMet first_body_seen(Vec3d dir) const;
     // True when a camera ray that meets nothing else meets the Sun's disk.
-    bool meets_sun_disk(Vec3d dir) const {
-        const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
-        return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
-    }
+    bool sees_sun_disk(Vec3d dir) const { return meets_sun_disk(beyond_air(dir)); }
     // Returns the distance from the camera to the nearest place of any body.
     double nearest_m() const { return placed_.nearest_m(); }
     // Returns light and transmittance of the air in front of an object at a distance; only if
@@ -164,7 +178,7 @@ class Background {
     Vec3d objects_from_camera_m_;
     Spectrum sun_irradiance_, sun_clear_irradiance_;
     Vec3d sun_world_dir_{0, 0, 1}, sun_camera_dir_{0, 0, 1};
-    double sun_disk_cosine_ = 1;
+    double sun_disk_cosine_ = 1, sun_seen_cosine_ = 1;
     double pixel_rad_ = 0;
     bool earth_in_patches_ = false;
 
@@ -173,6 +187,17 @@ class Background {
         double width_rad;
         bool of_pixel;  // it is a pixel's, from the camera
     };
+    // A ray in a body's axes; the origin is relative to its centre.
+    struct BodyRay {
+        Vec3d origin_m, dir;
+    };
+    bool meets_sun_disk(Vec3d dir) const {
+        const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
+        return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
+    }
+    BodyRay ray_to(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
+    void pass_air(const PlacedBody& body, Vec3d& origin_m, Vec3d& dir) const;
+    Vec3d beyond_air(Vec3d dir) const;
     void place_sun(const WorldSnapshot& world, Vec3d objects_world_m);
     void choose_quick_ways();
     bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance, Cone cone) const;

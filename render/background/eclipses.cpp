@@ -2,10 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "render/sky/air_refraction.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
+
+// Returns the share of the light from a direction that a body and its air let through to a place, per bin;
+// body axes. Light that the air bends arrives from another direction, and spread.
+Spectrum Eclipses::passed_by(BodyId body, const Figure& figure, Vec3d origin_m, Vec3d dir) const {
+    Spectrum whole;
+    whole.bin.fill(1);
+    Vec3d from_m = origin_m, way = dir;
+    if (const AirRefraction* air = scene_.refraction(body)) {
+        const AirRefraction::Seen seen =
+            seen_through(*air, figure, origin_m, dir, std::numeric_limits<double>::infinity());
+        const AirRefraction::Line line = line_within(*air, figure, origin_m, seen.dir);
+        from_m = line.origin_m, way = line.dir;
+        whole.bin.fill(static_cast<float>(seen.light));
+    }
+    if (intersect_ellipsoid(figure, from_m, way) >= 0) return {};
+    if (!scene_.has_air(body)) return whole;
+    return whole *
+           scene_.air->sun_transmittance(stretched(figure, from_m), normalized(stretched(figure, way)));
+}
 
 Spectrum Eclipses::sun_seen_from(Vec3d place_world_m, BodyId standing_on) const {
     Spectrum whole;
@@ -51,12 +72,7 @@ Spectrum Eclipses::sun_seen_from(Vec3d place_world_m, BodyId standing_on) const 
                 const Figure& figure = bodies_.figure(static_cast<BodyId>(i));
                 const Mat3d& fixed = bodies_.body[i].fixed_from_world;
                 const Vec3d origin = fixed * (place_world_m - bodies_.body[i].world_m);
-                const Vec3d body_dir = fixed * dir;
-                if (intersect_ellipsoid(figure, origin, body_dir) >= 0)
-                    passed = {};
-                else if (scene_.has_air(static_cast<BodyId>(i)))
-                    passed = passed * scene_.air->sun_transmittance(stretched(figure, origin),
-                                                                    normalized(stretched(figure, body_dir)));
+                passed = passed * passed_by(static_cast<BodyId>(i), figure, origin, fixed * dir);
             }
             seen += passed;
             all += radiance;

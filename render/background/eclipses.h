@@ -1,6 +1,6 @@
 #pragma once
 // Eclipses: the share of the Sun that bodies leave visible at a place, with the Sun's limb darkening and the
-// Earth's air.
+// Earth's air, which dims sunlight and bends it into the shadow.
 
 #include "render/background/scene_bodies.h"
 #include "render/sky/bodies.h"
@@ -30,6 +30,8 @@ class Eclipses {
     SunDisk disk_;
     int bins_;
     Bodies bodies_;
+
+    Spectrum passed_by(BodyId body, const Figure& figure, Vec3d origin_m, Vec3d dir) const;
 };
 
 }  // namespace hilcam

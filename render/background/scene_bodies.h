@@ -18,6 +18,8 @@ struct SceneBodies {
     bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*this)[id].rings; }
     bool has_air(BodyId id) const { return air && id == BodyId::kEarth; }
     bool is_modelled(BodyId id) const { return earth && id == BodyId::kEarth; }
+    // Returns how a body's air bends rays; null if it does not.
+    const AirRefraction* refraction(BodyId id) const { return has_air(id) ? air->refraction() : nullptr; }
     // Returns how high above its ground a body is visible [m].
     double top_m(BodyId id) const;
     std::string name_of(BodyId id) const;

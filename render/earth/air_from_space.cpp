@@ -25,6 +25,7 @@ class AirFromSpace final : public Atmosphere {
         return air_->missing(origin_m, dir, distance_m, sun_dir);
     }
     std::uint64_t rays_outside() const override { return air_->rays_outside(); }
+    const AirRefraction* refraction() const override { return air_->refraction(); }
     std::string describe() const override { return air_->describe() + ", from space by a table"; }
 
   private:

@@ -22,6 +22,7 @@ struct EarthAspect {
     Spectrum air_high, seen_high, sun_high, sky_high;
     // Cloud reflection is many + share * once.
     Spectrum once;
+    Spectrum land_shape;  // reflection of the beam by land without snow, over that of a diffuse surface
     Steps many{}, share{};
     Steps seen{};  // share of light from below that reaches the viewer
     Steps lit{};   // share of sunlight that comes down, including the beam
@@ -33,6 +34,6 @@ struct EarthAspect {
     MapFootprint footprint;
     std::array<float, 7> unused{};
 };
-static_assert(sizeof(EarthAspect) == 136 * sizeof(float));
+static_assert(sizeof(EarthAspect) == 144 * sizeof(float));
 
 }  // namespace hilcam

@@ -138,7 +138,8 @@ bool EarthImpostor::is_for(Vec3d camera_m, double pixel_rad) {
     return distance > kNearest && radius_px > kSmallest_px && radius_px < kLargest_px;
 }
 
-EarthImpostor::EarthImpostor(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
+EarthImpostor::EarthImpostor(double pixel_rad, double top_m, double edge_m)
+    : pixel_rad_(pixel_rad), top_m_(top_m), radius_m_(kEarthRadius_m + edge_m) {
     bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kPictureRings + 4);
     // Reserves addresses for the widest disk; take_memory() uses their pages. One and a half grid steps
     // nearer.
@@ -153,7 +154,7 @@ Vec3d EarthImpostor::to_place(Vec3d v) const { return {dot(v, right_), dot(v, do
 
 void EarthImpostor::place_bands() {
     bands_.clear();
-    const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // a pixel's share of the radius
+    const double pixel = pixel_rad_ * distance_m_ / radius_m_;  // a pixel's share of the radius
     const double step = kSpacing_px * pixel, fine = step / kFinerSteps;
     pixel_ = static_cast<float>(pixel);
     inner_per_b_ = static_cast<float>(1 / step);
@@ -171,10 +172,9 @@ void EarthImpostor::place_bands() {
         add(from * step, step, std::min(kPictureRings, inner - from) + 1);
     // The middle of a ring is half a step off the limb of the ground; dark rings end them.
     const int below = static_cast<int>(std::ceil(kLimb_px * pixel / fine)) + 3;
-    const int above =
-        static_cast<int>(std::ceil((top_m_ / kEarthRadius_m + 0.5 * pixel) / fine)) + kLimbRows + 1;
+    const int above = static_cast<int>(std::ceil((top_m_ / radius_m_ + 0.5 * pixel) / fine)) + kLimbRows + 1;
     add(1 - (below - 0.5) * fine, fine, below + above);
-    dark_from_ = static_cast<float>(1 + top_m_ / kEarthRadius_m + 0.5 * pixel + fine);
+    dark_from_ = static_cast<float>(1 + top_m_ / radius_m_ + 0.5 * pixel + fine);
 }
 
 int EarthImpostor::Band::runs() const { return (columns + kRunColumns - 1) / kRunColumns; }
@@ -201,7 +201,7 @@ void EarthImpostor::fill_run(const EarthModel& earth, const Spectrum& irradiance
         const Vec3d out_dir = std::cos(turn) * right_ + std::sin(turn) * down_;
         Spectrum sum;
         for (int i = 0; i < looks; ++i) {
-            const double sine = (b + ((i + 0.5) / looks - 0.5) * spacing) * kEarthRadius_m / distance_m_;
+            const double sine = (b + ((i + 0.5) / looks - 0.5) * spacing) * radius_m_ / distance_m_;
             const Vec3d dir = std::sqrt(1 - sine * sine) * ahead_ + sine * out_dir;
             ray.dir = normalized(Vec3d{dir.x, dir.y, dir.z * per_stretch});
             Spectrum weight;
@@ -262,7 +262,7 @@ EarthImpostor::Tile EarthImpostor::tile(Vec3d camera_m,
         const Vec3d dir = normalized(stretched(kEarthFigure, dirs[i]));
         const double to_closest = -dot(from_m, dir);
         const Vec3d closest = from_m + to_closest * dir;
-        const double rest = std::max(0.0, kEarthRadius_m * kEarthRadius_m - dot(closest, closest));
+        const double rest = std::max(0.0, radius_m_ * radius_m_ - dot(closest, closest));
         const Vec3d seen = to_place(from_m - kept_m + (to_closest - std::sqrt(rest)) * dir);
         across[i] = seen.x / seen.z, down[i] = seen.y / seen.z;
     }
@@ -284,7 +284,7 @@ EarthImpostor::Tile EarthImpostor::tile(Vec3d camera_m,
 void EarthImpostor::look(const Tile& tile, const Floats& x, const Floats& y, std::size_t count, float share,
                          std::array<Spectrum, kCount>& radiance) const {
     Floats approach, turn;
-    place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / kEarthRadius_m), approach.data(),
+    place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / radius_m_), approach.data(),
                 turn.data());
     Looks looks;
     for (std::size_t i = 0; i < count; ++i) {
@@ -317,7 +317,7 @@ EarthImpostor::Spot EarthImpostor::spot_of(float b, float turn) const {
 
 void EarthImpostor::find_squares(const Tile& tile, const Floats& x, const Floats& y, Squares& squares) const {
     Floats approach, turn;
-    place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / kEarthRadius_m), approach.data(),
+    place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / radius_m_), approach.data(),
                 turn.data());
     for (std::size_t i = 0; i < kCount; ++i) {
         const Spot spot = spot_of(approach[i], turn[i]);

@@ -4,8 +4,8 @@
 //
 // Light is stored in rings around the Earth's middle, slightly closer than the camera's pixels and three
 // times as close where ground changes to air, and interpolated linearly. z is stretched so that the Earth is
-// a sphere of radius R. A ring is identified by its rays' closest approach to the middle, so the limb is at R
-// for every camera.
+// a sphere. A ring is identified by how close its rays would come to the middle if they were straight. The
+// air bends them, so the ground ends at a radius R above the sphere's; the limb is at R for every camera.
 //
 // Cameras and Suns are rounded to a grid (Key) that does not depend on earlier frames: a frame depends only
 // on its own place and time. A camera off the grid looks up by the place on the ground (Tile), so coasts are
@@ -38,8 +38,9 @@ class EarthImpostor {
     // disk is neither a few pixels wide nor too large for its memory. Loop.
     static bool is_for(Vec3d camera_m, double pixel_rad);
 
-    // pixel_rad: of the camera. top_m: the height up to which there is light.
-    EarthImpostor(double pixel_rad, double top_m);
+    // pixel_rad: of the camera. top_m: the height up to which there is light. edge_m: the apparent height at
+    // which the ground ends (EarthModel::seen_height_m).
+    EarthImpostor(double pixel_rad, double top_m, double edge_m);
     // Starts a picture; none of its pieces is made yet. Loop; no allocation.
     void begin(const Key& key);
     // Computes, on all threads of the arena, the pieces that no other caller works on. The picture is
@@ -93,6 +94,7 @@ class EarthImpostor {
     };
 
     double pixel_rad_, top_m_;
+    double radius_m_;  // R
     Vec3d camera_m_, sun_dir_;
     MapNumbers numbers_;
     double distance_m_ = 1;       // stretched

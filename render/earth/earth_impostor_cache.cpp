@@ -8,7 +8,8 @@ namespace hilcam {
 EarthImpostorCache::EarthImpostorCache(const EarthModel& earth, const Spectrum& sun_irradiance,
                                        double pixel_rad, double top_m)
     : earth_(earth), sun_irradiance_1au_(sun_irradiance), pixel_rad_(pixel_rad) {
-    for (Kept& kept : pictures_) kept.picture = std::make_unique<EarthImpostor>(pixel_rad, top_m);
+    for (Kept& kept : pictures_)
+        kept.picture = std::make_unique<EarthImpostor>(pixel_rad, top_m, earth.seen_height_m(0));
     ahead_.start([this] { make_rest(asked_); });
 }
 

@@ -6,6 +6,7 @@
 
 #include "render/earth/earth_figure.h"
 #include "render/earth/map_looks.h"
+#include "render/sky/air_refraction.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
@@ -46,6 +47,7 @@ struct Mix {
     float share, passed;         // light that passes the cloud downwards and upwards
     float high;                  // 0: its top is on the ground; 1: at kHigh_m
     float many, once, from_sky;  // reflection by the cloud
+    float shaped;                // share of the land that is not snow: LandShape holds for it
 };
 
 // Combines ground, air below the cloud, cloud, and air above it; per bin.
@@ -57,7 +59,8 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
         const float light =
             (a.sun_low[b] * m.direct + sky) / (1 - (land[b] + m.water * sea_albedo[b]) * m.back);
         const float ground_sr =
-            kPerPi * ((land[b] + m.water * sea_diffuse[b]) * light + m.water * m.mirrored * sky) +
+            kPerPi * ((land[b] + m.water * sea_diffuse[b]) * light + m.water * m.mirrored * sky +
+                      m.shaped * land[b] * (a.land_shape[b] - 1) * m.direct * a.sun_low[b]) +
             m.glint_sr * a.sun_low[b];
         out[b] = a.seen_low[b] * ground_sr;
     }
@@ -105,6 +108,7 @@ EarthModel::EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps c
       detail_bytes_(static_cast<std::size_t>(config.memory_mb) << 20),
       air_(air),
       land_(grid),
+      land_shape_(grid),
       sea_(config.wind_m_s, grid),
       cloud_factor_(static_cast<float>(config.cloud_thickness)),
       bins_(grid.size()),
@@ -127,6 +131,20 @@ EarthModel::EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps c
 
 float EarthModel::cloud_of(const EarthSample& sample) const {
     return thickened_cloud(sample.cloud(), cloud_factor_);
+}
+
+EarthModel::Ray EarthModel::bent(const Ray& ray) const {
+    const AirRefraction* air = air_ ? air_->refraction() : nullptr;
+    if (!air) return ray;
+    const AirRefraction::Line line = line_within(*air, kEarthFigure, ray.origin_m, ray.dir);
+    Ray out = ray;
+    out.origin_m = line.origin_m, out.dir = line.dir;
+    return out;
+}
+
+double EarthModel::seen_height_m(double height_m) const {
+    const AirRefraction* air = air_ ? air_->refraction() : nullptr;
+    return air ? air->apparent_height_m(height_m) : height_m;
 }
 
 void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const {
@@ -185,6 +203,7 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     if (place.mu0 > 0 && glints_)
         out.glint_sr = sea_.glint_sr(place.mu0, place.mu, place.cos_phase) / std::max(0.02f, place.mu0);
     out.mirrored = sea_.sky_mirrored(place.mu);
+    out.land_shape = land_shape_.of(std::max(0.0f, place.mu0), place.mu, place.cos_phase);
 
     // East and north on the level; a step there, as a share of the map.
     const Vec3d n = place.normal;
@@ -217,7 +236,8 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     return out;
 }
 
-bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
+bool EarthModel::aspect_of(const Ray& seen, EarthAspect& aspect) const {
+    const Ray ray = bent(seen);
     const double distance_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
     // Sine of 4.6 degrees: above that, pixels that share an aspect differ by 0.31 % of the mean
@@ -235,7 +255,8 @@ EarthModel::Sides EarthModel::texels_across(const MapFootprint& f, const EarthMo
     return {ellipse.shorter, ellipse.longer};
 }
 
-bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
+bool EarthModel::map_place(const Ray& seen, float& u, float& v) const {
+    const Ray ray = bent(seen);
     const double distance_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
     const MapPlace at = hilcam::map_place(earth_normal(ray.origin_m + distance_m * ray.dir));
@@ -284,11 +305,20 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
             high = (1 - std::exp(-over.cloud_top_m() / EarthAspect::kHigh_m)) * 1.5819767f;
         }
     }
-    Mix mix{water,     a.mirrored, water * direct * a.glint_sr,
-            direct,    diffuse,    back,
-            cloud > 0, share,      passed,
-            high,      0,          0,
-            0};
+    Mix mix{water,
+            a.mirrored,
+            water * direct * a.glint_sr,
+            direct,
+            diffuse,
+            back,
+            cloud > 0,
+            share,
+            passed,
+            high,
+            0,
+            0,
+            0,
+            land_.without_snow(ground)};
     if (cloud > 0) {
         mix.many = by_steps(a.many, cloud), mix.once = by_steps(a.share, cloud);
         mix.from_sky = table_->spherical_albedo(cloud);
@@ -334,7 +364,8 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
     return seen ? *seen : air_->look(origin, dir, kEndless_m, sun);
 }
 
-bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
+bool EarthModel::add(const Ray& seen_ray, Spectrum& weight, Spectrum& radiance) const {
+    const Ray ray = bent(seen_ray);
     const double to_ground_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
         const Shade seen = shade_by_parts(aspect_at(ray, to_ground_m, 0), ray.moment, ray.looks_across);

@@ -2,11 +2,11 @@
 // The Earth as a camera in space sees it: land, sea and ice, clouds above them, air around both, and lights
 // of cities.
 //
-// A ray ends where it meets the ellipsoid, and passes the cloud whose top it meets above that. Clouds are
-// plane layers (cloud_table.h), each texel by itself. The sunlight that they transmit is looked up at the
-// cloud in the Sun's direction, so shadows are where they belong. Light is reflected between ground and cloud
-// (1 / (1 - A r)). The air (atmosphere.h) above and below a cloud is separate; below it, it is dimmed like
-// the ground. Lights shine through cloud and air. docs/earth.md has the details.
+// The air bends a ray. The ray ends where it meets the ellipsoid, and passes the cloud whose top it meets
+// above that. Clouds are plane layers (cloud_table.h), each texel by itself. The sunlight that they transmit
+// is looked up at the cloud in the Sun's direction, so shadows are where they belong. Light is reflected
+// between ground and cloud (1 / (1 - A r)). The air (atmosphere.h) above and below a cloud is separate; below
+// it, it is dimmed like the ground. Lights shine through cloud and air. docs/earth.md has the details.
 //
 // shade() has the law. Everything else is either an aspect, which varies slowly over a picture, or in the
 // maps.
@@ -29,6 +29,7 @@
 #include "render/earth/earth_moment.h"
 #include "render/earth/ground_maps.h"
 #include "render/earth/land.h"
+#include "render/earth/land_shape.h"
 #include "render/earth/sea.h"
 
 namespace hilcam {
@@ -52,6 +53,11 @@ class EarthModel {
     // off. This many lookups in each direction are mostly within 1 %, and always within 2 % (means of 8 x 8
     // px of geo_inspection).
     static constexpr int kLooksOfPixel = 2;
+    // Returns the straight ray that meets ground, clouds and air where the bent one does (air_refraction.h).
+    // Rays that the other functions take are as a camera sees them, before the air bends them.
+    Ray bent(const Ray& ray) const;
+    // Returns the height at which a camera far away sees a level.
+    double seen_height_m(double height_m) const;
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. Returns true if the ray ends on the
     // ground or in a cloud; otherwise the air on its way has dimmed weight.
     bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;
@@ -67,7 +73,7 @@ class EarthModel {
     };
     Sides texels_across(const MapFootprint& footprint, const EarthMoment& moment) const;
     // Finds where a ray meets the ground: u, v of EarthMap. Returns false if it does not.
-    static bool map_place(const Ray& ray, float& u, float& v);
+    bool map_place(const Ray& ray, float& u, float& v) const;
     // Radiance for an aspect and the maps, per unit of irradiance [sr^-1], and that of lights [W m^-2 sr^-1
     // um^-1].
     struct Shade {
@@ -118,6 +124,7 @@ class EarthModel {
     std::shared_ptr<const AirColumns> columns_;  // null without air
     std::shared_ptr<const CloudTable> table_;    // null without clouds
     LandBands land_;
+    LandShape land_shape_;
     Sea sea_;
     float cloud_factor_;
     Spectrum city_w_m2_sr_um_;  // radiance of the brightest

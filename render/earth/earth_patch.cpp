@@ -41,7 +41,7 @@ void EarthPatch::place_node(int at, const EarthModel::Ray& ray) {
 
 void EarthPatch::place_half(int row, int column, const EarthModel::Ray& ray) {
     MapPlace& at = halves_[static_cast<std::size_t>(row * kHalves + column)];
-    if (!EarthModel::map_place(ray, at.u, at.v)) at = {};  // no node around it can be used
+    if (!earth_->map_place(ray, at.u, at.v)) at = {};  // no node around it can be used
 }
 
 void EarthPatch::choose_steps() {

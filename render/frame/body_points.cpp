@@ -78,18 +78,18 @@ void add_cells(const FrameContext& frame, const PlacedBody& body, const PointFie
         for (int i = 0; i < picture.cells(); ++i) {
             const LittlePicture::Cell cell = picture.cell(i, j);
             if (cell.light > 0)
-                field.add(normalized(cell.middle), before_m, cell.irradiance_w_m2_um, points, thing);
+                field.add_from_sky(normalized(cell.middle), before_m, cell.irradiance_w_m2_um, points, thing);
         }
 }
 
 // Returns the direction from which the light of a body smaller than a pixel comes: for a crescent it differs
 // from the body's middle. The density of rays is that for a body of one pixel.
-Vec3d light_dir(const FrameContext& frame, const PlacedBody& body, const PointField& field) {
+Vec3d light_dir(const FrameContext& frame, const PlacedBody& body) {
     const double sine = std::sqrt(1 - body.disk_cosine * body.disk_cosine);
     const double size_px = 2 * sine / body.disk_cosine * frame.geometry.focal_length_px;
     // The light of a smaller body is within a hundredth of a pixel of its middle.
     constexpr double kSeen_px = 0.02;
-    if (size_px < kSeen_px || !field.sees(body.world_dir, body.distance_m)) return body.world_dir;
+    if (size_px < kSeen_px) return body.world_dir;
     const LittlePicture picture(frame, body, body.disk_cosine,
                                 std::max(4, static_cast<int>(std::ceil(kRaysAcross * size_px))));
     Vec3d sum;
@@ -103,9 +103,9 @@ Vec3d light_dir(const FrameContext& frame, const PlacedBody& body, const PointFi
 void add_body_points(const FrameContext& frame, const PointField& field, std::vector<PointSource>& points) {
     const Background& background = *frame.background;
     for (const PlacedBody& body : background.points())
-        if (field.sees(body.world_dir, body.distance_m))
-            field.add(light_dir(frame, body, field), body.distance_m, background.point_irradiance(body),
-                      points);
+        if (field.sees(background.seen_through_air(body.world_dir, body.distance_m).dir, body.distance_m))
+            field.add_from_sky(light_dir(frame, body), body.distance_m, background.point_irradiance(body),
+                               points);
     for (std::size_t i = 0; i < frame.body_box_count; ++i)
         if (background.disks()[i].in_points && !frame.body_boxes[i].empty())
             add_cells(frame, background.disks()[i], field, points);

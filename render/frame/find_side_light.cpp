@@ -65,10 +65,11 @@ void find_side_light(const FrameContext& frame, const WorldSnapshot& world, std:
         const Spectrum share = sky.sun_disk().relative_radiance(static_cast<float>(std::sqrt(1 - r * r)));
         for (int spoke = 0; spoke < kSunSpokes; ++spoke) {
             const double phi = 2 * kPi * (spoke + kGoldenRatioOfTurn * ring) / kSunSpokes;
-            const Vec3d dir = normalized(sun.along + (r * sine * std::cos(phi)) * sun.side +
-                                         (r * sine * std::sin(phi)) * sun.up);
+            const Vec3d there = normalized(sun.along + (r * sine * std::cos(phi)) * sun.side +
+                                           (r * sine * std::sin(phi)) * sun.up);
+            const auto [dir, spread] = sky.seen_through_air(there, std::numeric_limits<double>::infinity());
             if (shown(dir)) continue;
-            Spectrum light = sky.sun_clear_irradiance_w_m2_um(), ignored;
+            Spectrum light = static_cast<float>(spread) * sky.sun_clear_irradiance_w_m2_um(), ignored;
             for (int b = 0; b < frame.bins; ++b) light[b] *= share[b] / (whole[b] * kSunSpokes);
             if (sky.add_bodies_seen(dir, light, ignored) || !passes_objects(frame, dir, light)) continue;
             lights.push_back({to_float(camera_from_world * dir), light});

@@ -69,8 +69,10 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
     if (!scene.light_later) indirect_ = make_indirect_cache();
     // Rows of different instants sweep over more than a field, and draw a star several times if they are slow
     // over it. Twice the field includes the aberration of a moving camera, a few thousandths at most.
-    max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
-                                   : stars_.size();
+    max_stars_ = rays_->is_still()
+                     ? std::min(stars_.size(),
+                                stars_.max_within(2 * half_field_rad(geometry) + background_.max_turn_rad()))
+                     : stars_.size();
     visibility_.make(geometry, levels,
                      {terrain_ != nullptr, plain_ground_triangles(geometry), rays_->row_motion() != nullptr});
     frame_.scene = &embree_;
@@ -262,7 +264,7 @@ void FrameSetup::place_background() {
         const PlacedBody& body = background_.disks()[i];
         frame_.body_boxes[i] = bounds(body.world_dir, body.cone_cosine);
     }
-    frame_.sun_box = bounds(background_.sun_camera_dir(), background_.sun_disk_cosine());
+    frame_.sun_box = bounds(background_.sun_camera_dir(), background_.sun_seen_cosine());
     frame_.earth_impostor = nullptr;
 }
 

@@ -184,7 +184,11 @@ void TruthProbe::report_stars() {
         const Star& star = *in_field;
         Sighting where;
         SeenStar seen;
-        if (!field.look(dir, kFar, star.irradiance_w_m2_um, where, seen.irradiance_w_m2_um)) continue;
+        const AirRefraction::Seen through_air = frame_.background->seen_through_air(dir, kFar);
+        if (!field.look(through_air.dir, kFar,
+                        static_cast<float>(through_air.light) * star.irradiance_w_m2_um, where,
+                        seen.irradiance_w_m2_um))
+            continue;
         const Vec2d at_px = truth_.raster.frame_px(where.position_px);
         if (!rays_.on_image(where.position_px) || !(at_px.x >= 0 && at_px.x < truth_.raster.width_px) ||
             !(at_px.y >= 0 && at_px.y < truth_.raster.height_px))

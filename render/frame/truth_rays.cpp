@@ -72,7 +72,7 @@ void TruthRays::trace(std::span<const Vec2d> points_px, bool normals, std::span<
             out.range_m = body.distance;
             out.from_camera_m = body.distance * dir;
             if (normals) out.normal_dir = body.normal_world_dir;
-        } else if (frame_.background->meets_sun_disk(dir)) {
+        } else if (frame_.background->sees_sun_disk(dir)) {
             out.kind = RayMet::Kind::kSun;
             out.range_m = length(setup_.world().bodies.sun_world_m - setup_.world().camera.position_world_m);
             out.from_camera_m = out.range_m * dir;

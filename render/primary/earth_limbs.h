@@ -13,8 +13,8 @@ namespace hilcam {
 
 class EarthLimbs {
   public:
-    // The Earth, placed.
-    EarthLimbs(const PlacedBody& earth, bool has_clouds) : earth_(earth), has_clouds_(has_clouds) {}
+    // The Earth, placed, and its model.
+    EarthLimbs(const PlacedBody& earth, const EarthModel& model) : earth_(earth), model_(model) {}
 
     // True when a limb is within this angle of a direction (world, unit).
     bool near(Vec3d dir, double within_rad) const {
@@ -25,16 +25,17 @@ class EarthLimbs {
         const Vec3d axis = earth_.fixed_from_world * earth_.world_dir,
                     way = earth_.fixed_from_world * normalized(across);
         const auto near_level = [&](double height_m) {
-            const Figure level{earth_.figure.equatorial_radius_m + height_m,
-                               earth_.figure.polar_radius_m + height_m};
+            const double seen_m = model_.seen_height_m(height_m);
+            const Figure level{earth_.figure.equatorial_radius_m + seen_m,
+                               earth_.figure.polar_radius_m + seen_m};
             return std::abs(from_middle_rad - limb_angle_rad(level, earth_.camera_m, axis, way)) < within_rad;
         };
-        return near_level(0) || (has_clouds_ && near_level(EarthModel::kCloudLevel_m));
+        return near_level(0) || (model_.has_clouds() && near_level(EarthModel::kCloudLevel_m));
     }
 
   private:
     const PlacedBody& earth_;
-    bool has_clouds_;
+    const EarthModel& model_;
 
     // A coarse test. The limb differs from a circle by the flattening (1/300 of the radius) and by the
     // clouds' level; directions farther from the circle than that cannot be near a limb.

@@ -208,9 +208,7 @@ class PrimaryRays {
     // The Earth's model filters over the ray's cone, so it is uneven only within this distance of its limbs.
     static constexpr double kRim_px = 1.0;
     double rim_rad() const { return kRim_px / frame_.geometry.focal_length_px; }
-    EarthLimbs limbs_of(const PlacedBody& earth) const {
-        return {earth, frame_.background->earth()->has_clouds()};
-    }
+    EarthLimbs limbs_of(const PlacedBody& earth) const { return {earth, *frame_.background->earth()}; }
     // Returns the pixels of a rim that a limb passes or nearly passes.
     std::uint32_t limb_pixels(int bx, int by) const {
         std::uint32_t out = 0;
@@ -310,7 +308,7 @@ class PrimaryRays {
         if (plain_) {
             if (sun_cosine > EarthRays::kMiss)
                 return frame_.background->add_plain_at(sun_cosine, weight, pixel);
-            if (sun_) frame_.background->add_sun_disk(exact_dir(k), weight, pixel);
+            if (sun_) frame_.background->add_sun_disk_seen(exact_dir(k), weight, pixel);
             return;
         }
         if (patched_) {
@@ -325,7 +323,7 @@ class PrimaryRays {
         }
         const Vec3d dir = exact_dir(k);
         if (bodies_ && frame_.background->add_bodies_seen(dir, weight, pixel)) return;
-        if (sun_) frame_.background->add_sun_disk(dir, weight, pixel);
+        if (sun_) frame_.background->add_sun_disk_seen(dir, weight, pixel);
     }
 
     void trace_packet(bool objects, std::uint16_t sample) {

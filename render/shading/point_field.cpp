@@ -14,7 +14,10 @@ PointField::PointField(const FrameContext& frame, const WorldSnapshot& world)
       world_(world),
       boresight_dir_(to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1}),
       field_rad_(std::min(kPi, half_field_rad(frame.geometry) + frame.rays->sweep_rad())),
-      min_cosine_(std::cos(field_rad_)) {}
+      min_cosine_(std::cos(field_rad_)),
+      lifted_rad_(frame.may_see_body({0, 0, frame.geometry.padded_width(), frame.geometry.padded_height()})
+                      ? frame.background->max_turn_rad()
+                      : 0) {}
 
 double half_field_rad(const ImageGeometry& g) {
     // Distortion may move any of the four corners outwards.
@@ -106,9 +109,16 @@ void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
     if (look(dir, distance_m, irradiance, sighting, seen)) push(sighting, {{}, {}, object, seen}, points);
 }
 
+void PointField::add_from_sky(Vec3d dir, double distance_m, const Spectrum& irradiance,
+                              std::vector<PointSource>& points, std::uint32_t thing) const {
+    const AirRefraction::Seen seen = frame_.background->seen_through_air(dir, distance_m);
+    add(seen.dir, distance_m, seen.light == 1 ? irradiance : static_cast<float>(seen.light) * irradiance,
+        points, thing);
+}
+
 void PointField::add_stars(const StarSky& stars, std::vector<PointSource>& points) const {
     each_star(stars, [&](const Star& star, Vec3d dir) {
-        add(dir, std::numeric_limits<double>::infinity(), star.irradiance_w_m2_um, points);
+        add_from_sky(dir, std::numeric_limits<double>::infinity(), star.irradiance_w_m2_um, points);
     });
 }
 

@@ -22,15 +22,19 @@ class PointField {
     PointField(const FrameContext& frame, const WorldSnapshot& world);
 
     void add_stars(const StarSky& stars, std::vector<PointSource>& points) const;
-    // Calls use(star, apparent direction) for each star that may be in the image.
+    // Calls use(star, apparent direction) for each star that may be in the image. The direction does not
+    // include refraction (Background::seen_through_air).
     template <class Use>
     void each_star(const StarSky& stars, const Use& use) const {
-        stars.each_within(observer_of(stars.time()), boresight_dir_, field_rad_, use);
+        stars.each_within(observer_of(stars.time()), boresight_dir_, field_rad_ + lifted_rad_, use);
     }
     // Adds a thing at a distance [m] in a direction (unit, world) with this irradiance at the camera; it
     // belongs to an object or to the sky.
     void add(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
              std::vector<PointSource>& points, std::uint32_t object = PointSource::kSky) const;
+    // Adds a star or a body where it is seen through the air.
+    void add_from_sky(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
+                      std::vector<PointSource>& points, std::uint32_t thing = PointSource::kSky) const;
     // True when the thing is in the padded image.
     bool sees(Vec3d dir, double distance_m) const {
         Sighting ignored;
@@ -47,6 +51,7 @@ class PointField {
     Vec3d boresight_dir_;
     double field_rad_;   // largest angle from the boresight (at the frame's time) of what may be in the image
     double min_cosine_;  // cosine of that angle
+    double lifted_rad_;  // largest angle by which the air may move a star in this frame
 
     StarObserver observer_of(TimeTai star_time) const;
     bool find(Vec3d dir, double distance_m, Sighting& seen) const;

@@ -16,6 +16,8 @@
 
 namespace hilcam {
 
+class AirRefraction;  // air_refraction.h
+
 class Atmosphere {
   public:
     virtual ~Atmosphere() = default;
@@ -39,6 +41,9 @@ class Atmosphere {
     virtual std::string missing(Vec3d, Vec3d, double, Vec3d) const { return {}; }
     // Returns the number of rays so far for which data were missing; the nearest data were used.
     virtual std::uint64_t rays_outside() const { return 0; }
+    // Returns how the air bends rays; null if it does not. look() and the other functions take straight rays:
+    // the caller bends them first (AirRefraction::within).
+    virtual const AirRefraction* refraction() const { return nullptr; }
     // Returns one line for `hilcam check`.
     virtual std::string describe() const = 0;
 };

@@ -10,7 +10,8 @@
 //                233 K, 0.36 to 0.83 um (constant below, none above); by height as in the same standard,
 //                scaled to its column
 // Coefficients are means over a bin, so transmittances of wide bins are wrong if the coefficients vary much
-// inside one. Not modelled: water vapour and oxygen bands, refraction, polarisation, clouds, seasons.
+// inside one. Not modelled: water vapour and oxygen bands, polarisation, clouds, seasons. Refraction is in
+// air_refraction.h.
 
 #include <vector>
 

@@ -24,12 +24,14 @@
 
 #include "render/sky/air_by_place.h"
 #include "render/sky/air_lift.h"
+#include "render/sky/air_refraction.h"
 #include "render/sky/air_steps.h"
 #include "render/sky/air_transmittance.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/atmosphere_models.h"
 #include "render/sky/atmosphere_physics.h"
 #include "render/sky/spectrum_table.h"
+#include "render/sky/standard_air.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 
@@ -41,6 +43,8 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
     PrecomputedAtmosphere(const AtmosphereConfig& config, const SpectralGrid& grid,
                           const AtmosphereStore* store)
         : air_(config, grid),
+          refraction_(air_refractivity(grid) * config.pressure_pa / kStandardPressure_pa,
+                      standard_air_density, kGround_m, AirPhysics::kTop_m),
           ground_(AirLift::even(config.ground_albedo), {}),
           multiple_(48, 20),
           sky_(64, 16),
@@ -64,6 +68,7 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
     }
 
     double top_m() const override { return AirPhysics::kTop_m; }
+    const AirRefraction* refraction() const override { return &refraction_; }
     std::string describe() const override { return text_ + ground_.describe(); }
 
     bool lifts_by_place() const override { return ground_.varies(); }
@@ -103,7 +108,9 @@ class PrecomputedAtmosphere final : public AirByPlace, private AirBall {
     }
 
   private:
+    static constexpr double kStandardPressure_pa = 101325;
     AirPhysics air_;
+    AirRefraction refraction_;
     AirLift ground_;
     // Over black ground; per unit of lift; and the table that lookups use: the first alone if the lift
     // differs by place, otherwise the total.

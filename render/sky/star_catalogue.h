@@ -23,6 +23,8 @@ struct CatalogueStar {
 
 struct StarCatalogue {
     std::vector<CatalogueStar> stars;
+    bool tells_red_stars =
+        false;  // has V-I or spectral classes; without them the colour of M stars follows from B-V
 };
 
 }  // namespace hilcam

@@ -61,6 +61,21 @@ TEST_F(CatalogueFile, ColumnsComeInAnyOrderAndSomeMayLack) {
         load_catalogue(write("v_i.csv", "ra_deg,dec_deg,v_mag,v_i\n1,1,1,\n2,2,2,-0.3\n"));
     EXPECT_FALSE(some.stars[0].color_v_i.has_value());
     EXPECT_EQ(some.stars[1].color_v_i, -0.3);
+    // Without v_i the class gives it. V and Ic are 9.51 and 6.74 for Barnard's star (M4V), 11.13 and 7.41 for
+    // Proxima (M5.5Ve), 7.34 and 5.32 for Lacaille 9352 (M2V) (Bessell, Astron. Astrophys. Suppl. 83, 357,
+    // 1990; Jao et al., Astron. J. 147, 21, 2014). V-I of M0 and M5 giants is 1.65 and 2.80 (Pickles 1998, as
+    // in PyGaia). A class is good to half a subclass.
+    const StarCatalogue m = load_catalogue(
+        write("m.csv",
+              "spectral_type,ra_deg,dec_deg,v_mag,b_v,v_i\nM4V,1,1,9.51,1.73,\nM5.5Ve,1,1,11.13,1.82,\n"
+              "dM2,1,1,7.34,1.5,\nM0III,1,1,3,1.56,\ngM5,1,1,4,1.6,\nM1-M2Ia-Iab,1,1,0.4,1.85,\n"
+              "K5III,1,1,1,1.54,\nM4V,1,1,1,1.7,2.5\n"));
+    for (const auto& [row, v_i] :
+         {std::pair{0u, 2.77}, {1u, 3.72}, {2u, 2.02}, {3u, 1.65}, {4u, 2.80}, {5u, 2.16}})
+        EXPECT_NEAR(m.stars[row].color_v_i.value_or(0), v_i, 0.3) << row;
+    EXPECT_FALSE(m.stars[6].color_v_i.has_value());
+    EXPECT_EQ(m.stars[7].color_v_i, 2.5);
+    EXPECT_TRUE(m.tells_red_stars);
     // A measured parallax may come out below zero: such a star is far away.
     EXPECT_EQ(load_catalogue(write("p.csv", "ra_deg,dec_deg,v_mag,parallax_mas\n1,1,1,-0.5\n"))
                   .stars[0]

@@ -299,7 +299,7 @@ TEST(ShippedEarth, IsKeptAsAPictureThatIsBetterThanARayAPixel) {
         5.19e-4;  // of inspector_1k with a lens of 10.6 mm: the disk fills a quarter
     constexpr int kTile_px = 32, kHalf_px = 320;
     constexpr float kShare = 1.0f / kTile_px;
-    EarthImpostor picture(kPixel_rad, earth().air->top_m());
+    EarthImpostor picture(kPixel_rad, earth().air->top_m(), earth().model->seen_height_m(0));
     for (const double sun_longitude_deg : {40.0, 88.0}) {
         const KeptView kept(sun_longitude_deg, 0), view(sun_longitude_deg, 0.49);
         const Vec3d out = normalized(view.camera_m), east = normalized(cross(Vec3d{0, 0, 1}, out)),

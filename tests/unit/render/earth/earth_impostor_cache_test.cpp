@@ -63,7 +63,7 @@ TEST_F(EarthImpostorCacheTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
 TEST_F(EarthImpostorCacheTest, SeveralThreadsMakeOnePicture) {
     const Vec3d here = on_equator(42164e3, 0.5), sun_dir = on_equator(1, 1.1);
     const auto lights = [&](int threads) {
-        EarthImpostor picture(kImpostorPixel_rad, EarthModel::kHighest_m);
+        EarthImpostor picture(kImpostorPixel_rad, EarthModel::kHighest_m, earth.seen_height_m(0));
         picture.begin(EarthImpostor::key_of(here, sun_dir));
         std::vector<std::thread> team;
         for (int i = 0; i < threads; ++i) team.emplace_back([&] { picture.make_rest(earth, sun); });
