@@ -17,8 +17,8 @@
 // where sin^2 B is the product of the sines of the Saturnicentric latitudes of Sun and viewer, 0 if they are
 // on opposite sides of the rings. The drawn rings (saturn_rings.h) and the globe between them sum up to that
 // within 15 %, and the factor of `SaturnLight` corrects both. Beyond 27 deg the factor stays as for Sun and
-// viewer at 27 deg. From 6.5 to 15 deg of phase it goes from its value at 6.5 deg to 1, because there only the
-// globe alone was measured, by Cassini, and the rings are the model's.
+// viewer at 27 deg. From 6.5 to 15 deg of phase it goes from its value at 6.5 deg to 1, because there only
+// the globe alone was measured, by Cassini, and the rings are the model's.
 
 #include <vector>
 
