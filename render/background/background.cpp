@@ -118,11 +118,15 @@ AirRefraction::Seen Background::seen_through_air(Vec3d dir, double distance_m) c
 
 bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
                                  Cone cone) const {
+    // The ray behind the last disk's air is not asked for: most pixels have the Earth's air alone.
+    const auto go_on_behind = [&](const PlacedBody& body) {
+        if (&body != &disks().back()) pass_air(body, origin_m, dir);
+    };
     for (const PlacedBody& body : disks()) {
         if (scene_.is_modelled(body.id)) {
             const Vec3d origin = body.camera_m + body.fixed_from_world * origin_m;
             if (add_earth(body, origin, body.fixed_from_world * dir, cone, weight, radiance)) return true;
-            pass_air(body, origin_m, dir);
+            go_on_behind(body);
             continue;
         }
         const auto [origin, d] = ray_to(body, origin_m, dir);
@@ -134,7 +138,7 @@ bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Sp
             light_.add_rings(body, origin, d, {hit ? distance : kInfinity, pixel_rad_, lit}, weight,
                              radiance);
         if (!hit) {
-            pass_air(body, origin_m, dir);
+            go_on_behind(body);
             continue;
         }
         if (lit) radiance += weight * light_.surface(body, origin + distance * d, -normalized(d), eclipses_);
