@@ -224,7 +224,7 @@ class ExitCodes(unittest.TestCase):
 
     def test_check_and_version(self):
         self.assertIn("object 1 'target'", hilcam("check", SCENARIO).stdout)
-        self.assertRegex(hilcam("--version").stdout, r"^hilcam 0\.2\.0 \(\S.*\)\n$")
+        self.assertRegex(hilcam("--version").stdout, r"^hilcam 0\.3\.0 \(\S.*\)\n$")
 
 
 class Check(unittest.TestCase):
