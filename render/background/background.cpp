@@ -118,9 +118,15 @@ AirRefraction::Seen Background::seen_through_air(Vec3d dir, double distance_m) c
 
 bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
                                  Cone cone) const {
-    // The ray behind the last disk's air is not asked for: most pixels have the Earth's air alone.
+    // Few rays go on to a farther body, so few are bent for it.
+    const double dir_length = length(dir);
     const auto go_on_behind = [&](const PlacedBody& body) {
-        if (&body != &disks().back()) pass_air(body, origin_m, dir);
+        const std::span<const PlacedBody> farther =
+            disks().subspan(static_cast<std::size_t>(&body - disks().data()) + 1);
+        if (std::any_of(farther.begin(), farther.end(), [&](const PlacedBody& other) {
+                return dot(dir, other.world_dir) >= other.seen_cosine * dir_length;
+            }))
+            pass_air(body, origin_m, dir);
     };
     for (const PlacedBody& body : disks()) {
         if (scene_.is_modelled(body.id)) {
@@ -166,23 +172,18 @@ void Background::add_air(const PlacedBody& body, Vec3d origin_m, Vec3d dir, doub
 
 bool Background::add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, Cone cone, Spectrum& weight,
                            Spectrum& radiance) const {
-    EarthModel::Ray ray{origin_m,
-                        normalized(dir),
-                        body.sun_dir,
-                        cone.width_rad,
-                        body.irradiance_w_m2_um,
-                        earth_moment_,
-                        cone.of_pixel ? EarthModel::kLooksOfPixel : 1};
+    EarthModel::Ray ray =
+        scene_.earth->bent({origin_m, normalized(dir), body.sun_dir, cone.width_rad, body.irradiance_w_m2_um,
+                            earth_moment_, cone.of_pixel ? EarthModel::kLooksOfPixel : 1});
     if (body.may_be_eclipsed) {
-        const EarthModel::Ray met = scene_.earth->bent(ray);
-        const double distance_m = intersect_ellipsoid(kFigures[index_of(body.id)], met.origin_m, met.dir);
+        const double distance_m = intersect_ellipsoid(kFigures[index_of(body.id)], ray.origin_m, ray.dir);
         if (distance_m >= 0)
             ray.irradiance_w_m2_um =
                 ray.irradiance_w_m2_um *
                 eclipses_.sun_seen_from(
-                    body.id, transposed(body.fixed_from_world) * (met.origin_m + distance_m * met.dir));
+                    body.id, transposed(body.fixed_from_world) * (ray.origin_m + distance_m * ray.dir));
     }
-    return scene_.earth->add(ray, weight, radiance);
+    return scene_.earth->add_bent(ray, weight, radiance);
 }
 
 void Background::place_earth_patch(const PixelBox& box, Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir,

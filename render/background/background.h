@@ -100,9 +100,7 @@ class Background {
     // further. Loop, any thread.
     AirRefraction::Seen seen_through_air(Vec3d dir, double distance_m) const;
     // Returns the largest angle between a point and the direction in which it is seen, in any frame [rad].
-    double max_turn_rad() const {
-        return scene_.air && scene_.air->refraction() ? scene_.air->refraction()->max_turn_rad() : 0;
-    }
+    double max_turn_rad() const { return scene_.max_turn_rad(); }
     // Adds the radiance of the Sun's disk in the same way: mean radiance E_s / (pi sin^2 rho) inside its
     // angular radius rho, darker towards the edge. Without eclipses: what covers the Sun blocks the ray
     // itself.

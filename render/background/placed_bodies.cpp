@@ -92,6 +92,7 @@ PlacedBody PlacedBodies::placed(BodyId id, const WorldSnapshot& world, const Bod
     out.cone_cosine = scene_.top_m(id) > 0 || scene_.has_rings(id) || !scene_[id].relief.empty()
                           ? cone_cosine_of(outer_radius_m(id, figure), out.distance_m)
                           : out.disk_cosine;
+    out.seen_cosine = std::cos(std::min(std::acos(out.cone_cosine) + scene_.max_turn_rad(), kPi));
     const Vec3d to_sun_m = world.bodies.sun_world_m - state.world_m;
     const double sun_m = length(to_sun_m);
     out.sun_dir = out.fixed_from_world * (to_sun_m / sun_m);

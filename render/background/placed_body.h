@@ -28,6 +28,7 @@ struct PlacedBody {
     Vec3d world_dir;         // from the camera to its centre, apparent
     double distance_m = 0;   // from the camera to the centre
     double cone_cosine = 1;  // cone around it and its air; a half-space inside it
+    double seen_cosine = 1;  // cone of the directions in which it may be seen through bending air
     double disk_cosine = 1;  // body without air
     Vec3d camera_m;          // the camera in body axes
     Vec3d sun_dir;           // in body axes

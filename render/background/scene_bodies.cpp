@@ -1,8 +1,14 @@
 #include "render/background/scene_bodies.h"
 
 #include "render/earth/earth_model.h"
+#include "render/sky/air_refraction.h"
 
 namespace hilcam {
+
+double SceneBodies::max_turn_rad() const {
+    const AirRefraction* bends = air ? air->refraction() : nullptr;
+    return bends ? bends->max_turn_rad() : 0;
+}
 
 double SceneBodies::top_m(BodyId id) const {
     return has_air(id) ? air->top_m() : (is_modelled(id) ? EarthModel::kHighest_m : 0);

@@ -20,6 +20,8 @@ struct SceneBodies {
     bool is_modelled(BodyId id) const { return earth && id == BodyId::kEarth; }
     // Returns how a body's air bends rays; null if it does not.
     const AirRefraction* refraction(BodyId id) const { return has_air(id) ? air->refraction() : nullptr; }
+    // Returns the largest angle by which air bends a ray.
+    double max_turn_rad() const;
     // Returns how high above its ground a body is visible [m].
     double top_m(BodyId id) const;
     std::string name_of(BodyId id) const;

@@ -364,8 +364,7 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
     return seen ? *seen : air_->look(origin, dir, kEndless_m, sun);
 }
 
-bool EarthModel::add(const Ray& seen_ray, Spectrum& weight, Spectrum& radiance) const {
-    const Ray ray = bent(seen_ray);
+bool EarthModel::add_bent(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
     const double to_ground_m = intersect_ellipsoid(kEarthFigure, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
         const Shade seen = shade_by_parts(aspect_at(ray, to_ground_m, 0), ray.moment, ray.looks_across);

@@ -60,8 +60,11 @@ class EarthModel {
     double seen_height_m(double height_m) const;
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. Returns true if the ray ends on the
     // ground or in a cloud; otherwise the air on its way has dimmed weight.
-    bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;
-    static constexpr double kHighest_m = 16000;    // largest height of clouds
+    bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
+        return add_bent(bent(ray), weight, radiance);
+    }
+    bool add_bent(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;  // ray: from bent()
+    static constexpr double kHighest_m = 16000;                                 // largest height of clouds
     static constexpr double kCloudLevel_m = 4000;  // the level of clouds beyond the limb
     bool has_clouds() const { return table_ != nullptr; }
     // The same in two steps, for pixels that share an aspect. Returns false if the ray misses or grazes the

@@ -6,6 +6,7 @@
 Ends with 77 (skipped) where python3-scipy is not installed.
 """
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -109,6 +110,14 @@ class ColoursOfMStars(unittest.TestCase):
             self.assertAlmostEqual(m_stars.v_i(spectral_type), v_i, delta=0.001, msg=spectral_type)
         for spectral_type in ("K5III", "K5/M0III", "G2V", "M", "", "C6", "S5"):
             self.assertIsNone(m_stars.v_i(spectral_type), spectral_type)
+
+    def test_the_program_reads_catalogues_with_the_same_colours(self):
+        source = (SOURCE / "io/files/m_stars.cpp").read_text()
+        for name, colours in (("kGiants", m_stars.GIANTS), ("kSupergiants", m_stars.SUPERGIANTS), ("kDwarfs", m_stars.DWARFS)):
+            numbers = re.search(name + r" = \{([^}]*)\}", source)[1]
+            in_program = [float(number) for number in numbers.split(",")]
+            # A table that ends early goes on with its last colour.
+            self.assertEqual(in_program, [*colours, *[colours[-1]] * (len(in_program) - len(colours))], name)
 
 
 if __name__ == "__main__":
