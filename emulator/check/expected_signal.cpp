@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// With fewer lit pixels than this, the light is treated as a point's.
+// An object with fewer lit pixels than this counts as a point of light.
 constexpr double kPoint_px = 4;
 
 // Returns the mean over the whole disk, which is 2/3 when fully lit.

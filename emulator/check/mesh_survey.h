@@ -36,8 +36,8 @@ struct MeshSurvey {
     std::uint64_t collapsed_triangles = 0;  // two corners at one position; not drawn
     std::uint64_t sliver_triangles = 0;     // three corners on a line
     std::uint64_t repeated_triangles = 0;   // same corners as another triangle
-    std::uint64_t opposed_normals = 0;      // triangles whose normals in the file point to their back
-    // STL facets whose stored normal is more than 26 degrees off the normal of their corners' plane.
+    std::uint64_t opposed_normals = 0;      // triangles with stored normals that point backwards
+    // STL facets with a stored normal more than 26 degrees off the normal of their corners.
     std::uint64_t leaning_normals = 0;
     bool has_normals = false;
     bool probably_mm = false;

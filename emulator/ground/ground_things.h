@@ -24,9 +24,9 @@ inline constexpr double kMaxListed = 2e6;
 // message.
 void require_few(double count, const char* what, const char* keys);
 
-// Finds craters or boulders above a diameter whose centres are within a distance of `middle`. Throws
-// InputError where the ground has none of them, or too many. keys: options that would reduce their number,
-// for the message.
+// Finds craters or boulders larger than smallest_m [m, diameter] with centres nearer to `middle` than
+// within_m. Throws InputError if the ground has none of them, or too many. keys: options that would reduce
+// their number, for the message.
 std::vector<GroundThing> find_things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,
                                      Vec3d middle, double within_m, double smallest_m,
                                      const char* keys = "--within-m, --smallest-m");

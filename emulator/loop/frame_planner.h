@@ -10,8 +10,8 @@
 // 33.3 ms. A start missed by more than a period is skipped and counted, and its frame id stays unused.
 //
 // Settings: exposure and gain come from the live settings, or from the frame's step of the camera's sequence.
-// With automatic exposure they come from the measurement of the frame two before it in the loop. That frame
-// used the same slot, so the result does not depend on timing. Faults are those in force when the frame
+// Automatic exposure sets them from a measurement of the frame that used the same slot last, two frames
+// earlier in the loop, so the result does not depend on timing. Faults are those in force when the frame
 // begins.
 //
 // While simulated time stands still, or poses are stale and the world is held (pose_watch.h), a frame shows

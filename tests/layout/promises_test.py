@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Each promise of the interfaces has an id of its own and a test that is there.
 
-A promise is a row of a page's table: | ABC-001 | sentence | `file` `Suite.Test` |. The file is below tests; it has as much of
-its path as tells it from others of its name. In Python, Suite is the class.
+A promise is an item of a page's list, which ends with its test: - **ABC-001** sentence `file` `Suite.Test`. The file is below
+tests; it has as much of its path as tells it from others of its name. In Python, Suite is the class.
 """
 import ast
 import pathlib
@@ -11,13 +11,13 @@ import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ("docs/protocol.md", "docs/genicam.md")
-ROW = re.compile(r"^\| ([A-Z]+-\d+) \|(.*)$", re.MULTILINE)
-TEST = re.compile(r"^ (\S.*\S) \| `([\w./]+)` `(\w+)\.(\w+)` \|$")
+ITEM = re.compile(r"^- \*\*([A-Z]+-\d+)\*\*((?:.|\n(?=  \S))*)", re.MULTILINE)
+TEST = re.compile(r"^ (\S.*\S)\s+`([\w./]+)`\s+`(\w+)\.(\w+)`$", re.DOTALL)
 
 
 def promises(text):
-    """(id, file, suite, test) of each row; file None: the row has another form."""
-    for name, rest in ROW.findall(text):
+    """(id, file, suite, test) of each item; file None: the item has another form."""
+    for name, rest in ITEM.findall(text):
         found = TEST.match(rest)
         yield (name, *found.groups()[1:]) if found else (name, None, None, None)
 
@@ -39,7 +39,7 @@ def faults_of(text, tests):
         ids.add(name)
         paths = sorted(tests.rglob(file)) if file else []
         if file is None:
-            faults.append(f"{name}: found another form than | id | promise | `file` `Suite.Test` |")
+            faults.append(f"{name}: found another form than - **id** promise `file` `Suite.Test`")
         elif len(paths) != 1:
             faults.append(f"{name}: {len(paths)} files below tests are named {file}; accepted: 1")
         elif not has_test(paths[0], suite, test):
@@ -58,17 +58,17 @@ class Promises(unittest.TestCase):
             self.assertTrue(list(promises((SOURCE / page).read_text())), page)
 
     def test_what_is_wrong_is_found(self):
-        def row(name, cell):
-            return f"| {name} | A promise. | {cell} |\n"
+        def item(name, test):
+            return f"- **{name}** A promise\n  of two lines.\n  {test}\n"
 
         good = "`promises_test.py` `Promises.test_each_has_its_test`"
-        self.assertEqual(faults_of(row("AB-1", good), SOURCE / "tests"), [])
-        for text, fault in ((row("AB-1", good) + row("AB-1", good), "AB-1: is there twice"),
-                            (row("AB-1", "a test"), "AB-1: found another form"),
-                            (row("AB-1", "`none.cpp` `A.B`"), "AB-1: 0 files"),
-                            (row("AB-1", "`promises_test.py` `Promises.test_none`"), "has no Promises.test_none"),
-                            (row("AB-1", "`promises_test.py` `Other.test_each_has_its_test`"), "has no Other."),
-                            (row("AB-1", "`command_codec_test.cpp` `Crc16.IsNothing`"), "has no Crc16.IsNothing")):
+        self.assertEqual(faults_of(item("AB-1", good), SOURCE / "tests"), [])
+        for text, fault in ((item("AB-1", good) + item("AB-1", good), "AB-1: is there twice"),
+                            (item("AB-1", "a test"), "AB-1: found another form"),
+                            (item("AB-1", "`none.cpp` `A.B`"), "AB-1: 0 files"),
+                            (item("AB-1", "`promises_test.py` `Promises.test_none`"), "has no Promises.test_none"),
+                            (item("AB-1", "`promises_test.py` `Other.test_each_has_its_test`"), "has no Other."),
+                            (item("AB-1", "`command_codec_test.cpp` `Crc16.IsNothing`"), "has no Crc16.IsNothing")):
             self.assertIn(fault, "\n".join(faults_of(text, SOURCE / "tests")))
 
 
