@@ -9,8 +9,8 @@
 // sphere's phase law (Russell, Astrophysical Journal 43, 1916, p. 173), the second the lit share of the disk.
 //
 // Ignored: shape, shadows, glints, textures, lamps, and light from bodies. The estimate is good to about a
-// factor of two: enough to choose an exposure, not to predict a pixel. An object with a lit part of fewer than
-// 4 pixels counts as a point of light centred on one pixel.
+// factor of two: enough to choose an exposure, not to predict a pixel. An object with a lit part of fewer
+// than 4 pixels counts as a point of light centred on one pixel.
 
 #include "emulator/check/camera_sheet.h"
 
