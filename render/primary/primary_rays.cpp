@@ -120,13 +120,12 @@ class PrimaryRays {
         if (tile_.scattered) choose_sequences();
         const int n = even ? 1 : tile_.samples_per_axis;
         even_ = even;
-        const float step = 1.0f / static_cast<float>(n);
         for (int s = 0; s < n * n; ++s) {
             const auto sample = static_cast<std::uint16_t>(s);
             if (tile_.scattered)
                 scatter(sample);
             else
-                center((static_cast<float>(s % n) + 0.5f) * step, (static_cast<float>(s / n) + 0.5f) * step);
+                center(grid_x(s, n), grid_y(s, n));
             trace_packet(objects, sample);
         }
     }

@@ -12,6 +12,15 @@
 #include "render/vocabulary/mixed_bits.h"
 
 namespace hilcam {
+namespace {
+
+// Returns the factor from light that a tile adds to pixels of white paint in the Sun.
+float whites_per_light(const Tile& tile) {
+    const auto samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
+    return kPiF / (samples * max_component(tile.frame.background->sun_irradiance_w_m2_um()));
+}
+
+}  // namespace
 
 void PenumbraSampler::add_light(Tile& tile, const SunSampler& sun) {
     ask_once(tile, sun.middle());
@@ -49,25 +58,29 @@ const PenumbraSampler::Asked* PenumbraSampler::layer_below(const Asked& a) const
 
 void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
-    const Answers near = within_reach(width);
-    const auto at_edge = [&](const Asked& a) {
-        const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
-        return ((a.lit > 0 ? near.dark : near.lit)[a.kind][y] >> x & 1u) != 0;
-    };
+    const float per_white = whites_per_light(tile);
+    for (Asked& a : std::span(asked_).first(count_))
+        a.whites = per_white * max_component(a.light), a.kind = kind_of(*a.at);
     const auto gets_through = [](const Use& use, const Spectrum*) {
         use.asked->lit += 1;
         use.asked->moments += use.moments;
     };
-    using Rays = ShadowRays<Use, decltype(gets_through)>;
-    {
-        Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
+    Answers found;
+    for (std::size_t i = 0; i < kRounds.size(); ++i) {
+        add_answers(width, found);
+        const Answers near = widened(found);
+        const auto at_edge = [&](const Asked& a) {
+            const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
+            return (near.lit[a.kind][y] & near.dark[a.kind][y]) >> x & 1u;
+        };
+        const auto takes = [&](const Asked& a) {
+            if (always_has(i, a)) return !always_has(i + 1, a);
+            return a.whites > kRounds[i].light && at_edge(a);
+        };
+        ShadowRays<Use, decltype(gets_through)> rays(tile.frame, tile.stats.shadow_rays, gets_through);
         for (Asked& a : std::span(asked_).first(count_))
-            if (a.at->weight_samples > kMinAgain && at_edge(a)) ask(kAgain, tile, sun, a, rays);
+            if (takes(a)) ask(kRounds[i].rays, tile, sun, a, rays);
     }
-    Rays rays(tile.frame, tile.stats.shadow_rays, gets_through);
-    for (Asked& a : std::span(asked_).first(count_))
-        if (a.of > 1 && a.lit > 0 && a.lit < a.of && a.at->weight_samples > kMinMost)
-            ask(kMax, tile, sun, a, rays);
 }
 
 // Sends several rays for a shading point, each with an equal share of its light, from places that its samples
@@ -79,7 +92,8 @@ void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, 
     // The four pixels of a square use different places of the disk.
     const std::uint32_t in_square = at.pixel % width % 2 + 2 * (at.pixel / width % 2);
     const SampleOffsets way(tile, at);
-    std::array<SampleMask, ClusterLight::kStarts> left{};  // samples that no ray has started from
+    // Samples that no ray has started from, and those of them that are far from where rays have started.
+    std::array<SampleMask, ClusterLight::kStarts> unused{}, left{};
     const float light = std::accumulate(a.shares.begin(), a.shares.end(), 0.0f);
     std::size_t k = 0;
     float until = a.shares[0];  // sum of shares up to this cluster
@@ -91,7 +105,9 @@ void PenumbraSampler::ask(float count, const Tile& tile, const SunSampler& sun, 
         Vec3f start_m = a.first_m;
         SubpixelMoments moments = at.moments;
         if (const SampleMask seen_by = cluster ? cluster->seen_by : at.samples; seen_by != 0) {
-            const int sample = next_sample_across(tile.frame.samples, left[k], seen_by);
+            if (unused[k] == 0) unused[k] = seen_by;
+            const int sample = next_sample_across(tile.frame.samples, left[k], unused[k]);
+            unused[k] &= ~(SampleMask{1} << sample);
             const Vec2f at_px = tile.frame.samples.place(sample);
             moments = subpixel_moments_at(at_px.x, at_px.y);
             start_m = cluster ? way.on(*cluster, sample) : start_m + way.to(sample);
@@ -114,19 +130,21 @@ std::uint8_t PenumbraSampler::kind_of(const ShadingPoint& at) {
         mixed(std::uint64_t{at.object} << 32 | std::uint64_t{at.surface_number} << 3 | side) % kKinds);
 }
 
-// Finds the answers within reach of each pixel.
-PenumbraSampler::Answers PenumbraSampler::within_reach(std::uint32_t width) {
-    Answers near;
-    std::uint32_t lit = 0, dark = 0;  // kinds that are lit, or dark, somewhere; a bit each
-    for (Asked& a : std::span(asked_).first(count_)) {
-        a.kind = kind_of(*a.at);
-        (a.lit > 0 ? near.lit : near.dark)[a.kind][a.at->pixel / width] |= 1u << (a.at->pixel % width);
-        (a.lit > 0 ? lit : dark) |= 1u << a.kind;
+// Adds the answers of the last rays.
+void PenumbraSampler::add_answers(std::uint32_t width, Answers& to) const {
+    for (const Asked& a : std::span(asked_).first(count_)) {
+        const std::uint32_t y = a.at->pixel / width, x = 1u << (a.at->pixel % width);
+        if (a.lit > 0) to.lit[a.kind][y] |= x, to.lit_kinds |= 1u << a.kind;
+        if (a.lit < a.of) to.dark[a.kind][y] |= x, to.dark_kinds |= 1u << a.kind;
     }
-    // The others do not differ anywhere.
-    for (std::uint32_t rest = lit & dark; rest != 0; rest &= rest - 1) {
+}
+
+// Returns the answers within reach of each pixel, for kinds that differ somewhere; none for the others.
+PenumbraSampler::Answers PenumbraSampler::widened(const Answers& of) {
+    Answers near;
+    for (std::uint32_t rest = of.lit_kinds & of.dark_kinds; rest != 0; rest &= rest - 1) {
         const auto kind = static_cast<std::size_t>(std::countr_zero(rest));
-        near.lit[kind] = widened(near.lit[kind]), near.dark[kind] = widened(near.dark[kind]);
+        near.lit[kind] = widened(of.lit[kind]), near.dark[kind] = widened(of.dark[kind]);
     }
     return near;
 }

@@ -3,14 +3,15 @@
 // sees through the visibility buffer. See docs/rendering.md, "The Sun and its penumbrae".
 //
 // One ray to the middle of the Sun tests each shading point; all layers of a coverage map in a pixel share
-// one. If points of one kind within kReach_px disagree, an edge is near: each of them sends four rays, and
-// sixteen if those disagree, from its own samples to places on the disk. For a point with clusters, each ray
-// represents an equal share of its light and starts at the samples of a cluster. A kind is one or several
-// surfaces of an object that face roughly the same way, so that a shadow on something behind the edge of a
-// body is not taken for an edge on that body.
+// one. Where rays of one kind of points within kReach_px disagree, an edge is near: points there send more rays,
+// from their own samples to places on the disk, as many as their light asks for (kRounds). So does each highlight
+// that is brighter than white paint, because a strip of sunlight thinner than a pixel may pass beside its middle.
+// For a point with clusters, each ray represents an equal share of its light and starts at the samples of a
+// cluster. A kind is one or several surfaces of an object that face roughly the same way, so that a shadow on
+// something behind the edge of a body is not taken for an edge on that body.
 //
-// Approximation: points farther from an edge have one ray, so penumbrae wider than twice the reach keep a
-// hard step inside. Points of at most a 64th of a pixel have one ray, those of at most a 16th have four.
+// Approximation: points farther from an edge have one ray, so penumbrae much wider than the reach keep a hard
+// step inside, and strips of sunlight on paint that are thinner than a pixel may be dashed.
 
 #include <array>
 #include <cstdint>
@@ -46,16 +47,19 @@ class PenumbraSampler {
   private:
     static constexpr int kReach_px = 1, kMaxRows = 32;
     static constexpr std::size_t kKinds = 16;
-    // Numbers of rays: of points near an edge, and of those whose rays disagree.
-    static constexpr float kAgain = 4, kMax = 16;
-    // Smaller points [samples, 16 per pixel] get no more rays. At most half of their light is wrong: a 128th
-    // of the pixel, equal to the noise of a full well of 15,000 electrons. In small objects with many parts
-    // most shading points are such.
-    static constexpr float kMinAgain = 0.25f, kMinMost = 1;
+    // The rounds of rays near an edge. Points take part that send more than this light if all of them is in the
+    // Sun [pixels of white paint in the Sun]. A point that sends a 64th has one ray: at most half of that is
+    // wrong, which is the noise of a full well of 15,000 electrons. In small objects with many parts most shading
+    // points are such. What a round finds counts for the next one, which so follows an edge along the picture.
+    struct Round {
+        float rays, light;
+    };
+    static constexpr std::array<Round, 3> kRounds{{{4, 1.0f / 64}, {16, 1.0f / 16}, {64, 1}}};
     struct Asked {
         const ShadingPoint* at;
         const Asked* like;  // the point whose first ray decides for this one, too; null: it has its own
         Spectrum light;
+        float whites;   // the same in pixels of white paint in the Sun
         Vec3f first_m;  // start of the first ray
         // The clusters that have most of the light, and how much; null: it has none.
         std::array<const NormalCluster*, ClusterLight::kStarts> clusters;
@@ -65,10 +69,16 @@ class PenumbraSampler {
         SubpixelMoments moments;         // summed over the rays that got through
         std::uint8_t kind;               // below kKinds
     };
+    // Highlights have rays in any case, at least this many for the light of a pixel of white paint.
+    static constexpr float kPerWhite = 4;
+    static bool always_has(std::size_t round, const Asked& a) {
+        return round < kRounds.size() && kRounds[round].rays <= kPerWhite * a.whites;
+    }
     using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
     // Pixels with a lit, or dark, shading point of a kind.
     struct Answers {
         std::array<Rows, kKinds> lit{}, dark{};
+        std::uint32_t lit_kinds = 0, dark_kinds = 0;  // those with any; a bit each
     };
     std::array<Asked, PathModel::kMaxShadingPoints> asked_;
     std::size_t count_ = 0;
@@ -92,7 +102,8 @@ class PenumbraSampler {
     template <class Rays>
     static void ask(float count, const Tile& tile, const SunSampler& sun, Asked& a, Rays& rays);
     static std::uint8_t kind_of(const ShadingPoint& at);
-    Answers within_reach(std::uint32_t width);
+    void add_answers(std::uint32_t width, Answers& to) const;
+    static Answers widened(const Answers& of);
     static Rows widened(const Rows& rows);
 };
 

@@ -40,6 +40,17 @@ HWY_INLINE V turn_of(const Vector (&normals)[3]) {
     return hn::Max(hn::Max(squared(0, 1), squared(1, 2)), squared(2, 0));
 }
 
+// Moves a distance along a ray so that the place is on a plane. Coordinates in a triangle are good to a few
+// 1e-5 of its longest edge if it is a hundred times longer than wide, and a place that far below the surface is
+// in the surface's own shadow. Larger distances to the plane are of rays that meet it beside the triangle.
+HWY_INLINE V on_plane(V distance, const Vector& from_corner, const Vector& dir, const Vector& normal) {
+    constexpr float kMost = 0x1p-14f;  // of the distance
+    const V above = dotted(plus(from_corner, times(distance, dir)), normal);
+    const V off = hn::Div(above, dotted(dir, normal)), most = hn::Mul(number(kMost), hn::Abs(distance));
+    const auto is_rounding = hn::Le(hn::Abs(off), most);  // false for NaN
+    return hn::Sub(distance, hn::IfThenElseZero(is_rounding, off));
+}
+
 void lies(const FragmentMesh& mesh, FragmentPacket& p) {
     const Floats d;
     const Ints di;
@@ -72,16 +83,17 @@ void lies(const FragmentMesh& mesh, FragmentPacket& p) {
         const V along = hn::IfThenElse(is_group, m.plane_u, u),
                 across = hn::IfThenElse(is_group, m.plane_v, v);
         const Vector meets = minus(plus(times(along, m.e1), times(across, m.e2)), m.from_corner);
-        hn::Store(hn::Div(dotted(meets, dir), dotted(dir, dir)), d, p.distance.data() + k);
+        const Vector raw = crossed(m.e1, m.e2);
+        const Vector geometric_body = unit(raw);
+        const V distance = hn::Div(dotted(meets, dir), dotted(dir, dir));
+        hn::Store(on_plane(distance, m.from_corner, dir, geometric_body), d, p.distance.data() + k);
         hn::Store(u, d, p.u.data() + k), hn::Store(v, d, p.v.data() + k);
 
         // The normals, turned to the viewer's side.
-        const Vector raw = crossed(m.e1, m.e2);
         store(raw, p.body_normal, k);
         const Vector third = minus(m.e1, m.e2);
         const V longest = hn::Max(hn::Max(dotted(m.e1, m.e1), dotted(m.e2, m.e2)), dotted(third, third));
         hn::Store(hn::Div(dotted(raw, raw), hn::Max(longest, number(1e-30f))), d, p.height.data() + k);
-        const Vector geometric_body = unit(raw);
         const V w = hn::Sub(hn::Sub(number(1), u), v);
         const Vector corners[3] = {unpacked(normals[0]), unpacked(normals[1]), unpacked(normals[2])};
         const Vector smooth = plus(plus(times(w, corners[0]), times(u, corners[1])), times(v, corners[2]));

