@@ -1,17 +1,17 @@
 #pragma once
-// Finds the edges of shadows and renders them as wide as the Sun's disk makes them. It serves what the camera
-// sees through the visibility buffer. See docs/rendering.md, "The Sun and its penumbrae".
+// Finds the edges of shadows and renders them as wide as the Sun's disk makes them. It serves what the
+// camera sees through the visibility buffer. See docs/rendering.md, "The Sun and its penumbrae".
 //
 // One ray to the middle of the Sun tests each shading point; all layers of a coverage map in a pixel share
-// one. Where rays of one kind of points within kReach_px disagree, an edge is near: points there send more rays,
-// from their own samples to places on the disk, as many as their light asks for (kRounds). So does each highlight
-// that is brighter than white paint, because a strip of sunlight thinner than a pixel may pass beside its middle.
-// For a point with clusters, each ray represents an equal share of its light and starts at the samples of a
-// cluster. A kind is one or several surfaces of an object that face roughly the same way, so that a shadow on
-// something behind the edge of a body is not taken for an edge on that body.
+// one. Where rays of one kind of points within kReach_px disagree, an edge is near: points there send more
+// rays, from their own samples to places on the disk, as many as their light asks for (kRounds). So does
+// each highlight that is brighter than white paint, because a strip of sunlight thinner than a pixel may
+// pass beside its middle. For a point with clusters, each ray represents an equal share of its light and
+// starts at the samples of a cluster. A kind is one or several surfaces of an object that face roughly the
+// same way, so that a shadow on something behind the edge of a body is not taken for an edge on that body.
 //
-// Approximation: points farther from an edge have one ray, so penumbrae much wider than the reach keep a hard
-// step inside, and strips of sunlight on paint that are thinner than a pixel may be dashed.
+// Approximation: points farther from an edge have one ray, so penumbrae much wider than the reach keep a
+// hard step inside, and strips of sunlight on paint that are thinner than a pixel may be dashed.
 
 #include <array>
 #include <cstdint>
@@ -47,10 +47,11 @@ class PenumbraSampler {
   private:
     static constexpr int kReach_px = 1, kMaxRows = 32;
     static constexpr std::size_t kKinds = 16;
-    // The rounds of rays near an edge. Points take part that send more than this light if all of them is in the
-    // Sun [pixels of white paint in the Sun]. A point that sends a 64th has one ray: at most half of that is
-    // wrong, which is the noise of a full well of 15,000 electrons. In small objects with many parts most shading
-    // points are such. What a round finds counts for the next one, which so follows an edge along the picture.
+    // The rounds of rays near an edge. Points take part that send more than this light if all of them is in
+    // the Sun [pixels of white paint in the Sun]. A point that sends a 64th has one ray: at most half of
+    // that is wrong, which is the noise of a full well of 15,000 electrons. In small objects with many
+    // parts most shading points are such. What a round finds counts for the next one, which so follows an
+    // edge along the picture.
     struct Round {
         float rays, light;
     };

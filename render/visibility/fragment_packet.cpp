@@ -44,7 +44,7 @@ HWY_INLINE V turn_of(const Vector (&normals)[3]) {
 // 1e-5 of its longest edge if it is a hundred times longer than wide, and a place that far below the surface is
 // in the surface's own shadow. Larger distances to the plane are of rays that meet it beside the triangle.
 HWY_INLINE V on_plane(V distance, const Vector& from_corner, const Vector& dir, const Vector& normal) {
-    constexpr float kMost = 0x1p-14f;  // of the distance
+    constexpr float kMost = 0x1p-14f;  // distances
     const V above = dotted(plus(from_corner, times(distance, dir)), normal);
     const V off = hn::Div(above, dotted(dir, normal)), most = hn::Mul(number(kMost), hn::Abs(distance));
     const auto is_rounding = hn::Le(hn::Abs(off), most);  // false for NaN

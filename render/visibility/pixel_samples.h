@@ -42,8 +42,9 @@ class PixelSamples {
         constexpr SampleMask kFour = 0x33;  // two in a row, and two below
         return kFour << (first + kVisibilitySamples * (2 * (row / 2) + column / 2));
     }
-    // Returns where to look for what these samples see: the place of the sample in whose cell their middle is,
-    // or else the nearest one, because the middle itself may show something else. At least one sample.
+    // Returns where to look for what these samples see: the place of the sample that shares a cell with
+    // their middle, or else the nearest one, because the middle itself may show something else. At least
+    // one sample.
     Vec2f middle(SampleMask samples) const;
     // Returns the sub-pixel moments of these samples.
     SubpixelMoments moments(SampleMask samples) const;

@@ -140,8 +140,8 @@ HWY_INLINE Cells cells_between(const GridLines& grid, V from_px, V to_px) {
 HWY_INLINE hn::Mask<Floats> are_few(const Cells& cells) {
     return hn::Ge(hn::Add(cells.first, hn::Set(Floats(), 1)), cells.last);
 }
-// Returns the place of the sample of a cell, across or down [px]. beside: the cell's number on the other axis;
-// step: from one of those to the next [cells].
+// Returns the place of the sample of a cell, across or down [px]. beside: the cell's number on the other
+// axis; step: from one of those to the next [cells].
 HWY_INLINE V sample_place(V cell, V beside, float first, float step) {
     const Floats d;
     const V across = hn::Set(d, kVisibilitySamplesAcross),

@@ -1,9 +1,10 @@
 #pragma once
 // Samples of a pixel on a rotated grid, and those of the visibility buffer: 4 x 4 in each of its pixels.
 //
-// Each sample has a cell of the pixel, and a column and a row to itself, so a strip thinner than a cell is seen
-// whichever way it runs. With 64 samples edges in all directions are 7 % less exact than on a regular grid; edges
-// and strips within three degrees of the pixels' axes are four to five times, diagonal strips twice as exact.
+// Each sample has a cell of the pixel, and a column and a row to itself, so a strip thinner than a cell is
+// seen whichever way it runs. With 64 samples edges in all directions are 7 % less exact than on a regular
+// grid; edges and strips within three degrees of the pixels' axes are four to five times, diagonal strips
+// twice as exact.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +20,8 @@ inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibility
 using SampleMask = std::uint64_t;
 inline constexpr std::size_t kMaxVisibilitySamples = 64;
 
-// Where the samples of a buffer's pixels are: on the rotated grid, or in the middles of their cells, for buffers
-// whose samples are pixels of the picture (ground_geometry()).
+// Where the samples of a buffer's pixels are: on the rotated grid, or in the middles of their cells, for
+// buffers whose samples are pixels of the picture (ground_geometry()).
 enum class SampleGrid { kRotated, kRegular };
 
 // Returns the place of sample i of n x n on the rotated grid, which repeats after four samples. It is in cell
