@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "tests/support/stage.h"
 
@@ -47,6 +50,47 @@ TEST_P(ShadowsEdge, IsAsWideAsTheSun) {
     }
 }
 INSTANTIATE_TEST_SUITE_P(ByModel, ShadowsEdge, testing::Values("direct", "cached"));
+
+// Metal in whose highlight the camera looks, and a little above it two plates with a slit between them, through which the
+// Sun lights a strip of a third of a pixel. It leans from the columns, and no row of it is dark: a ray from the middle of each pixel
+// would dash it.
+TEST(ShadowsEdge, AStripOfSunlightThinnerThanAPixelIsNotDashed) {
+    constexpr float kPixel_m = 1.25e-3f, kAbove_m = 0.02f, kSlit_m = 0.3f * kPixel_m, kLeans = 0.08f;
+    Stage s;
+    s.quality.path_model = "direct", s.quality.visibility = "buffer", s.quality.rays_across = 0;
+    s.quality.sun_disk = false;
+    s.geometry.focal_length_px = 4 / static_cast<double>(kPixel_m);
+    const Vec3f sun = normalized(Vec3f{1, 0, -1}), across = normalized(Vec3f{1, 0, 1});
+    s.sun(to_double(sun));
+    MaterialConfig metal = lambert(0.9);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.4;
+    const Vec3f along =
+        normalized(Vec3f{0.9239f, 0, 0.3827f});  // of the metal, half-way between camera and Sun
+    const auto corners = [](const Vec3f& middle, Vec3f to, float from, float until, float leans) {
+        std::vector<Vec3f> out;
+        for (const Vec2f at : {Vec2f{from, -1}, Vec2f{until, -1}, Vec2f{until, 1}, Vec2f{from, 1}})
+            out.push_back(middle + (at.x + leans * 0.03f * at.y) * to + Vec3f{0, 0.03f * at.y, 0});
+        return out;
+    };
+    const std::vector<std::array<std::uint32_t, 3>> both{{0, 1, 2}, {0, 2, 3}};
+    s.add(object_of(corners({}, along, -0.03f, 0.03f, 0), both, metal, s.grid), {0, 0, 4}, {});
+    for (const Vec2f part : {Vec2f{-0.012f, -kSlit_m / 2}, Vec2f{kSlit_m / 2, 0.03f}})
+        s.add(object_of(corners(kAbove_m * sun, across, part.x, part.y, kLeans), both, lambert(0), s.grid),
+              {0, 0, 4}, {});
+    s.render();
+    const int middle = s.radiance.width() / 2;
+    std::vector<double> rows;
+    for (int y = middle - 10; y < middle + 10; ++y) {
+        double sum = 0;
+        for (int x = middle - 4; x < middle + 4; ++x)
+            sum += static_cast<double>(s.radiance.row(y, 0)[static_cast<std::size_t>(x)]);
+        rows.push_back(sum);
+    }
+    const auto [least, most] = std::minmax_element(rows.begin(), rows.end());
+    EXPECT_GT(*least, 0.5 * *most);
+    EXPECT_GT(*most, 0);
+}
 
 }  // namespace
 }  // namespace hilcam

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -87,6 +88,48 @@ TEST(Visibility, ASphereIsWhatRaysSee) {
         EXPECT_NEAR(d.covered, 0, 1e-4);
         EXPECT_LT(std::abs(d.mean), 2e-3);
         EXPECT_LT(d.greatest, 0.02);
+    }
+}
+
+// A bar of a 16th of a pixel that leans by half a degree from the columns: on a regular grid it would be in a column of
+// samples, or in none, for dozens of rows.
+TEST(Visibility, AThinBarAlongTheColumnsIsNotDashed) {
+    Stage s;
+    s.quality.path_model = "direct", s.quality.visibility = "buffer", s.quality.buffer_samples = 64;
+    s.quality.rays_across = 0;
+    s.camera(64, 0.5);
+    s.sun({0, 0, -1});
+    constexpr float kPixel_m = 4 * 2 * 0.5f / 64, kHalf_m = kPixel_m / 32, kLeans = 0.027f;
+    s.add(object_of({{-kHalf_m - kLeans, -3, 0},
+                     {kHalf_m - kLeans, -3, 0},
+                     {kHalf_m + kLeans, 3, 0},
+                     {-kHalf_m + kLeans, 3, 0}},
+                    {{0, 1, 2}, {0, 2, 3}}, lambert(0.5), s.grid),
+          {0.3 * static_cast<double>(kPixel_m), 0, 4});
+    s.render();
+    std::vector<double> rows;
+    for (int y = 4; y < 60; ++y) {
+        const std::span<const float> row = s.radiance.row(y, 0);
+        rows.push_back(std::accumulate(row.begin(), row.end(), 0.0));
+    }
+    const double mean = std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(rows.size());
+    EXPECT_GT(mean, 0);
+    for (const double row : rows) EXPECT_NEAR(row / mean, 1, 0.5);
+}
+
+// Strips three hundred times longer than wide, in all directions: a place on them is good to less than what rays start above
+// it, so that none is in its own shadow.
+TEST(Visibility, LongTrianglesAreNotInTheirOwnShadow) {
+    for (int i = 0; i < 12; ++i) {
+        Stage s;
+        s.quality.path_model = "direct";
+        s.camera(64, 0.2);
+        s.sun({0.3, 0.5, -1});
+        s.add(object_of({{-3, -0.01f, 0}, {3, -0.01f, 0}, {3, 0.01f, 0}, {-3, 0.01f, 0}},
+                        {{0, 1, 2}, {0, 2, 3}}, lambert(0.5), s.grid),
+              {0.1, -0.2, 14}, {0.1 * i, 0.3, 0.25 * i});
+        const Difference d = difference_from_rays(s, 8);
+        EXPECT_LT(std::abs(d.mean), 3e-3) << i;
     }
 }
 
