@@ -40,7 +40,7 @@ void VisibilityChoice::make(const ImageGeometry& geometry, std::span<const Rende
         if (!made)
             made = std::make_unique<VisibilityBuffer>(
                 ground_geometry(geometry, static_cast<int>(level.ground_step_px)),
-                VisibilityBuffer::Capacity{1, most, most}, SampleGrid::kRegular);
+                VisibilityBuffer::Capacity{1, most, most});
     }
     seen_.reserve(objects_.all.size());
     const bool buffer =

@@ -120,12 +120,13 @@ class PrimaryRays {
         if (tile_.scattered) choose_sequences();
         const int n = even ? 1 : tile_.samples_per_axis;
         even_ = even;
+        const float step = 1.0f / static_cast<float>(n);
         for (int s = 0; s < n * n; ++s) {
             const auto sample = static_cast<std::uint16_t>(s);
             if (tile_.scattered)
                 scatter(sample);
             else
-                center(grid_x(s, n), grid_y(s, n));
+                center((static_cast<float>(s % n) + 0.5f) * step, (static_cast<float>(s / n) + 0.5f) * step);
             trace_packet(objects, sample);
         }
     }

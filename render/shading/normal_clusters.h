@@ -14,7 +14,7 @@ namespace hilcam {
 // Memory for the clusters of all shading points in a tile. One thread at a time.
 class NormalClusters {
   public:
-    static constexpr std::size_t kTurns = 8;  // largest number of normals of a curved part
+    static constexpr std::size_t kTurns = 4;  // largest number of normals of a curved part
 
     void clear() { count_ = 0; }
     // Returns how many more calls of add() fit. A shading point's first part is stored only with its second.

@@ -47,11 +47,11 @@ class PenumbraSampler {
   private:
     static constexpr int kReach_px = 1, kMaxRows = 32;
     static constexpr std::size_t kKinds = 16;
-    // The rounds of rays near an edge. Points take part that send more than this light if all of them is in
-    // the Sun [pixels of white paint in the Sun]. A point that sends a 64th has one ray: at most half of
-    // that is wrong, which is the noise of a full well of 15,000 electrons. In small objects with many
-    // parts most shading points are such. What a round finds counts for the next one, which so follows an
-    // edge along the picture.
+    // The rounds of rays near an edge, and the light above which a point takes part if all of it is in the
+    // Sun [pixels of white paint in the Sun]. A point that sends a 64th has one ray: at most half of that is
+    // wrong, the noise of a full well of 15,000 electrons. In small objects with many parts most points are
+    // such. All rays of a round count as answers for the next, so rounds follow an edge along the picture.
+    // Direct light of a lit Hubble is off by 2.7 sensor noises (rms) without the third round, 2.6 with it.
     struct Round {
         float rays, light;
     };
@@ -70,7 +70,8 @@ class PenumbraSampler {
         SubpixelMoments moments;         // summed over the rays that got through
         std::uint8_t kind;               // below kKinds
     };
-    // Highlights have rays in any case, at least this many for the light of a pixel of white paint.
+    // Highlights have at least this many rays for the light of a pixel of white paint, edge or not. Without
+    // them a single strip of sunlight is dashed where no first ray meets it (ShadowsEdge's test).
     static constexpr float kPerWhite = 4;
     static bool always_has(std::size_t round, const Asked& a) {
         return round < kRounds.size() && kRounds[round].rays <= kPerWhite * a.whites;

@@ -40,11 +40,12 @@ HWY_INLINE V turn_of(const Vector (&normals)[3]) {
     return hn::Max(hn::Max(squared(0, 1), squared(1, 2)), squared(2, 0));
 }
 
-// Moves a distance along a ray so that the place is on a plane. Coordinates in a triangle are good to a few
-// 1e-5 of its longest edge if it is a hundred times longer than wide, and a place that far below the surface is
-// in the surface's own shadow. Larger distances to the plane are of rays that meet it beside the triangle.
+// Returns the distance along a ray at which it meets a plane, given one that is right but for rounding. The
+// triangle's barycentric coordinates are rounded: on a triangle a hundred times longer than wide they place a
+// point 1e-5 of its distance off the plane, and a point below the plane is in the triangle's own shadow.
+// A larger correction means that the ray passes beside the triangle; the distance then stays.
 HWY_INLINE V on_plane(V distance, const Vector& from_corner, const Vector& dir, const Vector& normal) {
-    constexpr float kMost = 0x1p-14f;  // distances
+    constexpr float kMost = 0x1p-14f;  // relative: six times that
     const V above = dotted(plus(from_corner, times(distance, dir)), normal);
     const V off = hn::Div(above, dotted(dir, normal)), most = hn::Mul(number(kMost), hn::Abs(distance));
     const auto is_rounding = hn::Le(hn::Abs(off), most);  // false for NaN

@@ -6,16 +6,26 @@
 namespace hilcam {
 namespace {
 
-// Returns the mean place of samples, from the number of samples with each digit of their cell's column and row.
+// The positions of samples on a grid, summed from the number of samples with each digit of the column and the
+// row.
+struct Lines {
+    int columns, rows;  // sums
+};
+Lines lines_of(SampleMask samples) {
+    const auto count = [&](SampleMask with) { return std::popcount(samples & with); };
+    return {count(0xAAAAAAAAAAAAAAAA) + 2 * count(0xCCCCCCCCCCCCCCCC) + 4 * count(0xFFFF0000FFFF0000),
+            count(0xF0F0F0F0F0F0F0F0) + 2 * count(0xFF00FF00FF00FF00) + 4 * count(0xFFFFFFFF00000000)};
+}
+
 Vec2f mean_of(SampleMask samples, int across) {
-    const auto count = [&](SampleMask with) { return static_cast<float>(std::popcount(samples & with)); };
-    const float columns = count(0xAAAAAAAAAAAAAAAA) + 2 * count(0xCCCCCCCCCCCCCCCC),
-                rows = count(0xF0F0F0F0F0F0F0F0) + 2 * count(0xFF00FF00FF00FF00);  // in their quarters
-    const float share = 1 / count(~SampleMask{0});
-    const float right = 4 * count(0xFFFF0000FFFF0000), lower = 4 * count(0xFFFFFFFF00000000);
-    const float cell = 1 / static_cast<float>(across);
-    return {cell * (share * (columns + right) + in_cell_x(0) + share * rows / 4),
-            cell * (share * (rows + lower) + in_cell_y(0) - share * columns / 4)};
+    const int count = std::popcount(samples);
+    const Lines lines = lines_of(samples);
+    const float share = 1 / static_cast<float>(count);
+    const auto mean = [&](int sum) {
+        return share *
+               ((static_cast<float>(sum) + 0.5f * static_cast<float>(count)) / static_cast<float>(across));
+    };
+    return {mean(lines.columns), mean(lines.rows)};
 }
 
 // Returns the place of the sample nearest to a place.
@@ -49,7 +59,7 @@ Vec2f PixelSamples::middle(SampleMask samples) const {
     if (samples == all()) return {0.5f, 0.5f};
     if (quarters_ == 1) return place(kNearestOfSixteen[samples]);
     const Vec2f middle = mean_of(samples, across());
-    // Usually the sample of the cell in which the middle is is one of them.
+    // Usually the sample nearest to the middle is one of them.
     const int column = static_cast<int>(8 * middle.x), row = static_cast<int>(8 * middle.y);
     const int about = kVisibilitySamples * (2 * (row / 4) + column / 4) + 4 * (row % 4) + column % 4;
     return samples >> about & 1u ? place(about) : nearest_to(*this, samples, middle);

@@ -1,6 +1,6 @@
 #pragma once
-// The samples of a pixel in the visibility buffer: 4 x 4, or 8 x 8, for which the buffer has twice as many
-// pixels in each direction. In the latter case sample 16 q + i is sample i of quarter q: upper
+// The samples of a pixel in the visibility buffer: a grid of 4 x 4, or of 8 x 8, for which the buffer has
+// twice as many pixels in each direction. In the latter case sample 16 q + i is sample i of quarter q: upper
 // left, upper right, lower left, lower right.
 
 #include <bit>
@@ -42,9 +42,8 @@ class PixelSamples {
         constexpr SampleMask kFour = 0x33;  // two in a row, and two below
         return kFour << (first + kVisibilitySamples * (2 * (row / 2) + column / 2));
     }
-    // Returns where to look for what these samples see: the place of the sample that shares a cell with
-    // their middle, or else the nearest one, because the middle itself may show something else. At least
-    // one sample.
+    // Returns where to look for what these samples see: the place of the sample nearest to their middle,
+    // because the middle itself may show something else. At least one sample.
     Vec2f middle(SampleMask samples) const;
     // Returns the sub-pixel moments of these samples.
     SubpixelMoments moments(SampleMask samples) const;

@@ -118,10 +118,8 @@ std::size_t tiles_of_rolling(const ScreenVertex* vertices, std::span<const Trian
         const V rows = hn::Min(hn::Sub(most(c.y), least(c.y)), value(static_cast<float>(height_px)));
         return times_plus(hn::Mul(hn::Load(d, speed), value(kBowed)), rows, value(margin_px));
     };
-    return lens ? tiles_with<true>(vertices, triangles, first, width_px, height_px, lens,
-                                   SampleGrid::kRotated, margin_of, ranges)
-                : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens,
-                                    SampleGrid::kRotated, margin_of, ranges);
+    return lens ? tiles_with<true>(vertices, triangles, first, width_px, height_px, lens, margin_of, ranges)
+                : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, margin_of, ranges);
 }
 
 void set_up_rolling(const RollingMesh& of, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,

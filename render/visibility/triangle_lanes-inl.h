@@ -110,46 +110,6 @@ HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y, V place_px) {
     return hn::And(hn::Lt(least(side), hn::Neg(margin)), hn::Gt(most(side), margin));
 }
 
-// The samples' lines and places, for lanes.
-struct GridLines {
-    float lines;        // columns, or rows, of samples in a pixel
-    float first, step;  // a sample's place in its cell, in the first row of cells and from row to row [cells]
-};
-HWY_INLINE GridLines lines_of(SampleGrid grid) {
-    constexpr float kCells = kVisibilitySamplesAcross;
-    if (grid == SampleGrid::kRegular) return {kCells, 0.5f, 0};
-    return {kCells * kCells, in_cell_x(0), in_cell_x(1) - in_cell_x(0)};
-}
-// True when no column (or row) of samples is between two coordinates.
-HWY_INLINE hn::Mask<Floats> has_no_line(const GridLines& grid, V from_px, V to_px) {
-    const Floats d;
-    const auto line = [&](V at) { return hn::Sub(hn::Mul(hn::Set(d, grid.lines), at), hn::Set(d, 0.5f)); };
-    return hn::Gt(hn::Ceil(line(from_px)), hn::Floor(line(to_px)));
-}
-// The columns (or rows) of cells whose samples may be between two coordinates.
-struct Cells {
-    V first, last;
-};
-HWY_INLINE Cells cells_between(const GridLines& grid, V from_px, V to_px) {
-    const Floats d;
-    const auto cell = [&](V at, float in_cell) {
-        return hn::Sub(hn::Mul(hn::Set(d, kVisibilitySamplesAcross), at), hn::Set(d, in_cell));
-    };
-    return {hn::Ceil(cell(from_px, 1 - grid.first)), hn::Floor(cell(to_px, grid.first))};
-}
-HWY_INLINE hn::Mask<Floats> are_few(const Cells& cells) {
-    return hn::Ge(hn::Add(cells.first, hn::Set(Floats(), 1)), cells.last);
-}
-// Returns the place of the sample of a cell, across or down [px]. beside: the cell's number on the other
-// axis; step: from one of those to the next [cells].
-HWY_INLINE V sample_place(V cell, V beside, float first, float step) {
-    const Floats d;
-    const V across = hn::Set(d, kVisibilitySamplesAcross),
-            inverse = hn::Set(d, 1.0f / kVisibilitySamplesAcross);
-    const V in_pixel = hn::Sub(beside, hn::Mul(across, hn::Floor(hn::Mul(beside, inverse))));
-    return hn::Mul(inverse, hn::Add(cell, times_plus(hn::Set(d, step), in_pixel, hn::Set(d, first))));
-}
-
 // Moves ideal places to those on the screen (LensDistortion::distorted).
 HWY_INLINE void distort(const ScreenLens& lens, V& place_x, V& place_y) {
     const auto number = [](float value) { return hn::Set(Floats(), value); };
@@ -199,8 +159,7 @@ struct NoMargin {};
 template <bool kBent, class MarginOf>
 std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                        std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
-                       SampleGrid grid, const MarginOf& margin_of, TileRange* ranges) {
-    const GridLines lines = lines_of(grid);
+                       const MarginOf& margin_of, TileRange* ranges) {
     constexpr bool kWider = !std::is_same_v<MarginOf, NoMargin>;
     const Floats d;
     const Ints di;
@@ -226,18 +185,20 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
             y0 = hn::Sub(y0, place_px), y1 = hn::Add(y1, place_px);
         }
         // A triangle with no sample between its least and greatest coordinate, on either axis, is not seen.
-        const auto none = hn::Or(has_no_line(lines, x0, x1), has_no_line(lines, y0, y1));
+        const V four = hn::Set(d, 4), half = hn::Set(d, 0.5f);
+        const auto from = [&](V at) { return hn::Ceil(hn::Sub(hn::Mul(four, at), half)); };
+        const auto to = [&](V at) { return hn::Floor(hn::Sub(hn::Mul(four, at), half)); };
+        const V from_x = from(x0), to_x = to(x1), from_y = from(y0), to_y = to(y1);
+        const auto none = hn::Or(hn::Gt(from_x, to_x), hn::Gt(from_y, to_y));
         // Most small or crumpled triangles have one or two samples in each direction, and miss those.
-        const Cells across = cells_between(lines, x0, x1), down = cells_between(lines, y0, y1);
-        const auto beside_sample = [&](V column, V row) {
-            return is_beside(c, sample_place(column, row, lines.first, lines.step),
-                             sample_place(row, column, 1 - lines.first, -lines.step), place_px);
+        const auto next_to = [&](V sample) { return hn::Add(sample, hn::Set(d, 1)); };
+        const auto few = hn::And(hn::Ge(next_to(from_x), to_x), hn::Ge(next_to(from_y), to_y));
+        const auto place_of = [&](V at) { return hn::Div(hn::Add(at, half), four); };
+        const V px[] = {place_of(from_x), place_of(to_x)}, py[] = {place_of(from_y), place_of(to_y)};
+        const auto beside_both = [&](V y) {
+            return hn::And(is_beside(c, px[0], y, place_px), is_beside(c, px[1], y, place_px));
         };
-        const auto beside_row = [&](V row) {
-            return hn::And(beside_sample(across.first, row), beside_sample(across.last, row));
-        };
-        const auto beside = hn::And(hn::And(are_few(across), are_few(down)),
-                                    hn::And(beside_row(down.first), beside_row(down.last)));
+        const auto beside = hn::And(few, hn::And(beside_both(py[0]), beside_both(py[1])));
         const V right = hn::Set(d, static_cast<float>(width_px)),
                 low = hn::Set(d, static_cast<float>(height_px));
         const auto missed = hn::Or(hn::Or(none, beside), hn::Or(hn::Or(hn::Lt(x1, zero), hn::Lt(y1, zero)),
@@ -391,7 +352,7 @@ HWY_INLINE void set_up_lanes(const ScreenMesh& mesh, const std::uint32_t* number
     hn::Store(depth, d, s.depth.data() + k);
     hn::Store(farthest, d, s.min_depth.data() + k), hn::Store(nearest, d, s.max_depth.data() + k);
     // Pixels with samples between least and greatest, enlarged by the rounding of edges.
-    const V last = hn::Set(d, kSide_px - 1), beside = hn::Set(d, kFirstSample - kEdge_px);
+    const V last = hn::Set(d, kSide_px - 1), beside = hn::Set(d, sample_x(0) - kEdge_px);
     const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
     const auto flat = hn::RebindMask(di, hn::Eq(area, zero));
     hn::Store(pixel(hn::Add(min_x, beside)), di, s.x0.data() + k);

@@ -23,11 +23,10 @@ constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are sorte
 
 }  // namespace
 
-VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity, SampleGrid grid)
+VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity)
     : geometry_(geometry),
       lens_(geometry),
       capacity_(capacity),
-      grid_(grid),
       tiles_across_((geometry.padded_width() + kVisibilityTile_px - 1) / kVisibilityTile_px),
       tiles_down_((geometry.padded_height() + kVisibilityTile_px - 1) / kVisibilityTile_px) {
     const auto tiles = static_cast<std::size_t>(tiles_across_ * tiles_down_);
@@ -163,7 +162,7 @@ class VisibilityBuffer::Sorter {
                                       ? find_rolling_tiles(vertices, triangles, number, width_px, height_px,
                                                            my_.margin_px_, my_.lens_.screen(), ranges_.data())
                                       : find_tiles(vertices, triangles, number, width_px, height_px,
-                                                   my_.lens_.screen(), my_.grid_, ranges_.data());
+                                                   my_.lens_.screen(), ranges_.data());
         const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
         for (std::size_t i = 0; i < found; ++i) {
             TileRange& range = ranges_[i];
@@ -364,7 +363,7 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
         if (nearest <= *std::min_element(tile.farthest.begin(), tile.farthest.end())) break;
         ask_for_corners(i + kCornersAhead), ask_for_vertices(i + kVerticesAhead);
         set_up(block, x_px, y_px, setup);
-        fill_tile(setup, grid_, tile);
+        fill_tile(setup, tile);
         filled += head.count;
         if (filled < kTriangles) continue;
         find_farthest(tile);

@@ -50,8 +50,7 @@ class VisibilityBuffer {
     static constexpr float kMaxRowSpeed_px = 0.25f;
     static bool takes(const ImageGeometry& geometry) { return LensTiles::takes(geometry); }
     // geometry: one for which takes() is true. Owner thread.
-    VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity,
-                     SampleGrid grid = SampleGrid::kRotated);
+    VisibilityBuffer(const ImageGeometry& geometry, const Capacity& capacity);
 
     // Changes the focal length of a lens without distortion, from the next place() on. Loop.
     void set_focal_length(double focal_length_px) {
@@ -149,7 +148,6 @@ class VisibilityBuffer {
     LensTiles lens_;
     Mat3d world_from_camera_;
     Capacity capacity_;
-    SampleGrid grid_;
     int tiles_across_, tiles_down_;
     std::vector<Placed> placed_;
     double depth_origin_m_ = 1;

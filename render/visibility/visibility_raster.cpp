@@ -23,12 +23,11 @@ void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, Scree
 }
 
 std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
-                  std::uint32_t first, int width_px, int height_px, const ScreenLens* lens, SampleGrid grid,
+                  std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
                   TileRange* ranges) {
-    return lens ? tiles_with<true>(vertices, triangles, first, width_px, height_px, lens, grid, NoMargin{},
-                                   ranges)
-                : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, grid, NoMargin{},
-                                    ranges);
+    return lens
+               ? tiles_with<true>(vertices, triangles, first, width_px, height_px, lens, NoMargin{}, ranges)
+               : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, NoMargin{}, ranges);
 }
 
 void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
@@ -58,9 +57,9 @@ void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection&
 }
 std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                        std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
-                       SampleGrid grid, TileRange* ranges) {
+                       TileRange* ranges) {
     if (triangles.empty()) return 0;
-    return HWY_DYNAMIC_DISPATCH(tiles)(vertices, triangles, first, width_px, height_px, lens, grid, ranges);
+    return HWY_DYNAMIC_DISPATCH(tiles)(vertices, triangles, first, width_px, height_px, lens, ranges);
 }
 void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
                       std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens,

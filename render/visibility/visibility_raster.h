@@ -59,7 +59,7 @@ using TriangleCorners = std::array<std::uint32_t, 3>;
 // without distortion. Returns how many were written; `ranges` needs room for all triangles.
 std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                        std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
-                       SampleGrid grid, TileRange* ranges);
+                       TileRange* ranges);
 
 // Sixteen triangles, set up for a tile. A sample at (x, y) from the tile's corner is inside if the sign bit
 // of a x + b y + c, flipped by `flip`, is set for all three edges. Triangles with a common edge have the same

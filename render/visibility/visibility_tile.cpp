@@ -21,17 +21,13 @@ constexpr int kSide_px = kVisibilityTile_px;
 struct SamplePlaces {
     HWY_ALIGN float x[kSide_px][kVisibilitySamples];
     HWY_ALIGN float y[kSide_px][kVisibilitySamples];
-    constexpr explicit SamplePlaces(SampleGrid grid) : x(), y() {
-        const bool rotated = grid == SampleGrid::kRotated;
+    constexpr SamplePlaces() : x(), y() {
         for (int p = 0; p < kSide_px; ++p)
-            for (int i = 0; i < kVisibilitySamples; ++i) {
-                const float column = static_cast<float>(i % 4), row = static_cast<float>(i / 4);
-                x[p][i] = static_cast<float>(p) + (rotated ? sample_x(i) : (column + 0.5f) / 4);
-                y[p][i] = static_cast<float>(p) + (rotated ? sample_y(i) : (row + 0.5f) / 4);
-            }
+            for (int i = 0; i < kVisibilitySamples; ++i)
+                x[p][i] = static_cast<float>(p) + sample_x(i), y[p][i] = static_cast<float>(p) + sample_y(i);
     }
 };
-constexpr SamplePlaces kRotatedPlaces(SampleGrid::kRotated), kRegularPlaces(SampleGrid::kRegular);
+constexpr SamplePlaces kPlaces;
 
 // Bounds of sixteen triangles in a pixel, with pixels as lanes: at any sample of the pixel an edge function,
 // or the depth, is at most a * column + b * row + c.
@@ -46,9 +42,10 @@ struct PixelBounds {
 // Writes the bounds of triangles from k on.
 HWY_INLINE void bound(V a, V b, V c, std::size_t k, PixelBounds::Plane& out) {
     const Floats d;
+    constexpr float kFirst = sample_x(0), kLast = sample_x(kVisibilitySamples - 1);
     // Sixteen times the rounding of the sums at samples.
     constexpr float kRounding = 0x1p-20f;
-    const V first = hn::Set(d, kFirstSample), last = hn::Set(d, kLastSample);
+    const V first = hn::Set(d, kFirst), last = hn::Set(d, kLast);
     const auto greatest = [&](V slope) { return hn::Max(hn::Mul(slope, first), hn::Mul(slope, last)); };
     const V size = times_plus(hn::Set(d, kSide_px), hn::Add(hn::Abs(a), hn::Abs(b)), hn::Abs(c));
     const V most =
@@ -143,9 +140,8 @@ constexpr SquarePlaces kSquare;
 // Fills a triangle into a tile.
 class Filler {
   public:
-    HWY_INLINE Filler(const TriangleSetup& s, const SamplePlaces& places, const PixelBounds& bounds,
-                      std::size_t k, VisibilityTile& tile)
-        : tile_(tile), places_(places), x1_(s.x1[k]), y1_(s.y1[k]) {
+    HWY_INLINE Filler(const TriangleSetup& s, const PixelBounds& bounds, std::size_t k, VisibilityTile& tile)
+        : tile_(tile), x1_(s.x1[k]), y1_(s.y1[k]) {
         const Floats d;
         const Ints di;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -162,7 +158,6 @@ class Filler {
 
   private:
     VisibilityTile& tile_;
-    const SamplePlaces& places_;
     int x1_, y1_;
     V a_[3], b_[3], c_[3], gx_, gy_, g_, near_most_, far_most_;
     I flip_[3], id_;
@@ -207,7 +202,7 @@ class Filler {
         constexpr std::size_t lanes = hn::MaxLanes(d);
         const std::size_t px = pixel % kSide_px, row = pixel / kSide_px, first = pixel * kVisibilitySamples;
         for (std::size_t sample = 0; sample < kVisibilitySamples; sample += lanes) {
-            const V x = hn::Load(d, &places_.x[px][sample]), y = hn::Load(d, &places_.y[row][sample]);
+            const V x = hn::Load(d, &kPlaces.x[px][sample]), y = hn::Load(d, &kPlaces.y[row][sample]);
             const auto side = [&](std::size_t i) {
                 return hn::Xor(hn::BitCast(di, times_plus(a_[i], x, times_plus(b_[i], y, c_[i]))), flip_[i]);
             };
@@ -225,12 +220,11 @@ class Filler {
     }
 };
 
-void fill(const TriangleSetup& s, SampleGrid grid, VisibilityTile& tile) {
-    const SamplePlaces& places = grid == SampleGrid::kRotated ? kRotatedPlaces : kRegularPlaces;
+void fill(const TriangleSetup& s, VisibilityTile& tile) {
     PixelBounds bounds;
     bound_pixels(s, bounds);
     for (std::size_t k = 0; k < s.count; ++k)
-        if (s.x1[k] >= s.x0[k] && !is_hidden(s, k, tile)) Filler(s, places, bounds, k, tile);
+        if (s.x1[k] >= s.x0[k] && !is_hidden(s, k, tile)) Filler(s, bounds, k, tile);
 }
 
 // Returns a bit for each of sixteen ids that equals the wanted one.
@@ -300,9 +294,7 @@ HWY_EXPORT(fill);
 HWY_EXPORT(farthest);
 HWY_EXPORT(list);
 
-void fill_tile(const TriangleSetup& setup, SampleGrid grid, VisibilityTile& tile) {
-    HWY_DYNAMIC_DISPATCH(fill)(setup, grid, tile);
-}
+void fill_tile(const TriangleSetup& setup, VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(fill)(setup, tile); }
 void find_farthest(VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(farthest)(tile); }
 void list_fragments(const std::uint32_t* ids, int across, PixelFragments& out) {
     HWY_DYNAMIC_DISPATCH(list)(ids, across, out);

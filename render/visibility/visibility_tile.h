@@ -36,7 +36,7 @@ struct alignas(64) VisibilityTile {
         return &id[static_cast<std::size_t>((y * kVisibilityTile_px + x) * kVisibilitySamples)];
     }
 };
-void fill_tile(const TriangleSetup& setup, SampleGrid grid, VisibilityTile& tile);
+void fill_tile(const TriangleSetup& setup, VisibilityTile& tile);
 void find_farthest(VisibilityTile& tile);
 
 // The ids that the samples of a pixel of the picture see, each once, in falling order of the number of

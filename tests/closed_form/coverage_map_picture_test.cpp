@@ -72,8 +72,8 @@ TEST(CoverageMapPicture, PixelsHaveTheAreasOfGapsAndTiles) {
         EXPECT_NEAR(coverage_map.mean, 0, 5e-4) << pixel_m;
         // A texel is 0.28 of the larger pixel, over which its sides fall off.
         EXPECT_LT(coverage_map.rms, 0.025) << pixel_m;
-        // What the samples of a rotated grid meet of them has no moire.
-        EXPECT_LT(samples.rms, 0.015) << pixel_m;
+        // What sixteen samples meet of them has a moire.
+        EXPECT_GT(samples.rms, 3 * coverage_map.rms) << pixel_m;
     }
 }
 

@@ -51,9 +51,9 @@ TEST_P(ShadowsEdge, IsAsWideAsTheSun) {
 }
 INSTANTIATE_TEST_SUITE_P(ByModel, ShadowsEdge, testing::Values("direct", "cached"));
 
-// Metal in whose highlight the camera looks, and a little above it two plates with a slit between them, through which the
-// Sun lights a strip of a third of a pixel. It leans from the columns, and no row of it is dark: a ray from the middle of each pixel
-// would dash it.
+// The camera sees metal in the Sun's highlight. Two plates just above the metal leave a slit, and the sunlight that passes it is a
+// strip a third of a pixel wide, slightly oblique to the columns of pixels. All rows of pixels have about the same light; a single
+// ray from the middle of each pixel leaves rows dark.
 TEST(ShadowsEdge, AStripOfSunlightThinnerThanAPixelIsNotDashed) {
     constexpr float kPixel_m = 1.25e-3f, kAbove_m = 0.02f, kSlit_m = 0.3f * kPixel_m, kLeans = 0.08f;
     Stage s;

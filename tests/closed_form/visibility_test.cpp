@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -91,34 +90,8 @@ TEST(Visibility, ASphereIsWhatRaysSee) {
     }
 }
 
-// A bar of a 16th of a pixel that leans by half a degree from the columns: on a regular grid it would be in a column of
-// samples, or in none, for dozens of rows.
-TEST(Visibility, AThinBarAlongTheColumnsIsNotDashed) {
-    Stage s;
-    s.quality.path_model = "direct", s.quality.visibility = "buffer", s.quality.buffer_samples = 64;
-    s.quality.rays_across = 0;
-    s.camera(64, 0.5);
-    s.sun({0, 0, -1});
-    constexpr float kPixel_m = 4 * 2 * 0.5f / 64, kHalf_m = kPixel_m / 32, kLeans = 0.027f;
-    s.add(object_of({{-kHalf_m - kLeans, -3, 0},
-                     {kHalf_m - kLeans, -3, 0},
-                     {kHalf_m + kLeans, 3, 0},
-                     {-kHalf_m + kLeans, 3, 0}},
-                    {{0, 1, 2}, {0, 2, 3}}, lambert(0.5), s.grid),
-          {0.3 * static_cast<double>(kPixel_m), 0, 4});
-    s.render();
-    std::vector<double> rows;
-    for (int y = 4; y < 60; ++y) {
-        const std::span<const float> row = s.radiance.row(y, 0);
-        rows.push_back(std::accumulate(row.begin(), row.end(), 0.0));
-    }
-    const double mean = std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(rows.size());
-    EXPECT_GT(mean, 0);
-    for (const double row : rows) EXPECT_NEAR(row / mean, 1, 0.5);
-}
-
-// Strips three hundred times longer than wide, in all directions: a place on them is good to less than what rays start above
-// it, so that none is in its own shadow.
+// The triangles of a strip three hundred times longer than wide do not shadow themselves, in whatever direction it points: the
+// buffer's shading points are nearer to their plane than the height at which shadow rays start.
 TEST(Visibility, LongTrianglesAreNotInTheirOwnShadow) {
     for (int i = 0; i < 12; ++i) {
         Stage s;
@@ -146,8 +119,8 @@ TEST(Visibility, TheEarthBehindACubeIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.02);
 }
 
-// The same scene by rays, in a picture of twice as many pixels: which half has how much, of bars by 64 samples through
-// the same places, and of a cube before the Earth by sixteen, of which an edge may misplace three.
+// The same scene by rays, in a picture of twice as many pixels through the same places: which half has how much, of a
+// cube before the Earth by sixteen samples and of bars by 64.
 void expect_moments_as_by_rays(int across) {
     const auto stage = [&] {
         Stage s;
@@ -166,7 +139,7 @@ void expect_moments_as_by_rays(int across) {
     Stage fine = stage();
     fine.geometry = {64, 64, 8, 64, {}};
     fine.radiance = RadianceImage(80, 80, 2);
-    fine.quality.samples_per_axis = across == 8 ? 4 : 8;
+    fine.quality.samples_per_axis = across / 2;
     fine.quality.visibility = "rays";
     fine.render();
     Stage s = stage();
@@ -176,7 +149,6 @@ void expect_moments_as_by_rays(int across) {
     s.render();
     const SubpixelLight& moments = *s.radiance.moments();
     ASSERT_TRUE(moments.used());
-    const double within = across == 8 ? 0.02 : 3.0 / 16;
     double brightest = 0, uneven = 0;
     for (const float value : fine.radiance.plane(0))
         brightest = std::max(brightest, static_cast<double>(value));
@@ -196,7 +168,8 @@ void expect_moments_as_by_rays(int across) {
                                 moments.kinds(y)[static_cast<std::size_t>(x)] == SubpixelKind::kSmooth
                             ? 0
                             : static_cast<double>(moments.row(y, i, channel)[static_cast<std::size_t>(x)]);
-                    ASSERT_NEAR(found, expected[i], (channel + 1) * within * brightest)
+                    // One sample may see the other of two, and within the disk a pixel has one ray.
+                    ASSERT_NEAR(found, expected[i], (channel + 1) * 0.02 * brightest)
                         << x << ' ' << y << ' ' << i;
                     uneven = std::max(uneven, std::abs(found));
                 }

@@ -55,20 +55,21 @@ TEST(Visibility, LevelsOfDetailKeepTheLightOfWrinkles) {
 }
 
 // The Sun stands 4 and 2 degrees above a plate whose waves are up to 14 steep. Without their shadows on each other a
-// level has 15 and 40 % too much light. With twelve rays along an axis a level is 3.9 and 8.9 % off.
+// level has 15 and 40 % too much light. With 144 rays a pixel levels of paint are 3.7 and 7.1 % off, those of metal 3.9
+// and 9.5 %; sixteen rays on a regular grid find them within 7 %, by chance.
 TEST(Visibility, LevelsOfDetailKeepTheShadowsOfWrinkles) {
     MaterialConfig metal = lambert(0.9);
     metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.4;
     struct Low {
-        double up, within;
+        double up, paint_within, metal_within;
     };
     for (const MaterialConfig& material : {lambert(0.5), metal})
-        for (const Low low : {Low{0.15, 0.04}, Low{0.1, 0.09}}) {
+        for (const Low low : {Low{0.15, 0.04, 0.04}, Low{0.1, 0.075, 0.1}}) {
             Stage s;
             s.quality.path_model = "direct";
             s.quality.rays_across = 0;
-            s.quality.samples_per_axis = 4;
+            s.quality.samples_per_axis = 12;
             s.geometry.focal_length_px = 160;
             s.sun({1, 0.3, -low.up});
             SceneObject object = foil(material, s.grid);
@@ -78,11 +79,13 @@ TEST(Visibility, LevelsOfDetailKeepTheShadowsOfWrinkles) {
             s.quality.lod_error_px = 0;
             s.render();
             const double mesh = sum_of(s.radiance);
+            const bool is_metal = material.model == kModel<brdf::Metal>;
+            const double within = is_metal ? low.metal_within : low.paint_within;
             s.quality.lod_error_px = 16;
             for (const char* visibility : {"rays", "buffer"}) {
                 s.quality.visibility = visibility;
                 s.render();
-                EXPECT_NEAR(sum_of(s.radiance) / mesh, 1, low.within) << visibility << " " << low.up;
+                EXPECT_NEAR(sum_of(s.radiance) / mesh, 1, within) << visibility << " " << low.up;
             }
         }
 }

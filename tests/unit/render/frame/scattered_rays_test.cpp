@@ -39,9 +39,9 @@ double share_lit(PlateStage& s, int frames) {
 }
 
 TEST(ScatteredRays, FramesThatAreAveragedHaveNoGridInCommon) {
-    // Columns of the grid are at odd eighths: one of four is lit, however many frames there are.
+    // Columns of the grid are at a quarter and at three quarters: one of two is lit, however many frames there are.
     PlateStage grid(false);
-    EXPECT_NEAR(share_lit(grid, 2), 0.25, 1e-4);
+    EXPECT_NEAR(share_lit(grid, 2), 0.5, 1e-4);
     // Four places of the sequence have one in each quarter of the width. That in the first quarter is lit, that in the second with a chance
     // of a fifth: a share's variance is 0.2 0.8 / 16, so that of the mean of 25 frames of 18 rows has the standard deviation 0.1 / sqrt(450).
     // Five times that.

@@ -70,7 +70,7 @@ TEST(VisibilityTile, HasWhatEachSampleSees) {
         tile->clear(), plain->clear();
         for (unsigned part = 0; part < 12; ++part) {
             const TriangleSetup setup = Shower(100 * round + part).set_up(16 * part);
-            fill_tile(setup, SampleGrid::kRotated, *tile);
+            fill_tile(setup, *tile);
             fill_plainly(setup, *plain);
             find_farthest(*tile);
         }
