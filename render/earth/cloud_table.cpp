@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPiOfClouds = static_cast<float>(kPi);
 // Droplets as in ISCCP (Rossow & Schiffer, Bull. Am. Meteorol. Soc. 80, 2261, 1999; cited from memory). A
-// variance of 0.1 changes the light at 8 degrees of phase by 1 to 2 % (docs/earth.md).
+// variance of 0.1 changes the light at 8 degrees of phase by 1 to 2 %.
 constexpr double kRadius_um = 10, kVariance = 0.15;
 constexpr int kStreams = 16;
 constexpr int kThinnestCloud = -7, kThickest = 9;  // powers of two of the scaled thickness
