@@ -6,6 +6,7 @@
 #include "render/frame/finite_light.h"
 #include "render/glossy/glossy_reuse.h"
 #include "render/ground_shading/ground_light.h"
+#include "render/paths/glossy_rays.h"
 
 namespace hilcam {
 namespace {
@@ -90,17 +91,6 @@ bool write(const Tile& tile, float share, bool may_leave, SubpixelLight& moments
         std::copy_n(tile.kinds.begin() + (y - box.y0) * static_cast<std::ptrdiff_t>(width), width,
                     moments.kinds(y).begin() + box.x0);
     return true;
-}
-
-// Returns the shading point of a lobe with the members that adding its light needs.
-ShadingPoint shading_point_of(const GlossyPoint& point) {
-    ShadingPoint at{};
-    at.point_m = point.point_m, at.geometric_normal = at.normal = point.normal;
-    at.object = point.object, at.triangle = point.triangle;
-    at.surface_number = point.surface, at.back = point.back, at.surface.alpha = point.alpha;
-    at.depth = 1, at.weight_samples = point.weight_samples;
-    at.pixel = point.pixel, at.samples = point.samples, at.moments = point.moments;
-    return at;
 }
 
 std::size_t pool_slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
@@ -313,7 +303,7 @@ void FrameTracer::trace_part(const FrameContext& frame, const PixelBox& box, int
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats, clusters_[slot]};
     tile.scattered = quality().scatters_rays();
-    tile.seen = seen, tile.glossy = glossy;
+    tile.seen = seen, tile.glossy = glossy, tile.glossy_frame = &glossy_;
     if (seen) tile.penumbra = &penumbrae_[slot];
     if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
     if (moments_) {

@@ -11,7 +11,7 @@ namespace hilcam {
 
 namespace {
 
-constexpr std::size_t kRaysPerLobe = 4;  // no lobe has more of its own
+constexpr std::size_t kRaysPerLobe = 4;  // on average over a part; a lobe has at most ten
 
 }  // namespace
 
@@ -64,21 +64,20 @@ GlossyBuffer::Part& GlossyBuffer::begin(std::size_t number, const PixelBox& box,
 
 void GlossyBuffer::skip(std::size_t number) {
     Part& part = parts_[number];
-    if (part.linked_) clear_pixels(part.box_);
-    part.point_count_ = part.ray_count_ = 0, part.linked_ = false;
+    if (part.linked_ > 0) clear_pixels(part.box_);
+    part.point_count_ = part.ray_count_ = part.linked_ = 0;
 }
 
 void GlossyBuffer::link(Part& part) {
-    if (part.ray_count_ == 0) return;
     const int width = part.box_.x1 - part.box_.x0;
-    for (std::size_t i = 0; i < part.ray_count_; ++i) {
+    for (std::size_t i = part.linked_; i < part.ray_count_; ++i) {
         GlossyRay& ray = part.rays_[i];
         const auto pixel = static_cast<int>(points_[ray.point].pixel);
         std::uint32_t& first =
             first_of_pixel_[index(part.box_.x0 + pixel % width, part.box_.y0 + pixel / width)];
         ray.next = first, first = part.first_ray_ + static_cast<std::uint32_t>(i);
     }
-    part.linked_ = true;
+    part.linked_ = part.ray_count_;
 }
 
 }  // namespace hilcam

@@ -26,6 +26,7 @@ namespace hilcam {
 // A shading point that the camera sees, with a facet lobe that rays follow.
 struct GlossyPoint {
     Vec3f point_m, normal, view_dir;  // ray space, world axes
+    Vec3f geometric_normal, start_m;  // rays start at start_m
     float alpha;                      // GGX width
     std::uint32_t object;
     std::uint16_t surface;
@@ -46,7 +47,8 @@ struct GlossyPoint {
     float probes_apart_m;  // distance between the probes that `cached` comes from
     float per_light = 1;   // radiance of what one of its rays has met, per unit of GlossyRay::light
     float share;           // weight of what rays find against the cache, 0 to 1
-    int reach_px;          // rays of pixels nearer than this are used (glossy_reach_px())
+    int reach_px;          // rays of pixels nearer than this are used: 8 or 4
+    int sent = 0;          // rays along it, with those that would have gone below its surface
 
     bool same_surface(const GlossyPoint& other) const {
         return object == other.object && surface == other.surface && back == other.back;
@@ -81,6 +83,7 @@ class GlossyBuffer {
         }
         // Adds a ray of the point that was added last.
         GlossyRay* add_ray(const GlossyPoint& of);
+        std::span<GlossyPoint> points() { return points_.first(point_count_); }
         std::span<const GlossyPoint> points() const { return points_.first(point_count_); }
         const PixelBox& box() const { return box_; }
         float share() const { return share_; }
@@ -95,11 +98,12 @@ class GlossyBuffer {
         std::span<GlossyRay> rays_;
         std::size_t point_count_ = 0, ray_count_ = 0;
         std::uint32_t first_point_ = 0, first_ray_ = 0;
-        bool linked_ = false;
+        std::size_t linked_ = 0;  // rays that for_each_ray() visits
     };
 
     GlossyBuffer() = default;
-    // Allocates the parts of a frame for at most this many lobes each, and four rays a lobe. Owner thread.
+    // Allocates the parts of a frame for at most this many lobes each, and four rays a lobe on average. Owner
+    // thread.
     GlossyBuffer(int width_px, int height_px, std::size_t parts, std::size_t lobes);
 
     std::size_t parts() const { return parts_.size(); }
@@ -109,7 +113,7 @@ class GlossyBuffer {
     Part& begin(std::size_t number, const PixelBox& box, float share);
     // Empties a part that has no lobes in this frame.
     void skip(std::size_t number);
-    // Connects a part's rays to their pixels when all of them are finished.
+    // Connects a part's rays to their pixels; those that are new must be finished.
     void link(Part& part);
 
     // Calls visit(ray, its point) for the rays of a pixel, in an order that depends only on the frame. Any

@@ -45,8 +45,9 @@ struct Taken {
     }
 };
 
-// Collects the rays of pixels around a lobe that belong to its surface and start near it.
-void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, Taken& taken) {
+// Collects the rays of pixels around a lobe, in `within`, that belong to its surface and start near it.
+void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, const PixelBox& within,
+          Taken& taken) {
     // Neighbours are a pixel's width apart, or farther on an oblique surface.
     const float apart_m =
         static_cast<float>(at.reach_px) * at.footprint_m / std::max(dot(at.normal, at.view_dir), 0.1f);
@@ -55,8 +56,8 @@ void take(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, Taken
     const float per_px = 1 / static_cast<float>(at.reach_px);
     const auto tent = [&](int off) { return 1 - per_px * static_cast<float>(std::abs(off)); };
     const int reach = at.reach_px - 1;
-    for (int row = std::max(0, y - reach); row <= std::min(buffer.height() - 1, y + reach); ++row)
-        for (int column = std::max(0, x - reach); column <= std::min(buffer.width() - 1, x + reach);
+    for (int row = std::max(within.y0, y - reach); row <= std::min(within.y1 - 1, y + reach); ++row)
+        for (int column = std::max(within.x0, x - reach); column <= std::min(within.x1 - 1, x + reach);
              ++column) {
             const float pixel = tent(row - y) * tent(column - x);
             if (pixel < kLeastPixel) continue;
@@ -105,6 +106,15 @@ void leave_out_far(float per_distance, Taken& taken) {
         taken.weight[i] *= std::max(0.0f, 1 - kOfDistance * per_distance * taken.way_m[i]);
 }
 
+// Weights the rays for a lobe. Returns the mean of one over the distance at which they have met something
+// [1/m].
+float weigh_all(const GlossyPoint& at, Taken& taken) {
+    weigh({at.alpha, std::max(dot(at.normal, at.view_dir), 1e-2f)}, at.normal, at.view_dir, taken);
+    const float per_distance = mean_per_distance(taken);
+    leave_out_far(per_distance, taken);
+    return per_distance;
+}
+
 // Returns how many rays the cache's directions are worth. The directions start at a probe, so they say little
 // about things that are nearer than the distance between probes. Without this, narrow strips between Hubble's
 // tube and ring have half their light.
@@ -139,13 +149,12 @@ struct Sums {
 
 }  // namespace
 
-GlossyPlace glossy_place(int x, int y, int ray, int rays) {
+GlossyPlace glossy_place(int x, int y, int ray, int reach_px) {
     constexpr int kSize = kGlossyPattern_px;
     constexpr std::array<int, kSize> kReversed = {0, 4, 2, 6, 1, 5, 3, 7};  // bit-reversed
-    // The squares side by side that one pixel's rays cover.
-    const int size = glossy_reach_px(rays), beside = kSize / size;
+    const int beside = kSize / reach_px;  // squares side by side that one pixel's rays cover
     const auto square = [&](int pixel, int of_pixel) {
-        return static_cast<float>(kReversed[static_cast<std::size_t>(pixel % size * beside)] * beside +
+        return static_cast<float>(kReversed[static_cast<std::size_t>(pixel % reach_px * beside)] * beside +
                                   of_pixel);
     };
     const float a = square(x, ray % beside), b = square(y, ray / beside % beside);
@@ -155,12 +164,43 @@ GlossyPlace glossy_place(int x, int y, int ray, int rays) {
             std::fmod((b + (a + 0.5f) / kSize) / kSize + kPlasticAbout * n, 1.0f)};
 }
 
+float glossy_error(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, const PixelBox& within) {
+    Taken taken;
+    take(buffer, at, x, y, within, taken);
+    weigh_all(at, taken);
+    const Sums sums(taken);
+    if (!(sums.all > 0)) return at.share * max_component(at.cached);
+    // Light of all bodies for a ray that meets nothing, per unit of what it would see of them.
+    float bodies = 0, towards = 0;
+    for (std::size_t b = 0; b < at.bodies.size(); ++b)
+        bodies += max_component(at.bodies[b]), towards += sums.towards[b];
+    const float per_towards = towards > 0 ? bodies * sums.all / towards : 0.0f;
+    const float to_pixel = max_component(at.weight);
+    float of_light = 0, squares = 0, crossed = 0;  // sums of w l, (w l)^2, w^2 l
+    for (std::size_t i = 0; i < taken.count; ++i) {
+        const GlossyRay& ray = *taken.ray[i];
+        float light = 0;
+        if (ray.free)
+            for (const float body : ray.towards) light += per_towards * body;
+        else
+            light = to_pixel * taken.per_light[i] * max_component(ray.light);
+        const float weight = taken.weight[i];
+        of_light += weight * light;
+        squares += weight * weight * light * light, crossed += weight * weight * light;
+    }
+    // The variance of a ratio estimator (Cochran, Sampling Techniques, 1977, section 6.4). The cache's value
+    // counts as one more ray, because a few rays that agree prove little.
+    const float mean = of_light / sums.all;
+    const float off = max_component(at.cached) - mean;
+    const float variance =
+        squares - 2 * mean * crossed + mean * mean * sums.squares + sums.squares / sums.rays() * off * off;
+    return at.share * std::sqrt(std::max(variance, 0.0f)) / sums.all;
+}
+
 GlossyLight reused_light(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y) {
     Taken taken;
-    take(buffer, at, x, y, taken);
-    weigh({at.alpha, std::max(dot(at.normal, at.view_dir), 1e-2f)}, at.normal, at.view_dir, taken);
-    const float per_distance = mean_per_distance(taken);
-    leave_out_far(per_distance, taken);
+    take(buffer, at, x, y, {0, 0, buffer.width(), buffer.height()}, taken);
+    const float per_distance = weigh_all(at, taken);
     const Sums sums(taken);
     const float rays = sums.rays();
     // The fewer rays count, the more the cache's directions replace them.

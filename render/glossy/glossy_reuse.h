@@ -18,17 +18,18 @@ namespace hilcam {
 
 inline constexpr int kGlossyPattern_px = 8;
 
-// Returns the distance within which the rays of pixels serve a lobe with this many rays of its own. About a
-// hundred rays are enough, and farther ones are worth less.
-inline int glossy_reach_px(int rays) { return rays < 4 ? kGlossyPattern_px : kGlossyPattern_px / 2; }
-// Returns the two numbers in [0, 1) that choose the direction of a pixel's ray, by its number among `rays`.
-// Over any 8 x 8 pixels with one ray each, or 4 x 4 pixels with four, they are in 64 different squares, and
+// Returns the two numbers in [0, 1) that choose the direction of a pixel's ray, by its number. reach_px: 8 or
+// 4. Over any 8 x 8 pixels with one ray each, or 4 x 4 pixels with four, they are in 64 different squares, and
 // each coordinate is in 64 different strips (correlated multi-jittered: Kensler, Pixar Technical Memo 13-01,
 // 2013).
 struct GlossyPlace {
     float u1, u2;
 };
-GlossyPlace glossy_place(int x, int y, int ray, int rays);
+GlossyPlace glossy_place(int x, int y, int ray, int reach_px);
+
+// Returns the standard error of a lobe's light, from the rays of the pixels in `within`: radiance times its
+// samples, largest bin. x, y: pixel of the point. Loop, any thread, while no other thread links rays there.
+float glossy_error(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, const PixelBox& within);
 
 // The light that a lobe sends to its pixel: radiance times its samples.
 struct GlossyLight {

@@ -181,9 +181,7 @@ float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, con
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
         light += std::min(1.0f, kOfFree * (1 - place.free[b])) *
                  max_component(colored(at.surface, place.unhidden[b]));
-    const float samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
-    const float white = max_component(tile.frame.background->sun_irradiance_w_m2_um()) / kPiF;
-    const float least = kOfThreshold * samples * tile.frame.contribution_threshold * white;
+    const float least = kOfThreshold * tile.frame.contribution_threshold * tile.white_paint();
     return light > 0 ? std::clamp(at.weight_samples * light / least - 1, 0.0f, 1.0f) : 0.0f;
 }
 
@@ -194,6 +192,7 @@ GlossyPoint* IndirectCache::leave_to_rays(Tile& tile, const ShadingPoint& at, co
     GlossyPoint* const point = share > 0 ? tile.glossy->add_point() : nullptr;
     if (!point) return nullptr;
     point->point_m = at.point_m, point->normal = at.normal, point->view_dir = at.view_dir;
+    point->geometric_normal = at.geometric_normal;
     point->alpha = at.surface.alpha, point->footprint_m = at.footprint_m;
     point->object = at.object, point->surface = at.surface_number, point->back = at.back;
     point->pixel = at.pixel, point->triangle = at.triangle, point->moments = at.moments;

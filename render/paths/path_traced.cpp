@@ -17,6 +17,7 @@
 #include <span>
 
 #include "render/indirect/indirect_cache.h"
+#include "render/paths/glossy_adaptive.h"
 #include "render/paths/glossy_rays.h"
 #include "render/paths/mirror_rays.h"
 #include "render/paths/next_ray.h"
@@ -32,7 +33,8 @@ class TracedPaths final : public PathModel {
 
     void trace(Tile& tile) override {
         PrimaryHits seen(tile);
-        while (const std::size_t count = seen.next({current_, kMax})) trace_on(tile, count);
+        while (const std::size_t count = seen.next({current_, kMax})) trace_on(tile, count, 1);
+        if (tile.glossy) add_further_rays(tile);
     }
 
     bool samples_lobes() const override { return true; }
@@ -56,9 +58,27 @@ class TracedPaths final : public PathModel {
     std::array<bool, kMaxSamples> near_part_;
     MirrorRays many_;
 
-    void trace_on(Tile& tile, std::size_t count) {
+    // Adds rays to the tile's lobes that need them, some lobes at a time: later ones share them.
+    void add_further_rays(Tile& tile) {
+        constexpr std::size_t kTogether = 64;
+        const std::span<GlossyPoint> lobes = tile.glossy->points();
+        for (std::size_t next = 0; next < lobes.size();) {
+            tile.glossy_frame->link(*tile.glossy);
+            NextRays rays{next_};
+            for (std::size_t count = 0; next < lobes.size() && count < kTogether; ++next) {
+                const int further = further_rays(tile, lobes[next]);
+                if (further == 0) continue;
+                current_[count] = shading_point_of(lobes[next]);
+                add_along_lobe(tile, current_[count++], lobes[next], further, rays);
+            }
+            trace_on(tile, follow(tile, rays.count, tile.frame.max_depth == 1), 2);
+        }
+    }
+
+    // Follows paths from shading points of this depth.
+    void trace_on(Tile& tile, std::size_t count, int depth) {
         const FrameContext& frame = tile.frame;
-        for (int depth = 1; count > 0; ++depth) {
+        for (; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.indirect) {
                 ShadingPoint* const others =

@@ -14,6 +14,7 @@
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/ray_counts.h"
 #include "render/vocabulary/subpixel_light.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
@@ -54,7 +55,8 @@ struct Tile {
 
     GlossyBuffer::Part* glossy =
         nullptr;  // takes the lobes that get rays; null: their light comes from the cache alone
-    const TileParts* parts = nullptr;  // takes the parts of the light; null: parts are not kept
+    GlossyBuffer* glossy_frame = nullptr;  // has the lobes of all tiles; of `glossy`'s frame
+    const TileParts* parts = nullptr;      // takes the parts of the light; null: parts are not kept
 
     // Adds light that a shading point sends to its pixel, or to the lobe whose ray has met it: radiance,
     // times the number of samples that the point represents. part: used if the camera sees the point; light
@@ -83,6 +85,11 @@ struct Tile {
     }
     void set_kind(std::uint32_t pixel, SubpixelKind kind) {
         if (!kinds.empty() && kinds[pixel] != SubpixelKind::kObject) kinds[pixel] = kind;
+    }
+    // Returns the light of a pixel of white paint that faces the Sun, largest bin.
+    float white_paint() const {
+        return static_cast<float>(samples_per_axis * samples_per_axis) *
+               max_component(frame.background->sun_irradiance_w_m2_um()) / kPiF;
     }
     std::uint32_t frame_pixel(int x, int y) const {
         return static_cast<std::uint32_t>(y * frame.geometry.padded_width() + x);

@@ -12,15 +12,6 @@
 #include "render/vocabulary/mixed_bits.h"
 
 namespace hilcam {
-namespace {
-
-// Returns the factor from light that a tile adds to pixels of white paint in the Sun.
-float whites_per_light(const Tile& tile) {
-    const auto samples = static_cast<float>(tile.samples_per_axis * tile.samples_per_axis);
-    return kPiF / (samples * max_component(tile.frame.background->sun_irradiance_w_m2_um()));
-}
-
-}  // namespace
 
 void PenumbraSampler::add_light(Tile& tile, const SunSampler& sun) {
     ask_once(tile, sun.middle());
@@ -58,7 +49,7 @@ const PenumbraSampler::Asked* PenumbraSampler::layer_below(const Asked& a) const
 
 void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
-    const float per_white = whites_per_light(tile);
+    const float per_white = 1 / tile.white_paint();
     for (Asked& a : std::span(asked_).first(count_))
         a.whites = per_white * max_component(a.light), a.kind = kind_of(*a.at);
     const auto gets_through = [](const Use& use, const Spectrum*) {

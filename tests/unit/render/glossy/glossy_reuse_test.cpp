@@ -47,8 +47,8 @@ struct Plane {
         point.pixel = static_cast<std::uint32_t>(y * kSize + x);
         point.weight = even(0.9f), point.cached = even(5), point.directions = 0, point.share = 1;
         point.bodies[0] = even(2), point.free[0] = 0.3f;
-        point.reach_px = glossy_reach_px(1);
-        const GlossyPlace place = glossy_place(x, y, 0, 1);
+        point.reach_px = kGlossyPattern_px;
+        const GlossyPlace place = glossy_place(x, y, 0, kGlossyPattern_px);
         const Frame local(point.normal);
         const Vec3f facet =
             local.to_world(sample_visible_normal(alpha, local.to_local(point.view_dir), place.u1, place.u2));
@@ -152,14 +152,14 @@ TEST(GlossyReuse, WithoutRaysTheCacheHasTheLight) {
 // Any window of 8 x 8 px with a ray each, or of 4 x 4 px with four, has each place of the pattern once, and each coordinate in 64
 // different strips.
 TEST(GlossyPlace, EachWindowHasAllOfThePattern) {
-    for (const int rays : {1, 4})
+    for (const int size : {8, 4})
         for (const int corner : {0, 3, 13}) {
-            const int size = glossy_reach_px(rays);
+            const int rays = 64 / (size * size);
             std::array<int, 64> squares{}, strips{};
             for (int i = 0; i < size * size; ++i)
                 for (int ray = 0; ray < rays; ++ray) {
                     const GlossyPlace place =
-                        glossy_place(corner + i % size, 2 * corner + i / size, ray, rays);
+                        glossy_place(corner + i % size, 2 * corner + i / size, ray, size);
                     ++squares[static_cast<std::size_t>(static_cast<int>(8 * place.u1) +
                                                        8 * static_cast<int>(8 * place.u2))];
                     ++strips[static_cast<std::size_t>(64 * place.u1)];
