@@ -91,7 +91,8 @@ Fields detector_fields(CameraModel& c) {
         number("crosstalk_fraction", c.crosstalk_fraction, 1, {0, 0.2},
                "share of a pixel's charge that moves to each of its four neighbours"),
         section("color_filter", c.color_filter,
-                "colour filter array: RGGB, GRBG, GBRG or BGGR with generic filters; mono: none"),
+                "colour filter array: a mapping, one of the shipped RGGB, GRBG, GBRG and BGGR (generic "
+                "filters), or mono (no filters)"),
         required(number("full_well_e", c.full_well_e, 1, {10, 1e8}, "full well (saturation capacity)")),
         numbers("nonlinearity", c.nonlinearity, 1, {-0.5, 0.5}, {1, 2},
                 "coefficients a2, a3 of the read-out charge q (1 + a2 x + a3 x^2), with x = q / full well"),
