@@ -251,7 +251,7 @@ void validate(const CampaignConfig& c) {
     if (c.run && (!c.labels.empty() || !c.keypoints.empty() || c.shard_samples > 0))
         throw KeyError("run",
                        "runs have no labels; accepted: labels, keypoints and shard_samples without 'run'");
-    if (c.run && c.require.any()) throw KeyError("require", "is about pictures; accepted: without 'run'");
+    if (c.run && c.require.any()) throw KeyError("require", "applies to pictures; accepted: without 'run'");
 }
 
 CampaignConfig load_campaign(const std::filesystem::path& file, std::span<const std::string> overrides) {

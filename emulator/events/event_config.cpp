@@ -131,12 +131,12 @@ std::string_view refusal_of(const Command& command) {
             },
             [](const OneOf<PingCommand, SubscribeCommand> auto&) { return "does nothing to a camera"sv; },
             [](const PoseCommand& p) {
-                return is_possible(p.motion) ? ""sv : "is out of the bounds of motion (docs/motion.md)"sv;
+                return is_possible(p.motion) ? ""sv : "exceeds the limits of motion (docs/motion.md)"sv;
             },
             [](const JointCommand& j) {
                 return is_possible_turn_of_joint(j.angle_rad, j.rate_rad_s)
                            ? ""sv
-                           : "is out of the bounds of motion (docs/motion.md)"sv;
+                           : "exceeds the limits of motion (docs/motion.md)"sv;
             },
             [](const OneOf<StartCommand, StopCommand, FaultCommand, ExposeCommand, TriggerModeCommand,
                            ClockCommand, LampCommand> auto&) { return ""sv; },

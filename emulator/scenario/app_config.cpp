@@ -175,7 +175,7 @@ void check_vizard(const ScenarioConfig& s) {
 std::string governor_off(const ScenarioConfig& s) {
     if (s.loop.levels_fixed) return "loop.levels is fixed";
     if (s.loop.budget_is_of_rate() && !s.loop.holds_rate)
-        return "loop.frame_budget_ms is auto, and no rate is to be held";
+        return "loop.frame_budget_ms is auto, and no frame rate is set";
     if (s.loop.frame_budget_s >= 0 && !(s.loop.frame_budget_s > 0)) return "loop.frame_budget_ms is 0";
     if (s.mode == CameraMode::kLockstep) return "lockstep: the same commands give the same frames";
     return "";

@@ -75,10 +75,10 @@ void check_attitude(const AttitudeForms& a, const AttitudeWords& words) {
             throw KeyError(
                 "attitude_dcm",
                 error >= 2
-                    ? std::string("found a matrix that mirrors, or is none of a rotation; accepted: one "
-                                  "with determinant 1")
-                    : "found rows that are off being of length 1 and square to each other by " +
-                          plain(error) + "; accepted: " + plain(kDcmTolerance) + " or less");
+                    ? std::string(
+                          "found a matrix that mirrors, or is no rotation; accepted: one with determinant 1")
+                    : "found rows that deviate from unit length and right angles by " + plain(error) +
+                          "; accepted: " + plain(kDcmTolerance) + " or less");
 }
 
 Quat frame_from_body(const AttitudeForms& a) {

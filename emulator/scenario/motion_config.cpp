@@ -21,7 +21,7 @@ std::vector<std::string> center_names() {
 std::vector<std::string> frame_names() { return {"world", "body_fixed", "lvlh", "object", "local"}; }
 
 constexpr const char* kRadecIsWorlds =
-    "is against ICRF; accepted: with frame: world, or another form of attitude";
+    "is relative to ICRF; accepted: with frame: world, or another form of attitude";
 constexpr const char* kOf = "thing to which the frames lvlh and object belong: an object's name, or camera";
 
 }  // namespace

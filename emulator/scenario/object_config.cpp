@@ -57,14 +57,12 @@ void refuse_idle_key(const char* key, const std::string& attitude, const std::st
 
 void check_look_at(const PoseConfig& p) {
     const Vec3d along = p.look_at_m - p.position_m;
-    if (!(length(along) > 0))
-        throw KeyError("look_at_m", "is where it stands, position_m; accepted: another point to look at");
+    if (!(length(along) > 0)) throw KeyError("look_at_m", "is equal to position_m; accepted: another point");
     if (!(length(p.up) > 0)) throw refused_key("up", "a vector without a direction", "one that is not 0");
     if (!(length(cross(along, p.up)) > 1e-9 * length(along) * length(p.up)))
-        throw KeyError(
-            "up",
-            "lies along the line of sight from position_m to look_at_m, so that nothing says which "
-            "way is up in the picture; accepted: any other direction");
+        throw KeyError("up",
+                       "is parallel to the line of sight from position_m to look_at_m, so up in the picture "
+                       "is undefined; accepted: any other direction");
 }
 
 }  // namespace
@@ -193,7 +191,7 @@ void validate(const TerrainConfig& t) {
     if (t.globe)
         for (const auto& [key, given] :
              {std::pair{"pose", t.has_pose}, {"place", t.place.has_value()}, {"radius_km", t.has_radius}})
-            if (given) throw KeyError(key, "has no effect with 'globe', which lies on its body");
+            if (given) throw KeyError(key, "has no effect with 'globe', which is fixed to its body");
     if (t.has_pose && t.place) throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
     if (t.pose.frame != PoseConfig::Frame::kWorld)
         throw refused_key("pose.frame", "'local'", "terrain.place, which has local axes");

@@ -58,7 +58,7 @@ std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, Time
     }
     const MotionValidity validity = validity_of(*segments, start);
     if (validity.status != MotionStatus::kOk)
-        throw InputError(file + ": does not know the scenario's start; the nearest instant it knows is " +
+        throw InputError(file + ": does not know the scenario's start; the nearest instant in it is " +
                          format_utc(validity.nearest));
     return [segments, from_eme2000 = icrf_from_eme2000()](TimeTai time) {
         const MotionValidity known = validity_of(*segments, time);
@@ -83,8 +83,8 @@ void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernel
     const MotionValidity validity = coverage.validity(start);
     if (coverage.empty() || validity.status != MotionStatus::kOk)
         throw InputError(
-            "spice.object: the kernels do not know where it is about its center at the scenario's start" +
-            (coverage.empty() ? "" : "; the nearest instant they know is " + format_utc(validity.nearest)));
+            "spice.object: the kernels have no position relative to its center at the scenario's start" +
+            (coverage.empty() ? "" : "; the nearest instant in them is " + format_utc(validity.nearest)));
     body.orbit = [kernels, coverage, code, about](TimeTai time) {
         StateVector s;
         const double et_s = coverage.et_s(coverage.validity(time).nearest);
@@ -154,7 +154,7 @@ void validate(const OwnBodyConfig& c) {
                        "has no effect without pole_deg; accepted: both or neither");
     if (c.look.has_measured && c.look.measured_magnitude)
         throw KeyError("look.measured_magnitude", "there is no measured magnitude of it; accepted: false");
-    if (c.look.rings) throw KeyError("look.rings", "accepted: false; saturn alone has rings");
+    if (c.look.rings) throw KeyError("look.rings", "accepted: false; rings are for saturn alone");
 }
 
 std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies,

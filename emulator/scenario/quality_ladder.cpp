@@ -59,8 +59,7 @@ void validate(const LoopConfig& l) {
     if (l.levels_fixed && l.frame_budget_s > 0)
         throw KeyError("levels",
                        "found 'fixed' beside a frame_budget_ms of " + plain(1e3 * l.frame_budget_s) +
-                           ", which only a governor keeps; accepted beside it: a list of levels, or "
-                           "nothing");
+                           ", which needs a governor; accepted beside it: a list of levels, or nothing");
 }
 
 namespace {

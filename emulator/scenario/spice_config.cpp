@@ -75,9 +75,8 @@ std::string missing_leap_seconds(const KernelPool& pool, const std::vector<LeapS
             dates += fmt::format("{}{}-{:02}-01", dates.empty() ? "" : ", ", leap.year, leap.month);
     if (dates.empty()) return {};
     return fmt::format(
-        "spice: {}: DELTET/DELTA_AT lacks the leap seconds of {}, which the program knows: from then on its "
-        "times, which are those of the kernel, are up to {} s off UTC; accepted without this warning: "
-        "naif0012.tls or a newer one",
+        "spice: {}: DELTET/DELTA_AT lacks the leap seconds of {}, which the program has: later times follow "
+        "the kernel and are up to {} s off UTC; accepted without this warning: naif0012.tls or a newer one",
         pool.find("DELTET/DELTA_AT")->where, dates,
         own.back().tai_minus_utc_s - kernel.back().tai_minus_utc_s);
 }
