@@ -30,7 +30,7 @@ Fields fields(LoopConfig& l) {
         beside_frames(choice("prefer", l.prefer, {"throughput", "latency"},
                              "order of rendering and sensor. throughput: a frame is rendered while the "
                              "previous one is in the sensor; latency: one after the other, each with all "
-                             "threads; a late frame starts as soon as possible and shows the newest pose")),
+                             "threads, and a late frame starts as soon as possible, with the newest pose")),
         beside_frames(
             flag("wait_for_light", l.wait_for_light,
                  "treatment of frames while tables that are not on disk are being made. false: frames are "
