@@ -81,8 +81,8 @@ Fields fields(TleConfig& t) {
     return {
         required(path("file", t.file, "element sets: TLE, or OMM as KVN, XML, CSV or JSON")),
         text("satellite", t.satellite,
-             "satellite's number (100001 or A0001), name or OBJECT_ID in the file; of its sets the newest "
-             "before the scenario's start is used, or else the oldest"),
+             "satellite's number (100001 or A0001), name or OBJECT_ID in the file; its newest set up to the "
+             "scenario's start is used, or else its oldest"),
         choice("checksum", t.checksum, {"verify", "ignore"},
                "treatment of each line's checksum. verify: it must be right; ignore: it may be wrong or "
                "missing"),

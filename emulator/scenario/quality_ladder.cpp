@@ -38,7 +38,7 @@ Fields fields(LoopConfig& l) {
                  "Used in free_run and triggered with quality.path_model cached; lockstep, --frames, "
                  "--record, --replay and all other commands always wait")),
         or_word(number("frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
-                       "time budget of a frame (throughput: of the longer stage); the governor lowers the "
+                       "time budget of a frame (throughput: its longer stage); the governor lowers the "
                        "quality to meet it, and raises it again. auto: in `hilcam run` without --frames, the "
                        "time to the next exposure at the frame rate, which clients may change; triggered "
                        "frames have no limit. 0: no governor"),
