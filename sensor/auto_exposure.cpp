@@ -9,14 +9,15 @@ namespace hilcam {
 
 Fields fields(AutoExposureConfig& c) {
     return {
-        flag("on", c.on, "true: the camera sets its exposure time itself"),
+        flag("on", c.on, "true: the camera sets its own exposure time"),
         number("target_fraction", c.target_fraction, 1, {0.01, 0.95},
-               "share of full scale that the percentile is brought to"),
+               "target of the percentile, as a share of full scale"),
         number("percentile", c.percentile, 1, {1, 99.99},
-               "percentile of the frame's pixels that is brought to the target"),
-        number("speed", c.speed, 1, {0.01, 1}, "share of the remaining way, in stops, that one frame goes"),
+               "percentile of the frame's pixels that is compared with the target"),
+        number("speed", c.speed, 1, {0.01, 1},
+               "share of the remaining distance, in stops, covered in one frame"),
         number("tolerance_stops", c.tolerance_stops, 1, {0, 2},
-               "distance from the target within which nothing is changed"),
+               "largest distance from the target at which the exposure stays unchanged"),
     };
 }
 

@@ -10,11 +10,12 @@ namespace hilcam {
 
 Fields fields(CcdConfig& c) {
     return {
-        flag("blooming", c.blooming, "a full pixel spills into its column; false: it drains"),
+        flag("blooming", c.blooming,
+             "treatment of charge above the full well. true: it spills along the column; false: it drains"),
         number("parallel_inefficiency", c.parallel_inefficiency, 1, {0, 1e-2},
-               "share of the charge left behind per row transfer"),
+               "share of the charge left behind in each row transfer"),
         number("serial_inefficiency", c.serial_inefficiency, 1, {0, 1e-2},
-               "share of the charge left behind per column transfer"),
+               "share of the charge left behind in each column transfer"),
     };
 }
 

@@ -15,7 +15,7 @@ Fields fields(ColorFilterConfig& c) {
 
 Fields fields(ColorFilterArrayConfig& c) {
     return {
-        text("pattern", c.pattern, "filters by letter, row by row, with a space between rows: RG GB"),
+        text("pattern", c.pattern, "filter letters row by row, with a space between rows: RG GB"),
         sections("filters", c.filters, "filters of the array, at most 8; generic_rgb is shipped"),
     };
 }

@@ -11,10 +11,11 @@ namespace hilcam {
 Fields fields(CosmicRayConfig& c) {
     return {
         number("rate_cm2_s", c.rate_cm2_s, 1, {0, 1e6}, "rate of particles through the detector"),
-        number("depth_um", c.depth_um, 1, {0.1, 1000}, "depth of the silicon that collects charge"),
-        number("electrons_per_um", c.electrons_per_um, 1, {1, 1e5}, "electrons released along a track"),
+        number("depth_um", c.depth_um, 1, {0.1, 1000}, "depth of silicon that collects charge"),
+        number("electrons_per_um", c.electrons_per_um, 1, {1, 1e5},
+               "electrons released per micrometre of track"),
         number("spread_fraction", c.spread_fraction, 1, {0, 2},
-               "relative spread of electrons_per_um from track to track"),
+               "standard deviation of electrons_per_um from track to track, over its mean"),
     };
 }
 

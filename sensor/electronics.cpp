@@ -17,18 +17,18 @@ Fields fields(FilterConfig& c) {
                "-3 dB frequency of the low-pass along a row; 0: none"),
         number("high_pass_cy_px", c.high_pass_cy_px, 1, {0, 0.5},
                "-3 dB frequency of the high-pass along a row; 0: none"),
-        number("boost", c.boost, 1, {0, 4}, "b: gain 1 + b (1 - cos 2 pi f) along a row"),
+        number("boost", c.boost, 1, {0, 4}, "coefficient b of the gain 1 + b (1 - cos 2 pi f) along a row"),
     };
 }
 
 Fields fields(ConverterConfig& c) {
     return {
-        number("inl_lsb", c.inl_lsb, 1, {0, 64}, "integral nonlinearity: greatest deviation at mid-scale"),
-        number("dnl_lsb", c.dnl_lsb, 1, {0, 0.3}, "differential nonlinearity, standard deviation"),
+        number("inl_lsb", c.inl_lsb, 1, {0, 64}, "integral nonlinearity: largest deviation, at mid-scale"),
+        number("dnl_lsb", c.dnl_lsb, 1, {0, 0.3}, "differential nonlinearity: standard deviation"),
         choice("companding", c.companding, {"none", "square_root", "table"},
-               "companding of the numbers to 8 bits"),
+               "companding of the DN to 8 bits"),
         table("companding_table", c.companding_table, {"dn", "code"}, {0, 65535}, {0, 255},
-              "codes of 8 bits by number, with companding: table; straight between the points, rounded"),
+              "8-bit code by DN, for companding: table; linear between points, rounded"),
     };
 }
 

@@ -13,33 +13,33 @@ namespace hilcam {
 Fields fields(FixedPatternConfig& c) {
     return {
         integer("seed", c.seed, {0, 9e15},
-                "seed of the camera's own pattern: another seed, another specimen"),
+                "seed of the fixed pattern: another seed stands for another camera of the same type"),
         number("dark_current_fraction", c.dark_current_fraction, 1, {0, 10},
-               "standard deviation of the pixels' dark currents over their mean"),
-        number("row_e", c.row_e, 1, {0, 1e5}, "standard deviation of the rows' offsets"),
-        number("column_e", c.column_e, 1, {0, 1e5}, "standard deviation of the columns' offsets"),
+               "standard deviation of the dark current from pixel to pixel, over its mean"),
+        number("row_e", c.row_e, 1, {0, 1e5}, "standard deviation of the offset from row to row"),
+        number("column_e", c.column_e, 1, {0, 1e5}, "standard deviation of the offset from column to column"),
         number("column_gain_fraction", c.column_gain_fraction, 1, {0, 0.5},
-               "standard deviation of the columns' gains"),
-        path("prnu_map", c.prnu_map, "TIFF or FITS of the sensor's size: gain of each pixel, mean 1"),
-        path("offset_map", c.offset_map, "TIFF or FITS of the sensor's size: offset of each pixel [e-]"),
-        path("dark_map", c.dark_map, "TIFF or FITS of the sensor's size: dark current of each pixel [e-/s]"),
+               "standard deviation of the gain from column to column"),
+        path("prnu_map", c.prnu_map, "gain of each pixel, mean 1: TIFF or FITS of the sensor's size"),
+        path("offset_map", c.offset_map, "offset of each pixel [e-]: TIFF or FITS of the sensor's size"),
+        path("dark_map", c.dark_map, "dark current of each pixel [e-/s]: TIFF or FITS of the sensor's size"),
     };
 }
 
 Fields fields(DefectsConfig& c) {
     return {
-        number("hot_fraction", c.hot_fraction, 1, {0, 1}, "share of the pixels that are hot"),
+        number("hot_fraction", c.hot_fraction, 1, {0, 1}, "share of hot pixels"),
         number("hot_e_s", c.hot_e_s, 1, {0, 1e9}, "mean extra dark current of the hot pixels"),
-        number("dead_fraction", c.dead_fraction, 1, {0, 1}, "share of the pixels that are dead"),
+        number("dead_fraction", c.dead_fraction, 1, {0, 1}, "share of dead pixels"),
         numbers("dead_columns", c.dead_columns, 1, {0, 16383}, {0, 1024},
                 "numbers of the dead columns, counted from 0"),
         numbers("hot_columns", c.hot_columns, 1, {0, 16383}, {0, 1024},
                 "numbers of the hot columns, counted from 0"),
-        number("telegraph_fraction", c.telegraph_fraction, 1, {0, 1},
-               "share of the pixels that are telegraph pixels"),
-        number("telegraph_e", c.telegraph_e, 1, {0, 1e5}, "charge between a telegraph pixel's two states"),
+        number("telegraph_fraction", c.telegraph_fraction, 1, {0, 1}, "share of telegraph pixels"),
+        number("telegraph_e", c.telegraph_e, 1, {0, 1e5},
+               "difference of charge between the two states of a telegraph pixel"),
         integer("telegraph_frames", c.telegraph_frames, {1, 1e6},
-                "frames between two draws of a telegraph pixel's state"),
+                "number of frames between two random draws of a telegraph pixel's state"),
     };
 }
 

@@ -13,9 +13,9 @@ namespace hilcam {
 Fields fields(JitterConfig& c) {
     return {
         numbers("rms_arcsec", c.rms_rad, kArcsecond_rad, {0, 36000}, {2, 2},
-                "rms jitter about the camera's x and y axes, within any exposure"),
+                "rms jitter about the camera's x and y axes within one exposure"),
         table("psd", c.psd_arcsec2_hz, {"hz", "arcsec2_hz"}, {1e-6, 1e6}, {0, 1e12},
-              "one-sided power spectral density of each axis"),
+              "one-sided power spectral density of the jitter about each axis"),
     };
 }
 

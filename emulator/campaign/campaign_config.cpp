@@ -61,17 +61,18 @@ std::size_t VaryConfig::dimensions() const { return attitude || has_sphere ? 3 :
 
 Fields fields(VaryConfig& v) {
     Fields list = {
-        required(text("key", v.key, "key of the scenario, as --set has it: camera.exposure_ms")),
-        optional(texts("choice", v.choice, "values, of which each is as likely; null: without the key"),
+        required(text("key", v.key, "key of the scenario as for --set: camera.exposure_ms")),
+        optional(texts("choice", v.choice, "values of equal probability; null: without the key"),
                  v.has_choice),
         optional(numbers("whole", v.whole, 1, {-9e15, 9e15}, {2, 2},
-                         "least and most of a whole number, each as likely"),
+                         "limits of a uniformly distributed whole number"),
                  v.has_whole),
         optional(numbers("sphere", v.sphere, 1, {0, 1e13}, {2, 2},
-                         "least and most length of a vector, in the key's unit, even over all directions"),
+                         "limits of a vector's length, in the key's unit; its direction is uniform"),
                  v.has_sphere),
         flag("attitude", v.attitude,
-             "a quaternion [w, x, y, z], even over all attitudes (Shoemake, Graphics Gems III, 1992)"),
+             "true: a quaternion [w, x, y, z], uniform over all attitudes (Shoemake, Graphics Gems III, "
+             "1992)"),
     };
     for (Field& field : fields(v.draw))
         if (field.key != "choice") list.push_back(std::move(field));
@@ -97,26 +98,23 @@ void validate(const VaryConfig& v) {
 
 Fields fields(BeforeConfig& b) {
     return {choice("body", b.body, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
-                   "body before whose disk the target stands"),
+                   "body whose disk is behind the target"),
             number("share", b.share, 1, {0, 1},
-                   "share of the cases that are so; in the others the body is not behind the target")};
+                   "share of cases with the body behind the target; in the others it is not")};
 }
 
 Fields fields(ViewConfig& v) {
     return {
         section("size_px", v.size_px,
-                "apparent diameter of the sphere that holds the target, which gives the range [px]"),
-        section("range_m", v.range_m, "distance of the target's origin, instead of size_px [m]"),
-        section("phase_deg", v.phase_deg,
-                "angle Sun - target - camera; left out: even over all directions [deg]"),
+                "apparent diameter of the target's bounding sphere, which sets the range [px]"),
+        section("range_m", v.range_m, "distance to the target's origin, instead of size_px [m]"),
+        section("phase_deg", v.phase_deg, "angle Sun - target - camera; left out: uniform direction [deg]"),
         section("offset_share", v.offset_share,
-                "place of the target: how far from the frame's middle, as a share of the way to its edges, "
-                "along both axes; left out: 0, in the middle"),
-        section("roll_deg", v.roll_deg, "turn about the line of sight; left out: any [deg]"),
-        section(
-            "signal_dn", v.signal_dn,
-            "number that the lit part of a grey sphere of the target's reflectance would have, which gives "
-            "the exposure"),
+                "distance of the target from the frame's centre along each axis, as a share of the distance "
+                "to the edge; left out: 0, at the centre"),
+        section("roll_deg", v.roll_deg, "rotation about the line of sight; left out: random [deg]"),
+        section("signal_dn", v.signal_dn,
+                "DN of the lit part of a grey sphere with the target's reflectance, which sets the exposure"),
         section("before", v.before, "body in the background"),
     };
 }
@@ -133,25 +131,25 @@ void validate(const ViewConfig& v) {
 Fields fields(RequireConfig& r) {
     return {
         choice("in_field", r.in_field, {"any", "center", "whole"},
-               "part of the target that must be in the frame: any, its origin, or all of it"),
-        number("margin_px", r.margin_px, 1, {0, 1e5}, "distance that in_field keeps from the frame's edges"),
-        number(
-            "lit_share", r.lit_share, 1, {0, 1},
-            "least share of the target's visible pixels that face the Sun, times the share of the Sun that "
-            "bodies leave"),
+               "part of the target that must be in the frame: any part, its origin, or the whole target"),
+        number("margin_px", r.margin_px, 1, {0, 1e5},
+               "distance from the frame's edges that in_field requires"),
+        number("lit_share", r.lit_share, 1, {0, 1},
+               "smallest share of the target's visible pixels that face the Sun, times the share of the Sun "
+               "that no body hides"),
         number("visible_fraction", r.visible_fraction, 1, {0, 1},
-               "least share of the target's silhouette that is visible (docs/truth.md)"),
+               "least visible share of the target's silhouette (docs/truth.md)"),
         number("sunlit_fraction", r.sunlit_fraction, 1, {0, 1},
-               "least share of the Sun's light that bodies leave at the target"),
-        integer("visible_px", r.visible_px, {0, 1e9}, "least number of the target's visible pixels"),
+               "smallest share of sunlight at the target that no body hides"),
+        integer("visible_px", r.visible_px, {0, 1e9}, "smallest number of the target's visible pixels"),
         integer("tries", r.tries, {1, DrawSource::kMaxTries - 1.0},
-                "number of times that a case is drawn at most; then it has failed"),
+                "largest number of draws of a case; after them it has failed"),
     };
 }
 
 Fields fields(SplitConfig& s) {
     return {required(text("name", s.name, "name of the part: train, val, test")),
-            required(number("share", s.share, 1, {0, 1}, "share of the cases that fall to it"))};
+            required(number("share", s.share, 1, {0, 1}, "share of the cases in this part"))};
 }
 void validate(const SplitConfig& s) {
     if (!is_file_word(s.name))
@@ -161,23 +159,23 @@ void validate(const SplitConfig& s) {
 Fields fields(KeypointsConfig& k) {
     return {integer("object", k.object, {1, 1e6}, "number of the object, from 1"),
             required(path("file", k.file,
-                          "CSV with the columns name, x_m, y_m, z_m, in the object's axes, and part, where "
-                          "points turn with the node of a joint")),
+                          "CSV with the columns name, x_m, y_m, z_m, in the object's axes, and optionally "
+                          "part: the joint's node with which the point turns")),
             number("tolerance_m", k.tolerance_m, 1, {0, 1e6},
-                   "a point counts as hidden when something is nearer than it by more than that")};
+                   "distance by which a surface must be nearer than a point to hide it")};
 }
 
 Fields fields(PicturesConfig& p) {
     return {
-        choice("kind", p.kind, {"png", "tiff", "fits", "raw"}, "kind of file of the frames"),
-        flag("view", p.view, "an 8-bit PNG to look at beside each frame (docs/pictures.md)"),
+        choice("kind", p.kind, {"png", "tiff", "fits", "raw"}, "picture format of the frames"),
+        flag("view", p.view, "true: an 8-bit PNG to look at beside each frame (docs/pictures.md)"),
         texts("layers", p.layers,
-              "layers of truth to write as OpenEXR: object, range, depth, normal, position (docs/truth.md)"),
-        integer("count", p.count, {1, 1000}, "number of pictures of a case, one after the other"),
-        number("interval_s", p.interval_s, 1, {1e-6, 1e7}, "simulated time from one to the next [s]"),
-        flag("flow", p.flow, "optical flow from each picture to the next, as OpenEXR"),
+              "layers of truth written as OpenEXR: object, range, depth, normal, position (docs/truth.md)"),
+        integer("count", p.count, {1, 1000}, "number of successive pictures of a case"),
+        number("interval_s", p.interval_s, 1, {1e-6, 1e7}, "simulated time between successive pictures [s]"),
+        flag("flow", p.flow, "true: optical flow to the next picture is written as OpenEXR"),
         flag("variance", p.variance,
-             "variance of each pixel's number by noise of sensor and rendering [DN^2], as OpenEXR"),
+             "true: variance of each pixel's DN by sensor and rendering noise [DN^2] is written as OpenEXR"),
     };
 }
 void validate(const PicturesConfig& p) {
@@ -189,11 +187,11 @@ void validate(const PicturesConfig& p) {
 Fields fields(RunConfig& r) {
     return {
         texts("program", r.program,
-              "program that is started beside each run, with its arguments. {case}, {seed}, {slot}, "
-              "{case_folder}, {udp_port} and {tcp_port} stand for the case's; left out: none"),
-        texts("set", r.set, "KEY=VALUE for each run, in which these words stand for the case's, too"),
-        integer("frames", r.frames, {0, 1e9}, "frames of a run at most; 0: no limit"),
-        number("duration_s", r.duration_s, 1, {0, 1e7}, "seconds of a run at most; 0: no limit"),
+              "program started beside each run, with its arguments. {case}, {seed}, {slot}, {case_folder}, "
+              "{udp_port} and {tcp_port} stand for values of the case; left out: none"),
+        texts("set", r.set, "KEY=VALUE for each run, with the same placeholders as program"),
+        integer("frames", r.frames, {0, 1e9}, "largest number of frames of a run; 0: no limit"),
+        number("duration_s", r.duration_s, 1, {0, 1e7}, "longest duration of a run [s]; 0: no limit"),
     };
 }
 void validate(const RunConfig& r) {
@@ -206,28 +204,29 @@ Fields fields(CampaignConfig& c) {
     return {
         required(text("name", c.name, "name of the campaign")),
         required(text("scenario", c.scenario_name,
-                      "scenario file, from this one's folder, or the name of a shipped scenario")),
-        texts("set", c.set, "KEY=VALUE, as --set has them, for every case"),
+                      "file relative to this one's folder, or name of a shipped scenario")),
+        texts("set", c.set, "KEY=VALUE as for --set, for every case"),
         integer("camera", c.camera, {1, 16}, "number of the scenario's camera, from 1"),
-        integer("target", c.target, {1, 1e6}, "number of the object that view and require are about, from 1"),
+        integer("target", c.target, {1, 1e6}, "number of the target object of view and require, from 1"),
         integer("count", c.count, {1, 1e9}, "number of cases"),
-        integer("seed", c.seed, {0, 9e15}, "seed of all that is drawn"),
+        integer("seed", c.seed, {0, 9e15}, "seed of all random draws"),
         choice("sequence", c.sequence, {"random", "halton", "r_sequence"},
-               "places that cases are drawn by: random, or even over all that varies"),
-        path("table", c.table, "CSV whose columns are keys of the scenario: its first row is the first case"),
+               "sequence of the draws. random: independent; halton, r_sequence: evenly spread over all keys "
+               "that vary"),
+        path("table", c.table, "CSV with a column for each key of the scenario and a row for each case"),
         sections("vary", c.vary, "keys of the scenario that vary from case to case"),
         section("view", c.view,
-                "stand of the camera about the target; replaces camera_pose and camera_motion"),
-        section("require", c.require, "what a case must be; it is drawn again until it is"),
-        sections("splits", c.splits, "parts of the cases, by chance; left out: one, all"),
+                "placement of the camera relative to the target; replaces camera_pose and camera_motion"),
+        section("require", c.require, "requirements on a case, which is drawn again until it meets them"),
+        sections("splits", c.splits, "random parts of the cases; left out: a single part"),
         section("pictures", c.pictures, "pictures of each case"),
-        texts("labels", c.labels, "formats of labels to write: coco, bop, yolo, speed"),
+        texts("labels", c.labels, "label formats to write: coco, bop, yolo, speed"),
         sections("keypoints", c.keypoints, "key points of objects"),
         integer("shard_samples", c.shard_samples, {0, 1e7},
-                "pictures in each tar file for WebDataset; 0: no such files"),
-        section("run", c.run, "runs of the bench instead of pictures"),
+                "pictures in each tar file for WebDataset; 0: no tar files"),
+        section("run", c.run, "runs of the bench in place of pictures"),
         number("time_limit_s", c.time_limit_s, 1, {0.1, 1e7},
-               "time that a case may take; then it is ended and has failed [s]"),
+               "longest time of a case; then it is ended and has failed [s]"),
     };
 }
 
@@ -252,7 +251,7 @@ void validate(const CampaignConfig& c) {
     if (c.run && (!c.labels.empty() || !c.keypoints.empty() || c.shard_samples > 0))
         throw KeyError("run",
                        "runs have no labels; accepted: labels, keypoints and shard_samples without 'run'");
-    if (c.run && c.require.any()) throw KeyError("require", "is about pictures; accepted: without 'run'");
+    if (c.run && c.require.any()) throw KeyError("require", "applies to pictures; accepted: without 'run'");
 }
 
 CampaignConfig load_campaign(const std::filesystem::path& file, std::span<const std::string> overrides) {

@@ -37,8 +37,9 @@ CampaignFolder::CampaignFolder(const CampaignConfig& campaign, const std::filesy
     const bool is_new = !std::filesystem::exists(folder / "campaign.txt", error);
     if (is_new && std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error) &&
         !std::filesystem::exists(folder / "campaign.lock", error))
-        throw InputError("--out " + folder.string() +
-                         ": is not empty and no campaign's; accepted: a new folder, or this campaign's");
+        throw InputError(
+            "--out " + folder.string() +
+            ": is not empty and holds no campaign; accepted: a new folder, or this campaign's folder");
     std::filesystem::create_directories(folder, error);
     if (error) throw DeviceError(folder.string() + " cannot be made: " + error.message());
     take_lock(shared);
@@ -52,7 +53,7 @@ void CampaignFolder::take_lock(bool shared) {
     if (!lock_) throw DeviceError(file.string() + " cannot be written: " + std::strerror(errno));
     if (flock(lock_.get(), (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) return;
     if (errno != EWOULDBLOCK) return;  // a file system without locks
-    throw InputError("--out " + folder_.string() + ": somebody works on this campaign now" +
+    throw InputError("--out " + folder_.string() + ": another process is working on this campaign" +
                      (shared ? "" : "; accepted: --cases for several at once"));
 }
 

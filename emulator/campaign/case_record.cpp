@@ -80,7 +80,7 @@ std::optional<CaseRecord> read_record(const std::filesystem::path& folder, std::
         return r;
     } catch (const std::exception& problem) {
         throw InputError(file.string() + ": is no record of a case (" + plain_words(problem) +
-                         "); the case is to be made again");
+                         "); make the case again");
     }
 }
 

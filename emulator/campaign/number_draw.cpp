@@ -19,16 +19,15 @@ NumberDraw::Kind NumberDraw::kind() const {
 Fields fields(NumberDraw& d, Range range) {
     return {
         optional(number("value", d.value, 1, range, "the same number in every case"), d.has_value),
-        optional(numbers("uniform", d.uniform, 1, range, {2, 2},
-                         "least and most of a number that is equally likely in between"),
+        optional(numbers("uniform", d.uniform, 1, range, {2, 2}, "limits of a uniformly distributed number"),
                  d.has_uniform),
         optional(numbers("log_uniform", d.log_uniform, 1, range, {2, 2},
-                         "least and most, above 0, of a number whose logarithm is equally likely in between"),
+                         "limits, above 0, of a log-uniformly distributed number"),
                  d.has_log_uniform),
         optional(numbers("normal", d.normal, 1, {}, {2, 2},
-                         "mean and standard deviation of a normal number, which is cut at 6 of these"),
+                         "mean and standard deviation of a normal number, cut at 6 deviations"),
                  d.has_normal),
-        optional(numbers("choice", d.choice, 1, range, {1, 100000}, "numbers, of which each is as likely"),
+        optional(numbers("choice", d.choice, 1, range, {1, 100000}, "numbers of equal probability"),
                  d.has_choice),
     };
 }

@@ -157,12 +157,12 @@ std::string kalibr_text(std::span<const CameraCalibration> cameras) {
 CameraCalibration calibration_of(const CameraModel& camera) {
     if (camera.shutter.kind == ShutterKind::kLineScan)
         throw InputError(
-            "--calibration: camera.shutter.kind is line_scan, whose rows look along one line at different "
-            "times: no pinhole; accepted: global, rolling, frame_transfer");
+            "--calibration: camera.shutter.kind is line_scan, with one line of sight for all rows at "
+            "different times, which is no pinhole camera; accepted: global, rolling, frame_transfer");
     const ImageGeometry geometry = geometry_of(camera, 0);
     if (!geometry.distortion.polynomial.none())
         throw InputError(
-            "--calibration: camera has distortion_x_mm, distortion_y_mm, and none of the formats has a "
+            "--calibration: camera has distortion_x_mm, distortion_y_mm, and no format has such a "
             "polynomial; accepted: camera.distortion");
     const FrameLayout layout{camera.binning_x, camera.binning_y};
     const FrameRaster raster = raster_of(camera, 1, layout);
@@ -189,10 +189,10 @@ std::vector<CameraCalibration> calibrations_of(const ScenarioConfig& scenario, s
         c.number = i + 1;
         if (out.size() == 1) first = own.mount, first_number = c.number;
         if (own.mount.thing != first.thing)
-            throw InputError(fmt::format(
-                "--calibration: camera {} does not ride with camera {}, so it has no place beside "
-                "it that stays; give --camera N",
-                c.number, first_number));
+            throw InputError(
+                fmt::format("--calibration: camera {} is not on the body of camera {}, so their relative "
+                            "pose is not fixed; give --camera N",
+                            c.number, first_number));
         const Quat own_from_thing = conjugate(own.mount.thing_from_camera);
         c.own_from_first = to_matrix(own_from_thing * first.thing_from_camera);
         c.translation_m = to_matrix(own_from_thing) * (first.position_m - own.mount.position_m);

@@ -31,11 +31,10 @@ void judge_well(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     const double converter_share = s.converter_e / s.well_e;
     const double well_share = (s.well_dn - s.camera.offset_dn) / (s.max_dn - s.camera.offset_dn);
     if (s.well_e < kMinWell_e)
-        out.push_back(places.at(
-            "camera.full_well_e",
-            fmt::format("camera.full_well_e is {:.4g}: sensors of cameras hold thousands of electrons; does "
-                        "the data sheet count in ke-?",
-                        s.well_e)));
+        out.push_back(places.at("camera.full_well_e",
+                                fmt::format("camera.full_well_e is {:.4g}: sensors of cameras hold thousands "
+                                            "of electrons; is the data sheet's value in ke-?",
+                                            s.well_e)));
     else if (converter_share < kMinShare)
         out.push_back(places.at(
             "camera.gain_dn_e",
@@ -47,10 +46,9 @@ void judge_well(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     else if (well_share < kMinShare)
         out.push_back(places.at(
             "camera.gain_dn_e",
-            fmt::format(
-                "the camera's full well of {:.4g} e- is {:.3g} DN, {:.2g} % of what its converter takes: "
-                "camera.gain_dn_e or gain_db is too low (now {:.4g} DN/e-)",
-                s.well_e, s.well_dn, 100 * well_share, s.gain_dn_e)));
+            fmt::format("the camera's full well of {:.4g} e- is {:.3g} DN, {:.2g} % of its converter's "
+                        "range: camera.gain_dn_e or gain_db is too low (now {:.4g} DN/e-)",
+                        s.well_e, s.well_dn, 100 * well_share, s.gain_dn_e)));
 }
 
 // Half a DN is rounded up to the next.
@@ -78,10 +76,9 @@ void judge_black(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
         noise_dn * (std::exp(-0.5 * x * x) / std::sqrt(2 * kPi) - 0.5 * x * std::erfc(x / std::sqrt(2.0)));
     out.push_back(places.at(
         "camera.offset_dn",
-        fmt::format(
-            "camera.offset_dn is {:.4g}, and the noise in the dark {:.3g} DN: what lies below 0 is cut "
-            "off, which makes dark pixels {:.2g} DN too bright; {:.0f} would keep it",
-            s.camera.offset_dn, noise_dn, rise_dn, std::ceil(4 * noise_dn))));
+        fmt::format("camera.offset_dn is {:.4g}, and the noise in the dark {:.3g} DN: values below 0 are "
+                    "clipped, which makes dark pixels {:.2g} DN too bright; an offset of {:.0f} prevents it",
+                    s.camera.offset_dn, noise_dn, rise_dn, std::ceil(4 * noise_dn))));
 }
 
 void judge_period(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
@@ -99,11 +96,11 @@ void judge_period(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
 void judge_optics(const CameraSheet& s, const KeyPlaces& places, Lines& out) {
     const double pitch_um = s.camera.pitch_m * 1e6, lens_m = s.camera.focal_length_m / s.camera.f_number;
     if (pitch_um < kPitch_um[0] || pitch_um > kPitch_um[1])
-        out.push_back(
-            places.at("camera.pitch_um",
-                      fmt::format("camera.pitch_um is {:.4g}: pixels of cameras have {} to {} um; is the "
-                                  "point at its place?",
-                                  pitch_um, kPitch_um[0], kPitch_um[1])));
+        out.push_back(places.at(
+            "camera.pitch_um",
+            fmt::format(
+                "camera.pitch_um is {:.4g}: cameras have pixels of {} to {} um; is the decimal point right?",
+                pitch_um, kPitch_um[0], kPitch_um[1])));
     if (lens_m > kWidestLens_m)
         out.push_back(
             places.at("camera.focal_length_mm",

@@ -34,7 +34,7 @@ std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRend
         plan.largest_px);
     if (s.quality.motion == MotionQuality::kExact)
         out += fmt::format("; {} parts{}", plan.parts,
-                           plan.parts_limited ? " (the most there are; more asked for)" : "");
+                           plan.parts_limited ? " (the most possible; more were requested)" : "");
     if (s.quality.motion == MotionQuality::kExact && s.camera.shutter.kind == ShutterKind::kLineScan)
         out += " (a scanning line sees each place when it passes: as fast)";
     return out;
@@ -44,14 +44,14 @@ std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRend
 std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
     if (light.found + light.made == 0) return {};
     if (light.made == 0)
-        return fmt::format("tables of directions: {} on disk, read in {:.2g} s: runs begin with kept light",
+        return fmt::format("tables of directions: {} on disk, read in {:.2g} s: runs start with cached light",
                            light.found, light.seconds);
-    std::string out = fmt::format("tables of directions: {} made in {:.3g} s, from now on on disk",
-                                  light.made, light.seconds);
+    std::string out =
+        fmt::format("tables of directions: {} made in {:.3g} s and kept on disk", light.made, light.seconds);
     if (light.found > 0) out += fmt::format(" as {} were", light.found);
     const bool waits = s.mode == CameraMode::kLockstep || s.loop.wait_for_light;
-    return out + (waits ? "; a run waits for those that are not there"
-                        : "; a run that finds none begins with random paths and makes them beside its frames "
+    return out + (waits ? "; a run waits for missing ones"
+                        : "; a run without them starts with random paths and makes them meanwhile "
                           "(loop.wait_for_light)");
 }
 
@@ -89,7 +89,7 @@ std::string outside_line(const ScenarioConfig& s, ExposureRenderer& exposures) {
 }
 
 std::string seed_line(const ScenarioConfig& s) {
-    if (!s.has_seed) return "seed: none, so each run draws its own noise, and says its seed";
+    if (!s.has_seed) return "seed: none, so each run draws its own noise, and reports its seed";
     return fmt::format("seed: {}, so every run has the same noise in the same frame", s.seed);
 }
 
@@ -97,7 +97,7 @@ std::string loop_line(const ScenarioConfig& s) {
     const RealTime& w = s.loop.real_time;
     std::string out = s.loop.prefer == LoopPreference::kLatency
                           ? "loop: one frame at a time, each with all threads"
-                          : "loop: a frame is rendered while the one before is sensed";
+                          : "loop: a frame is rendered while the previous one is in the sensor";
     if (w.priority > 0) out += fmt::format("; real-time priority {}", w.priority);
     if (!w.cores.empty()) out += fmt::format("; on cores {}", fmt::join(w.cores, ", "));
     if (w.lock_memory) out += "; memory locked";

@@ -77,7 +77,7 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
                 origin_advice(o)));
             return;
         case SeenObject::Place::kHidden:
-            out.push_back(name + " is hidden: something stands before it");
+            out.push_back(name + " is hidden: something is in front of it");
             return;
         case SeenObject::Place::kVisible:
             break;
@@ -106,8 +106,9 @@ std::string exposure_fault(const CameraSheet& sheet, const ExpectedSignal& expec
     const bool by_converter = sheet.converter_e < sheet.well_e;
     if (sheet.camera.auto_exposure.on) return {};
     if (expected.full_scale > 2)
-        return fmt::format("saturates: about {:.3g} times what {} takes; {} is too high", expected.full_scale,
-                           by_converter ? "the converter" : "a pixel", exposure_keys(sheet, by_converter));
+        return fmt::format("saturates: about {:.3g} times the range of {}; {} is too high",
+                           expected.full_scale, by_converter ? "the converter" : "a pixel",
+                           exposure_keys(sheet, by_converter));
     if (expected.full_scale < kDim)
         return fmt::format("is dark: about {:.0f} DN of {:.0f}, {:.2g} % of full scale; {} is too low",
                            expected.dn, sheet.max_dn, 100 * expected.full_scale, exposure_keys(sheet, true));
@@ -126,7 +127,7 @@ void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraRepor
     const std::string name = "object '" + harmless(o.loaded.name) + "'";
     const auto warn = [&](const std::string& text) { out.push_back(s.places.at(key, name + " " + text)); };
     if (o.sunlit < kDark)
-        warn(fmt::format("is in eclipse: bodies leave it {:.2g} % of the Sun, and no lamp is lit",
+        warn(fmt::format("is in eclipse: {:.2g} % of the Sun is visible from it, and no lamp is lit",
                          100 * o.sunlit));
     else if (lit_share(o.phase_rad) < kDark)
         warn(fmt::format("shows its night side: phase angle {:.1f} deg", degrees(o.phase_rad)));
@@ -151,10 +152,9 @@ void judge_ground(const ScenarioConfig& s, const CameraReport& camera, std::vect
 void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector<std::string>& out) {
     if (!s.terrain) return;
     if (!sight.height_above_ground_m)
-        out.push_back(s.places.at(
-            "terrain",
-            "the camera is beside the terrain's map: terrain.place or pose, heights.spacing_m, or where the "
-            "camera is"));
+        out.push_back(s.places.at("terrain",
+                                  "the camera is outside the terrain's map: check terrain.place or pose, "
+                                  "heights.spacing_m, and the camera's position"));
     else if (*sight.height_above_ground_m < 0)
         out.push_back(
             s.places.at("camera_pose", fmt::format("the camera is {:.4g} m below the ground of the terrain",
@@ -191,7 +191,7 @@ std::vector<std::string> verdict_on_view(const ScenarioConfig& s, const CameraRe
     if (left > 0)
         out.push_back(s.places.at(
             "objects",
-            fmt::format("and {} more objects have warnings: --json tells where each of them is", left)));
+            fmt::format("and {} more objects have warnings: --json gives the place of each", left)));
     if (!shows_light(s, camera.sight))
         out.push_back(s.places.at("camera_pose", "nothing that is lit is in the picture: it will be black"));
     for (std::string& line : judge_camera(camera.sheet, camera.period_s > 0, s.places))
@@ -201,7 +201,7 @@ std::vector<std::string> verdict_on_view(const ScenarioConfig& s, const CameraRe
     if (camera.share_in_bins < 0.5)
         out.push_back(s.places.at(
             "spectrum_edges_um",
-            fmt::format("spectrum_edges_um leave out {:.0f} % of what the camera would see of sunlight",
+            fmt::format("spectrum_edges_um exclude {:.0f} % of the sunlight that the camera detects",
                         100 * (1 - camera.share_in_bins))));
     return out;
 }

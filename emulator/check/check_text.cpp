@@ -19,7 +19,7 @@ std::string place_text(const SeenObject& o) {
             return fmt::format("{:.3g} % of the picture, {:.0f} % of it in sight", 100 * o.picture_share,
                                100 * o.visible_fraction);
         case SeenObject::Place::kHidden:
-            return "hidden by something before it";
+            return "hidden by something in front of it";
         case SeenObject::Place::kOutside:
             return "outside the field";
         case SeenObject::Place::kBehind:
@@ -60,7 +60,7 @@ void add_object(const SeenObject& o, std::size_t number, const CameraSheet& shee
                              size_m.y, size_m.z, o.loaded.triangles, o.loaded.mean_reflectance()));
     line("place", fmt::format("{:.6g} m away, {:.2f} deg off the boresight; {}", o.distance_m,
                               degrees(o.off_boresight_rad), place_text(o)));
-    line("light", fmt::format("{}, {:.0f} % of the Sun is left to it", phase_text(o), 100 * o.sunlit));
+    line("light", fmt::format("{}, {:.0f} % of the Sun is visible from it", phase_text(o), 100 * o.sunlit));
     line("expected",
          fmt::format(
              "about {:.0f} DN of {:.0f} where it is lit, {:.2g} of full scale, SNR {:.3g}, at {:.4g} ms and "
@@ -120,7 +120,7 @@ void add_frame_time(const CameraReport& c, std::string& out) {
                        : "");
     if (c.is_late())
         out +=
-            "              longer than it has: a run lowers the quality, or misses exposures here "
+            "              longer than the frame period: a run lowers the quality, or misses exposures here "
             "(camera.frame_rate_hz, quality, loop.levels)\n";
 }
 

@@ -44,7 +44,7 @@ void look_at_processor(const BenchNeeds& n, const MachineFacts& m, Findings& out
     else
         out.good("processor", cores);
     if (m.governor.empty() || m.governor == "performance")
-        out.good("governor", m.governor.empty() ? "not told (a virtual machine, or fixed)" : m.governor);
+        out.good("governor", m.governor.empty() ? "not reported (a virtual machine, or fixed)" : m.governor);
     else
         out.note("governor", m.governor, "cpupower frequency-set -g performance keeps frame times even");
     if (m.realtime_priority < std::max(kLoopPriority, n.loop_priority) && !m.root)
@@ -64,8 +64,8 @@ void look_at_confinement(const MachineFacts& m, Findings& out) {
                               (m.confinement.seccomp ? ", seccomp" : ", no seccomp");
     if (m.confinement.landlock > 0 && m.confinement.seccomp) return out.good("confinement", found);
     out.note("confinement", found,
-             "files of others are read with fewer bounds (SECURITY.md); Linux 5.13 or later has both, with "
-             "'landlock' among the kernel's lsm= where that is set");
+             "untrusted files are read with less protection (SECURITY.md); Linux 5.13 or later has both, "
+             "with 'landlock' among the kernel's lsm= where that is set");
 }
 
 void look_at_interface(const BenchNeeds::Gige& need, const InterfaceFacts& i, const MachineFacts& m,
@@ -108,7 +108,7 @@ void look_at_network(const BenchNeeds& n, const MachineFacts& m, Findings& out) 
     for (std::size_t i = 0; i < n.ports.size() && i < m.port_faults.size(); ++i) {
         const BenchNeeds::Port& port = n.ports[i];
         if (m.port_faults[i].empty())
-            out.good("port", fmt::format("{} {} can be had", port.tcp ? "TCP" : "UDP", port.endpoint));
+            out.good("port", fmt::format("{} {} is free", port.tcp ? "TCP" : "UDP", port.endpoint));
         else
             out.problem("port", m.port_faults[i], "stop that program, or set " + port.key);
     }
@@ -138,16 +138,15 @@ void look_at_loopback_device(const BenchNeeds::V4l2& need, const MachineFacts& m
                            "usermod -aG video USER, then log in again");
     if (!device->takes_frames)
         return out.problem("v4l2 device",
-                           need.device + " takes no frames: another program feeds it, or it is a camera",
+                           need.device + " accepts no frames: another program feeds it, or it is a camera",
                            "stop that program (fuser -v " + need.device + "), or set outputs.v4l2.device");
     if (!device->exclusive_caps)
         out.note("v4l2 device", need.device + " says that it is an output and a camera at once",
-                 "browsers and others refuse such a one: load the module with exclusive_caps=1");
+                 "browsers and others refuse such a device: load the module with exclusive_caps=1");
     if (device->buffers == 1 || device->buffers == 2)
-        out.note("v4l2 device", fmt::format("{} has {} buffers going round", need.device, device->buffers),
-                 "a slow reader sees frames change under its eyes: load the module with max_buffers=4 "
-                 "(before 0.14 a "
-                 "reader that asked for fewer keeps them so until the module is reloaded)");
+        out.note("v4l2 device", fmt::format("{} has {} buffers", need.device, device->buffers),
+                 "a slow reader sees frames change while it reads them: load the module with max_buffers=4 "
+                 "(before 0.14 a reader that asked for fewer limits them until the module is reloaded)");
     out.good("v4l2 device", need.device + " " + in_quotes(device->label));
 }
 
@@ -174,7 +173,7 @@ void look_at_v4l2(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
             "crash the kernel)" +
                 std::string(m.loopback.counts_mapped_frames()
                                 ? ""
-                                : "; frames are not counted in mmap mode: metadata_row tells their ids") +
+                                : "; frames are not counted in mmap mode: metadata_row gives their ids") +
                 "; 0.14 and later are free of this");
     else
         out.good("v4l2loopback", "version " + m.loopback.name());
@@ -227,13 +226,13 @@ void look_at_time(const MachineFacts& m, Findings& out) {
         out.good("tai", fmt::format("TAI - UTC = {} s", m.tai_offset_s));
     out.good("pps",
              m.pps.empty()
-                 ? "none; nothing here needs one: with it chrony can hold the clock to a receiver's pulse"
+                 ? "none, and none is required; with one, chrony can lock the clock to a receiver's pulse"
                  : fmt::format("{}", fmt::join(m.pps, ", ")));
 }
 
 void look_at_cache(const MachineFacts& m, Findings& out) {
     if (m.cache.empty())
-        return out.note("cache", "no folder: what takes long to make is made at each start",
+        return out.note("cache", "no folder: slow preparations are repeated at each start",
                         "a folder in HILCAM_CACHE, or HOME");
     if (!m.cache_fault.empty())
         return out.problem("cache", m.cache_fault, "each command that uses the cache refuses it");

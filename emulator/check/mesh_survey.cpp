@@ -179,31 +179,30 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
     };
     if (s.probably_mm)
         out.push_back(
-            "it is very large: probably in millimetres; in the scenario 'scale: 0.001' makes metres of them");
+            "it is very large: probably in millimetres; 'scale: 0.001' in the scenario converts them to "
+            "metres");
     if (s.coarse_step_m > 0)
         out.push_back(
-            fmt::format("it is so far from its origin that single precision moves its corners by up to "
-                        "{:.2g} m: subtract "
-                        "the place of its middle from the coordinates",
+            fmt::format("it is so far from its origin that single precision moves its vertices by up to "
+                        "{:.2g} m: subtract its centre from the coordinates",
                         s.coarse_step_m));
     for (const std::string& file : s.missing_materials)
-        out.push_back(
-            fmt::format("no file {}: surfaces whose materials it would have are grey", in_quotes(file)));
+        out.push_back(fmt::format("no file {}: surfaces with its materials are grey", in_quotes(file)));
     out.insert(out.end(), s.unreadable_textures.begin(), s.unreadable_textures.end());
     out.insert(out.end(), s.remarks.begin(), s.remarks.end());
     for (const std::string& look : s.left_out) out.push_back(harmless(look));
     tell(s.open_edges, "open edges", "the mesh is not closed there, and shows its other side");
-    tell(s.inconsistent_edges, "inconsistent edges", "the triangles on both sides look to different sides");
-    tell(s.inverted_shells, "inverted shells", "closed surfaces whose triangles look inwards");
+    tell(s.inconsistent_edges, "inconsistent edges", "the two triangles at the edge face opposite sides");
+    tell(s.inverted_shells, "inverted shells", "closed surfaces with triangles that face inwards");
     tell(s.crowded_edges, "edges of three triangles or more",
-         "surfaces that meet inside others, or are there twice");
+         "surfaces that meet inside others, or are duplicated");
     tell(s.opposed_normals, "triangles with opposed normals",
-         "the file's normals look to the other side than the order of the corners");
-    tell(s.leaning_normals, "facets with leaning normals",
-         "the file's normals are not those of the corners' order, which counts");
-    tell(s.collapsed_triangles, "collapsed triangles", "two corners at one place; they are left out");
-    tell(s.sliver_triangles, "slivers", "triangles whose corners are on a line");
-    tell(s.repeated_triangles, "repeated triangles", "which of two on the same places is seen is chance");
+         "the file's normals are opposite to the vertex order");
+    tell(s.leaning_normals, "facets with tilted normals",
+         "the file's normals differ from the vertex order, which is used");
+    tell(s.collapsed_triangles, "collapsed triangles", "two vertices at one place; they are left out");
+    tell(s.sliver_triangles, "slivers", "triangles with vertices on one line");
+    tell(s.repeated_triangles, "repeated triangles", "either of two triangles in the same place may be seen");
     return out;
 }
 

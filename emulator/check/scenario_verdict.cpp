@@ -33,10 +33,10 @@ Lines mesh_warnings(const ObjectConfig& object, const std::string& key, const Ke
     Lines out;
     const std::string name = key + ": '" + harmless(object.mesh.filename().string()) + "'";
     if (survey.inverted_shells > 0)
-        out.push_back(places.at(
-            key, fmt::format("{} is inside out: the triangles of {} of its {} closed surfaces look inwards "
-                             "('hilcam mesh' tells more); turn their corners round",
-                             name, survey.inverted_shells, survey.shells)));
+        out.push_back(
+            places.at(key, fmt::format("{} is inside out: the triangles of {} of its {} closed surfaces face "
+                                       "inwards ('hilcam mesh' lists them); reverse their vertex order",
+                                       name, survey.inverted_shells, survey.shells)));
     for (const std::string& file : survey.missing_materials)
         out.push_back(places.at(key, name + " names the materials " + in_quotes(file) +
                                          ", and there is no such file: its surfaces are grey"));
@@ -59,8 +59,8 @@ Lines star_warnings(const ScenarioConfig& s) {
     if (red == 0) return {};
     return {s.places.at(
         "stars.catalogue",
-        fmt::format("{} of its stars have a B-V above 1.5, which says little of M stars: in the red "
-                    "they are up to 0.8 mag off; columns v_i or spectral_type tell",
+        fmt::format("{} of its stars have a B-V above 1.5, which is inaccurate for M stars: in the red they "
+                    "are up to 0.8 mag off; a column v_i or spectral_type prevents it",
                     red))};
 }
 

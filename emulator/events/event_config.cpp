@@ -20,10 +20,10 @@ constexpr Range kDistance_m{0, 1e16}, kAngle_deg{0, 180};
 void add_limits(Fields& list, const std::string& word, const std::string& unit, EventLimitsConfig& limits,
                 double si_per_unit, Range range, const std::string& meaning) {
     list.push_back(optional(
-        number(word + "_below_" + unit, limits.below, si_per_unit, range, meaning + " is smaller than this"),
+        number(word + "_below_" + unit, limits.below, si_per_unit, range, meaning + " is below this"),
         limits.has_below));
     list.push_back(optional(
-        number(word + "_above_" + unit, limits.above, si_per_unit, range, meaning + " is larger than this"),
+        number(word + "_above_" + unit, limits.above, si_per_unit, range, meaning + " is above this"),
         limits.has_above));
 }
 
@@ -39,18 +39,18 @@ Fields fields(EventConditionConfig& c) {
     add_limits(list, "distance", "m", c.distance_m, 1, kDistance_m,
                "true while the distance from the camera to the object's origin");
     add_limits(list, "off_boresight", "deg", c.off_boresight_rad, kDegree_rad, kAngle_deg,
-               "true while the angle between the camera's +z and the way to the object");
+               "true while the angle from the camera's +z to the object");
     add_limits(list, "phase", "deg", c.phase_rad, kDegree_rad, kAngle_deg,
-               "true while the angle at the object between Sun and camera");
+               "true while the phase angle (Sun - object - camera)");
     add_limits(list, "sun_off_boresight", "deg", c.sun_off_boresight_rad, kDegree_rad, kAngle_deg,
-               "true while the angle between the camera's +z and the Sun");
+               "true while the angle from the camera's +z to the Sun");
     list.push_back(choice("light", c.light, {"any", "lit", "eclipsed"},
-                          "condition on sunlight: lit where no body hides the Sun's middle from the object, "
-                          "eclipsed where one does; without an object, from the camera"));
+                          "condition on sunlight. lit: no body hides the Sun's centre from the object; "
+                          "eclipsed: a body hides it. Without an object: from the camera"));
     list.push_back(number("margin_m", c.margin_m, 1, kDistance_m,
-                          "distance past its limit at which a condition that held ceases to hold"));
+                          "hysteresis: distance beyond the limit at which a true condition becomes false"));
     list.push_back(number("margin_deg", c.margin_rad, kDegree_rad, kAngle_deg,
-                          "angle past its limit at which a condition that held ceases to hold"));
+                          "hysteresis: angle beyond the limit at which a true condition becomes false"));
     return list;
 }
 
@@ -70,30 +70,27 @@ void validate(const EventConditionConfig& c) {
 Fields fields(EventConfig& e) {
     return {
         text("name", e.name, "name of the event, for 'after' and the log"),
-        optional(number("at_s", e.at_s, 1, {0, 1e9}, "simulated time of the event, from the start"),
+        optional(number("at_s", e.at_s, 1, {0, 1e9}, "simulated time of the event from the start"),
                  e.has_at_s),
         optional(text("at_utc", e.at_utc, "simulated time of the event, in UTC"), e.has_at_utc),
         optional(integer("at_frame", e.at_frame, {1, 9e15},
-                         "frame of the first camera for which the event happens"),
+                         "number of the first camera's frame at which the event happens"),
                  e.has_at_frame),
         optional(
-            text("after", e.after, "name of another event: this one happens each time that has happened"),
+            text("after", e.after, "name of another event; this event happens after each of its occurrences"),
             e.has_after),
-        number("delay_s", e.delay_s, 1, {0, 1e9}, "delay behind the event named by 'after'"),
-        optional(
-            section("when", e.when,
-                    "condition: the event happens once this has become true of a frame of the first camera"),
-            e.has_when),
-        number("every_s", e.every_s, 1, {0, 1e9},
-               "time after which an event with 'at_s' or 'at_utc' happens again and again"),
-        integer("times", e.times, {0, 9e15},
-                "greatest number of times that the event happens; 0: without end"),
+        number("delay_s", e.delay_s, 1, {0, 1e9}, "delay after the event named by 'after'"),
+        optional(section("when", e.when,
+                         "condition; the event happens when it becomes true in a frame of the first camera"),
+                 e.has_when),
+        number("every_s", e.every_s, 1, {0, 1e9}, "period of repetition of an event with 'at_s' or 'at_utc'"),
+        integer("times", e.times, {0, 9e15}, "largest number of times that the event happens; 0: no limit"),
         number("again_after_s", e.again_after_s, 1, {0, 1e9},
-               "least time between two happenings of an event with 'when'"),
+               "shortest time between two occurrences of an event with 'when'"),
         integer("camera", e.camera, {0, 65535},
-                "camera that the settings, faults and triggers are for; 0: every camera"),
+                "camera that receives the settings, faults and triggers; 0: every camera"),
         required(
-            texts("do", e.actions, "commands in the words of 'hilcam send'; or end, which ends the run")),
+            texts("do", e.actions, "commands in the words of 'hilcam send', or end, which ends the run")),
     };
 }
 
@@ -134,12 +131,12 @@ std::string_view refusal_of(const Command& command) {
             },
             [](const OneOf<PingCommand, SubscribeCommand> auto&) { return "does nothing to a camera"sv; },
             [](const PoseCommand& p) {
-                return is_possible(p.motion) ? ""sv : "is out of the bounds of motion (docs/motion.md)"sv;
+                return is_possible(p.motion) ? ""sv : "exceeds the limits of motion (docs/motion.md)"sv;
             },
             [](const JointCommand& j) {
                 return is_possible_turn_of_joint(j.angle_rad, j.rate_rad_s)
                            ? ""sv
-                           : "is out of the bounds of motion (docs/motion.md)"sv;
+                           : "exceeds the limits of motion (docs/motion.md)"sv;
             },
             [](const OneOf<StartCommand, StopCommand, FaultCommand, ExposeCommand, TriggerModeCommand,
                            ClockCommand, LampCommand> auto&) { return ""sv; },

@@ -48,7 +48,7 @@ SceneBody load_body(BodyId id, const std::string& name, const Figure& figure, co
     if (config.visible && !config.height_map.empty()) body.relief = load_relief(name, figure, config);
     body.planetshine = config.planetshine;
     if (config.rings && id != BodyId::kSaturn)
-        throw InputError(name + ".rings: found true; accepted: saturn alone has rings");
+        throw InputError(name + ".rings: found true; accepted: rings are for saturn alone");
     body.rings = config.rings;
     return body;
 }

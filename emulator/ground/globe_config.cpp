@@ -4,16 +4,16 @@ namespace hilcam {
 
 Fields fields(GlobeConfig& g) {
     return {
-        required(text("body", g.body, "body whose ground it is: one of the program's, or of `bodies`")),
+        required(text("body", g.body, "body of the ground: a built-in one, or one of `bodies`")),
         sections("maps", g.maps,
-                 "maps of heights, albedo and other figures by place; where several lie over each other the "
-                 "finest counts"),
-        section("relief", g.relief, "seeded relief between the posts of the maps; left out: none"),
+                 "maps of heights, albedo and other values by place; where maps overlap, the finest is used"),
+        section("relief", g.relief, "seeded relief finer than the maps' posts; left out: none"),
         section("craters", g.craters, "seeded craters; left out: none"),
         section("boulders", g.boulders, "seeded boulders; left out: none"),
         integer("memory_mb", g.memory_mb, {32, 1'000'000},
-                "greatest memory of maps and ground that is kept, beside the triangles in use"),
-        number("finest_m", g.finest_m, 1, {1e-3, 1e6}, "least distance of the ground's vertices, about"),
+                "largest memory for cached maps and ground, beside the triangles in use"),
+        number("finest_m", g.finest_m, 1, {1e-3, 1e6},
+               "approximate smallest distance between ground vertices"),
     };
 }
 

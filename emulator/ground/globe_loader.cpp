@@ -23,7 +23,7 @@ ReliefSettings complete(ReliefSettings relief, const GlobeConfig& globe, const M
     }
     if (maps.empty())
         throw InputError(
-            "terrain.globe.relief: there is no map of heights to be measured; accepted: with deviation_m and "
+            "terrain.globe.relief: there is no height map to measure; accepted: with deviation_m and "
             "longest_m");
     if (!(relief.longest_m > 0)) relief.longest_m = 2 * spacing_m;
     if (relief.deviation_m > 0) return relief;
@@ -52,7 +52,7 @@ std::unique_ptr<const BoulderField> boulders_of(const GlobeConfig& globe, const 
         if (map.kind != GroundKind::kRockAbundance) continue;
         if (!globe.boulders)
             throw InputError(map.where + ": kind: found rock_abundance without boulders; accepted: with " +
-                             "terrain.globe.boulders, which says their sizes");
+                             "terrain.globe.boulders, which gives their sizes");
         maps.push_back(open_ground_map(map, body));
     }
     if (!globe.boulders || (maps.empty() && !(globe.boulders->abundance > 0))) return nullptr;

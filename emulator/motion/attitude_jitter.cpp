@@ -11,10 +11,9 @@ namespace hilcam {
 
 Fields fields(JitterBand& j) {
     return {
-        vector3("rms_arcsec", j.rms_rad, kArcsecond_rad, {0, 36000},
-                "rms jitter about each of the body's axes"),
-        number("min_hz", j.min_hz, 1, {0, 1e5}, "frequency at which the flat spectrum begins"),
-        number("max_hz", j.max_hz, 1, {1e-6, 1e5}, "frequency at which the flat spectrum ends"),
+        vector3("rms_arcsec", j.rms_rad, kArcsecond_rad, {0, 36000}, "rms jitter about each body axis"),
+        number("min_hz", j.min_hz, 1, {0, 1e5}, "lower end of the flat spectrum"),
+        number("max_hz", j.max_hz, 1, {1e-6, 1e5}, "upper end of the flat spectrum"),
     };
 }
 

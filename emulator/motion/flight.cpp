@@ -14,7 +14,7 @@ Motion CircleFlight::at(double seconds, TimeTai time) const {
     const Vec3d across = from_center - along * n;
     if (!is_finite(n) || !(length(across) > 0) || !(period_s != 0))
         throw InputError(
-            "circle: the start must lie off the axis through the centre, and the period must not be 0");
+            "circle: the start must be off the axis through the centre, and the period must not be 0");
     const double rate_rad_s = 2 * kPi / period_s;
     const double angle = rate_rad_s * seconds;
     const Vec3d turned = std::cos(angle) * across + std::sin(angle) * cross(n, across);

@@ -79,9 +79,10 @@ std::string MotionSource::gap_at(TimeTai time) const {
     const auto gap_of = [&](const auto& part) -> std::string {
         const MotionValidity v = part.validity(time);
         if (v.status == MotionStatus::kOk) return {};
-        const char* why = v.status == MotionStatus::kBefore  ? "begins at "
-                          : v.status == MotionStatus::kAfter ? "ends at "
-                                                             : "has a gap there; the nearest it knows is ";
+        const char* why = v.status == MotionStatus::kBefore ? "begins at "
+                          : v.status == MotionStatus::kAfter
+                              ? "ends at "
+                              : "has a gap there; the nearest instant in it is ";
         return part.name() + ": found the instant " + format_utc(time) + "; it " + why +
                format_utc(v.nearest);
     };
@@ -120,7 +121,7 @@ MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
         if (!done[0][i] || !done[1][i])
             throw InputError(
                 "motion of " + in_quotes(names[i]) +
-                ": follows a thing that follows it; accepted: things that do not go round in a circle");
+                ": follows itself, directly or through other things; accepted: motions without a cycle");
 }
 
 std::string MotionSources::gap_at(TimeTai time) const {

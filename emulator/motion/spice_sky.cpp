@@ -114,7 +114,7 @@ class SpiceSky final : public BodySource {
                 " is about the Sun; accepted: with an ephemeris of the planets (DE), which has the Sun");
         if (validity.status != MotionStatus::kOk)
             throw InputError(key + ": the kernels do not know where " + std::to_string(code) +
-                             " is at the scenario's start; the nearest instant they know is " +
+                             " is at the scenario's start; the nearest instant in them is " +
                              format_utc(validity.nearest));
         if (!knows(code, kSun, origin_coverage_.et_s(start), origin_at_start_))
             throw InputError(key + ": where " + std::to_string(code) +

@@ -31,7 +31,7 @@ std::vector<std::string> check_recording(const RecordingHeader& there, const std
                                          const RecordingHeader& here, bool force) {
     std::vector<std::string> warnings;
     const auto refuse = [&](const std::string& what) {
-        if (!force) throw InputError(name + ": " + what + "; --force replays it all the same");
+        if (!force) throw InputError(name + ": " + what + "; --force replays it anyway");
         warnings.push_back(name + ": " + what + ": frames may differ");
     };
     if (there.program != here.program)
@@ -195,7 +195,7 @@ std::string Replay::refusal_of(const FrameUse& use) const {
     for (const std::int64_t ns :
          {use.begin_ns, use.middle_ns, use.end_ns, use.exposure_mid.ns / 2, use.shown_at.ns / 2})
         if (ns < -kFarthest_ns || ns > kFarthest_ns) return "its time cannot be";
-    if (!(use.moving >= 0 && use.moving <= 1)) return "the world moves for more than its exposure";
+    if (!(use.moving >= 0 && use.moving <= 1)) return "the motion is longer than the exposure";
     if (use.id <= last_id_) return "its number is not after that of the frame before";
     if (!(use.exposure_s > 0 && use.exposure_s <= 1e5)) return "its exposure is not 0 to 1e5 s";
     if (!(std::abs(use.gain_db) <= 200)) return "its gain is not -200 to 200 dB";

@@ -336,14 +336,12 @@ void Emulator::print_level_changes() {
         while (station->loop().take_level_change(change))
             if (change.budget_ms > 0)
                 spdlog::info(
-                    "{}: from frame {} on quality level {} instead of {}, whose frames took {:.2f} ms "
-                    "({:.2f} ms "
-                    "are allowed)",
+                    "{}: from frame {} on quality level {} instead of {}, at which frames took {:.2f} ms "
+                    "({:.2f} ms are allowed)",
                     station->name(), change.frame, change.to, change.from, change.mean_ms, change.budget_ms);
             else
                 spdlog::info(
-                    "{}: from frame {} on quality level {} instead of {}, as frames may take as long as they "
-                    "like",
+                    "{}: from frame {} on quality level {} instead of {}, as frames have no time limit",
                     station->name(), change.frame, change.to, change.from);
 }
 
@@ -351,9 +349,8 @@ void Emulator::print_level_changes() {
 void Emulator::print_held_motion() {
     if (reported_held_motion_ || first().world().held() == 0) return;
     reported_held_motion_ = true;
-    spdlog::warn(
-        "a source of motion does not know the simulated time any more: {}; what it moves stands still there",
-        first().world().first_gap());
+    spdlog::warn("simulated time is outside a motion's data: {}; the thing that it moves stands still",
+                 first().world().first_gap());
 }
 
 // Logs once that a motion source or a command leads to an impossible value.
@@ -361,8 +358,8 @@ void Emulator::print_impossible_motion() {
     if (reported_impossible_motion_ || first().world().impossible() == 0) return;
     reported_impossible_motion_ = true;
     spdlog::warn(
-        "the motion of {} is no number or out of its bounds (docs/motion.md): it stays as it was, and frames "
-        "have the flag impossible_motion",
+        "the motion of {} is not a number or exceeds its limits (docs/motion.md): it keeps its last value, "
+        "and frames have the flag impossible_motion",
         first().world().first_impossible());
 }
 

@@ -93,7 +93,7 @@ void EventDirector::drive() {
     }
     if (asks_to_end() || stopping_.load()) return;
     if (picture_refused_)
-        spdlog::warn("the camera takes no pictures any more: events have ended, and the run");
+        spdlog::warn("the camera takes no more pictures: an event has ended the run");
     else
         spdlog::info("no event is left that takes a picture: the run ends");
     asks_to_end_.store(true);

@@ -187,9 +187,9 @@ std::vector<SeenGroundThing> seen_things(GroundThings kind, const GlobeConfig& g
         out.push_back(seen);
         // Stops here, because computing more heights would take long.
         if (static_cast<double>(out.size()) > limits.most)
-            throw InputError(fmt::format(
-                "{}: there are more of them in the picture than a list can have; accepted: {:.0f}",
-                limits.keys, limits.most));
+            throw InputError(
+                fmt::format("{}: the picture has more of them than a list can hold; accepted: {:.0f}",
+                            limits.keys, limits.most));
     }
     return out;
 }

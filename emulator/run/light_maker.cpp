@@ -47,7 +47,8 @@ void LightMaker::run() {
         done_.store(true, std::memory_order_release);
     } catch (const GivenUp&) {
     } catch (const std::exception& error) {
-        spdlog::error("light between surfaces cannot be kept ({}): frames stay without", plain_words(error));
+        spdlog::error("light between surfaces cannot be cached ({}): frames use random paths",
+                      plain_words(error));
     }
 }
 

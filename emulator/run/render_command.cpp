@@ -125,8 +125,8 @@ void require_parts(const ScenarioConfig& s, bool pixel) {
         throw InputError("--parts and --pixel: " + why);
     if (pixel && s.quality.render.sees_ground() && s.quality.render.ground_step_px > 1)
         throw InputError(
-            "--pixel: three of four pixels of the ground are made of their neighbours; found "
-            "quality.ground_step_px: 2; accepted: --set quality.ground_step_px=1");
+            "--pixel: three of four pixels of the ground are interpolated; found quality.ground_step_px: 2; "
+            "accepted: --set quality.ground_step_px=1");
 }
 
 // The requested parts of a picture's light, and the record of a pixel.

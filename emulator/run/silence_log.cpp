@@ -10,7 +10,7 @@ constexpr std::int64_t kBetweenSilenceLines_ns = 10'000'000'000;
 const char* meaning_of(WhenStale what) {
     switch (what) {
         case WhenStale::kPropagate:
-            return "things move on by their last velocities";
+            return "things move on with their last velocities";
         case WhenStale::kHold:
             return "the world stands";
         case WhenStale::kBlack:

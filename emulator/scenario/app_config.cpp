@@ -23,9 +23,9 @@ namespace hilcam {
 Fields fields(StarsConfig& s) {
     return {
         path("catalogue", s.catalogue, s.catalogue_where,
-             "CSV in the form of configs/stars/hipparcos.csv; left out: no stars"),
+             "CSV in the format of configs/stars/hipparcos.csv; left out: no stars"),
         number("faintest_magnitude", s.faintest_magnitude, 1, {-2, 30},
-               "magnitude of the faintest stars shown; fainter ones are left out"),
+               "magnitude of the faintest stars shown"),
     };
 }
 
@@ -37,9 +37,9 @@ EventWorld event_world(const ScenarioConfig& s) {
 }
 
 Fields fields(PluginConfig& p) {
-    return {required(path("file", p.file,
-                          "shared library that adds models (render/frame/plugin.h); its code runs by check, "
-                          "too"))};
+    return {required(
+        path("file", p.file,
+             "shared library that adds models (render/frame/plugin.h); `hilcam check` also runs its code"))};
 }
 
 ScenarioConfig::ScenarioConfig() {
@@ -53,63 +53,61 @@ Fields fields(ScenarioConfig& s) {
                       "simulated time at the start, in UTC: 2026-03-20T12:00:00Z; the Z may be left out")),
         beside_frames(section("clock", s.clock, "rate of simulated time")),
         optional(integer("seed", s.seed, {0, 9e15},
-                         "seed of all random numbers of a run; without the key, run and render draw a seed "
-                         "of their own, and all other commands take 1"),
+                         "seed of all random numbers of a run; left out: run and render draw one, all other "
+                         "commands use 1"),
                  s.has_seed),
         beside_frames(integer("threads", s.threads, {0, 1024},
-                              "number of threads that render and sense; 0: one per core")),
-        section("origin", s.origin, "choice of the world's origin; the world's axes are ICRF"),
+                              "number of threads for rendering and the sensor; 0: one per core")),
+        section("origin", s.origin, "origin of the world; its axes are ICRF"),
         section("site", s.site,
-                "place of the local axes, on the origin's body; left out: at terrain.place, or at "
-                "an origin that turns"),
+                "origin of the local axes, on the origin's body; left out: terrain.place, or the origin "
+                "itself if it turns with a body"),
         required(section("camera", s.camera, "data sheet of the camera")),
-        optional(section("camera_pose", s.camera_pose,
-                         "place and attitude of the camera until commands say otherwise"),
+        optional(section("camera_pose", s.camera_pose, "pose of the camera until a command changes it"),
                  s.has_camera_pose),
         section("camera_motion", s.camera_motion,
-                "motion of the camera's body until commands say otherwise; replaces camera_pose"),
+                "motion of the camera's body until a command changes it; replaces camera_pose"),
         section("leap_seconds", s.leap_seconds, "table of leap seconds; replaces the built-in one"),
-        section(
-            "spice", s.spice,
-            "kernels of NAIF's SPICE, which say where things are and how they are turned (docs/spice.md)"),
+        section("spice", s.spice,
+                "SPICE kernels of NAIF, which give positions and attitudes (docs/spice.md)"),
         section("earth_orientation", s.origin.earth,
-                "orientation of the Earth as the IERS measures it (Bulletin A); without it UT1 is UTC and "
-                "the pole stands still"),
+                "orientation of the Earth as measured by the IERS (Bulletin A); left out: UT1 equals UTC, "
+                "without polar motion"),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
         section("terrain", s.terrain, "ground from a height map"),
         sections("lamps", s.lamps,
-                 "light sources carried by things; commands number them from 1 (docs/lamps.md)"),
-        section("sun", s.sun, "light and place of the Sun"),
-        section("atmosphere", s.atmosphere, "air of the Earth"),
+                 "light sources carried by the camera's body or objects; commands number them from 1 "
+                 "(docs/lamps.md)"),
+        section("sun", s.sun, "light and position of the Sun"),
+        section("atmosphere", s.atmosphere, "atmosphere of the Earth"),
         section("earth_surface", s.earth_surface,
                 "land, sea, clouds and lights of the Earth (docs/earth.md)"),
         section("stars", s.stars, "stars in the sky"),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
                 "edges of the spectral bins"),
         optional(section("rays", s.models.rays,
-                         "way in which pixels become rays, where it is not the one of the camera's shutter"),
+                         "ray model of the pixels, where it differs from that of the camera's shutter"),
                  s.has_rays),
-        text("radiance", s.models.radiance, "radiance model: reflected | emissive, or a plug-in's"),
+        text("radiance", s.models.radiance, "radiance model: reflected, emissive, or a plug-in's"),
         sections("plugins", s.plugins, "shared libraries that add models"),
-        section("quality", s.quality, "trade of speed against accuracy"),
+        section("quality", s.quality, "trade-off between speed and accuracy"),
         section("loop", s.loop, "timing of the frame loop"),
         choice("mode", s.mode, {"free_run", "triggered", "lockstep"},
-               "cause of a frame: the camera's rate (free_run), a trigger (triggered), or an `expose` "
-               "command, one frame each, in simulated time (lockstep)"),
-        sections("more_cameras", s.more_cameras, "further cameras beside the first, in the same world"),
-        beside_frames(sections("faults", s.faults, "faults that strike by themselves")),
-        beside_frames(sections("events", s.events,
-                               "things that happen by themselves, at a time or when something becomes true")),
+               "start of each frame: the camera's frame rate (free_run), a trigger (triggered), or an "
+               "`expose` command, one frame each, in simulated time (lockstep)"),
+        sections("more_cameras", s.more_cameras, "further cameras in the same world"),
+        beside_frames(sections("faults", s.faults, "faults that the scenario injects")),
+        beside_frames(sections("events", s.events, "actions of the scenario at a time or on a condition")),
         beside_frames(section("commands", s.commands, "sources of commands")),
         beside_frames(
-            section("telemetry", s.telemetry, "receivers that get frame reports and housekeeping unasked")),
+            section("telemetry", s.telemetry, "receivers of unrequested frame reports and housekeeping")),
         beside_frames(section("outputs", s.outputs, "destinations of frames")),
     };
-    list.push_back(sections(
-        "bodies", s.own_bodies,
-        "round bodies of the scenario's own, up to 8: moons of planets, asteroids (docs/bodies.md)"));
+    list.push_back(
+        sections("bodies", s.own_bodies,
+                 "round bodies of the scenario, up to 8: moons of planets, asteroids (docs/bodies.md)"));
     for (std::size_t i = 0; i < kBodyCount; ++i)
-        list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "look of the body of that name"));
+        list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "look of this body"));
     return list;
 }
 
@@ -177,7 +175,7 @@ void check_vizard(const ScenarioConfig& s) {
 std::string governor_off(const ScenarioConfig& s) {
     if (s.loop.levels_fixed) return "loop.levels is fixed";
     if (s.loop.budget_is_of_rate() && !s.loop.holds_rate)
-        return "loop.frame_budget_ms is auto, and no rate is to be held";
+        return "loop.frame_budget_ms is auto, and no frame rate is set";
     if (s.loop.frame_budget_s >= 0 && !(s.loop.frame_budget_s > 0)) return "loop.frame_budget_ms is 0";
     if (s.mode == CameraMode::kLockstep) return "lockstep: the same commands give the same frames";
     return "";

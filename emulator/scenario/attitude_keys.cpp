@@ -25,33 +25,31 @@ std::vector<const char*> given_keys(const AttitudeForms& a, const AttitudeWords&
 Fields attitude_keys(AttitudeForms& a, const AttitudeWords& words) {
     const std::string body = words.body, frame = words.frame;
     Fields list = {
-        optional(
-            quaternion(words.quaternion_key, a.wxyz,
-                       "quaternion that turns " + body + " axes into those of " + frame + ", scalar first"),
-            a.has_wxyz),
+        optional(quaternion(words.quaternion_key, a.wxyz,
+                            "quaternion that transforms components in " + body + " axes into components in " +
+                                frame + ", scalar first"),
+                 a.has_wxyz),
         optional(vector3("attitude_mrp", a.mrp, 1, {-1e3, 1e3},
-                         "instead: modified Rodrigues parameters of the " + body + " against " + frame +
+                         "instead: modified Rodrigues parameters of the " + body + " relative to " + frame +
                              ", like Basilisk's sigma_BN"),
                  a.has_mrp),
         optional(numbers("attitude_dcm", a.dcm, 1, {-1.001, 1.001}, {9, 9},
-                         "instead: direction cosines row by row; the rows are the " + body + "'s axes in " +
-                             frame + " ([BN], which takes its components to the " + body + "'s)"),
+                         "instead: direction cosine matrix row by row; the rows are the " + body +
+                             " axes in " + frame + " ([BN], which transforms components in " + frame +
+                             " into components in " + body + " axes)"),
                  a.has_dcm),
-        optional(
-            vector3("attitude_euler_deg", a.euler_rad, kDegree_rad, {-360, 360},
-                    "instead: Euler angles that turn the axes of " + frame + " into those of the " + body +
-                        " one after the other, each about an axis as it then stands, with "
-                        "euler_sequence"),
-            a.has_euler),
+        optional(vector3("attitude_euler_deg", a.euler_rad, kDegree_rad, {-360, 360},
+                         "instead: Euler angles of successive rotations from axes of " + frame + " to " +
+                             body + " axes, each about an already rotated axis; needs euler_sequence"),
+                 a.has_euler),
         optional(choice("euler_sequence", a.euler_sequence, {kEulerSequences.begin(), kEulerSequences.end()},
-                        "axes of attitude_euler_deg in their order (1 x, 2 y, 3 z); 321: yaw, pitch, roll"),
+                        "axes of attitude_euler_deg in order (1 x, 2 y, 3 z); 321: yaw, pitch, roll"),
                  a.has_sequence)};
     if (words.radec)
-        list.push_back(optional(
-            vector3("attitude_radec_deg", a.radec_rad, kDegree_rad, {-360, 360},
-                    "instead: [right ascension, declination, roll] in ICRF of the direction that +z points "
-                    "in; roll: the position angle of -y, up in the picture, from north through east"),
-            a.has_radec));
+        list.push_back(optional(vector3("attitude_radec_deg", a.radec_rad, kDegree_rad, {-360, 360},
+                                        "instead: [right ascension, declination, roll] of +z in ICRF; roll: "
+                                        "position angle of -y (up in the picture) from north through east"),
+                                a.has_radec));
     return list;
 }
 
@@ -77,10 +75,10 @@ void check_attitude(const AttitudeForms& a, const AttitudeWords& words) {
             throw KeyError(
                 "attitude_dcm",
                 error >= 2
-                    ? std::string("found a matrix that mirrors, or is none of a rotation; accepted: one "
-                                  "with determinant 1")
-                    : "found rows that are off being of length 1 and square to each other by " +
-                          plain(error) + "; accepted: " + plain(kDcmTolerance) + " or less");
+                    ? std::string(
+                          "found a matrix that mirrors, or is no rotation; accepted: one with determinant 1")
+                    : "found rows that deviate from unit length and right angles by " + plain(error) +
+                          "; accepted: " + plain(kDcmTolerance) + " or less");
 }
 
 Quat frame_from_body(const AttitudeForms& a) {

@@ -19,7 +19,7 @@ Fields fields(CameraConfig& c) {
     Fields list = {
         required(section("camera", c.camera, "data sheet of this camera")),
         integer("on", c.thing, {0, 65535},
-                "carrier of this camera: 0 is the body of the first camera, another number an object"),
+                "carrier of this camera. 0: the body of the first camera; another number: that object"),
         vector3("position_m", c.position_m, 1, {-1e6, 1e6}, "position in the carrier's axes"),
     };
     for (Field& field : attitude_keys(c.attitude, kMountWords)) list.push_back(std::move(field));

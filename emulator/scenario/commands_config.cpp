@@ -4,16 +4,17 @@ namespace hilcam {
 
 Fields fields(CommandsConfig& c) {
     return {
-        optional(section("udp", c.udp, "commands over UDP"), c.has_udp),
-        optional(section("tcp", c.tcp, "commands over TCP, from several clients"), c.has_tcp),
-        optional(section("unix", c.unix_socket, "commands over a Unix socket"), c.has_unix),
-        optional(section("usb", c.usb, "commands from a USB device with a bulk pair"), c.has_usb),
+        optional(section("udp", c.udp, "commands by UDP"), c.has_udp),
+        optional(section("tcp", c.tcp, "commands by TCP, from several clients"), c.has_tcp),
+        optional(section("unix", c.unix_socket, "commands by a Unix socket"), c.has_unix),
+        optional(section("usb", c.usb, "commands from a USB device with a pair of bulk endpoints"),
+                 c.has_usb),
         optional(section("functionfs", c.functionfs, "commands received as a USB device (FunctionFS)"),
                  c.has_functionfs),
         optional(section("vizard", c.vizard,
-                         "commands from Basilisk, in Vizard's place (docs/vizard.md); needs mode: lockstep"),
+                         "commands from Basilisk, in place of Vizard (docs/vizard.md); needs mode: lockstep"),
                  c.has_vizard),
-        section("poses", c.poses, "treatment of poses that stop or whose time goes back"),
+        section("poses", c.poses, "treatment of missing poses and of poses whose time goes backwards"),
     };
 }
 

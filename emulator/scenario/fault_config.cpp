@@ -21,12 +21,12 @@ Fields fields(FaultConfig& f) {
                               {std::move(words), [&f](std::size_t i) { f.kind = kAllFaults[i]; }, present},
                               "kind of fault (docs/faults.md)")),
         number("rate", f.order.rate, 1, {0, 1},
-               "share of packets, messages, frames or pixels that it strikes"),
+               "share of packets, messages, frames or pixels that the fault strikes"),
         number("value", f.order.value, 1, {-1e9, 1e9}, "value of the fault; its meaning depends on the kind"),
-        number("at_s", f.at_s, 1, {0, 1e7}, "time after the start at which the fault is ordered"),
+        number("at_s", f.at_s, 1, {0, 1e7}, "time from the start at which the fault is injected"),
         integer("from_frame", f.from_frame, {0, 9e15},
-                "first frame that the fault strikes; 0: it strikes at once, or with frames from the next "
-                "that begins"),
+                "first frame that the fault strikes; 0: it acts at once, or with 'frames' from the next "
+                "frame to start"),
         integer("frames", f.frames, {0, 9e15}, "number of frames that the fault lasts; 0: no end"),
         number("duration_s", f.order.duration_s, 1, {0, 1e7}, "time that the fault lasts; 0: no end"),
     };

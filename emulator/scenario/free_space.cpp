@@ -12,7 +12,7 @@ void refuse_places(const SunConfig& sun) {
                                      {sun.has_azimuth, "azimuth_deg"}})
         if (given)
             throw KeyError(std::string("sun.") + key,
-                           "has no effect: with this origin the Sun is where time_utc has it; accepted: "
+                           "has no effect: with this origin, time_utc gives the Sun's position; accepted: "
                            "origin: {kind: free}, or no '" +
                                std::string(key) + "'");
 }
@@ -43,8 +43,8 @@ Vec3d sun_direction(const ScenarioConfig& s) {
     if (sun.has_phase) return direction_by_phase(s);
     if (!sun.has_direction)
         throw KeyError("sun",
-                       "does not say where the Sun is, which origin.kind free needs; accepted: "
-                       "sun.direction: [x, y, z], or sun.phase_deg");
+                       "has no position of the Sun, which origin.kind free needs; accepted: sun.direction: "
+                       "[x, y, z], or sun.phase_deg");
     if (!(length(sun.direction) > 0))
         throw refused_key("sun.direction", "a vector without a direction", "one that is not 0");
     return sun.direction;

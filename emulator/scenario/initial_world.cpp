@@ -15,11 +15,11 @@ namespace {
 std::string undefined_nadir(const ScenarioConfig& s, const PoseConfig& pose) {
     if (attitude_of(pose) != PoseConfig::Attitude::kNadir) return {};
     const std::string body(kBodyNames[index_of(pose.nadir_of)]);
-    return ": the attitude nadir looks at the centre of the body '" + body +
-           "', and that is where this stands, or " + "right above its pole" +
-           (s.places.of("origin") == s.places.of("") ? "; is 'origin' missing? It says where the world's "
-                                                       "origin is, which is the Earth's centre without it"
-                                                     : "");
+    return ": the attitude nadir points to the centre of the body '" + body +
+           "', and the position is there, or right above its pole" +
+           (s.places.of("origin") == s.places.of("")
+                ? "; is 'origin' missing? Without it the world's origin is the Earth's centre"
+                : "");
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai
     state.sample(time, world, shown);
     if (const std::string what = state.first_impossible(); !what.empty())
         throw InputError("the motion of " + what +
-                         " is no number or out of its bounds; accepted: places up to " +
+                         " is not a number or exceeds its limits; accepted: places up to " +
                          plain(kFarthestPlace_m) + " m from the origin, velocities up to " +
                          plain(kFastestMotion_m_s) + " m/s");
     return world;

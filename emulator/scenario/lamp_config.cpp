@@ -10,31 +10,31 @@ Fields fields(LampConfig& l) {
         required(text("name", l.name, "name of the lamp in messages")),
         text("on", l.on, "carrier of the lamp: an object's name, or camera: the body of the first camera"),
         integer("joint", l.joint, {0, 65535},
-                "joint of that object whose part carries the lamp, counted from 1; 0: the object itself"),
+                "joint of the object that carries the lamp, counted from 1; 0: the object itself"),
         vector3("position_m", l.position_m, 1, {-1e6, 1e6},
-                "position in the carrier's axes, outside of its mesh"),
+                "position in the carrier's axes, outside its mesh"),
         vector3("axis", l.axis, 1, {-1e6, 1e6}, "direction of the beam, in the carrier's axes"),
         optional(curve("intensity_w_sr_um", l.spectral_intensity_w_sr_um, {0, 1e9},
-                       "radiant intensity on the axis by wavelength"),
+                       "radiant intensity on the beam's axis by wavelength"),
                  l.has_spectral_intensity),
         optional(number("intensity_w_sr", l.intensity_w_sr, 1, {0, 1e9},
-                        "radiant intensity of all wavelengths together, used with spectrum; replaces "
-                        "intensity_w_sr_um"),
+                        "radiant intensity on the beam's axis, integrated over wavelength, used with "
+                        "spectrum; replaces intensity_w_sr_um"),
                  l.has_intensity),
-        optional(curve("spectrum", l.spectrum, {0, 1e9},
-                       "distribution of intensity_w_sr over wavelength, in any unit"),
-                 l.has_spectrum),
+        optional(
+            curve("spectrum", l.spectrum, {0, 1e9}, "spectral distribution of intensity_w_sr, in any unit"),
+            l.has_spectrum),
         optional(number("beam_angle_deg", l.beam_angle_rad, kDegree_rad, {0.1, 179},
-                        "full angle of the beam to half the intensity, by cos^n; without it and beam, the "
-                        "lamp shines equally in all directions"),
+                        "full angle of the beam at half intensity, with the profile cos^n; with neither this "
+                        "nor beam, the lamp is isotropic"),
                  l.has_beam_angle),
         optional(table("beam", l.beam, {"angle_deg", "intensity_ratio"}, {0, 180}, {0, 1e3},
-                       "intensity off the axis over that on the axis, by angle; dark beyond the last angle; "
-                       "replaces beam_angle_deg"),
+                       "intensity over that on the beam's axis, by angle from the axis; 0 beyond the last "
+                       "angle; replaces beam_angle_deg"),
                  l.has_beam),
-        flag("lit", l.lit, "true: the lamp is lit when the run begins"),
+        flag("lit", l.lit, "true: the lamp is on at the start of the run"),
         number("level", l.level, 1, {0, 1},
-               "share of the full intensity with which a lit lamp begins the run"),
+               "share of full intensity of a lamp that is on, at the start of the run"),
     };
 }
 

@@ -221,7 +221,7 @@ class Builder {
         if (!config) return;
         if (asked_.size() > 2 * names_.size())
             throw InputError(
-                "follows a thing that follows it; accepted: things that do not go round in a circle");
+                "follows itself, directly or through other things; accepted: motions without a cycle");
         asked_.push_back(part.thing);
         if (part.attitude) fill({part.thing, false}, frame, motions);
         const auto source = source_of(*config, part.thing);

@@ -21,8 +21,8 @@ std::vector<std::string> center_names() {
 std::vector<std::string> frame_names() { return {"world", "body_fixed", "lvlh", "object", "local"}; }
 
 constexpr const char* kRadecIsWorlds =
-    "is against ICRF; accepted: with frame: world, or another form of attitude";
-constexpr const char* kOf = "thing that the frames lvlh and object belong to: an object's name, or camera";
+    "is relative to ICRF; accepted: with frame: world, or another form of attitude";
+constexpr const char* kOf = "thing to which the frames lvlh and object belong: an object's name, or camera";
 
 }  // namespace
 
@@ -31,13 +31,13 @@ Fields fields(KeyframeConfig& k) {
         required(number("at_s", k.at_s, 1, {-1e9, 1e9}, "time after the scenario's start")),
         vector3("position_m", k.position_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
                 "position in the motion's frame"),
-        optional(
-            vector3("velocity_m_s", k.velocity_m_s, 1, {-kFastestMotion_m_s, kFastestMotion_m_s},
-                    "velocity in the motion's frame; left out: worked out from the neighbouring keyframes"),
-            k.has_velocity),
+        optional(vector3("velocity_m_s", k.velocity_m_s, 1, {-kFastestMotion_m_s, kFastestMotion_m_s},
+                         "velocity in the motion's frame; left out: derived from the neighbouring keyframes"),
+                 k.has_velocity),
     };
     for (Field& field : attitude_keys(k.attitude, {.frame = "the frame"})) {
-        if (field.key == "attitude_wxyz") field.meaning += "; no form given: as before";
+        if (field.key == "attitude_wxyz")
+            field.meaning += "; with no form of attitude: that of the keyframe before";
         list.push_back(std::move(field));
     }
     return list;
@@ -48,9 +48,10 @@ void validate(const KeyframeConfig& k) { check_attitude(k.attitude); }
 Fields fields(KeplerConfig& k) {
     return {
         required(number("semi_major_axis_km", k.semi_major_axis_m, 1e3, {-1e10, 1e10},
-                        "semi-major axis; negative where the eccentricity is above 1")),
-        number("eccentricity", k.eccentricity, 1, {0, 1e3}, "eccentricity; 1 is refused"),
-        number("inclination_deg", k.inclination_rad, kDegree_rad, {0, 180}, "inclination to ICRF's equator"),
+                        "semi-major axis; negative for an eccentricity above 1")),
+        number("eccentricity", k.eccentricity, 1, {0, 1e3}, "eccentricity, except 1"),
+        number("inclination_deg", k.inclination_rad, kDegree_rad, {0, 180},
+               "inclination to the equator of ICRF"),
         number("node_deg", k.node_rad, kDegree_rad, {-360, 360}, "right ascension of the ascending node"),
         number("periapsis_deg", k.periapsis_rad, kDegree_rad, {-360, 360}, "argument of periapsis"),
         optional(number("mean_anomaly_deg", k.mean_anomaly_rad, kDegree_rad, {-1e6, 1e6},
@@ -78,21 +79,22 @@ void validate(const KeplerConfig& k) {
 
 Fields fields(TleConfig& t) {
     return {
-        required(path("file", t.file, "element sets: two-line, or an OMM as KVN, XML, CSV or JSON")),
+        required(path("file", t.file, "element sets: TLE, or OMM as KVN, XML, CSV or JSON")),
         text("satellite", t.satellite,
-             "the satellite's number (100001 or A0001), or its name or OBJECT_ID in the file; of several "
-             "sets the newest is taken"),
+             "satellite's number (100001 or A0001), name or OBJECT_ID in the file; its newest set up to the "
+             "scenario's start is used, or else its oldest"),
         choice("checksum", t.checksum, {"verify", "ignore"},
-               "treatment of each line's checksum; ignore takes lines without one, too"),
+               "treatment of each line's checksum. verify: it must be right; ignore: it may be wrong or "
+               "missing"),
         number("valid_days", t.valid_s, 86400, {0.01, 400},
-               "days before and after its epoch for which the set is valid"),
+               "number of days before and after its epoch for which the set is valid"),
     };
 }
 
 Fields fields(EphemerisFileConfig& f) {
     return {
         required(path("file", f.file, "CCSDS message as KVN (keyword = value) or XML")),
-        text("object", f.object, "OBJECT_NAME or OBJECT_ID to take from a message that has several"),
+        text("object", f.object, "OBJECT_NAME or OBJECT_ID to read from a message with several objects"),
     };
 }
 
@@ -100,37 +102,35 @@ Fields fields(AttitudeConfig& a) {
     Fields list = {
         choice("law", a.law,
                {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem", "spice", "pole"},
-               "law of the attitude. held: the attitude given here, turned by rate_deg_s, relative to frame "
-               "(inertial, spin, lvlh, ...); nadir, object, sun, velocity: axis points there; keyframes, "
-               "aem, spice: attitudes are taken from there; pole: by pole_deg, meridian_deg and "
-               "rate_deg_day, as the IAU "
-               "has planets, moons and asteroids"),
+               "law of the attitude. held: attitude relative to frame (inertial, spin, lvlh, ...), turned by "
+               "rate_deg_s; nadir, object, sun, velocity: axis points there; keyframes, aem, spice: "
+               "attitudes from that source; pole: IAU rotation by pole_deg, meridian_deg and rate_deg_day"),
         choice("frame", a.frame, frame_names(),
-               "axes that the law held refers to; keyframes use the motion's"),
-        text("of", a.of, std::string(kOf) + "; with the law object, what it looks at"),
+               "axes that the law held refers to; keyframes use the motion's frame"),
+        text("of", a.of, std::string(kOf) + "; with the law object, the target"),
     };
     for (Field& field : attitude_keys(a.attitude, {.frame = "the frame"})) list.push_back(std::move(field));
     Fields rest = {
         vector3("rate_deg_s", a.rate_body_rad_s, kDegree_rad, {-1e5, 1e5},
-                "rate of turn about the body axes, for the law held"),
+                "angular rate about the body axes, for the law held"),
         optional(choice("nadir_of", a.nadir_of, center_names(),
-                        "body whose centre the law nadir looks at; left out: center, or with the motion's "
+                        "body at whose centre the law nadir points; left out: center, or with the motion's "
                         "frame local the site's body"),
                  a.has_nadir_of),
         vector3("axis", a.axis, 1, {-1e6, 1e6}, "axis of the body that points at the law's target"),
         vector3("second_axis", a.second_axis, 1, {-1e6, 1e6}, "axis of the body that points near 'second'"),
         choice("second", a.second, {"north", "velocity", "orbit_normal", "nadir", "sun"},
-               "direction that second_axis is turned to; north: the world's +z"),
+               "direction near which second_axis points; north: +z of the world"),
         optional(numbers("pole_deg", a.pole_rad, kDegree_rad, {-360, 360}, {2, 2},
-                         "right ascension and declination (ICRF) of the body's +z, for the law pole"),
+                         "right ascension and declination in ICRF of the body's +z, for the law pole"),
                  a.has_pole),
         number("meridian_deg", a.meridian_rad, kDegree_rad, {-1e7, 1e7},
-               "angle of the body's +x from the node on ICRF's equator at J2000, for the law pole"),
+               "angle of the body's +x at J2000 from the node on the equator of ICRF, for the law pole"),
         number("rate_deg_day", a.pole_rate_rad_s, kDegree_rad / 86400, {-1e7, 1e7},
-               "rate at which it turns about its pole, for the law pole"),
+               "rate of rotation about the pole, for the law pole"),
         section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"),
-        section("spice", a.spice, "frame of the scenario's kernels"),
-        section("jitter", a.jitter, "unsteadiness about the body's axes"),
+        section("spice", a.spice, "frame of the scenario's SPICE kernels"),
+        section("jitter", a.jitter, "jitter about the body axes"),
     };
     for (Field& field : rest) list.push_back(std::move(field));
     return list;
@@ -157,25 +157,26 @@ void validate(const AttitudeConfig& a) {
 Fields fields(MotionConfig& m) {
     return {
         required(choice("kind", m.kind, {"fixed", "keyframes", "kepler", "tle", "oem", "cw", "spice"},
-                        "source of the positions; cw: drift near a thing on a circular orbit")),
+                        "source of the positions; cw: relative motion near a thing on a circular orbit "
+                        "(Clohessy-Wiltshire)")),
         choice("frame", m.frame, frame_names(),
-               "axes of the motions fixed and keyframes; local: east, north, up at the site"),
+               "axes of the kinds fixed and keyframes; local: x east, y north, z up at the site"),
         text("of", m.of, kOf),
         choice("center", m.center, center_names(),
-               "body at the centre of the orbit or of lvlh, or the body of body_fixed"),
+               "central body of the orbit or of lvlh, or the body of body_fixed"),
         vector3("position_m", m.position_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
-                "position at the start, for fixed and cw"),
+                "position at the start, for the kinds fixed and cw"),
         vector3("velocity_m_s", m.velocity_m_s, 1, {-kFastestMotion_m_s, kFastestMotion_m_s},
-                "velocity in the frame, for fixed and cw"),
-        sections("keyframes", m.keyframes, "places on the way, in order of time"),
+                "velocity in the frame, for the kinds fixed and cw"),
+        sections("keyframes", m.keyframes, "waypoints in order of time"),
         section("kepler", m.kepler, "elements of an unperturbed orbit"),
         section("tle", m.tle, "element set (TLE or OMM), propagated by SGP4"),
         section("oem", m.oem, "orbit ephemeris message, CCSDS 502.0-B"),
-        section("spice", m.spice, "thing of the scenario's kernels, about center"),
-        section("attitude", m.attitude, "attitude along the motion"),
+        section("spice", m.spice, "SPICE object, relative to center"),
+        section("attitude", m.attitude, "attitude during the motion"),
         choice("outside", m.outside, {"refuse", "hold"},
-               "treatment of times outside those that a file covers. refuse: gaps and a start outside are "
-               "errors; hold: the body stands still there"),
+               "treatment of times that the file does not cover. refuse: a start outside and gaps are "
+               "errors; hold: the body stands still"),
     };
 }
 
@@ -227,17 +228,17 @@ Fields fields(EarthOrientation& o) {
     return {
         number("ut1_minus_utc_s", o.ut1_minus_utc_s, 1, {-0.9, 0.9}, "UT1 - UTC on the day of the run"),
         number("pole_x_arcsec", o.pole_x_rad, kArcsecond_rad, {-2, 2},
-               "coordinate x of the pole, towards Greenwich"),
+               "pole coordinate x, towards Greenwich"),
         number("pole_y_arcsec", o.pole_y_rad, kArcsecond_rad, {-2, 2},
-               "coordinate y of the pole, towards 90 deg west"),
+               "pole coordinate y, towards 90 deg west"),
     };
 }
 
 Fields fields(LeapSecondsConfig& l) {
     return {
-        required(path("file", l.file, "the IERS's leap-seconds.list, as in /usr/share/zoneinfo")),
+        required(path("file", l.file, "leap-seconds.list of the IERS, as in /usr/share/zoneinfo")),
         choice("expired", l.expired, {"refuse", "warn"},
-               "treatment of a scenario that begins after the file's expiry"),
+               "treatment of a scenario that starts after the file's expiry"),
     };
 }
 

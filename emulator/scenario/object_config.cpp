@@ -8,25 +8,26 @@ namespace hilcam {
 
 Fields fields(PoseConfig& p) {
     Fields list = {
-        choice("frame", p.frame, {"world", "local"},
-               "axes in which everything here is given. local: x east, y north, z up at the site, turning "
-               "with it"),
+        choice(
+            "frame", p.frame, {"world", "local"},
+            "axes of all values in this section. local: x east, y north, z up at the site, turning with it"),
         vector3("position_m", p.position_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
                 "position in the frame"),
         optional(choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
                         "way to give the attitude. quaternion: by attitude_wxyz or another form; look_at: +z "
-                        "points to a point, -y is near up; nadir: +z points to the centre of nadir_of, +y "
-                        "south. Where look_at_m or up is given, it is look_at"),
+                        "points to a point, and -y near up; nadir: +z points to the centre of nadir_of, and "
+                        "+y south. With look_at_m or up it is look_at"),
                  p.has_attitude),
     };
     for (Field& field : attitude_keys(p.forms, {.frame = "the frame"})) list.push_back(std::move(field));
     Fields rest = {
         optional(
             choice("nadir_of", p.nadir_of, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
-                   "body that nadir looks at; left out: the origin's, or with frame local the site's"),
+                   "body that nadir points to; left out: the origin's body, or with frame local the site's "
+                   "body"),
             p.has_nadir_of),
         optional(vector3("look_at_m", p.look_at_m, 1, {-kFarthestPlace_m, kFarthestPlace_m},
-                         "point in the frame that +z looks at"),
+                         "point in the frame that +z points to"),
                  p.has_look_at),
         optional(
             vector3("up", p.up, 1, {-1e13, 1e13}, "direction in the frame that is near up in the picture"),
@@ -35,7 +36,7 @@ Fields fields(PoseConfig& p) {
                          "velocity in the frame"),
                  p.has_velocity),
         optional(vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5},
-                         "rate of turn about the body axes"),
+                         "angular rate about the body axes"),
                  p.has_rate),
     };
     for (Field& field : rest) list.push_back(std::move(field));
@@ -56,14 +57,12 @@ void refuse_idle_key(const char* key, const std::string& attitude, const std::st
 
 void check_look_at(const PoseConfig& p) {
     const Vec3d along = p.look_at_m - p.position_m;
-    if (!(length(along) > 0))
-        throw KeyError("look_at_m", "is where it stands, position_m; accepted: another point to look at");
+    if (!(length(along) > 0)) throw KeyError("look_at_m", "is equal to position_m; accepted: another point");
     if (!(length(p.up) > 0)) throw refused_key("up", "a vector without a direction", "one that is not 0");
     if (!(length(cross(along, p.up)) > 1e-9 * length(along) * length(p.up)))
-        throw KeyError(
-            "up",
-            "lies along the line of sight from position_m to look_at_m, so that nothing says which "
-            "way is up in the picture; accepted: any other direction");
+        throw KeyError("up",
+                       "is parallel to the line of sight from position_m to look_at_m, so up in the picture "
+                       "is undefined; accepted: any other direction");
 }
 
 }  // namespace
@@ -100,29 +99,29 @@ Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
 
 Fields fields(GeneratedMeshConfig& g) {
     return {
-        required(
-            text("program", g.program, "name of a generator beside hilcam, such as hilcam-make-spacecraft")),
+        required(text("program", g.program,
+                      "name of a generator installed beside hilcam, such as hilcam-make-spacecraft")),
         integer("triangles", g.triangles, {5000, 20000000}, "number of triangles to make"),
         integer("seed", g.seed, {0, 1e9}, "seed of the mesh's random details"),
         number("wing_angle_deg", g.wing_angle_deg, 1, {-360, 360},
-               "angle of the solar wings about +y: cells face +z at 0, +x at 90"),
+               "rotation of the solar wings about +y: cells face +z at 0, +x at 90"),
     };
 }
 
 Fields fields(MaterialSet& set) {
-    return {sections("surfaces", set.surfaces, "materials by surface name, first match wins")};
+    return {sections("surfaces", set.surfaces, "materials by surface name; the first match is used")};
 }
 
 Fields fields(JointConfig& j) {
     return {
         required(text(
             "node", j.node,
-            "node of the mesh file that turns, with everything below it; a trailing * matches any ending")),
+            "node of the mesh file that turns, with all nodes below it; a trailing * matches any ending")),
         vector3("pivot_m", j.pivot_m, 1, {-1e6, 1e6}, "point on the axis, in the object's axes"),
         vector3("axis", j.axis, 1, {-1e6, 1e6}, "direction of the axis, in the object's axes"),
         number("angle_deg", j.angle_rad, kDegree_rad, {-36000, 36000},
-               "angle from the file's own state, right-handed"),
-        number("rate_deg_s", j.rate_rad_s, kDegree_rad, {-1e5, 1e5}, "rate of turn from the start on"),
+               "angle from the pose in the file, right-handed"),
+        number("rate_deg_s", j.rate_rad_s, kDegree_rad, {-1e5, 1e5}, "angular rate from the start"),
     };
 }
 
@@ -133,27 +132,27 @@ void validate(const JointConfig& j) {
 Fields fields(ObjectConfig& o) {
     return {
         required(text("name", o.name, "name of the object in messages")),
-        optional(path("mesh", o.mesh, o.mesh_where,
-                      "mesh file in metres: GLB, glTF, OBJ, STL, PLY, or a shape (.tab, .plt, .icq, .bds)"),
-                 o.has_mesh),
+        optional(
+            path(
+                "mesh", o.mesh, o.mesh_where,
+                "mesh file in metres: GLB, glTF, OBJ, STL or PLY; or a shape model (.tab, .plt, .icq, .bds)"),
+            o.has_mesh),
         optional(integer("mesh_surface", o.mesh_surface, {-2147483647, 2147483647},
-                         "code of the surface, of a shape kernel (.bds) that has several"),
+                         "code of the surface in a shape kernel (.bds) with several surfaces"),
                  o.has_mesh_surface),
-        optional(
-            path("albedo_file", o.albedo_file, o.albedo_where,
-                 "table of albedos, a number for each facet or for each vertex of the mesh; they scale its "
-                 "materials (docs/bodies.md)"),
-            o.has_albedo_file),
-        optional(
-            number("albedo_reference", o.albedo_reference, 1, {1e-6, 1e6},
-                   "albedo in the table that the materials have as they are; left out: the mean by area"),
-            o.has_albedo_reference),
-        section("generate", o.generate, "mesh made by a program at first use and cached; replaces a file"),
+        optional(path("albedo_file", o.albedo_file, o.albedo_where,
+                      "table of albedos, one number for each facet or vertex of the mesh, which scale its "
+                      "materials (docs/bodies.md)"),
+                 o.has_albedo_file),
+        optional(number("albedo_reference", o.albedo_reference, 1, {1e-6, 1e6},
+                        "albedo in the table at which a material is unchanged; left out: the mean by area"),
+                 o.has_albedo_reference),
+        section("generate", o.generate,
+                "mesh that a program makes at first use, kept on disk; replaces a file"),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
-        optional(section("pose", o.pose, "place and attitude of the object until commands say otherwise"),
-                 o.has_pose),
-        section("motion", o.motion, "motion of the object until commands say otherwise; replaces pose"),
-        section("materials", o.materials, "materials that replace the mesh's own"),
+        optional(section("pose", o.pose, "pose of the object until a command changes it"), o.has_pose),
+        section("motion", o.motion, "motion of the object until a command changes it; replaces pose"),
+        section("materials", o.materials, "materials in place of the mesh's own"),
         sections("joints", o.joints, "parts that turn; commands number them from 1"),
     };
 }
@@ -175,13 +174,13 @@ void validate(const ObjectConfig& o) {
 Fields fields(PlaceConfig& p) {
     return {
         required(choice("body", p.body, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
-                        "body on which the place lies and with which it turns")),
+                        "body that the place is on and turns with")),
         required(number("longitude_deg", p.place.longitude_rad, kDegree_rad, {-360, 360},
                         "longitude of the place, east positive")),
         required(number("latitude_deg", p.place.latitude_rad, kDegree_rad, {-90, 90},
                         "geodetic latitude of the place")),
         number("height_km", p.place.height_m, 1e3, {-100, 1e5},
-               "height of the place above the body's ellipsoid; for terrain, that of its map's height 0"),
+               "height of the place above the body's ellipsoid; for terrain, the height of its map's 0"),
     };
 }
 
@@ -192,7 +191,7 @@ void validate(const TerrainConfig& t) {
     if (t.globe)
         for (const auto& [key, given] :
              {std::pair{"pose", t.has_pose}, {"place", t.place.has_value()}, {"radius_km", t.has_radius}})
-            if (given) throw KeyError(key, "has no effect with 'globe', which lies on its body");
+            if (given) throw KeyError(key, "has no effect with 'globe', which is fixed to its body");
     if (t.has_pose && t.place) throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
     if (t.pose.frame != PoseConfig::Frame::kWorld)
         throw refused_key("pose.frame", "'local'", "terrain.place, which has local axes");
@@ -204,23 +203,23 @@ void validate(const TerrainConfig& t) {
 Fields fields(TerrainConfig& t) {
     return {
         text("name", t.name, "name of the terrain in messages"),
-        section("heights", t.heights, "height map about one place"),
-        section("globe", t.globe, "ground of a whole body, of many maps; replaces heights (docs/ground.md)"),
+        section("heights", t.heights, "height map around one place"),
+        section("globe", t.globe, "ground of a whole body from many maps; replaces heights (docs/ground.md)"),
         optional(number("radius_km", t.radius_m, 1000, {0, 1e6},
                         "radius of the sphere under the height map; 0: a plane"),
                  t.has_radius),
         optional(
             section("pose", t.pose,
-                    "fixed pose in the world of the map's middle at height 0; axes x east, y north, z up"),
+                    "fixed pose in the world of the map's centre at height 0; axes: x east, y north, z up"),
             t.has_pose),
-        section("place", t.place, "place on a body, with which the terrain turns; replaces pose"),
+        section("place", t.place, "place on a body with which the terrain turns; replaces pose"),
         section("material", t.material, "material of the ground"),
-        number("edge_px", t.edge_px, 1, {0.25, 64}, "greatest edge of the terrain's triangles on the screen"),
+        number("edge_px", t.edge_px, 1, {0.25, 64}, "longest edge of the terrain's triangles on the screen"),
         integer("max_triangles", t.max_triangles, {10'000, 50'000'000},
-                "greatest number of triangles at a time"),
+                "largest number of triangles at a time"),
         flag("wait", t.wait,
-             "true: frames wait for the terrain that fits them, which gives the same frames every run but "
-             "not real time"),
+             "true: each frame waits until its terrain is complete; frames are then the same in every run, "
+             "but not in real time"),
     };
 }
 

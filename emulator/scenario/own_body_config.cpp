@@ -58,7 +58,7 @@ std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, Time
     }
     const MotionValidity validity = validity_of(*segments, start);
     if (validity.status != MotionStatus::kOk)
-        throw InputError(file + ": does not know the scenario's start; the nearest instant it knows is " +
+        throw InputError(file + ": does not know the scenario's start; the nearest instant in it is " +
                          format_utc(validity.nearest));
     return [segments, from_eme2000 = icrf_from_eme2000()](TimeTai time) {
         const MotionValidity known = validity_of(*segments, time);
@@ -83,8 +83,8 @@ void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernel
     const MotionValidity validity = coverage.validity(start);
     if (coverage.empty() || validity.status != MotionStatus::kOk)
         throw InputError(
-            "spice.object: the kernels do not know where it is about its center at the scenario's start" +
-            (coverage.empty() ? "" : "; the nearest instant they know is " + format_utc(validity.nearest)));
+            "spice.object: the kernels have no position relative to its center at the scenario's start" +
+            (coverage.empty() ? "" : "; the nearest instant in them is " + format_utc(validity.nearest)));
     body.orbit = [kernels, coverage, code, about](TimeTai time) {
         StateVector s;
         const double et_s = coverage.et_s(coverage.validity(time).nearest);
@@ -116,27 +116,25 @@ OwnBodyConfig::OwnBodyConfig() {
 Fields fields(OwnBodyConfig& c) {
     return {
         required(text("name", c.name, "name of the body")),
-        required(
-            number("equatorial_radius_km", c.equatorial_radius_m, 1e3, {1, 1e6}, "radius of its equator")),
-        number("polar_radius_km", c.polar_radius_m, 1e3, {0, 1e6},
-               "distance of its poles from its centre; 0: the equator's radius"),
-        choice("center", c.center, names_of_centers(), "body that it goes around"),
-        section("kepler", c.kepler, "elements of its orbit about the centre, unperturbed"),
-        section("oem", c.oem, "orbit ephemeris message about the centre; replaces kepler"),
+        required(number("equatorial_radius_km", c.equatorial_radius_m, 1e3, {1, 1e6}, "equatorial radius")),
+        number("polar_radius_km", c.polar_radius_m, 1e3, {0, 1e6}, "polar radius; 0: the equatorial radius"),
+        choice("center", c.center, names_of_centers(), "central body of the orbit"),
+        section("kepler", c.kepler, "unperturbed orbital elements about center"),
+        section("oem", c.oem, "orbit ephemeris message about center; replaces kepler"),
         section("spice", c.spice,
-                "thing of the scenario's kernels; replaces kepler, and gives its axes where they do"),
+                "SPICE object; replaces kepler, and gives the body's axes if the kernels have them"),
         optional(flag("synchronous", c.synchronous,
-                      "true: its x axis points to the centre and z along the orbit's normal; default: unless "
-                      "pole_deg "
+                      "true: x points to center and z along the orbit normal; default: true unless pole_deg "
                       "is given"),
                  c.has_synchronous),
         optional(numbers("pole_deg", c.pole_rad, kDegree_rad, {-360, 360}, {2, 2},
-                         "right ascension and declination of its north pole"),
+                         "right ascension and declination of the north pole"),
                  c.has_pole),
         number("meridian_deg", c.meridian_rad, kDegree_rad, {-360, 360},
-               "angle of its prime meridian from the node on ICRF's equator at J2000"),
-        number("rate_deg_day", c.rate_rad_s, kDegree_rad / 86400, {-1e5, 1e5}, "rate at which it turns"),
-        section("look", c.look, "look of the body, as that of the planets; grey unless said otherwise"),
+               "angle of the prime meridian at J2000 from the node on the equator of ICRF"),
+        number("rate_deg_day", c.rate_rad_s, kDegree_rad / 86400, {-1e5, 1e5},
+               "rate of rotation about the pole"),
+        section("look", c.look, "look of the body, with the keys of a planet; default: grey"),
     };
 }
 
@@ -156,7 +154,7 @@ void validate(const OwnBodyConfig& c) {
                        "has no effect without pole_deg; accepted: both or neither");
     if (c.look.has_measured && c.look.measured_magnitude)
         throw KeyError("look.measured_magnitude", "there is no measured magnitude of it; accepted: false");
-    if (c.look.rings) throw KeyError("look.rings", "accepted: false; saturn alone has rings");
+    if (c.look.rings) throw KeyError("look.rings", "accepted: false; rings are for saturn alone");
 }
 
 std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies,

@@ -10,19 +10,19 @@ namespace hilcam {
 Fields fields(QualityConfig& q) {
     Fields list = fields(q.render);
     list.push_back(integer("guard_px", q.guard_px, {0, 512},
-                           "border around the frame that takes the FFT's wrap-around"));
+                           "width of the border around the frame that absorbs the FFT's wrap-around"));
     list.push_back(integer("oversampling", q.oversampling, {1, 8},
-                           "number of radiance pixels across one of the detector: detail finer than a pixel "
-                           "then aliases as on a real sensor"));
+                           "number of radiance pixels per detector pixel along each axis; detail finer than "
+                           "a pixel then aliases as on a real sensor"));
     list.push_back(choice("psf", q.psf, {"auto", "fft"},
-                          "method of blurring the picture. auto: by a compact kernel where its transfer "
-                          "function is within 0.0025 of the exact one; fft: always exactly"));
+                          "method of convolution with the PSF. auto: a compact kernel where its transfer "
+                          "function is within 0.0025 of the exact one; fft: always the exact one"));
     list.push_back(
         choice("motion", q.motion, {"off", "fast", "exact"},
                "treatment of motion during the exposure. off: the middle instant; fast: the middle instant, "
-               "blurred along the picture's way; exact: the mean of several instants"));
+               "blurred along the image motion; exact: the mean of several instants"));
     list.push_back(number("motion_error_px", q.motion_error_px, 1, {0.01, 16},
-                          "exact: greatest movement, in pixels, of anything between two instants"));
+                          "exact: largest movement of anything between two instants, in pixels"));
     return list;
 }
 

@@ -27,27 +27,26 @@ Fields fields(QualityLevelConfig& l) {
 
 Fields fields(LoopConfig& l) {
     Fields list = {
-        beside_frames(choice(
-            "prefer", l.prefer, {"throughput", "latency"},
-            "throughput: a frame is rendered while the one before is sensed; latency: one after the other, "
-            "each with all threads; what is late begins when it can and shows the newest pose")),
+        beside_frames(choice("prefer", l.prefer, {"throughput", "latency"},
+                             "order of rendering and sensor. throughput: a frame is rendered while the "
+                             "previous one is in the sensor; latency: one after the other, each with all "
+                             "threads, and a late frame starts as soon as possible, with the newest pose")),
         beside_frames(
             flag("wait_for_light", l.wait_for_light,
-                 "false: frames come at once while tables that are not on disk are still being made; they "
-                 "are rendered by random paths and have the flag no_kept_light. true: no frame comes before. "
-                 "Counts for free_run and triggered with quality.path_model cached; lockstep, --frames, "
+                 "treatment of frames while tables that are not on disk are being made. false: frames are "
+                 "sent at once, rendered by random paths, with the flag no_kept_light; true: frames wait. "
+                 "Used in free_run and triggered with quality.path_model cached; lockstep, --frames, "
                  "--record, --replay and all other commands always wait")),
         or_word(number("frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
-                       "time that a frame may take (with throughput: the longer of its two stages); the "
-                       "governor lowers the quality until it is kept, and raises it again. auto: in "
-                       "`hilcam run` without --frames the time until the next exposure is due by the frame "
-                       "rate, which clients may change; triggered frames may take as long as they like. 0: "
-                       "no governor"),
+                       "time budget of a frame (throughput: its longer stage); the governor lowers the "
+                       "quality to meet it, and raises it again. auto: in `hilcam run` without --frames, the "
+                       "time to the next exposure at the frame rate, which clients may change; triggered "
+                       "frames have no limit. 0: no governor"),
                 "auto", LoopConfig::kBudgetOfRate_s),
         or_word(sections("levels", l.levels,
-                         "levels of quality that the governor may choose, best first: mappings of what "
-                         "differs from `quality` (or files with them); left out: the program's own. fixed: "
-                         "every frame has `quality`, and the rate is what the machine makes of it"),
+                         "quality levels that the governor may choose, best first: mappings (or files) of "
+                         "the keys that differ from `quality`; left out: the built-in levels. fixed: every "
+                         "frame has `quality`, and the frame rate falls if necessary"),
                 "fixed", l.levels_fixed),
     };
     for (Field& field : fields(l.real_time)) list.push_back(beside_frames(std::move(field)));
@@ -60,8 +59,7 @@ void validate(const LoopConfig& l) {
     if (l.levels_fixed && l.frame_budget_s > 0)
         throw KeyError("levels",
                        "found 'fixed' beside a frame_budget_ms of " + plain(1e3 * l.frame_budget_s) +
-                           ", which only a governor keeps; accepted beside it: a list of levels, or "
-                           "nothing");
+                           ", which needs a governor; accepted beside it: a list of levels, or nothing");
 }
 
 namespace {

@@ -96,12 +96,12 @@ void raise_thread(pid_t thread, const RealTime& wishes) {
 
 Fields fields(RealTime& w) {
     return {
-        integer("priority", w.priority, {0, 99},
-                "real-time priority (SCHED_FIFO) of the threads that make and send frames; 0: the usual "
-                "scheduling"),
+        integer(
+            "priority", w.priority, {0, 99},
+            "real-time priority (SCHED_FIFO) of the threads that make and send frames; 0: normal scheduling"),
         numbers("cores", w.cores, 1, {0, CPU_SETSIZE - 1}, {0, CPU_SETSIZE},
-                "numbers of the processor cores that those threads keep to; none: all"),
-        flag("lock_memory", w.lock_memory, "true: no memory of the program is paged out"),
+                "processor cores on which those threads run; none: all"),
+        flag("lock_memory", w.lock_memory, "true: the program's memory stays in RAM, without paging"),
     };
 }
 

@@ -47,12 +47,12 @@ void look_at_askers(const ScenarioConfig& s, Lines& out) {
     if (lockstep)
         out.push_back(s.places.at(
             "mode",
-            "mode: lockstep, and nobody can ask for a frame: give commands.udp (or tcp, unix, usb, vizard), "
+            "mode: lockstep, and nothing can request a frame: give commands.udp (or tcp, unix, usb, vizard), "
             "outputs.preview, or an event that exposes; 'hilcam send expose' then takes one"));
     else
         out.push_back(s.places.at(
             "mode",
-            "mode: triggered, and nobody can trigger a frame: give commands.udp (or tcp, unix, usb), "
+            "mode: triggered, and nothing can trigger a frame: give commands.udp (or tcp, unix, usb), "
             "outputs.gige, outputs.preview, or an event that exposes; 'hilcam send expose' then takes one"));
 }
 
@@ -87,12 +87,10 @@ void look_at_names(const ScenarioConfig& s, Lines& out) {
     std::set<std::string> names;
     for (std::size_t i = 0; i < s.objects.size(); ++i)
         if (const std::string& name = s.objects[i].name; !names.insert(name).second)
-            out.push_back(s.places.at(
-                fmt::format("objects.{}.name", i),
-                fmt::format(
-                    "objects.{}.name: another object is named '{}', too, and is the one that lamps, motions "
-                    "and events mean by it",
-                    i, name)));
+            out.push_back(s.places.at(fmt::format("objects.{}.name", i),
+                                      fmt::format("objects.{}.name: another object is also named '{}'; "
+                                                  "lamps, motions and events refer to that one",
+                                                  i, name)));
 }
 
 void look_at_faults(const ScenarioConfig& s, Lines& out) {
@@ -102,8 +100,8 @@ void look_at_faults(const ScenarioConfig& s, Lines& out) {
     const auto look = [&](FaultKind kind, const char* by) {
         const std::string what = lacking_output(outputs, s.commands, kind);
         if (what.empty() || !told.insert(kind).second) return;
-        out.push_back(s.places.at(by, fmt::format("{}: nothing can show the fault '{}' ({}): that takes {}",
-                                                  by, name_of(kind), meaning_of(kind), what)));
+        out.push_back(s.places.at(by, fmt::format("{}: the fault '{}' ({}) has no effect without {}", by,
+                                                  name_of(kind), meaning_of(kind), what)));
     };
     for (const FaultConfig& fault : s.faults) look(fault.kind, "faults");
     for (const EventConfig& event : s.events)
@@ -130,7 +128,7 @@ std::string report_inside(const ScenarioConfig& s, std::size_t camera, std::size
         camera + 1, kBodyNames[body], length(from_centre_m) * 1e-3);
     if (s.origin.center() == static_cast<BodyId>(body) && !s.origin.turns())
         line += fmt::format(
-            "; the world's origin is that centre{}: say where it is by 'origin'",
+            "; the world's origin is that centre{}: set it with 'origin'",
             static_cast<BodyId>(body) == BodyId::kEarth ? " unless the scenario says otherwise" : "");
     if (length(from_centre_m) * 1e3 > kFigures[body].equatorial_radius_m)
         line += ", give positions in metres if these are kilometres";
@@ -175,8 +173,7 @@ void look_at_objects(const ScenarioConfig& s, Lines& out) {
                 same_turn(world.objects[other].world_from_body, pose.world_from_body))
                 out.push_back(s.places.at(
                     key, fmt::format(
-                             "{}: object '{}' stands where '{}' of the same mesh does: which of them is seen "
-                             "is chance",
+                             "{}: object '{}' has the mesh and the pose of '{}': either of them may be seen",
                              key, s.objects[k].name, s.objects[other].name)));
     }
 }
@@ -206,10 +203,10 @@ void look_at_outputs(const ScenarioConfig& s, Lines& out) {
         if (!shows(s.more_cameras[i].outputs))
             out.push_back(s.places.at(
                 fmt::format("more_cameras.{}", i),
-                fmt::format("more_cameras.{}.outputs: camera {} has none, so nobody gets its frames", i,
+                fmt::format("more_cameras.{}.outputs: camera {} has none, so its frames go nowhere", i,
                             i + 2)));
     if (!shows(s.outputs))
-        out.push_back(s.places.at("outputs", "outputs: camera 1 has none, so nobody gets its frames"));
+        out.push_back(s.places.at("outputs", "outputs: camera 1 has none, so its frames go nowhere"));
 }
 
 void look_at_shutter(const std::string& section, const ShutterConfig& shutter, const KeyPlaces& places,
@@ -233,7 +230,7 @@ void look_at_frames(const ScenarioConfig& s, Lines& out) {
         if (about) out.push_back(s.places.at(key, text));
     };
     warn(s.site && !uses_local_axes(s), "site",
-         "site: nothing is in its local axes: give a pose or a motion 'frame: local'");
+         "site: nothing uses its local axes: give a pose or a motion 'frame: local'");
     warn(s.stars && s.stars->catalogue.empty(), "stars",
          "stars: there are none without stars.catalogue; hipparcos.csv is shipped");
     warn(s.atmosphere.model != "none" && !shows_earth, "atmosphere",
@@ -241,8 +238,7 @@ void look_at_frames(const ScenarioConfig& s, Lines& out) {
     warn(!s.earth_surface.map.empty() && !shows_earth, "earth_surface",
          "earth_surface: has no effect, as the Earth is not shown: earth.visible");
     warn(!s.earth_surface.map.empty() && !s.bodies[index_of(BodyId::kEarth)].albedo_map.empty(),
-         "earth.albedo_map",
-         "earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
+         "earth.albedo_map", "earth.albedo_map: has no effect, as earth_surface.map gives the Earth's look");
 }
 
 // Returns a distance beyond which no orbit about the body lasts: Hill's sphere of the Earth has 1.5e6 km,
@@ -281,11 +277,11 @@ std::string meaning_of_idle_rules(const LoadedObject& object) {
     for (const std::string& rule : object.idle_rules) {
         rules += (rules.empty() ? "" : ", ") + in_quotes(rule);
         if (std::find(names.begin(), names.end(), rule) != names.end())
-            rules += " (a rule before it takes that surface)";
+            rules += " (an earlier rule matches that surface)";
         else if (const std::string nearest = nearest_of(rule, names); !nearest.empty())
             rules += " (the nearest is " + in_quotes(nearest) + ")";
     }
-    return "no surface takes its material rules for " + rules + "; the mesh's surfaces: " + surfaces;
+    return "no surface matches its material rules for " + rules + "; the mesh's surfaces: " + surfaces;
 }
 
 }  // namespace
@@ -326,7 +322,7 @@ std::vector<std::string> no_output_warnings(const ScenarioConfig& s) {
     if (s.commands.has_vizard || s.telemetry || any_camera(s, [](const OutputsConfig& o) { return o.any(); }))
         return {};
     return {s.places.at("outputs",
-                        "outputs: there are none, so nobody gets the frames of a run: give outputs.files, "
+                        "outputs: there are none, so the frames of a run go nowhere: give outputs.files, "
                         "outputs.gige, outputs.preview (or --preview 8080), ...")};
 }
 

@@ -28,9 +28,9 @@ void check_rates(const ScenarioConfig& s, BodyId site_body) {
     const auto check = [&](const PoseConfig& pose, const std::string& key) {
         if (pose.frame == PoseConfig::Frame::kLocal && pose.has_rate && pose.has_nadir_of &&
             pose.nadir_of != site_body)
-            throw KeyError(key,
-                           "has no effect with the nadir of another body than the site's; accepted: no "
-                           "'rate_deg_s'");
+            throw KeyError(
+                key,
+                "has no effect when nadir points to another body than the site's; accepted: no 'rate_deg_s'");
     };
     check(s.camera_pose, "camera_pose.rate_deg_s");
     for (std::size_t i = 0; i < s.objects.size(); ++i)

@@ -15,24 +15,22 @@ namespace hilcam {
 
 Fields fields(KernelFileConfig& k) {
     return {required(path("file", k.file,
-                          "kernel (SPK, CK, PCK, FK, IK, SCLK, LSK), or a meta-kernel that names others"))};
+                          "kernel (SPK, CK, PCK, FK, IK, SCLK, LSK), or a meta-kernel that lists others"))};
 }
 
 Fields fields(SpiceConfig& s) {
     return {
-        required(sections("kernels", s.kernels,
-                          "kernels in the order of their loading: later ones go before earlier ones")),
+        required(
+            sections("kernels", s.kernels, "kernels in the order of loading; later ones take precedence")),
         choice("bodies", s.bodies, {"kernels", "own"},
-               "source of the places and turns of the Sun, the Moon and the planets. kernels: the kernels, "
-               "where they "
-               "know them at the start; own: the program's own series"),
+               "source of positions and rotations of the Sun, the Moon and the planets. kernels: the "
+               "kernels, for bodies that they cover at the start; own: the program's own series"),
         text("camera", s.camera,
-             "instrument whose kernel (IK) gives focal length, pixel pitch and number of pixels in place of "
-             "the "
-             "camera's sheet: a name or NAIF's code"),
+             "instrument whose kernel (IK) gives focal length, pixel pitch and number of pixels, in place of "
+             "the camera file: a name or a NAIF code"),
         number("tolerance_s", s.tolerance_s, 1, {0, 1e6},
-               "time from an attitude's nearest instant for which it still stands, as in C-kernels of "
-               "instants (type 1)"),
+               "longest time from an attitude's instant for which the attitude applies, as in C-kernels of "
+               "single instants (type 1)"),
     };
 }
 
@@ -41,19 +39,18 @@ void validate(const SpiceConfig& s) {
 }
 
 Fields fields(SpiceObjectConfig& o) {
-    return {required(text("object", o.object, "thing of the kernels: a name or NAIF's code"))};
+    return {required(text("object", o.object, "SPICE object: a name or a NAIF code"))};
 }
 
 Fields fields(SpiceFrameConfig& f) {
     return {
-        text("frame", f.frame, "frame of the kernels; left out: the instrument's"),
+        text("frame", f.frame, "SPICE frame; left out: the instrument's frame"),
         text("instrument", f.instrument, "instrument whose kernel (IK) gives frame and boresight"),
         optional(vector3("boresight", f.boresight, 1, {-1e6, 1e6},
-                         "axis of the frame along which the camera looks; left out: the instrument's, or the "
-                         "frame's z"),
+                         "axis of the frame along which the camera looks; left out: the instrument's "
+                         "boresight, or z of the frame"),
                  f.has_boresight),
-        vector3("right", f.right, 1, {-1e6, 1e6},
-                "axis of the frame that points to the right in the picture"),
+        vector3("right", f.right, 1, {-1e6, 1e6}, "axis of the frame that points right in the picture"),
     };
 }
 
@@ -78,9 +75,8 @@ std::string missing_leap_seconds(const KernelPool& pool, const std::vector<LeapS
             dates += fmt::format("{}{}-{:02}-01", dates.empty() ? "" : ", ", leap.year, leap.month);
     if (dates.empty()) return {};
     return fmt::format(
-        "spice: {}: DELTET/DELTA_AT lacks the leap seconds of {}, which the program knows: from then on its "
-        "times, which are those of the kernel, are up to {} s off UTC; accepted without this warning: "
-        "naif0012.tls or a newer one",
+        "spice: {}: DELTET/DELTA_AT lacks the leap seconds of {}, which the program has: later times follow "
+        "the kernel and are up to {} s off UTC; accepted without this warning: naif0012.tls or a newer one",
         pool.find("DELTET/DELTA_AT")->where, dates,
         own.back().tai_minus_utc_s - kernel.back().tai_minus_utc_s);
 }

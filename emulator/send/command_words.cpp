@@ -226,7 +226,7 @@ void add_clock(CLI::App& app, const Take& take) {
         std::string what;
         double scale = 1, seconds = 0;
     };
-    CLI::App* clock = app.add_subcommand("clock", "ask how simulated time goes, or change it");
+    CLI::App* clock = app.add_subcommand("clock", "query or change simulated time");
     const auto o = std::make_shared<Options>();
     CLI::Option* what = clock->add_option("what", o->what, "pause, resume or step")
                             ->check(CLI::IsMember({"pause", "resume", "step"}));
@@ -281,13 +281,14 @@ void add_fault(CLI::App& app, const Take& take, const std::function<void()>& lis
         std::string name;
         FaultOrder order;
     };
-    CLI::App* fault = app.add_subcommand("fault", "let something go wrong");
+    CLI::App* fault = app.add_subcommand("fault", "inject a fault");
     const auto o = std::make_shared<Options>();
     fault->add_option("name", o->name, "name of the fault; 'clear' ends all, 'list' prints their names")
         ->required();
     fault->add_option("--rate", o->order.rate,
                       "share of frames, packets or pixels that is struck, 0 to 1; 0 ends the fault");
-    fault->add_option("--value", o->order.value, "value of the fault; its meaning goes by kind, see 'list'");
+    fault->add_option("--value", o->order.value,
+                      "value of the fault; its meaning depends on the kind, see 'list'");
     fault->add_option("--from-frame", o->order.from_frame, "first frame that can be struck; 0: at once");
     fault->add_option("--frames", o->order.frames, "number of frames; 0: no end");
     fault->add_option("--duration-s", o->order.duration_s, "duration; 0: no end");
@@ -326,7 +327,7 @@ bool read_time(const std::string& word, double before_s, double& at_s) {
     if (end + 1 != word.size() || !(value >= 0) || !(at_s <= kLatest_s))
         throw InputError("found " + in_quotes(word) +
                          "; accepted: @SECONDS since the start or +SECONDS since the line before, up to 1e9");
-    if (at_s < before_s) throw InputError("its time " + word + " lies before the line before");
+    if (at_s < before_s) throw InputError("its time " + word + " is before the time of the previous line");
     return true;
 }
 

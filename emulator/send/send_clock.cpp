@@ -48,7 +48,7 @@ int send_clock(const SendTarget& target, const ClockCommand& order) {
     }
     fmt::print("accepted simulated time {}, {}\n",
                format_utc(filter.simulated_at(now_ns).value_or(TimeTai{})), way_of(*first.clock));
-    fmt::print("its machine's clock is {:.3f} us {} this one's, within {:.3f} us; there and back {:.3f} us\n",
+    fmt::print("its machine's clock is {:.3f} us {} this one's, within {:.3f} us; round trip {:.3f} us\n",
                std::abs(static_cast<double>(estimate->offset_ns)) * 1e-3,
                estimate->offset_ns < 0 ? "behind" : "ahead of", estimate->error_ns * 1e-3,
                static_cast<double>(estimate->delay_ns) * 1e-3);

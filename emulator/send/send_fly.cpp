@@ -35,7 +35,7 @@ void add_fly_options(CLI::App& app, FlyOptions& o) {
     app.add_option("--around-m", o.around_m, "x y z of the centre");
     app.add_option("--from-m", o.from_m, "x y z of the start");
     app.add_option("--axis", o.axis, "x y z of the circle's axis");
-    app.add_option("--up", o.up, "x y z that shall be up in the picture");
+    app.add_option("--up", o.up, "x y z, up in the picture");
     app.add_option("--period-s", o.period_s, "time of one round");
     app.add_option("--rate-hz", o.rate_hz, "poses a second")->check(CLI::Range(0.1, 10000.0));
     app.add_option("--duration-s", o.duration_s, "duration of the flight")->check(CLI::Range(0.0, 1e7));

@@ -91,7 +91,7 @@ std::string json_of(const Telemetry& telemetry) {
 void add_watch_options(CLI::App& app, WatchOptions& o) {
     app.add_option("--duration-s", o.duration_s, "seconds until the end; left out: until Ctrl-C")
         ->check(CLI::Range(0.0, 1e9));
-    app.add_option("--frames", o.frames, "end after so many frame reports");
+    app.add_option("--frames", o.frames, "end after this many frame reports");
     app.add_flag("--housekeeping", o.housekeeping_only, "print housekeeping alone, no frame reports");
     app.add_flag("--json", o.json, "print one JSON object a line");
 }

@@ -97,7 +97,7 @@ CLI::Option* add_soak_options(CLI::App* bench, BenchArguments& o) {
         bench
             ->add_option(
                 "--soak", o.soak.seconds,
-                "run so many seconds at the camera's frame rate, and write what changes with time to --out")
+                "run for this many seconds at the camera's frame rate, and write changes over time to --out")
             ->check(CLI::PositiveNumber);
     CLI::Option* out =
         bench->add_option("--out", o.out, "with --soak: folder for CSV, JSON and a page with a plot");

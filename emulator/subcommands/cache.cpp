@@ -54,10 +54,11 @@ void add_cache_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<CacheArguments>();
     CLI::App* cache = app.add_subcommand(
         "cache",
-        "say what is kept from run to run ($HILCAM_CACHE, else ~/.cache/hilcam), and how large it is");
+        "list what is kept from run to run ($HILCAM_CACHE, else ~/.cache/hilcam), and how large it is");
     cache->require_subcommand(0, 1);
     CLI::App* all_gone = cache->add_subcommand(
-        "clear", "remove what hilcam has put there and nothing else; what is needed again is made again");
+        "clear",
+        "remove what hilcam has put there and nothing else; removed files are made again when needed");
     set_examples(cache, {"hilcam cache"});
     set_examples(all_gone, {"hilcam cache clear"});
     when_named(all_gone, action, o, clear);

@@ -133,7 +133,7 @@ void add_campaign_command(CLI::App& app, Action& action) {
                 "--cases", o->cases,
                 "FIRST-LAST: make these alone; others may be made at the same time, by other machines, too")
             ->excludes(only);
-    campaign->add_flag("--retry", o->options.retry, "make cases that have failed once more");
+    campaign->add_flag("--retry", o->options.retry, "make failed cases again");
     campaign->add_flag("--merge", o->options.merge, "make no case; put together what there is")
         ->excludes(only)
         ->excludes(cases);
@@ -145,7 +145,7 @@ void add_campaign_command(CLI::App& app, Action& action) {
             ->excludes(cases);
     campaign->add_flag("!--no-submit", o->submit, "write the job's scripts, and submit nothing")
         ->needs(slurm);
-    campaign->add_option("--task-s", o->task_s, "seconds that a task of Slurm shall take, about")
+    campaign->add_option("--task-s", o->task_s, "approximate duration of a Slurm task [s]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str()
         ->needs(slurm);

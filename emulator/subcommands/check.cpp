@@ -62,7 +62,7 @@ int carry_out(const CheckArguments& o) {
 void add_check_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<CheckArguments>();
     CLI::App* check = app.add_subcommand(
-        "check", "validate a scenario and say what it needs; of a camera's file, print its data sheet");
+        "check", "validate a scenario and list its needs; for a camera file, print its data sheet");
     add_config(check, o->config);
     add_camera(check, o->camera);
     CLI::Option* json = check->add_flag("--json", o->json, "machine-readable");

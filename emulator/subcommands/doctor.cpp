@@ -28,8 +28,8 @@ int carry_out(const DoctorArguments& o) {
 void add_doctor_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<DoctorArguments>();
     CLI::App* doctor = app.add_subcommand("doctor",
-                                          "say what this machine lacks to run a bench, and what to do; "
-                                          "status 1: CONFIG needs something that is not there");
+                                          "report what this machine lacks for a bench, and the remedy; "
+                                          "status 1: CONFIG needs something that is missing");
     doctor
         ->add_option("config", o->config.file,
                      "scenario file (YAML), or the name of a shipped one; none: nothing is required")

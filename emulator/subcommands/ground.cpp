@@ -97,8 +97,7 @@ void add_ground_command(CLI::App& app, Action& action) {
     ground
         ->add_option("--list", o->list,
                      "craters, boulders, heights, hazards (heights with a judgement), or axes: the site's "
-                     "place and axes "
-                     "in the world, for who commands poses there")
+                     "place and axes in the world, for pose commands there")
         ->required()
         ->check(CLI::IsMember(names));
     ground->add_option("--at", o->at_deg, "longitude and latitude [deg]; left out: the scenario's site")
@@ -110,11 +109,11 @@ void add_ground_command(CLI::App& app, Action& action) {
         ->check(CLI::Range(0.01, 1e6));
     ground->add_option("--smallest-m", o->survey.smallest_m, "least diameter [m]")
         ->check(CLI::Range(0.0, 1e6));
-    ground->add_option("--spacing-m", o->survey.spacing_m, "distance of the heights [m]")
+    ground->add_option("--spacing-m", o->survey.spacing_m, "spacing of the heights [m]")
         ->check(CLI::Range(1e-3, 1e5));
-    ground->add_option("--slope-deg", o->slope_deg, "hazards: greatest slope that is none [deg]")
+    ground->add_option("--slope-deg", o->slope_deg, "hazards: greatest safe slope [deg]")
         ->check(CLI::Range(0.0, 90.0));
-    ground->add_option("--step-m", o->survey.limits.step_m, "hazards: greatest step that is none [m]")
+    ground->add_option("--step-m", o->survey.limits.step_m, "hazards: greatest safe step [m]")
         ->check(CLI::Range(0.0, 1e4));
     ground->add_flag(
         "--footprint", o->footprint,

@@ -131,10 +131,8 @@ std::string main_page(const CommandText& program, const std::string& version) {
         ".SH ENVIRONMENT\n.TP\nHILCAM_CACHE\nfolder of what takes long to make; else $XDG_CACHE_HOME/hilcam, "
         "else ~/.cache/hilcam\n.TP\nHILCAM_CACHE_MB\nmegabytes that it may have (4096); 0: what is there is "
         "used, nothing is written\n.TP\nHILCAM_PROGRESS_S\nseconds between two lines that say how far long "
-        "work "
-        "is, where standard error is no terminal [30]; 0: none\n.TP\nNOTIFY_SOCKET\ntold when the camera is "
-        "ready and when it stops, as by "
-        ".BR sd_notify (3)\n";
+        "work is, where standard error is no terminal [30]; 0: none\n.TP\nNOTIFY_SOCKET\nnotified when the "
+        "camera is ready and when it stops, as by .BR sd_notify (3)\n";
     std::string pages;
     for (const CommandText& command : program.commands)
         pages += (pages.empty() ? "" : ",\n") + (".BR hilcam\\-" + roff(command.name) + " (1)");

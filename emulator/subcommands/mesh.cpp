@@ -35,7 +35,7 @@ int carry_out(const MeshArguments& o) {
 void add_mesh_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<MeshArguments>();
     CLI::App* mesh =
-        app.add_subcommand("mesh", "say how large a mesh file is, what it is made of, what is wrong with it");
+        app.add_subcommand("mesh", "report the size, the contents and the faults of a mesh file");
     mesh->add_option(
             "file", o->file,
             "GLB, glTF, OBJ, STL or PLY file, a shape (.tab, .plt, .icq, .bds), or a shipped one's name")

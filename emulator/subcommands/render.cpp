@@ -63,11 +63,12 @@ void add_render_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<RenderArguments>();
     CLI::App* render = app.add_subcommand("render", "make one picture of the first instant");
     add_config(render, o->config);
-    add_choice<PictureStage>(*render, "--stage", o->stage,
-                             {{"radiance", PictureStage::kRadiance},
-                              {"electrons", PictureStage::kElectrons},
-                              {"frame", PictureStage::kFrame}},
-                             "how far light goes: to the lens, into the pixels, out of the converter");
+    add_choice<PictureStage>(
+        *render, "--stage", o->stage,
+        {{"radiance", PictureStage::kRadiance},
+         {"electrons", PictureStage::kElectrons},
+         {"frame", PictureStage::kFrame}},
+        "last stage: light at the lens, electrons in the pixels, or the converter's output");
     render->add_option(
         "--out", o->files.out,
         "FILE.exr for radiance and electrons (.fits, too), FILE.png, .tiff, .fits or .raw for a "

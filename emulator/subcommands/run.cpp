@@ -101,7 +101,7 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
     std::uint64_t outside = 0;
     for (const auto& station : emulator.stations()) outside += station->renderer().rays_outside_air();
     if (outside > 0)
-        spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
+        spdlog::warn("{} rays were outside the atmosphere's table and used its nearest geometry", outside);
     if (!report_file.empty()) write_json(report_file, run_report(emulator));
     const RunOutcome outcome = run_outcome(emulator);
     spdlog::info(
@@ -148,17 +148,16 @@ void add_run_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<RunArguments>();
     CLI::App* run = app.add_subcommand("run", "be the camera, in real time");
     add_config(run, o->config);
-    run->add_option("--duration", o->limits.seconds, "stop after so many seconds")
+    run->add_option("--duration", o->limits.seconds, "stop after this many seconds")
         ->check(CLI::Range(0.0, 1e9));
-    run->add_option("--frames", o->limits.frames, "stop after so many frames");
+    run->add_option("--frames", o->limits.frames, "stop after this many frames");
     run->add_option("--report", o->report, "write a report (JSON) at the end");
     run->add_option("--preview", o->preview_port, "serve a web page with the live picture at this TCP port")
         ->check(CLI::Range(1, 65535));
     CLI::Option* record = run->add_option("--record", o->limits.record,
-                                          "keep what the frames depend on, to replay them bit by bit");
+                                          "record all inputs of the frames, for a bit-exact replay");
     CLI::Option* replay =
-        run->add_option("--replay", o->limits.replay, "give the frames of such a recording once more")
-            ->excludes(record);
+        run->add_option("--replay", o->limits.replay, "replay the frames of a recording")->excludes(record);
     run->add_flag("--fast", o->limits.replay_fast, "replay as fast as it goes, not by the recording's times")
         ->needs(replay);
     run->add_flag("--force", o->limits.replay_force, "replay a recording of another scenario or version, too")

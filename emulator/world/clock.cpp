@@ -23,13 +23,13 @@ std::int64_t scaled(std::int64_t ns, double scale) {
 Fields fields(ClockConfig& c) {
     return {
         number("scale", c.scale, 1, {kMinClockScale, kMaxClockScale},
-               "simulated seconds per second of the machine; frame rate and exposure are in simulated time. "
+               "simulated seconds per second of real time; frame rate and exposure are in simulated time. "
                "0.1: ten times slower"),
         flag("paused", c.paused,
-             "true: simulated time stands still at the start, until a clock command lets it run"),
+             "true: simulated time stands still from the start until a clock command starts it"),
         choice("camera_in_pause", c.camera_in_pause, {"streams", "waits"},
                "behaviour of the camera while simulated time stands still. streams: it sends frames of the "
-               "standing world at its rate; waits: it begins none"),
+               "unchanging world at its rate; waits: it starts no frames"),
     };
 }
 

@@ -10,22 +10,21 @@ namespace hilcam {
 Fields fields(PoseRules& r) {
     return {
         number("horizon_s", r.horizon_s, 1, {1e-3, 1e8},
-               "greatest distance of a time tag from the simulated now; farther ones are refused"),
+               "largest difference between a time tag and simulated time; poses beyond it are refused"),
         number("stale_after_s", r.stale_after_s, 1, {0, 1e7},
-               "simulated time without a pose after which frames are stale; 0: never. In lockstep: from the "
+               "simulated time without a pose after which frames are stale; 0: never. In lockstep: since the "
                "newest time tag"),
         choice("when_stale", r.when_stale, {"propagate", "hold", "black", "stop"},
-               "treatment of stale frames. propagate: motion goes on; hold: the world stands still; black: "
-               "the shutter is closed; stop: no frames"),
+               "treatment of stale frames. propagate: motion continues; hold: the world stands still; black: "
+               "the shutter stays closed; stop: no frames"),
         choice("watch", r.watch, {"any", "camera"},
-               "poses that count for stale_after_s: those of any thing and joint, or those of the camera's "
-               "body alone"),
+               "poses that reset stale_after_s: those of any thing or joint, or of the camera's body alone"),
         number("late_s", r.late_s, 1, {0, 1e6},
-               "time by which a tag may lie before the newest of its thing and be merely late; farther back, "
-               "time went backwards"),
+               "largest time by which a tag may precede the newest tag of its thing and count as late; "
+               "beyond it, time goes backwards"),
         choice("backwards", r.backwards, {"flag", "accept", "refuse"},
-               "treatment of poses whose time went backwards. flag: the pose counts, and frame and "
-               "acknowledgement say so; accept: it counts; refuse: it does not"),
+               "treatment of poses whose time goes backwards. flag: the pose is used, and frame and "
+               "acknowledgement report it; accept: it is used; refuse: it is not used"),
     };
 }
 

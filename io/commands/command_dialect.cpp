@@ -35,9 +35,9 @@ bool is_cfs(const DialectConfig& dialect) { return dialect.dialect == Dialect::k
 void add_fields(DialectConfig& d, Fields& fields) {
     fields.push_back(
         choice("dialect", d.dialect, {"hilcam", "cfs"},
-               "headers of the packets: hilcam's own, or those of NASA's cFS (function code, checksum)"));
+               "packet headers: hilcam's own, or those of NASA's cFS (function code, checksum)"));
     fields.push_back(choice("checksum", d.checksum, {"required", "optional"},
-                            "dialect cfs: required refuses a command whose checksum byte is wrong"));
+                            "dialect cfs. required: a command with a wrong checksum byte is refused"));
 }
 
 void validate(const DialectConfig& d) {

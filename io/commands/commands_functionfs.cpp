@@ -275,9 +275,9 @@ void FunctionFsReceiver::follow_detach_fault() {
 
 Fields fields(FunctionFsConfig& c) {
     Fields list = {
-        path("mount", c.mount, "folder in which FunctionFS is mounted"),
+        path("mount", c.mount, "mount point of FunctionFS"),
         path("gadget", c.gadget,
-             "folder of the gadget in configfs, to bind and unbind it; left out: the user does so"),
+             "folder of the gadget in configfs, which hilcam binds and unbinds; left out: the user does so"),
         text("controller", c.controller, "name of the controller in /sys/class/udc; left out: the first"),
     };
     add_fields(c.dialect, list);

@@ -36,7 +36,7 @@ Fields fields(TcpCommandConfig& c) {
         integer("port", c.port, {1, 65535}, "TCP port to listen on"),
         allow_field(c.allow),
         integer("clients", c.clients, {1, 1000},
-                "greatest number of connections at a time; more are closed at once"),
+                "largest number of connections at a time; further ones are closed at once"),
     };
     add_fields(c.dialect, list);
     return list;

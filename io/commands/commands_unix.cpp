@@ -70,9 +70,10 @@ bool admit(int socket, std::string& peer) {
 
 Fields fields(UnixCommandConfig& c) {
     Fields list = {
-        required(path("path", c.path, "file of the socket, made at the start and removed at the end")),
+        required(path("path", c.path, "path of the socket, created at the start and removed at the end")),
         choice("type", c.type, {"stream", "seqpacket"}, "kind of socket"),
-        integer("clients", c.clients, {1, 1000}, "connections at a time; more are closed at once"),
+        integer("clients", c.clients, {1, 1000},
+                "largest number of connections at a time; further ones are closed at once"),
     };
     add_fields(c.dialect, list);
     return list;

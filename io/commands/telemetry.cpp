@@ -14,8 +14,9 @@ Fields fields(TelemetryConfig& c) {
     Fields list = fields(c.port);
     for (Field& field : list)
         if (field.key == "port")
-            field = integer("port", c.port.port, {0, 65535},
-                            "TCP port whose clients get all telemetry and are not listened to; 0: none");
+            field =
+                integer("port", c.port.port, {0, 65535},
+                        "TCP port for clients that receive all telemetry; their input is ignored; 0: none");
     list.push_back(texts("udp_to", c.udp_to, "receivers of all telemetry as datagrams, each ADDRESS:PORT"));
     return list;
 }

@@ -51,7 +51,7 @@ constexpr std::array kSheetRows = {
              {"camera.dark_current_e_s",
               "in electrons a second and pixel, at dark_reference_c: pA/cm2 times 0.0624 times pitch_um^2"}},
     SheetRow{" dark_current_doubling doubling_temperature dark_doubling dark_current_doubling_temperature ",
-             {"camera.dark_doubling_k", "rise of temperature that doubles the dark current"}},
+             {"camera.dark_doubling_k", "temperature rise that doubles the dark current"}},
     SheetRow{" prnu photo_response_nonuniformity photo_response_non_uniformity photoresponse_nonuniformity "
              "pixel_response_nonuniformity prnu1288 ",
              {"camera.prnu_fraction", "a share: percent over 100"}},

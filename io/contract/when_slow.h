@@ -13,12 +13,11 @@ namespace hilcam {
 enum class WhenSlow { kAuto, kWait, kDrop };
 
 inline Field when_slow(WhenSlow& value) {
-    return choice(
-        "when_slow", value, {"auto", "wait", "drop"},
-        "treatment of frames that come faster than they are written. wait: the camera waits, and misses "
-        "exposures instead; drop: frames are left out, which is told and no fault; auto: drop beside gige, "
-        "v4l2, uvc or shm, whose clients must not wait for a disk, and wait otherwise; a frame that is lost "
-        "then is a fault (exit status 1)");
+    return choice("when_slow", value, {"auto", "wait", "drop"},
+                  "treatment of frames that come faster than they are written. wait: the camera waits, and "
+                  "misses exposures; drop: frames are dropped and reported, without a fault; auto: drop "
+                  "beside gige, v4l2, uvc or shm, whose clients must not wait for a disk, else wait; a frame "
+                  "lost with auto is a fault (exit status 1)");
 }
 
 // True when the camera waits for the output. has_live_output: another output sends the same frames to

@@ -93,14 +93,14 @@ class MappedHeights final : public HeightMap {
 Fields fields(HeightMapConfig& c) {
     return {
         required(
-            path("file", c.file, "raw heights, rows from the north, columns from the west, little-endian")),
+            path("file", c.file, "raw heights, little-endian, rows from the north, columns from the west")),
         required(integer("columns", c.columns, {2, 1'000'000}, "number of columns in the file")),
         required(integer("rows", c.rows, {2, 1'000'000}, "number of rows in the file")),
         choice("format", c.format, {"int16", "float32"}, "number format of a height"),
-        required(
-            number("spacing_m", c.spacing_m, 1, {1e-3, 1e6}, "distance from one column or row to the next")),
+        required(number("spacing_m", c.spacing_m, 1, {1e-3, 1e6},
+                        "distance between neighbouring columns or rows")),
         number("scale", c.scale, 1, {-1e6, 1e6}, "metres per unit of the file"),
-        number("offset_m", c.offset_m, 1, {-1e7, 1e7}, "height that the file's 0 stands for"),
+        number("offset_m", c.offset_m, 1, {-1e7, 1e7}, "height at the file's value 0"),
     };
 }
 

@@ -18,18 +18,17 @@ const char* ending_of(FilesConfig::Format format) {
 
 Fields fields(FilesConfig& c) {
     return {
-        path("folder", c.folder, "folder of the pictures, made when missing"),
+        path("folder", c.folder, "folder of the pictures, created if missing"),
         choice("format", c.format, {"png", "tiff", "raw", "fits"},
-               "kind of picture (docs/pictures.md); raw: the camera's memory, in its own packing"),
+               "picture format (docs/pictures.md); raw: the camera's memory in its own packing"),
         text("name", c.name,
-             "name of each file: %08d or {frame:8} is the frame's number; {camera}, {camera_name}, "
+             "name of each file: %08d or {frame:8} is the frame's number; also {camera}, {camera_name}, "
              "{time_tai_ns}"),
-        flag("view", c.view, "true: beside each frame stands NAME.view.png, 8 bits, to look at"),
-        flag("label", c.label,
-             "true: beside each FITS file stands NAME.xml, which describes it as PDS4 has it"),
-        integer("every_nth", c.every_nth, {1, 1e9}, "n: only every n-th frame is written"),
+        flag("view", c.view, "true: each frame also has an 8-bit picture to look at, NAME.view.png"),
+        flag("label", c.label, "true: each FITS file also has a PDS4 label, NAME.xml"),
+        integer("every_nth", c.every_nth, {1, 1e9}, "number n of which every n-th frame is written"),
         flag("overwrite", c.overwrite,
-             "treatment of a folder that holds another run's frames. false: it is refused; true: they are "
+             "treatment of a folder with frames of another run. false: it is refused; true: the frames are "
              "removed first"),
         when_slow(c.when_slow),
     };

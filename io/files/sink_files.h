@@ -22,7 +22,7 @@ namespace hilcam {
 
 struct FilesConfig {
     static constexpr const char* kKey = "files";
-    static constexpr const char* kMeaning = "frames written as pictures";
+    static constexpr const char* kMeaning = "frames as picture files";
 
     enum class Format { kPng, kTiff, kRaw, kFits } format = Format::kPng;
     std::filesystem::path folder = "frames";

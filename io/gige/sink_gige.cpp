@@ -40,22 +40,22 @@ std::uint32_t first_packet_bytes(const GigeConfig& config, const NetInterface& n
 Fields fields(GigeConfig& c) {
     return {
         text("interface", c.interface,
-             "IPv4 address or name of the interface to be a camera on; messages arriving by others are not "
-             "heard"),
-        text("model", c.model, "DeviceModelName; the camera's name when left as hilcam"),
-        text("serial", c.serial, "DeviceSerialNumber; unlike any other camera's on the network"),
+             "IPv4 address or name of the network interface of the camera; messages on other interfaces are "
+             "ignored"),
+        text("model", c.model, "DeviceModelName; hilcam: the camera's name"),
+        text("serial", c.serial, "DeviceSerialNumber, unique on the network"),
         text("user_name", c.user_name, "DeviceUserID at the start"),
         integer("packet_bytes", c.packet_bytes, {576, 16384},
-                "size of a stream packet until a client sets another; the interface's MTU at most"),
+                "size of a stream packet until a client sets another; limited by the interface's MTU"),
         number("rate_limit_mb_s", c.rate_bytes_s, 1e6, {1, 100000},
-               "upper limit of the stream; packets asked for again may take half as much on top"),
-        flag("multipart", c.multipart,
-             "true: multipart frames are announced, which bring 64-bit block ids with them"),
+               "upper limit of the stream's data rate; resent packets may use half as much in addition"),
+        flag("multipart", c.multipart, "true: multipart frames are offered, with 64-bit block ids"),
         number("spread", c.spread_fraction, 1, {0, 1},
-               "share of the frame period that a frame's packets are spread over; 0: at the rate limit"),
+               "share of the frame period over which a frame's packets are spread; 0: as fast as the rate "
+               "limit permits"),
         texts("lines", c.lines,
-              "names that clients have for the trigger input beside Line0, as [Line1, Line2]: entries of "
-              "TriggerSource and LineSelector"),
+              "additional names of the trigger input Line0, as [Line1, Line2]: entries of TriggerSource and "
+              "LineSelector"),
     };
 }
 

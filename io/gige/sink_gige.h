@@ -20,7 +20,7 @@ namespace hilcam {
 
 struct GigeConfig {
     static constexpr const char* kKey = "gige";
-    static constexpr const char* kMeaning = "frames sent as a GigE Vision camera";
+    static constexpr const char* kMeaning = "frames by GigE Vision, as a camera";
     static constexpr bool kLive = true;
 
     std::string interface = "127.0.0.1";  // IPv4 address or name of an interface

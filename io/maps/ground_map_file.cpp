@@ -12,34 +12,38 @@ namespace hilcam {
 
 Fields fields(GroundMapConfig& c) {
     return {
-        required(path("file", c.file, c.where,
-                      "map: GeoTIFF, PDS3 or ISIS label, ENVI header's data, or a picture with bounds_deg")),
+        required(path(
+            "file", c.file, c.where,
+            "map: GeoTIFF, PDS3 or ISIS label, data file of an ENVI header, or a picture with bounds_deg")),
         choice("kind", c.kind,
                {"heights", "albedo", "rock_abundance", "lobe_width", "lobe_backward", "surge_amplitude",
                 "surge_width", "slope_deg"},
-               "meaning of its values: heights over the body's ellipsoid [m], factors on the material's "
-               "reflectance (one channel, or red, green and blue), the share of the ground that boulders "
-               "cover, or the material's own key of that name (hapke)"),
+               "meaning of the map's values: heights above the body's ellipsoid [m], factors on the "
+               "material's reflectance (one channel, or red, green and blue), share of the ground covered by "
+               "boulders, or the material's key of that name (hapke)"),
         choice("between", c.between, {"bilinear", "cubic"}, "interpolation between the posts"),
-        number("scale", c.scale, 1, {-1e9, 1e9}, "factor on the file's values, beside the file's own"),
-        number("offset", c.offset, 1, {-1e9, 1e9}, "number that is added to that [m for heights]"),
-        choice("coding", c.coding, {"linear", "srgb"},
-               "srgb: values of 0 to 255 are codes of sRGB, which stand for 0 to 1, before scale and offset"),
+        number("scale", c.scale, 1, {-1e9, 1e9},
+               "factor on the file's values, in addition to the file's own factor"),
+        number("offset", c.offset, 1, {-1e9, 1e9}, "number added after scale [m for heights]"),
+        choice(
+            "coding", c.coding, {"linear", "srgb"},
+            "coding of the values. srgb: sRGB codes of 0 to 255, decoded to 0 to 1 before scale and offset"),
         choice("holes", c.holes, {"refuse", "fill"},
-               "treatment of holes (no-data). fill: they show the map below, or height 0"),
+               "treatment of holes (no-data). refuse: they are an error; fill: the map below shows through, "
+               "or height 0"),
         numbers("no_data", c.no_data, 1, {-1e9, 1e9}, {0, 4},
-                "values of the file that are holes, beside what it says itself; left out: -9999, -32768 and "
-                "the like where they stand alone"),
+                "values of the file that are holes, in addition to its own; left out: -9999, -32768 and the "
+                "like, where no other value is near"),
         choice("latitudes", c.latitudes, {"label", "planetocentric", "planetographic"},
-               "kind of the map's latitudes. label: what the file says; without a word of it a sphere under "
-               "a flattened body is planetocentric"),
+               "kind of the map's latitudes. label: as in the file; if the file gives none, a sphere for a "
+               "flattened body counts as planetocentric"),
         choice("longitudes", c.longitudes, {"label", "east", "west"},
-               "direction in which the projection's longitudes count. label: what the file says, else east"),
+               "positive direction of the projection's longitudes. label: as in the file, else east"),
         number("blend_posts", c.blend_posts, 1, {0, 1e4},
-               "width of the margin over which the map is blended into what lies below, in its own posts"),
+               "width of the margin that blends the map into the one below, in posts of this map"),
         numbers("bounds_deg", c.bounds_deg, 1, {-360, 540}, {0, 4},
-                "[west, south, east, north] of the outer edges of a map in longitude and latitude, where the "
-                "file has no projection or a wrong one"),
+                "[west, south, east, north] outer edges of a map in longitude and latitude, used if the file "
+                "has no projection or a wrong one"),
     };
 }
 

@@ -98,8 +98,8 @@ std::size_t max_samples(const CameraLimits& limits) {
 Fields fields(PreviewConfig& c) {
     return {
         text("address", c.address,
-             "IPv4 address of this machine that the page is served at; there are no passwords"),
-        integer("port", c.port, {1, 65535}, "TCP port; open http://ADDRESS:PORT/ in a browser"),
+             "IPv4 address of this machine to serve the page on; there are no passwords"),
+        integer("port", c.port, {1, 65535}, "TCP port of the page: http://ADDRESS:PORT/ in a browser"),
         allow_field(c.allow),
     };
 }

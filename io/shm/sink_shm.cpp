@@ -63,9 +63,10 @@ void describe(const FrameRecord& r, ShmSlot& slot) noexcept {
 
 Fields fields(ShmConfig& c) {
     return {
-        text("name", c.name, "name of the shared memory, a file of /dev/shm; each camera has its own"),
-        integer("slots", c.slots, {2, 1024},
-                "number of frames that it holds: a reader has the time of all but one to read one"),
+        text("name", c.name, "name of the shared memory, a file in /dev/shm; each camera needs its own"),
+        integer(
+            "slots", c.slots, {2, 1024},
+            "number of frames in the memory; a reader has the time of all but one of them to read a frame"),
     };
 }
 

@@ -20,7 +20,7 @@ namespace hilcam {
 struct ShmConfig {
     static constexpr const char* kKey = "shm";
     static constexpr const char* kMeaning =
-        "frames in a shared memory that programs on this machine read without a copy (docs/shared_memory.md)";
+        "frames in shared memory, which programs on this machine read without a copy (docs/shared_memory.md)";
     static constexpr bool kLive = true;
 
     std::string name = "hilcam";

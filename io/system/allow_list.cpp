@@ -59,7 +59,7 @@ bool AllowList::allows(std::uint32_t address) const {
 
 Field allow_field(std::vector<std::string>& allow) {
     return texts("allow", allow,
-                 "IPv4 addresses and networks of the senders that are listened to, or any; needed when the "
+                 "senders whose packets are accepted: IPv4 addresses and networks, or any; required when the "
                  "address is not loopback");
 }
 

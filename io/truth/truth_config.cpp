@@ -34,27 +34,27 @@ Fields fields(TruthConfig& c) {
     return {
         text("address", c.address, "IPv4 address of this machine to listen on"),
         integer("port", c.port, {0, 65535},
-                "TCP port whose clients get a line of JSON for each frame; 0: none"),
+                "TCP port on which clients receive one line of JSON per frame; 0: none"),
         allow_field(c.allow),
-        integer("clients", c.clients, {1, 1000}, "connections at a time; more are closed at once"),
+        integer("clients", c.clients, {1, 1000},
+                "largest number of connections at a time; further ones are closed at once"),
         texts("udp_to", c.udp_to, "receivers of the lines as datagrams, each ADDRESS:PORT"),
         path("folder", c.folder,
-             "folder for truth.jsonl and the layers' pictures, made when missing; left out: no files"),
+             "folder of truth.jsonl and of the layers' pictures, created if missing; left out: no files"),
         texts("layers", c.layers,
-              "layers written for each pixel, in files like truth_00000001.exr: object, range, depth, "
+              "layers of values for each pixel, in files like truth_00000001.exr: object, range, depth, "
               "normal, position"),
         flag("visibility", c.visibility,
-             "true: pixels, boxes and visible share of each thing are worked out, by a ray per pixel"),
+             "true: pixels, boxes and visible share of each thing are computed, with one ray per pixel"),
         flag("stars", c.stars, "true: the stars in view are listed"),
         number("faintest_magnitude", c.faintest_magnitude, 1, {-2, 30},
                "magnitude of the faintest stars listed"),
-        number(
-            "ground_px", c.ground_px, 1, {0, 1e4},
-            "least diameter in the frame of the craters and boulders of terrain.globe that are listed [px]; "
-            "0: none are"),
-        integer("every_nth", c.every_nth, {1, 1e9}, "n: truth is given for every n-th frame only"),
+        number("ground_px", c.ground_px, 1, {0, 1e4},
+               "smallest diameter in the frame of listed craters and boulders of terrain.globe [px]; 0: none "
+               "are listed"),
+        integer("every_nth", c.every_nth, {1, 1e9}, "number n of which every n-th frame has truth"),
         flag("overwrite", c.overwrite,
-             "treatment of a folder that holds another run's truth. false: it is refused; true: it is "
+             "treatment of a folder with truth of another run. false: it is refused; true: the truth is "
              "removed first"),
         when_slow(c.when_slow),
     };

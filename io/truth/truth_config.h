@@ -16,7 +16,7 @@ namespace hilcam {
 
 struct TruthConfig {
     static constexpr const char* kKey = "truth";
-    static constexpr const char* kMeaning = "truth about each frame, known by the renderer (docs/truth.md)";
+    static constexpr const char* kMeaning = "truth of each frame, as known by the renderer (docs/truth.md)";
 
     std::string address = "127.0.0.1";
     std::int64_t port = 0;  // 0: none

@@ -42,10 +42,10 @@ Fields fields(UvcConfig& c) {
         integer("vendor_id", c.vendor_id, {0, 65535}, "USB VID"),
         integer("product_id", c.product_id, {0, 65535}, "USB PID"),
         text("serial", c.serial, "serial number"),
-        text("manufacturer", c.manufacturer, "manufacturer's name that hosts show"),
-        text("product", c.product, "product name that hosts show"),
+        text("manufacturer", c.manufacturer, "manufacturer name shown by hosts"),
+        text("product", c.product, "product name shown by hosts"),
         integer("packet_bytes", c.packet_bytes, {64, 3072},
-                "size of an isochronous packet, of which 8000 a second go at high speed"),
+                "size of an isochronous packet; high speed carries 8000 packets a second"),
         text("command_function", c.command_function,
              "name of a FunctionFS instance for commands on the same cable; empty: none"),
     };

@@ -17,7 +17,7 @@ namespace hilcam {
 
 struct UvcConfig {
     static constexpr const char* kKey = "uvc";
-    static constexpr const char* kMeaning = "frames sent as a USB camera, with a USB device controller";
+    static constexpr const char* kMeaning = "frames by USB as a camera, with a USB device controller";
     static constexpr bool kLive = true;
     static constexpr bool kFixedSize = true;
 

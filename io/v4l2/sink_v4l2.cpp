@@ -44,16 +44,16 @@ Fields fields(V4l2Config& c) {
     return {
         text("device", c.device, "output device of v4l2loopback"),
         choice("format", c.format, {"GREY", "Y16", "BAYER8", "BAYER10", "BAYER12", "YUYV", "RGB24"},
-               "pixel format. GREY: the upper 8 bits; Y16: the DN in the upper ones of 16 bits; BAYER10 and "
-               "12: 16-bit words, from v4l2loopback 0.14 on"),
+               "pixel format. GREY: the upper 8 bits; Y16: the DN in the upper bits of 16; BAYER10, BAYER12: "
+               "16-bit words, from v4l2loopback 0.14 on"),
         choice("io", c.io, {"mmap", "write"},
-               "way into the device. mmap: time stamps are those of the exposure; write: times are the "
-               "module's, and frames are counted by all its versions"),
+               "way to write to the device. mmap: time stamps are exposure times; write: time stamps are the "
+               "module's, and frames are counted with every module version"),
         choice(
             "metadata_row", c.metadata_row, {"off", "top", "bottom"},
-            "place of one more row in the picture, with frame id, times, pose and faults (docs/devices.md)"),
+            "place of an extra row of the picture with frame id, times, pose and faults (docs/devices.md)"),
         integer("buffers", c.buffers, {2, 32},
-                "number of buffers that go round; before v4l2loopback 0.14 its own max_buffers"),
+                "number of buffers; before v4l2loopback 0.14 its max_buffers is used"),
     };
 }
 

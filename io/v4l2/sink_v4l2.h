@@ -24,7 +24,7 @@ namespace hilcam {
 
 struct V4l2Config {
     static constexpr const char* kKey = "v4l2";
-    static constexpr const char* kMeaning = "frames fed to a v4l2loopback device";
+    static constexpr const char* kMeaning = "frames to a v4l2loopback device";
     static constexpr bool kLive = true;
     static constexpr bool kFixedSize = true;
 

@@ -8,18 +8,21 @@ namespace hilcam {
 
 Fields fields(VizardConfig& c) {
     return {
-        text("address", c.address, "ZeroMQ endpoint to listen at: tcp://ADDRESS:PORT or ipc://PATH"),
+        text("address", c.address, "ZeroMQ endpoint to listen on: tcp://ADDRESS:PORT or ipc://PATH"),
         choice("depth", c.depth, {"16_bits", "8_bits"},
-               "depth of the PNG pictures; 16_bits: the number is in the upper bits, so that readers of 8 "
-               "bits see the same"),
+               "bit depth of the PNG pictures; 16_bits: the DN is in the upper bits, so 8-bit readers see "
+               "the same picture"),
         choice("time", c.time, {"message", "scenario"},
-               "instant at which a run begins: the epoch of its first message, or time_utc"),
+               "start time of a run: the epoch of the first message, or time_utc"),
         number("tolerance_deg", c.tolerance_rad, kDegree_rad, {0, 180},
-               "angle from the scenario's ephemerides beyond which a body's place is remarked on"),
+               "angle between a body's place in the messages and in the scenario's ephemerides above which a "
+               "remark is made"),
         flag("stay", c.stay,
-             "true: the program goes on when the simulator tells Vizard to end (terminateVizard)"),
-        sections("cameras", c.cameras,
-                 "table of the simulator's cameras and the bench's; left out: in the messages' order"),
+             "treatment of the simulator's request to end Vizard (terminateVizard). true: the program "
+             "continues; false: it ends"),
+        sections(
+            "cameras", c.cameras,
+            "table of cameras of the simulator and of the bench; left out: in the order of the messages"),
     };
 }
 

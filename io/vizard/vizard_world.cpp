@@ -51,7 +51,7 @@ Fields fields(VizardCameraConfig& c) {
     return {
         required(integer("id", c.id, {0, 9e15}, "cameraID in the simulator")),
         required(integer("camera", c.camera, {1, 255},
-                         "number of the bench's camera that takes its pictures, from 1")),
+                         "number of the bench's camera that makes the pictures, from 1")),
     };
 }
 

@@ -106,7 +106,8 @@ struct Hapke : BrdfModel<Hapke> {
                        "c of hapke: (1+c)/2 of the light goes backward"),
                 number("surge_amplitude", k.surge_amplitude, 1, range(kSurgeAmplitudeLimits),
                        "B0 of hapke: opposition surge"),
-                number("surge_width", k.surge_width, 1, range(kSurgeWidthLimits), "h of hapke: its width"),
+                number("surge_width", k.surge_width, 1, range(kSurgeWidthLimits),
+                       "h of hapke: width of the opposition surge"),
                 number("slope_deg", k.slope_rad, kDegree_rad, range(kSlopeLimits_deg),
                        "theta-bar of hapke: mean slope of the surface")};
     }

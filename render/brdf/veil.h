@@ -15,7 +15,7 @@ struct Veil : BrdfModel<Veil> {
         double cover = 0.5;
     };
     static Fields fields(Keys& k) {
-        return {number("cover", k.cover, 1, {0, 1}, "share of a veil that is no hole")};
+        return {number("cover", k.cover, 1, {0, 1}, "share of a veil's area that is not holes")};
     }
 
     float cover;

@@ -6,8 +6,8 @@ namespace hilcam {
 
 Fields fields(CloudsConfig& c) {
     return {
-        required(path("map", c.map, "map of the same form as earth_surface.map, whose clouds are used")),
-        required(text("at_utc", c.at_utc, "its instant, UTC: YYYY-MM-DDThh:mm:ss[.f]Z")),
+        required(path("map", c.map, "map of the same format as earth_surface.map; its clouds are used")),
+        required(text("at_utc", c.at_utc, "instant of the map, UTC: YYYY-MM-DDThh:mm:ss[.f]Z")),
     };
 }
 
@@ -19,9 +19,10 @@ Fields fields(EarthGroundConfig& c) {
     return {
         required(
             path("map", c.map,
-                 "map of the same form as earth_surface.map, whose land, ice, water and lights are used")),
-        integer("month", c.month, {0, 12}, "its month, each year, 1 to 12; 0: at_utc says when it is"),
-        text("at_utc", c.at_utc, "its instant, UTC: YYYY-MM-DDThh:mm:ss[.f]Z"),
+                 "map of the same format as earth_surface.map; its land, ice, water and lights are used")),
+        integer("month", c.month, {0, 12},
+                "month of the map in each year, 1 to 12; 0: at_utc gives its instant"),
+        text("at_utc", c.at_utc, "instant of the map, UTC: YYYY-MM-DDThh:mm:ss[.f]Z"),
     };
 }
 
@@ -37,24 +38,25 @@ Fields fields(EarthLayerConfig& c) {
     return {
         required(path("file", c.file, c.where,
                       "map of the whole Earth in longitude and latitude, twice as wide as high: GeoTIFF "
-                      "(Cloud-optimised, too), or a picture (.png) from 180 W and 90 N on; large ones need "
-                      "overviews (gdaladdo)")),
-        required(choice(
-            "kind", c.kind,
-            {"land", "infrared", "water", "clouds", "cloud_thickness", "cloud_tops", "lights"},
-            "meaning of its values, after coding, scale and offset. land: reflectance in red, green and "
-            "blue; infrared: that from 0.72 um on (left out: told from the colours); water: share of "
-            "the ground; clouds: white of a picture, 0 to 1; cloud_thickness: optical thickness; "
-            "cloud_tops: height [m]; lights: share of the brightest")),
+                      "(also cloud-optimised), or picture (.png) starting at 180 W and 90 N; a large one "
+                      "needs overviews (gdaladdo)")),
+        required(
+            choice("kind", c.kind,
+                   {"land", "infrared", "water", "clouds", "cloud_thickness", "cloud_tops", "lights"},
+                   "meaning of the values after coding, scale and offset. land: reflectance in red, green "
+                   "and blue; infrared: reflectance from 0.72 um on (left out: estimated from the colours); "
+                   "water: share of the ground; clouds: white of a picture, 0 to 1; cloud_thickness: optical "
+                   "thickness; cloud_tops: height [m]; lights: share of the brightest")),
         choice("coding", c.coding, {"linear", "srgb", "blue_marble"},
-               "srgb: values of 0 to 255 are codes of sRGB, which stand for 0 to 1, before scale and offset; "
-               "blue_marble: so are they, and NASA's Blue Marble, whose colours become reflectances as "
-               "tools/make_earth_map.py has it (land alone)"),
-        number("scale", c.scale, 1, {-1e9, 1e9}, "factor on the file's values, beside the file's own"),
-        number("offset", c.offset, 1, {-1e9, 1e9}, "number that is added to that"),
-        numbers(
-            "bounds_deg", c.bounds_deg, 1, {-360, 540}, {0, 4},
-            "[west, south, east, north] of the outer edges of a file without a projection, the whole Earth"),
+               "coding of the values. srgb: sRGB codes of 0 to 255, decoded to 0 to 1 before scale and "
+               "offset; blue_marble: the same for NASA's Blue Marble, with its colours converted to "
+               "reflectance as in tools/make_earth_map.py (land only)"),
+        number("scale", c.scale, 1, {-1e9, 1e9},
+               "factor on the file's values, in addition to the file's own factor"),
+        number("offset", c.offset, 1, {-1e9, 1e9}, "number added after scale"),
+        numbers("bounds_deg", c.bounds_deg, 1, {-360, 540}, {0, 4},
+                "[west, south, east, north] outer edges of the map, for a file without a projection; they "
+                "span the whole Earth"),
     };
 }
 
@@ -75,34 +77,26 @@ void validate(const EarthLayerConfig& c) {
 Fields fields(EarthConfig& c) {
     return {
         path("map", c.map,
-             "map of land, water, clouds and lights, as the source tree's tools/make_earth_map.py makes it; "
-             "left out: the "
-             "Earth is "
-             "earth.albedo or earth.albedo_map"),
+             "map of land, water, clouds and lights, made by tools/make_earth_map.py of the source tree; "
+             "left out: the Earth has earth.albedo or earth.albedo_map"),
         number("wind_m_s", c.wind_m_s, 1, {0, 30},
-               "wind over all seas at 12.5 m, which makes the glint wide"),
+               "wind speed at 12.5 m over all seas, which sets the width of the glint"),
         number("cloud_thickness", c.cloud_thickness, 1, {0, 10},
                "factor on the clouds' optical thickness; 0: no clouds"),
-        path("cloud_map", c.cloud_map,
-             "another map of the same form, whose clouds are used; left out: those of map"),
-        sections(
-            "clouds", c.clouds,
-            "cloud maps of several instants, in the order of time: between two of them each place has their "
-            "mean by time, before the first and after the last that map stays; in place of cloud_map"),
-        integer("cloud_seed", c.cloud_seed, {0, 1e9}, "seed of invented clouds; 0: those of a map"),
-        number("lights", c.lights, 1, {0, 100}, "factor on the light of cities at night"),
-        sections(
-            "ground", c.ground,
-            "surface maps of several months, which come again each year, or of several instants, in their "
-            "order: "
-            "between two of them each place has their mean by time; clouds stay those of map or of the other "
-            "keys"),
+        path("cloud_map", c.cloud_map, "map of the same format for the clouds; left out: the clouds of map"),
+        sections("clouds", c.clouds,
+                 "cloud maps of several instants, in order of time, with interpolation between them; the "
+                 "first and last also hold before and after. Replaces cloud_map"),
+        integer("cloud_seed", c.cloud_seed, {0, 1e9}, "seed of invented clouds; 0: the clouds of a map"),
+        number("lights", c.lights, 1, {0, 100}, "factor on city lights at night"),
+        sections("ground", c.ground,
+                 "surface maps of several months, repeated each year, or of several instants, in order, with "
+                 "interpolation between them. Clouds remain those of map or of the cloud keys"),
         sections(
             "layers", c.layers,
-            "maps that take the place of parts of map, and may be far larger than memory: tiles of them are "
-            "read as they are looked at"),
+            "maps that replace parts of map, read in tiles as needed; they may be far larger than memory"),
         integer("memory_mb", c.memory_mb, {16, 65536},
-                "memory for tiles of layers, of each camera; where a frame needs more, all of it is coarser"),
+                "memory for tiles of layers per camera; a frame that needs more is coarser everywhere"),
     };
 }
 

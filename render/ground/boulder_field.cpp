@@ -19,9 +19,10 @@ constexpr double kSlimFrom = 0.6, kMeanSlim = 0.8;
 
 Fields fields(BoulderSettings& b) {
     return {
-        integer("seed", b.seed, {0, 9e15}, "seed of the boulders, apart from the scenario's"),
-        number("abundance", b.abundance, 1, {0, 0.5}, "share of the ground that boulders cover"),
-        number("exponent", b.exponent, 1, {1, 4}, "exponent of the number of boulders above a diameter"),
+        integer("seed", b.seed, {0, 9e15}, "seed of the boulders, independent of the scenario's seed"),
+        number("abundance", b.abundance, 1, {0, 0.5}, "share of the ground covered by boulders"),
+        number("exponent", b.exponent, 1, {1, 4},
+               "exponent of the cumulative number of boulders above a diameter"),
         number("smallest_m", b.smallest_m, 1, {0.02, 1e3}, "width of the smallest boulders"),
         number("largest_m", b.largest_m, 1, {0.02, 1e3}, "width of the largest boulders"),
     };

@@ -13,13 +13,13 @@ constexpr double kRaysWorn = 0.01;
 
 Fields fields(CraterSettings& c) {
     return {
-        integer("seed", c.seed, {0, 9e15}, "seed of the craters, apart from the scenario's"),
-        number("age_ga", c.age_ga, 1, {0.001, 4.2},
-               "age of the ground, which says how many craters there are"),
+        integer("seed", c.seed, {0, 9e15}, "seed of the craters, independent of the scenario's seed"),
+        number("age_ga", c.age_ga, 1, {0.001, 4.2}, "age of the ground, which sets the number of craters"),
         number("smallest_m", c.smallest_m, 1, {0.05, 1e5}, "diameter of the smallest craters"),
         number("largest_m", c.largest_m, 1, {0.05, 1e5},
-               "diameter of the largest craters: where the maps' own craters begin"),
-        number("diffusivity_m2_ga", c.diffusivity_m2_ga, 1, {0, 1e9}, "wear of the ground's heights"),
+               "diameter of the largest craters, at which the maps' own craters begin"),
+        number("diffusivity_m2_ga", c.diffusivity_m2_ga, 1, {0, 1e9},
+               "topographic diffusivity, which wears the heights down"),
         number("rays", c.rays, 1, {0, 3}, "brightening by the ejecta of the youngest craters; 0: none"),
     };
 }

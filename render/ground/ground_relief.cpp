@@ -41,15 +41,15 @@ double mean_square_difference(double distance) {
 
 Fields fields(ReliefSettings& r) {
     return {
-        integer("seed", r.seed, {0, 9e15}, "seed of the relief, apart from the scenario's"),
-        number(
-            "deviation_m", r.deviation_m, 1, {0, 1e5},
-            "root mean square of the differences of height over at_m; 0: that and hurst are measured on the "
-            "finest map of heights"),
-        number("at_m", r.at_m, 1, {1e-3, 1e6}, "distance over which deviation_m holds"),
-        number("hurst", r.hurst, 1, {0.1, 0.99}, "power of the distance with which the differences grow"),
+        integer("seed", r.seed, {0, 9e15}, "seed of the relief, independent of the scenario's seed"),
+        number("deviation_m", r.deviation_m, 1, {0, 1e5},
+               "rms height difference between points at_m apart; 0: this and hurst are measured on the "
+               "finest height map"),
+        number("at_m", r.at_m, 1, {1e-3, 1e6}, "distance between points at which deviation_m applies"),
+        number("hurst", r.hurst, 1, {0.1, 0.99},
+               "Hurst exponent: height differences grow as this power of the distance"),
         number("longest_m", r.longest_m, 1, {0, 1e6},
-               "longest wave; 0: twice the spacing of the finest map of heights"),
+               "longest wavelength; 0: twice the post spacing of the finest height map"),
     };
 }
 

@@ -12,7 +12,7 @@ namespace hilcam {
 
 Fields fields(RayConfig& c) {
     return {
-        text("model", c.model, "ray model: pinhole | rolling | pushbroom, or a plug-in's"),
+        text("model", c.model, "ray model: pinhole, rolling, pushbroom, or a plug-in's"),
         number("line_time_us", c.line_time_s, 1e-6, {0, 1e6},
                "rolling, pushbroom: time from one row to the next"),
     };

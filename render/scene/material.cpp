@@ -45,7 +45,7 @@ Fields fields(MaterialConfig& c) {
     const Range fraction{0, 1};
     const std::vector<std::string> names(BrdfModels::kNames.begin(), BrdfModels::kNames.end());
     Fields list = {
-        text("source", c.source, "source of the figures"),
+        text("source", c.source, "source of the data"),
         choice("model", c.model, names, "reflection model; docs/materials.md explains each"),
         curve("reflectance", c.reflectance, fraction,
               "albedo (lambert, oren_nayar, body of a dielectric), reflectance at normal incidence (metal, "
@@ -53,9 +53,9 @@ Fields fields(MaterialConfig& c) {
               "(phong), I/F (lommel_seeliger), single-scattering albedo (hapke), factor (table); number or "
               "[[um, value], "
               "...]"),
-        number(
-            "roughness", c.roughness, 1, fraction,
-            "roughness. metal, dielectric: GGX alpha is its square; oren_nayar: slope deviation over 90 deg"),
+        number("roughness", c.roughness, 1, fraction,
+               "roughness. metal, dielectric: the square root of GGX alpha; oren_nayar: standard deviation "
+               "of slope over 90 deg"),
         number("refractive_index", c.refractive_index, 1, {1, 4},
                "refractive index of glass or of a dielectric's clear layer"),
     };
@@ -63,11 +63,11 @@ Fields fields(MaterialConfig& c) {
         Fields own = Model::fields(static_cast<typename Model::Keys&>(c));
         std::move(own.begin(), own.end(), std::back_inserter(list));
     });
-    list.push_back(number("temperature_k", c.temperature_k, 1, {0, 6000},
-                          "temperature for the surface's thermal emission, used with radiance: emissive; 0: "
-                          "none"));
+    list.push_back(number(
+        "temperature_k", c.temperature_k, 1, {0, 6000},
+        "temperature of the surface for thermal emission, used with radiance: emissive; 0: no emission"));
     list.push_back(
-        path("table", c.table, "a measured BRDF: MERL .binary, or CSV as docs/materials.md describes"));
+        path("table", c.table, "measured BRDF: MERL .binary, or CSV as described in docs/materials.md"));
     for (Field& field : list) field.why_idle = [&c, key = field.key] { return why_idle(c, key); };
     return list;
 }
@@ -82,8 +82,7 @@ void validate(const MaterialConfig& c) {
 
 Fields fields(SurfaceConfig& c) {
     return {
-        required(text("name", c.name,
-                      "name of the mesh's surface that is covered; a trailing * matches any ending")),
+        required(text("name", c.name, "name of the mesh surface; a trailing * matches any ending")),
         required(section("material", c.material,
                          "material of the surface: a mapping, or a file of configs/materials/")),
     };

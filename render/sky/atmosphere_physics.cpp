@@ -58,7 +58,7 @@ double rayleigh_optical_depth(double wavelength_um) {
 
 Fields fields(AtmosphereConfig& c) {
     return {
-        text("model", c.model, "atmosphere model: none | precomputed | table, or a plug-in's"),
+        text("model", c.model, "atmosphere model: none, precomputed, table, or a plug-in's"),
         number("pressure_hpa", c.pressure_pa, 100, {0, 1100}, "precomputed: air pressure at the ground"),
         number("aerosol_optical_depth", c.aerosol_optical_depth, 1, {0, 5},
                "precomputed: vertical optical depth of the aerosol at 0.55 um"),
@@ -69,16 +69,14 @@ Fields fields(AtmosphereConfig& c) {
         number("aerosol_asymmetry", c.aerosol_asymmetry, 1, {-0.95, 0.95},
                "precomputed: asymmetry g of the aerosol's phase function"),
         number("aerosol_single_albedo", c.aerosol_single_albedo, 1, {0, 1},
-               "precomputed: share of the light meeting aerosol that is scattered"),
+               "precomputed: single-scattering albedo of the aerosol"),
         number("ozone_du", c.ozone_du, 1, {0, 1000}, "precomputed: ozone column in Dobson units"),
-        optional(
-            number("ground_albedo", c.ground_albedo, 1, {0, 1},
-                   "precomputed: albedo of all that is below the air, for light going between ground and "
-                   "sky; left out: that of the Earth's ground and clouds, by place"),
-            c.has_ground_albedo),
-        path("cache", c.cache, "precomputed: folder for its tables; left out: hilcam's own"),
-        path("table", c.table,
-             "table: CSV of values or of MODTRAN runs, in a form that docs/atmosphere.md describes"),
+        optional(number("ground_albedo", c.ground_albedo, 1, {0, 1},
+                        "precomputed: albedo of the ground and clouds for light between ground and sky; left "
+                        "out: the albedo of the Earth's ground and clouds by place"),
+                 c.has_ground_albedo),
+        path("cache", c.cache, "precomputed: folder of the tables; left out: hilcam's own folder"),
+        path("table", c.table, "table: CSV of values or of MODTRAN runs, as described in docs/atmosphere.md"),
     };
 }
 

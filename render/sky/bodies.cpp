@@ -216,16 +216,14 @@ Mat3d body_fixed_from_local(const Geodetic& place) {
 Fields fields(OriginConfig& c) {
     std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     return {
-        choice(
-            "kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free", "spice"},
-            "kind of origin: the centre of a body, a place that turns with it, free space, or a thing of the "
-            "kernels. In free space the origin is at rest relative to the Sun, which stands where "
-            "sun.direction "
-            "says, and only bodies whose 'visible' is true are shown"),
+        choice("kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free", "spice"},
+               "kind of origin: the centre of a body, a place that turns with it, free space, or a SPICE "
+               "object. In free space the origin is at rest relative to the Sun, sun.direction places the "
+               "Sun, and only bodies with 'visible: true' are shown"),
         optional(
-            text("object", c.object, "thing of the kernels that kind spice refers to: a name or NAIF's code"),
+            text("object", c.object, "SPICE object at the origin, for kind spice: a name or a NAIF code"),
             c.has_object),
-        optional(choice("body", c.body, names, "body that body_center and body_fixed refer to"), c.has_body),
+        optional(choice("body", c.body, names, "body of the kinds body_center and body_fixed"), c.has_body),
         optional(number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
                         "longitude of a fixed origin, east positive"),
                  c.has_longitude),

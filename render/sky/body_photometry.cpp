@@ -125,43 +125,39 @@ BodyConfig default_body(BodyId id) {
 Fields fields(BodyConfig& c) {
     return {
         optional(flag("visible", c.visible,
-                      "true: the body is drawn and reflected, shines on the objects and casts shadow; with "
-                      "origin.kind free it is false unless given"),
+                      "true: the body is drawn and reflected, lights objects and casts shadows; with "
+                      "origin.kind: free, false unless given"),
                  c.has_visible),
         choice("law", c.law, {"lambert", "lommel_seeliger", "hapke"},
-               "law by which the surface reflects; hapke is that of regolith, not tied to a magnitude"),
-        optional(
-            flag("measured_magnitude", c.measured_magnitude,
-                 "true: the body is scaled to its measured V magnitude at every phase, and albedo is then a "
-                 "factor (not for the Earth, nor with law hapke)"),
-            c.has_measured),
+               "reflection law of the surface; hapke is that of regolith, not scaled to a magnitude"),
+        optional(flag("measured_magnitude", c.measured_magnitude,
+                      "true: the body is scaled to its measured V magnitude at every phase angle, and albedo "
+                      "is a factor on that (not for the Earth, nor with law hapke)"),
+                 c.has_measured),
         optional(
             curve(
                 "albedo", c.albedo, {0, 2},
                 "albedo (lambert), w (lommel_seeliger) or single-scattering albedo (hapke; the Moon has its "
                 "own), or a factor on magnitude or map"),
             c.has_albedo),
-        section("regolith", c.regolith, "parameters of law hapke; left out: the Moon's"),
+        section("regolith", c.regolith, "parameters of the law hapke; left out: those of the Moon"),
         path("albedo_map", c.albedo_map,
-             "equirectangular picture, left edge 180 W, top 90 N; left out: uniform"),
-        choice(
-            "albedo_map_latitudes", c.albedo_map_latitudes, {"planetographic", "planetocentric"},
-            "kind of the picture's latitudes, which differ where the body is flattened: maps of Mars, Ceres "
-            "and Vesta mostly are planetocentric"),
+             "equirectangular picture with left edge 180 W and top edge 90 N; left out: uniform"),
+        choice("albedo_map_latitudes", c.albedo_map_latitudes, {"planetographic", "planetocentric"},
+               "kind of the picture's latitudes, which differ on a flattened body; most maps of Mars, Ceres "
+               "and Vesta are planetocentric"),
         number("albedo_map_reference", c.albedo_map_reference, 1, {0, 1},
-               "value of the map, linear, at which the law's albedo or the magnitude holds; 0: its mean"),
+               "value of the map, linear, at which the law's albedo or the magnitude applies; 0: the map's "
+               "mean"),
         path("height_map", c.height_map,
-             "heights over a round body's sphere, a number a pixel (TIFF or PNG), placed as albedo_map; left "
-             "out: "
-             "smooth"),
-        number("height_step_m", c.height_step_m, 1, {1e-3, 1e6}, "height of a step of height_map"),
-        number("height_zero_m", c.height_zero_m, 1, {-1e6, 1e6}, "height where height_map has 0"),
-        flag("planetshine", c.planetshine,
-             "true: light that the other bodies send onto it is added (earthshine)"),
+             "heights above the sphere of a round body, one number a pixel (TIFF or PNG), placed as "
+             "albedo_map; left out: smooth"),
+        number("height_step_m", c.height_step_m, 1, {1e-3, 1e6}, "height per unit of height_map"),
+        number("height_zero_m", c.height_zero_m, 1, {-1e6, 1e6}, "height at the value 0 of height_map"),
+        flag("planetshine", c.planetshine, "true: light from the other bodies is added (earthshine)"),
         flag("rings", c.rings,
-             "true, as is usual for saturn: its rings are drawn, shade it and are shaded by it; as a point "
-             "it has "
-             "their light either way"),
+             "true: the rings are drawn, shade the body and are shaded by it; default: true for saturn. As a "
+             "point the body has their light either way"),
     };
 }
 
@@ -180,12 +176,13 @@ void validate(const BodyConfig& c) {
 
 Fields fields(RegolithConfig& r) {
     return {
-        number("lobe_width", r.lobe_width, 1, {0, 0.95}, "b, width of both lobes of the phase function"),
+        number("lobe_width", r.lobe_width, 1, {0, 0.95},
+               "b of hapke: width of both lobes of the phase function"),
         number("lobe_backward", r.lobe_backward, 1, {-1, 1},
-               "c, (1 + c) / 2 is the share of the lobe that scatters back"),
+               "c of hapke: (1 + c) / 2 is the share of the lobe that scatters backward"),
         number("surge_amplitude", r.surge_amplitude, 1, {0, 10}, "amplitude of the opposition surge"),
         number("surge_width", r.surge_width, 1, {1e-4, 1}, "angular width of the opposition surge"),
-        number("slope_deg", r.slope_rad, kDegree_rad, {0, 60}, "mean slope of the roughness"),
+        number("slope_deg", r.slope_rad, kDegree_rad, {0, 60}, "mean slope of the surface roughness"),
     };
 }
 

@@ -113,18 +113,16 @@ Fields fields(SunConfig& c) {
                  c.has_spectrum),
         flag("limb_darkening", c.limb_darkening, "true: the Sun's disk is darker at its edge"),
         optional(vector3("direction", c.direction, 1, {-1e13, 1e13},
-                         "direction of the Sun in world axes, used where origin.kind is free; its length "
-                         "does not count"),
+                         "direction of the Sun in world axes, of any length; used with origin.kind: free"),
                  c.has_direction),
         optional(number("distance_au", c.distance_m, kAstronomicalUnit_m, {0.01, 1e3},
-                        "distance of the Sun from the world's origin, used where origin.kind is free; "
-                        "sunlight falls with its square"),
+                        "distance of the Sun from the world's origin; sunlight falls with its square. Used "
+                        "with origin.kind: free"),
                  c.has_distance),
-        optional(
-            number("phase_deg", c.phase_rad, kDegree_rad, {0, 180},
-                   "phase angle of what stands in the middle of the picture that camera_pose begins with; 0: "
-                   "the Sun is behind the camera. Used where origin.kind is free; replaces direction"),
-            c.has_phase),
+        optional(number("phase_deg", c.phase_rad, kDegree_rad, {0, 180},
+                        "phase angle of a target at the centre of the picture that camera_pose gives; 0: the "
+                        "Sun is behind the camera. Used with origin.kind: free; replaces direction"),
+                 c.has_phase),
         optional(number("azimuth_deg", c.azimuth_rad, kDegree_rad, {-360, 360},
                         "direction in that picture from which sunlight comes, clockwise; 0: from the top, "
                         "90: from the right. Used with phase_deg"),

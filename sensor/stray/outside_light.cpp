@@ -14,15 +14,16 @@ namespace hilcam {
 Fields fields(OutsideGhostConfig& g) {
     return {
         number("from_deg", g.from_rad, kDegree_rad, {0, 90},
-               "least angle of a source from the boresight that makes this ghost"),
-        number("to_deg", g.to_rad, kDegree_rad, {0, 90}, "greatest such angle"),
-        required(number("gain", g.gain, 1, {0, 0.5}, "share of the source's light that the ghost has")),
+               "smallest angle between source and boresight at which this ghost appears"),
+        number("to_deg", g.to_rad, kDegree_rad, {0, 90},
+               "largest angle between source and boresight at which this ghost appears"),
+        required(number("gain", g.gain, 1, {0, 0.5}, "share of the source's light in the ghost")),
         number("scale", g.scale, 1, {-5, 5},
-               "the ghost's distance from the principal point over that of the source's image; negative: "
-               "mirrored"),
+               "the ghost's distance from the principal point over the distance of the source's image; "
+               "negative: on the opposite side"),
         number("defocus_mm", g.defocus_m, 1e-3, {0, 1000},
-               "distance between the detector and where the ghost is sharp: its disk is that over the "
-               "f-number wide"),
+               "distance from the detector to the ghost's focus; the diameter of its disk is this over the "
+               "f-number"),
     };
 }
 
@@ -34,16 +35,16 @@ void validate(const OutsideGhostConfig& g) {
 Fields fields(OutsideLightConfig& c) {
     return {
         table("transmittance", c.transmittance, {"angle_deg", "ratio"}, {0, 90}, {0, 1},
-              "measured point source transmittance: irradiance on the detector over that of a source at this "
-              "angle from the boresight, between samples by their logarithms, 0 beyond the last; left out: "
-              "the halo and the wings of light in the field go on beyond it"),
+              "measured point source transmittance by angle from the boresight: irradiance on the detector "
+              "over the source's irradiance at the aperture; logarithmic interpolation, 0 beyond the last "
+              "sample. Left out: halo and wings of light inside the field continue beyond it"),
         number("baffle_angle_deg", c.baffle_rad, kDegree_rad, {0, 89},
-               "angle from which on a baffle keeps light off the first lens; 0: there is no baffle"),
+               "angle from the boresight from which on the baffle shades the whole aperture; 0: no baffle"),
         number("baffle_field_deg", c.baffle_field_rad, kDegree_rad, {0, 89},
-               "angle up to which the baffle shades nothing of the aperture"),
+               "angle from the boresight up to which the baffle shades none of the aperture"),
         number("baffle_leak", c.baffle_leak, 1, {0, 1},
-               "share of the shaded light that comes on by the baffle's wall"),
-        sections("ghosts", c.ghosts, "ghosts of sources beside the picture"),
+               "share of the shaded light that still arrives by way of the baffle's wall"),
+        sections("ghosts", c.ghosts, "ghosts of sources outside the picture"),
     };
 }
 

@@ -10,11 +10,11 @@ namespace hilcam {
 
 Fields fields(SpiderConfig& s) {
     return {
-        integer("vanes", s.vanes, {0, 12}, "number of vanes, evenly around; 0: no spider"),
-        number("width_mm", s.width_m, 1e-3, {0, 1000}, "width of a vane as light sees it"),
+        integer("vanes", s.vanes, {0, 12}, "number of vanes, evenly spaced; 0: no spider"),
+        number("width_mm", s.width_m, 1e-3, {0, 1000}, "width of a vane seen along the optical axis"),
         number("angle_deg", s.angle_rad, kDegree_rad, {-360, 360},
-               "direction of the first vane, from the picture's right to its lower edge; its spike is at "
-               "right angles"),
+               "direction of the first vane, from the picture's right edge towards its lower edge; its spike "
+               "is perpendicular to it"),
     };
 }
 

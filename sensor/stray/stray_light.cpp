@@ -10,14 +10,15 @@ namespace hilcam {
 Fields fields(StrayLightConfig& c) {
     return {
         number("veiling_glare_fraction", c.veiling_glare_fraction, 1, {0, 0.9},
-               "share of all light that is spread over the picture as glare"),
+               "share of all light that glare spreads over the picture"),
         number("glare_radius_px", c.glare_radius_px, 1, {0, 10000},
-               "r of the halo r / (r^2 + x^2)^1.5; 0: the glare is spread evenly"),
+               "radius r of the halo r / (r^2 + x^2)^1.5; 0: the glare is uniform"),
         number("ghost_fraction", c.ghost_fraction, 1, {0, 0.5},
                "share of a source's light that goes into its ghost"),
         number("ghost_scale", c.ghost_scale, 1, {-5, 5},
-               "the ghost's distance from the principal point over its source's; negative: mirrored"),
-        number("ghost_radius_px", c.ghost_radius_px, 1, {8, 2000}, "radius of the blurred ghost of a point"),
+               "the ghost's distance from the principal point over the source's distance; negative: on the "
+               "opposite side"),
+        number("ghost_radius_px", c.ghost_radius_px, 1, {8, 2000}, "radius of a point's blurred ghost"),
     };
 }
 

@@ -141,7 +141,7 @@ class Speed(unittest.TestCase):
         # Above the target along the axis of the circle.
         result = hilcam("bench", SCENARIO, *SMALL, "--set", "camera_pose={position_m: [0, 0, 30]}")
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("circle: the start must lie off the axis", result.stderr)
+        self.assertIn("circle: the start must be off the axis", result.stderr)
 
 
 class Error(unittest.TestCase):

@@ -239,7 +239,7 @@ class Check(unittest.TestCase):
         self.assertEqual(bad.returncode, 0, bad.stderr)
         warnings = bad.stdout[:bad.stdout.index("scenario protocol_test")]
         self.assertTrue(warnings.startswith("warnings:\n"))
-        for words in ("nobody can ask for a frame", "object 'target' is behind the camera", "nothing can show the fault 'v4l2_stall'",
+        for words in ("nothing can request a frame", "object 'target' is behind the camera", "the fault 'v4l2_stall'",
                       "interface 'nowhere0' does not exist"):
             self.assertIn(words, warnings)
         told = json.loads(hilcam("check", SCENARIO, "--json").stdout)
@@ -257,7 +257,7 @@ class Check(unittest.TestCase):
 
     def test_render_and_run_print_what_concerns_them(self):
         away = ("--set", "camera_pose.look_at_m=[44, 30, 14]")
-        behind, nobody = "object 'target' is behind the camera", "so nobody gets the frames of a run"
+        behind, nobody = "object 'target' is behind the camera", "so the frames of a run go nowhere"
         with tempfile.TemporaryDirectory() as folder:
             picture = hilcam("render", SCENARIO, "--out", f"{folder}/black.png", *away)
             self.assertEqual(picture.returncode, 0, picture.stderr)

@@ -333,11 +333,11 @@ TEST_F(CampaignTest, TwoCampaignsDoNotShareAFolder) {
                 HasSubstr("holds another campaign (seed: '1' there, '2' here)"));
     const CampaignFolder holder(c, out, false);
     EXPECT_THAT(error_of([&] { CampaignFolder f(c, out, false); }),
-                HasSubstr("somebody works on this campaign now"));
+                HasSubstr("another process is working on this campaign"));
     std::filesystem::create_directories(folder_ / "used");
     write("used/file", "x");
     EXPECT_THAT(error_of([&] { CampaignFolder f(c, folder_ / "used", false); }),
-                HasSubstr("is not empty and no campaign's"));
+                HasSubstr("is not empty and holds no campaign"));
 }
 
 TEST(WorkerPool, APieceThatCrashesOrHangsIsLostAloneAndNamed) {

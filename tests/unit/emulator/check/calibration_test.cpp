@@ -189,11 +189,12 @@ TEST(Calibration, WhatAFormatHasNoPlaceForIsRefused) {
     s.more_cameras.push_back(mounted({}, {}));
     EXPECT_THAT(refusal_of(s, CalibrationFormat::kRos), HasSubstr("found 2; give --camera N"));
     s.more_cameras.back().thing = 1;
-    EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv), HasSubstr("camera 2 does not ride with camera 1"));
+    EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv),
+                HasSubstr("camera 2 is not on the body of camera 1"));
     s.more_cameras.clear();
     s.camera.projection = Projection::kRectilinear, s.camera.distortion_x_mm = {0.1};
     EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv),
-                HasSubstr("camera has distortion_x_mm, distortion_y_mm, and none of the formats"));
+                HasSubstr("camera has distortion_x_mm, distortion_y_mm, and no format"));
     s.camera.shutter.kind = ShutterKind::kLineScan;
     EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv), HasSubstr("no pinhole"));
 }

@@ -143,7 +143,7 @@ TEST_F(CheckScenario, WhatIsHiddenIsSaid) {
     EXPECT_THAT(warnings({"objects=[{name: near, mesh: " + (folder_ / "plate.obj").string() +
                           ", pose: {position_m: [0, 0, 2]}}, {name: far, mesh: " +
                           (folder_ / "plate.obj").string() + ", pose: {position_m: [0, 0, 4]}}]"}),
-                ElementsAre(HasSubstr("object 'far' is hidden: something stands before it")));
+                ElementsAre(HasSubstr("object 'far' is hidden: something is in front of it")));
 }
 
 TEST_F(CheckScenario, AModelInMillimetresIsSaid) {
@@ -168,7 +168,7 @@ TEST_F(CheckScenario, DarknessAndGlareAreSaid) {
         "earth.visible=true", "earth.albedo=0.3", "camera_pose.position_m=[0, 6450000, 2786000]",
         "objects.0.pose.position_m=[0, 6450000, 2786004]", "atmosphere.model=none"};
     EXPECT_THAT(warnings(night),
-                Contains(HasSubstr("object 'plate' is in eclipse: bodies leave it 0 % of the Sun")));
+                Contains(HasSubstr("object 'plate' is in eclipse: 0 % of the Sun is visible from it")));
     // Between the camera and the Sun, but for a degree, so that the Sun is not in the picture.
     EXPECT_THAT(
         warnings({"camera_pose={look_at_m: [0, -4, -1.5]}", "objects.0.pose.position_m=[0, -4, -1.5]"}),
@@ -181,45 +181,43 @@ TEST_F(CheckScenario, DarknessAndGlareAreSaid) {
 
 TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
     EXPECT_THAT(warnings({"mode=lockstep"}),
-                ElementsAre(HasSubstr("mode: lockstep, and nobody can ask for a frame")));
+                ElementsAre(HasSubstr("mode: lockstep, and nothing can request a frame")));
     EXPECT_THAT(warnings({"mode=lockstep", "commands.udp.port=15999"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=lockstep", "outputs.preview.port=15999"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=lockstep", "events=[{at_s: 1, do: [expose]}]"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=triggered"}),
-                ElementsAre(HasSubstr("mode: triggered, and nobody can trigger a frame")));
+                ElementsAre(HasSubstr("mode: triggered, and nothing can trigger a frame")));
     EXPECT_THAT(warnings({"mode=triggered", "commands.tcp.port=15999"}), IsEmpty());
     EXPECT_THAT(warnings({"mode=triggered", "events=[{at_s: 1, do: mode free-run}]"}), IsEmpty());
-    EXPECT_THAT(
-        warnings({"faults=[{kind: packet_drop}, {kind: packet_drop, from_frame: 9}]"}),
-        ElementsAre(HasSubstr("faults: nothing can show the fault 'packet_drop' (stream packets are not "
-                              "sent): that takes outputs.gige")));
+    EXPECT_THAT(warnings({"faults=[{kind: packet_drop}, {kind: packet_drop, from_frame: 9}]"}),
+                ElementsAre(HasSubstr("faults: the fault 'packet_drop' (stream packets are not sent) has no "
+                                      "effect without outputs.gige")));
     EXPECT_THAT(warnings({"faults=[{kind: image_black}]"}),
                 ElementsAre(HasSubstr("that takes any of outputs")));
     EXPECT_THAT(
         warnings({"faults=[{kind: image_black}]", "outputs.files.folder=" + (folder_ / "x").string()}),
         IsEmpty());
     EXPECT_THAT(warnings({"events=[{at_s: 1, do: [fault usb_stall]}]"}),
-                ElementsAre(HasSubstr("events: nothing can show the fault 'usb_stall'")));
+                ElementsAre(HasSubstr("events: the fault 'usb_stall'")));
     EXPECT_THAT(
         warnings(
             {"objects.0.materials={surfaces: [{name: DefaultMateriel, material: {}}, {name: zz, material: "
              "{}}]}"}),
-        ElementsAre(HasSubstr(
-            "object 'plate': no surface takes its material rules for 'DefaultMateriel' (the nearest is "
-            "'DefaultMaterial'), 'zz'; the mesh's surfaces: 'DefaultMaterial'")));
+        ElementsAre(
+            HasSubstr("object 'plate': no surface matches its material rules for 'DefaultMateriel' (the "
+                      "nearest is 'DefaultMaterial'), 'zz'; the mesh's surfaces: 'DefaultMaterial'")));
     EXPECT_THAT(
         warnings({"objects.0.materials={surfaces: [{name: \"*\", material: {}}, {name: DefaultMaterial, "
                   "material: {}}]}"}),
-        ElementsAre(HasSubstr("'DefaultMaterial' (a rule before it takes that surface)")));
+        ElementsAre(HasSubstr("'DefaultMaterial' (an earlier rule matches that surface)")));
     // A thousand satellites of one make have one mistake.
     const std::string mesh = (folder_ / "plate.obj").string();
     const std::string rules = "materials: {surfaces: [{name: zz, material: {}}]}";
     EXPECT_THAT(
         warnings({"objects=[{name: a, mesh: " + mesh + ", pose: {position_m: [0, 0, 4]}, " + rules +
                   "}, {name: b, mesh: " + mesh + ", pose: {position_m: [0.1, 0, 4]}, " + rules + "}]"}),
-        ElementsAre(
-            HasSubstr("object 'a' and 1 more: no surface takes its material rules for 'zz'; the mesh's "
-                      "surfaces: 'DefaultMaterial'")));
+        ElementsAre(HasSubstr("object 'a' and 1 more: no surface matches its material rules for 'zz'; the "
+                              "mesh's surfaces: 'DefaultMaterial'")));
 }
 
 TEST_F(CheckScenario, LooksOfAMeshThatAreNotTakenAreSaidOnce) {
@@ -238,10 +236,9 @@ TEST_F(CheckScenario, LooksOfAMeshThatAreNotTakenAreSaidOnce) {
 TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {
     EXPECT_THAT(
         warnings({"earth.visible=true"}),
-        Contains(HasSubstr(
-            "camera 1 begins inside the body 'earth', 0 km from its centre: it sees nothing else; the "
-            "world's origin is that centre unless the scenario says otherwise: say where it is by "
-            "'origin', move camera_pose, or set earth.visible: false")));
+        Contains(HasSubstr("camera 1 begins inside the body 'earth', 0 km from its centre: it sees nothing "
+                           "else; the world's origin is that centre unless the scenario says otherwise: set "
+                           "it with 'origin', move camera_pose, or set earth.visible: false")));
     // 10 km under the Moon's surface, and 10 km over it.
     const std::vector<std::string> moon = {"moon.visible=true",
                                            "origin={kind: body_fixed, body: moon, height_km: 10}"};
@@ -345,7 +342,8 @@ TEST_F(CheckScenario, AFrameThatTakesLongerThanItHasIsTold) {
     EXPECT_FALSE(report.reports[1].is_late());
     EXPECT_THAT(
         to_text(report),
-        HasSubstr("25 frames/s leave 40 ms\n              longer than it has: a run lowers the quality"));
+        HasSubstr(
+            "25 frames/s leave 40 ms\n              longer than the frame period: a run lowers the quality"));
     // In lockstep frames are asked for.
     EXPECT_EQ(check({}, "mode: lockstep\n").reports.at(0).period_s, 0);
     EXPECT_NEAR(check({"camera.exposure_ms=250"}).reports.at(0).period_s, 0.25, 1e-12);
@@ -404,7 +402,7 @@ TEST_F(CheckScenario, OfManyObjectsTheFirstAreTold) {
                    ", pose: {position_m: [9, 0, " + std::to_string(i) + "]}},";
     const CheckReport report = check({objects + "]"});
     EXPECT_THAT(report.warnings,
-                Contains(HasSubstr("and 50 more objects have warnings: --json tells where each of them is")));
+                Contains(HasSubstr("and 50 more objects have warnings: --json gives the place of each")));
     EXPECT_EQ(report.warnings.size(), 12u);
     EXPECT_THAT(to_text(report), HasSubstr("  and 10 more objects: --json has them\n"));
 }

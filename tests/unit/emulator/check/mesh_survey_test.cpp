@@ -107,9 +107,9 @@ TEST_F(MeshSurveyTest, MillimetresAreTold) {
 TEST_F(MeshSurveyTest, AMissingFileOfMaterialsIsTold) {
     const std::string cube = std::string(kCorners) + "usemtl gold\n" + kFaces + kLast;
     EXPECT_THAT(problems("mtllib none.mtl\n" + cube),
-                ElementsAre("no file 'none.mtl': surfaces whose materials it would have are grey"));
+                ElementsAre("no file 'none.mtl': surfaces with its materials are grey"));
     EXPECT_THAT(problems("mtllib none.mtl\no box\n" + cube + "o other\nusemtl white\nf 1 2 3\n"),
-                Contains("no file 'none.mtl': surfaces whose materials it would have are grey").Times(1));
+                Contains("no file 'none.mtl': surfaces with its materials are grey").Times(1));
     EXPECT_THAT(problems(cube), IsEmpty());
     // The file of the mesh's own name is taken then, as other programs do.
     write("mesh.mtl", "newmtl gold\n");
@@ -136,15 +136,15 @@ TEST_F(MeshSurveyTest, NormalsOfAnStlThatAreNotThoseOfItsCornersAreTold) {
     EXPECT_THAT(problems_of(survey(stl("0 0 -1"), "m.stl")),
                 Contains(HasSubstr("1 triangles with opposed normals: ")));
     EXPECT_THAT(problems_of(survey(stl("1 0 0"), "m.stl")),
-                Contains(HasSubstr("1 facets with leaning normals: ")));
+                Contains(HasSubstr("1 facets with tilted normals: ")));
     EXPECT_FALSE(survey(stl("0 0 1"), "m.stl").has_normals);
 }
 
 // Single precision has steps of 0.5 m there: of a plate of ten metres little is left.
 TEST_F(MeshSurveyTest, AMeshFarFromItsOriginIsTold) {
-    EXPECT_THAT(
-        problems("v 4200000 0 0\nv 4200010 0 0\nv 4200000 10 0\nf 1 2 3\n"),
-        Contains(HasSubstr("so far from its origin that single precision moves its corners by up to 0.5 m")));
+    EXPECT_THAT(problems("v 4200000 0 0\nv 4200010 0 0\nv 4200000 10 0\nf 1 2 3\n"),
+                Contains(HasSubstr(
+                    "so far from its origin that single precision moves its vertices by up to 0.5 m")));
     EXPECT_THAT(problems("v 1000 0 0\nv 1010 0 0\nv 1000 10 0\nf 1 2 3\n"),
                 ElementsAre(HasSubstr("open edges")));
 }

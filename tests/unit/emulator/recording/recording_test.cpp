@@ -306,7 +306,7 @@ TEST(CheckRecording, NamesWhatIsAnother) {
     };
     EXPECT_EQ(refusal(),
               "a.rec: was recorded with another scenario: camera.exposure_ms: '5' there, '20' here; --force "
-              "replays it all the same");
+              "replays it anyway");
     EXPECT_EQ(check_recording(other, "a.rec", own, true).size(), 1u);
     other = own;
     other.program = "hilcam 0.0.1";

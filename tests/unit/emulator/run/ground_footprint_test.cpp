@@ -228,7 +228,7 @@ TEST(GroundFootprint, TruthSaysWhyItListsNothing) {
     const SeenGroundThings many = told_by_run(above_the_site(
         300, {"terrain.globe.craters.smallest_m=0.2", "outputs.truth={port: 5012, ground_px: 0.2}"}));
     EXPECT_TRUE(many.craters.empty() && many.boulders.empty());
-    EXPECT_THAT(many.left_out, HasSubstr("outputs.truth.ground_px: there are more of them in the picture"));
+    EXPECT_THAT(many.left_out, HasSubstr("outputs.truth.ground_px: the picture has more of them"));
 }
 
 // Ground without stones still has craters.

@@ -171,8 +171,8 @@ TEST_F(RenderToFile, PartsAndPixelsThatCannotBeAreRefused) {
     EXPECT_EQ(error_of([&] {
                   render_to_files(ground, PictureStage::kFrame, 0, {.out = {}, .pixel = FramePixel{1, 1}});
               }),
-              "--pixel: three of four pixels of the ground are made of their neighbours; found "
-              "quality.ground_step_px: 2; accepted: --set quality.ground_step_px=1");
+              "--pixel: three of four pixels of the ground are interpolated; found quality.ground_step_px: "
+              "2; accepted: --set quality.ground_step_px=1");
 }
 
 // The report goes to the standard output, beside a picture or alone.

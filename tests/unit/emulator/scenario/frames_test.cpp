@@ -253,7 +253,7 @@ TEST_F(ScenarioFrames, WhatHasNoEffectIsRefused) {
               "origin.latitude_deg: has no effect with kind: free"},
              {"sun: {direction: [1, 0, 0]}\n", "sun.direction: has no effect"},
              {"sun: {distance_au: 2}\n", "sun.distance_au: has no effect"},
-             {"origin: {kind: free}\n", "sun: does not say where the Sun is"},
+             {"origin: {kind: free}\n", "sun: has no position of the Sun"},
              {"origin: {kind: free}\nsun: {direction: [0, 0, 0]}\n", "sun.direction: found a vector without"},
              {"origin: {kind: free}\nsun: {direction: [1, 0, 0], phase_deg: 3}\n",
               "sun.phase_deg: found besides"},
@@ -265,7 +265,7 @@ TEST_F(ScenarioFrames, WhatHasNoEffectIsRefused) {
               "camera_pose.attitude: is nadir in free space"},
              {std::string(kFramesMoonSite) +
                   "camera_pose: {frame: local, attitude: nadir, nadir_of: earth, rate_deg_s: [0, 0, 1]}\n",
-              "camera_pose.rate_deg_s: has no effect with the nadir of another body than the site's"},
+              "camera_pose.rate_deg_s: has no effect when nadir points to another body than the site's"},
              {"camera_pose: {nadir_of: moon}\n", "camera_pose.nadir_of: has no effect"},
              {"camera_motion: {kind: fixed, attitude: {nadir_of: moon}}\n",
               "attitude.nadir_of: has no effect"},
@@ -302,17 +302,17 @@ TEST_F(ScenarioFrames, AnAttitudeIsSaidOnceAndWhole) {
                 HasSubstr("found '322'; accepted: 121 | 123"));
     EXPECT_THAT(pose("attitude_radec_deg: [1, 91, 3]"), HasSubstr("found a declination of 91"));
     EXPECT_THAT(pose("attitude_dcm: [1, 0, 0, 0, 1, 0, 0, 0, 0.9998]"),
-                HasSubstr("length 1 and square to each other by 0.00039996; accepted: 0.0001 or less"));
+                HasSubstr("unit length and right angles by 0.00039996; accepted: 0.0001 or less"));
     EXPECT_THAT(pose("attitude_dcm: [1, 0, 0, 0, 1, 0, 0, 0, -1]"), HasSubstr("found a matrix that mirrors"));
     EXPECT_THAT(pose("attitude_dcm: [1, 0, 0]"), HasSubstr("accepted: a list of 9 numbers"));
     EXPECT_THAT(
         refusal("camera_motion: {kind: fixed, attitude: {frame: lvlh, attitude_radec_deg: [1, 2, 3]}}\n"),
-        HasSubstr("attitude_radec_deg: is against ICRF; accepted: with frame: world"));
+        HasSubstr("attitude_radec_deg: is relative to ICRF; accepted: with frame: world"));
     EXPECT_THAT(
         refusal(kFramesMoonSite +
                 std::string("camera_motion: {kind: keyframes, frame: local, keyframes: [{at_s: 0}, "
                             "{at_s: 1, attitude_radec_deg: [1, 2, 3]}], attitude: {law: keyframes}}\n")),
-        HasSubstr("keyframes.1.attitude_radec_deg: is against ICRF"));
+        HasSubstr("keyframes.1.attitude_radec_deg: is relative to ICRF"));
 }
 
 TEST_F(ScenarioFrames, ACheckTellsPointingAndSite) {
@@ -329,7 +329,7 @@ TEST_F(ScenarioFrames, ACheckTellsPointingAndSite) {
                 HasSubstr("right ascension 83.8221 deg, declination -5.3911 deg, roll 30.00 deg (ICRF)"));
     EXPECT_THAT(text, testing::Not(HasSubstr("km away")));
     EXPECT_THAT(text, testing::Not(HasSubstr("site   ")));
-    EXPECT_THAT(stars.warnings, Contains(HasSubstr("site: nothing is in its local axes")));
+    EXPECT_THAT(stars.warnings, Contains(HasSubstr("site: nothing uses its local axes")));
     EXPECT_THAT(stars.warnings, Contains(HasSubstr("atmosphere: has no effect, as the Earth is not shown")));
 }
 

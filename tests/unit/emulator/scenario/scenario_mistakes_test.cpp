@@ -116,7 +116,7 @@ const Mistake kMistakes[] = {
      "or the name of a shipped one ('hilcam list qualities'); nearest: realtime; "},
     {"NoSuchSection", 4, "camera: sheet.yaml\nterrain:", "4:9", "sheet.yaml: no such file"},
     // Attitudes.
-    {"UpAlongTheSight", 19, "  up: [-1, 0, 0]", "19:7", "camera_pose.up: lies along the line of sight"},
+    {"UpAlongTheSight", 19, "  up: [-1, 0, 0]", "19:7", "camera_pose.up: is parallel to the line of sight"},
     {"LooksAtItself", 18, "  look_at_m: [4, 0, 0]", "18:14", "camera_pose.look_at_m: is where it stands"},
     {"UpWithoutEffect", 17, "  attitude: nadir", "18:14",
      "camera_pose.look_at_m: has no effect with attitude: nadir; accepted: attitude: look_at"},
@@ -129,7 +129,7 @@ const Mistake kMistakes[] = {
     {"PlaceBesideACenter", 3, "origin: {kind: earth_center, longitude_deg: 0}", "3:45",
      "origin.longitude_deg: has no effect with kind: earth_center"},
     {"SunWithoutFreeSpace", 25, "sun: {direction: [1, 0, 0]}", "25:18", "sun.direction: has no effect"},
-    {"FreeSpaceWithoutSun", 3, "origin: {kind: free}", "1:1", "sun: does not say where the Sun is"},
+    {"FreeSpaceWithoutSun", 3, "origin: {kind: free}", "1:1", "sun: has no position of the Sun"},
     {"TwoFormsOfAttitude", 17, "  attitude_radec_deg: [1, 2, 0]\n  attitude_mrp: [0, 0, 0]", "17:23",
      "camera_pose.attitude_radec_deg: found besides 'attitude_mrp'"},
     {"KeyframesWithoutAnAttitude", 23,
@@ -144,9 +144,9 @@ const Mistake kMistakes[] = {
      "unknown key; nearest known key: origin"},
     {"CameraInTheEarth", 3, "seed: 1", "", "camera 1 begins inside the body 'earth'"},
     {"RuleForNoSurface", 23, "    materials: {surfaces: [{name: gold, material: {}}]}", "",
-     "no surface takes its material rules for 'gold'"},
-    {"LockstepForNobody", 24, "mode: lockstep", "", "nobody can ask for a frame"},
-    {"TriggeredByNobody", 24, "mode: triggered", "", "nobody can trigger a frame"},
+     "no surface matches its material rules for 'gold'"},
+    {"LockstepForNobody", 24, "mode: lockstep", "", "nothing can request a frame"},
+    {"TriggeredByNobody", 24, "mode: triggered", "", "nothing can trigger a frame"},
     {"LampOnNothing", 24,
      "lamps:\n  - {name: a, intensity_w_sr_um: 3}\n  - {name: b, on: plat, intensity_w_sr_um: 3}", "26:19",
      "lamps.1.on: lamp 'b': on: found 'plat'; accepted: camera, plate"},
@@ -154,7 +154,7 @@ const Mistake kMistakes[] = {
      "events.0: object: found 'plat'"},
     {"FallingEdges", 24, "spectrum_edges_um: [0.6, 0.4]", "24:20",
      "spectrum_edges_um: spectral bins: edge 0.4"},
-    {"OneNameForTwo", 23, "  - {name: plate, mesh: plate.obj}", "", "another object is named 'plate', too"},
+    {"OneNameForTwo", 23, "  - {name: plate, mesh: plate.obj}", "", "another object is also named 'plate'"},
     {"FaultForNobody", 24, "faults: [{kind: packet_drop}]", "", "that takes outputs.gige"},
     {"Millimetres", 22, "    mesh: plate.obj\n    scale: 10000", "", "the file is probably in millimetres"},
     {"LooksAway", 18, "  look_at_m: [8, 0, 0]", "", "object 'plate' is behind the camera"},
@@ -180,7 +180,7 @@ const Mistake kMistakes[] = {
      "most"},
     {"GainAHundredTimesTooHigh", 13, "  gain_dn_e: 20", "", "camera.gain_dn_e or gain_db is too high"},
     {"GainAHundredTimesTooLow", 13, "  gain_dn_e: 0.002", "", "camera.gain_dn_e or gain_db is too low"},
-    {"FullWellInThousands", 12, "  full_well_e: 20", "", "does the data sheet count in ke-?"},
+    {"FullWellInThousands", 12, "  full_well_e: 20", "", "is the data sheet's value in ke-?"},
     {"BlackLevelCutsTheNoise", 14, "  bits: 12\n  read_noise_e: 20", "",
      "camera.offset_dn is 0, and the noise in the dark 4 DN"},
     {"LineTwice", 25, "outputs: {gige: {interface: 127.0.0.1, lines: [Line1, Line0]}}", "25:47",
@@ -200,7 +200,7 @@ const Mistake kMistakes[] = {
      3,
      "seed: 1",
      "23:11",
-     "objects.0.pose: the attitude nadir looks at the centre of the body",
+     "objects.0.pose: the attitude nadir points to the centre of the body",
      {{23, "    pose: {attitude: nadir}"}}},
     {"BlackLevelNearTheEnd", 13, "  gain_dn_e: 0.2\n  offset_dn: 4000", "",
      "camera.offset_dn of 4000 leaves 95 DN of 4095 for light"},
@@ -211,11 +211,11 @@ const Mistake kMistakes[] = {
     {"FocalLengthThousandfold", 8, "  focal_length_mm: 6400", "",
      "object 'plate' fills the picture: it is 2.03 deg large"},
     {"PitchWithoutItsPoint", 7, "  pitch_um: 58.6", "",
-     "camera.pitch_um is 58.6: pixels of cameras have 0.5 to 40 um"},
+     "camera.pitch_um is 58.6: cameras have pixels of 0.5 to 40 um"},
     {"ExposureHundredthOfIt", 14, "  bits: 12\n  exposure_ms: 0.1", "",
      "object 'plate' is dark: about 41 DN of 4095, 1 % of full scale"},
     {"ExposureHundredfold", 14, "  bits: 12\n  exposure_ms: 1000", "",
-     "object 'plate' saturates: about 102 times what a pixel takes"},
+     "object 'plate' saturates: about 102 times the range of a pixel"},
     {"HeightInMetres", 3, "origin: {kind: earth_fixed, longitude_deg: 0, height_km: 35786000}", "",
      "that is 0.24 au from the body 'earth'; in metres? here it would be 35786"},
     {"FolderThatCannotBeWritten", 25, "outputs: {files: {folder: /proc/x}}", "",
@@ -284,7 +284,7 @@ const Mistake kMistakes[] = {
      "spectrum_edges_um: the solar spectrum begins at 0.28 um; found"},
     {"TwiceAtOnePlace", 23,
      "    pose: {position_m: [0, 0, 0]}\n  - {name: again, mesh: plate.obj, pose: {position_m: [0, 0, 0]}}",
-     "", "object 'again' stands where 'plate' of the same mesh does"},
+     "", "object 'again' has the mesh and the pose of 'plate'"},
     {"NoCameraPose",
      15,
      "",
@@ -404,12 +404,12 @@ TEST_F(FilesTest, APictureAndARunAreWarnedOfWhatConcernsThem) {
     };
     const std::vector<std::string> silent = {"outputs={}"}, nobody = {"mode=lockstep"},
                                    far = {"origin.height_km=35786000"};
-    const auto none = HasSubstr("outputs: there are none, so nobody gets the frames of a run");
+    const auto none = HasSubstr("outputs: there are none, so the frames of a run go nowhere");
     EXPECT_THAT(warnings(VerdictOn::kRun, silent), Contains(none));
     EXPECT_THAT(warnings(VerdictOn::kPicture, silent), testing::IsEmpty());
     EXPECT_THAT(warnings(VerdictOn::kAll, silent), testing::IsEmpty());
     for (const VerdictOn on : {VerdictOn::kRun, VerdictOn::kAll})
-        EXPECT_THAT(warnings(on, nobody), Contains(HasSubstr("nobody can ask for a frame")));
+        EXPECT_THAT(warnings(on, nobody), Contains(HasSubstr("nothing can request a frame")));
     EXPECT_THAT(warnings(VerdictOn::kPicture, nobody), testing::IsEmpty());
     for (const VerdictOn on : {VerdictOn::kRun, VerdictOn::kPicture, VerdictOn::kAll})
         EXPECT_THAT(warnings(on, far),
