@@ -12,8 +12,6 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMaxPeers = 16;
-constexpr std::int64_t kSilence_ns = 60'000'000'000;
 constexpr std::size_t kMaxDatagramBytes = 65536;
 
 // Returns the arrival on CLOCK_MONOTONIC. The kernel stamps datagrams with CLOCK_REALTIME; the stamp's age
@@ -32,10 +30,6 @@ std::int64_t arrival_of(msghdr& message) {
         return now_ns - std::clamp<std::int64_t>(age_ns, 0, 1'000'000'000);
     }
     return now_ns;
-}
-
-std::string text_of(const sockaddr_in& a) {
-    return format_ipv4(ntohl(a.sin_addr.s_addr)) + ":" + std::to_string(ntohs(a.sin_port));
 }
 
 }  // namespace
@@ -97,8 +91,7 @@ void UdpCommandReceiver::run() {
             send_telemetry();
         }
     }
-    for (Peer& peer : peers_) station_.close(*peer.sender);
-    peers_.clear();
+    peers_.forget_all();
 }
 
 void UdpCommandReceiver::receive() {
@@ -111,46 +104,19 @@ void UdpCommandReceiver::receive() {
     if (size < 0) return;
     if (!allow_.allows(ntohl(from.sin_addr.s_addr))) return station_.count_stranger();
     const std::int64_t arrival_ns = arrival_of(message);
-    Peer& peer = peer_of(from, arrival_ns);
+    CommandStation::Sender& sender = peers_.at(from, arrival_ns);
     const CommandStation::Answer answer = [&](std::span<const std::uint8_t> packet) { send(packet, from); };
-    if (size == 0) return station_.refuse_empty(*peer.sender, answer);
+    if (size == 0) return station_.refuse_empty(sender, answer);
     stream_.filled(static_cast<std::size_t>(size));
-    station_.take_all(stream_, arrival_ns, *peer.sender, answer);
-}
-
-// Returns the sender at an address. A new one replaces the one that was silent for longest.
-UdpCommandReceiver::Peer& UdpCommandReceiver::peer_of(const sockaddr_in& address, std::int64_t now_ns) {
-    forget_silent(now_ns);
-    const auto known = std::find_if(peers_.begin(), peers_.end(), [&](const Peer& p) {
-        return p.address.sin_addr.s_addr == address.sin_addr.s_addr && p.address.sin_port == address.sin_port;
-    });
-    if (known != peers_.end()) {
-        peers_.splice(peers_.end(), peers_, known);
-    } else {
-        if (peers_.size() == kMaxPeers) {
-            station_.close(*peers_.front().sender);
-            peers_.pop_front();
-        }
-        peers_.push_back({address, &station_.open(text_of(address)), now_ns});
-    }
-    peers_.back().heard_ns = now_ns;
-    return peers_.back();
-}
-
-void UdpCommandReceiver::forget_silent(std::int64_t now_ns) {
-    while (!peers_.empty() && now_ns - peers_.front().heard_ns > kSilence_ns) {
-        station_.close(*peers_.front().sender);
-        peers_.pop_front();
-    }
+    station_.take_all(stream_, arrival_ns, sender, answer);
 }
 
 void UdpCommandReceiver::send_telemetry() {
-    forget_silent(monotonic_ns());
+    peers_.forget_silent(monotonic_ns());
     Telemetry telemetry;
     while (telemetry_.take(telemetry))
         station_.notify(telemetry, [&](CommandStation::Sender& sender, std::span<const std::uint8_t> packet) {
-            for (const Peer& peer : peers_)
-                if (peer.sender == &sender) send(packet, peer.address);
+            if (const sockaddr_in* to = peers_.address_of(sender)) send(packet, *to);
         });
 }
 

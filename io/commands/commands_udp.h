@@ -1,11 +1,11 @@
 #pragma once
 // Commands over UDP: a thread receives datagrams, gives them to the station and sends the answers.
 
-#include <list>
 #include <string>
 #include <thread>
 
 #include "io/commands/command_station.h"
+#include "io/commands/udp_peers.h"
 #include "io/contract/command_receiver.h"
 #include "io/system/allow_list.h"
 #include "io/system/fd.h"
@@ -40,27 +40,20 @@ class UdpCommandReceiver : public CommandReceiver {
     void notify(const Telemetry& telemetry) noexcept override;
 
   private:
-    struct Peer {
-        sockaddr_in address{};
-        CommandStation::Sender* sender = nullptr;
-        std::int64_t heard_ns = 0;
-    };
     void run();
     void receive();
-    Peer& peer_of(const sockaddr_in& address, std::int64_t now_ns);
-    void forget_silent(std::int64_t now_ns);
     void send_telemetry();
     void send(std::span<const std::uint8_t> packet, const sockaddr_in& to);
 
     UdpCommandConfig config_;
     AllowList allow_;
     CommandStation station_;
+    UdpPeers peers_{station_};
     PacketStream stream_;
     TelemetryQueue telemetry_;
     Fd socket_, wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false};
     std::thread thread_;
-    std::list<Peer> peers_;  // most recently heard last
 };
 
 }  // namespace hilcam

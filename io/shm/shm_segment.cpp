@@ -105,6 +105,7 @@ void ShmSegment::create(const std::string& name, std::size_t bytes) {
         path_.clear();
         throw DeviceError("outputs.shm: /dev/shm/" + name + " is taken by others again and again");
     }
+    fchmod(fd_.get(), kReadByAll);  // the shell's mask took away from it
     const int full = ftruncate(fd_.get(), static_cast<off_t>(bytes)) != 0
                          ? errno
                          : posix_fallocate(fd_.get(), 0, static_cast<off_t>(bytes));

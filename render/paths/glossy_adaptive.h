@@ -1,7 +1,7 @@
 #pragma once
-// How many further rays a facet lobe needs. A lobe starts with one ray or two, which its neighbours share. The
-// spread of what they meet says how wrong its light may be, and rays are added until that is some noises of a
-// sensor (adaptive sampling: Lee, Redner & Uselton, SIGGRAPH 85).
+// Adaptive sampling of facet lobes (Lee, Redner & Uselton, SIGGRAPH 85). A lobe starts with one ray or two,
+// which its neighbours share. The spread of what they meet says how wrong its light may be. Rays are added to
+// bring that down to some noises of a sensor.
 //
 // Approximation: rays that decide also count, so light that no first ray has met stays dark (Kirk & Arvo,
 // SIGGRAPH 91).

@@ -55,7 +55,7 @@ struct Tile {
 
     GlossyBuffer::Part* glossy =
         nullptr;  // takes the lobes that get rays; null: their light comes from the cache alone
-    GlossyBuffer* glossy_frame = nullptr;  // has the lobes of all tiles; of `glossy`'s frame
+    GlossyBuffer* glossy_frame = nullptr;  // contains `glossy`
     const TileParts* parts = nullptr;      // takes the parts of the light; null: parts are not kept
 
     // Adds light that a shading point sends to its pixel, or to the lobe whose ray has met it: radiance,

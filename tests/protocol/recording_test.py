@@ -5,6 +5,7 @@
 """
 import json
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
@@ -15,6 +16,8 @@ import unittest
 HILCAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
 PORT = 5863
+sys.path.insert(0, str(SOURCE / "tools/client"))
+import hilcam_client  # noqa: E402
 
 
 def hilcam(*arguments):
@@ -106,6 +109,56 @@ class Recording(unittest.TestCase):
         self.assertGreater(len(both), 20)
         # Of the frame that was being written when it was killed, a file may be half there.
         self.assertLessEqual(sum(frames[name] != run[name] for name in both), 1)
+
+    def test_a_full_disk_ends_the_recording_and_not_the_run(self):
+        report, to = self.folder / "report.json", f"127.0.0.1:{PORT + 2}"
+        with hilcam_client.Client(to, timeout_s=0.2) as client:
+            # Files that may not grow stand for the disk; the program is to see an error, and not a signal.
+            process = subprocess.Popen(
+                [HILCAM, "run", str(SCENARIO), "--record", str(self.recording), "--report", str(report), "--set",
+                 "mode=lockstep", "--set", f"commands.udp.port={PORT + 2}"], stderr=subprocess.PIPE, text=True,
+                preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN), restore_signals=False)
+            try:
+                client.send(hilcam_client.Ping(), tries=600)
+                client.send(hilcam_client.Expose(2), timeout_s=30)
+                time.sleep(0.5)  # records are written every 10 ms
+                size = self.recording.stat().st_size
+                before = resource.prlimit(process.pid, resource.RLIMIT_FSIZE)
+                resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (size + 200, before[1]))
+                client.send(hilcam_client.Expose(20), timeout_s=60)
+                time.sleep(0.5)
+                self.assertLessEqual(self.recording.stat().st_size, size + 200)
+                resource.prlimit(process.pid, resource.RLIMIT_FSIZE, before)
+                client.send(hilcam_client.Expose(3), timeout_s=30)
+            finally:
+                process.send_signal(signal.SIGINT)
+                log = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 1, log)
+        self.assertIn("run.rec cannot be written: File too large", log)
+        told = json.loads(report.read_text())
+        self.assertEqual(told["frames"], 25)
+        self.assertFalse(told["recording"]["complete"])
+        # It goes on nowhere where it would have a gap.
+        self.assertLessEqual(self.recording.stat().st_size, size + 200)
+        frames = self.replay("cut", "--fast", "--set", "mode=lockstep")[0]
+        self.assertLess(len(frames), 25)
+        self.assertGreaterEqual(len(frames), 2)
+
+    def test_a_replay_takes_nothing_from_outside(self):
+        self.assertEqual(self.run_and_record(signal.SIGINT)[0], 0)
+        port = PORT + 1
+        process = subprocess.Popen(
+            [HILCAM, "run", str(SCENARIO), "--replay", str(self.recording), *into(self.folder / "again"),
+             "--set", f"commands.udp.port={port}"], stderr=subprocess.PIPE, text=True)
+        answers = 0
+        while process.poll() is None:
+            for words in (("ping",), ("settings", "--gain-db", 12), ("pose", "--position-m", 1000, 0, 0)):
+                result = hilcam("send", "--to", f"127.0.0.1:{port}", "--timeout-ms", 100, *words)
+                answers += result.returncode == 0
+        log = process.communicate(timeout=30)[1]
+        self.assertEqual(process.returncode, 0, log)
+        self.assertEqual(answers, 0)
+        self.assertEqual(frames_in(self.folder / "again"), self.replay("fast", "--fast")[0])
 
     def test_what_cannot_be_replayed_is_refused_in_one_line(self):
         self.assertEqual(hilcam("run", SCENARIO, "--frames", 3, "--record", self.recording).returncode, 0)

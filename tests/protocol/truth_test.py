@@ -6,6 +6,7 @@
 import json
 import math
 import pathlib
+import re
 import socket
 import subprocess
 import sys
@@ -16,6 +17,10 @@ import unittest
 HILCAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
 PORT = 15612
+sys.path.insert(0, str(SOURCE / "tools/client"))
+import hilcam_client  # noqa: E402
+
+LOOKING = hilcam_client.look_at((22, 15, 7), (0, 0, 0))
 
 
 def rotated(wxyz, v):
@@ -110,6 +115,86 @@ class Truth(unittest.TestCase):
             self.assertEqual(len(lines()), 3)
             self.assertNotEqual(lines()[0]["run"]["id"], first[0]["run"]["id"])
             self.assertEqual(len(list((folder / "frames").iterdir())), 2)
+
+    def test_a_line_has_the_keys_of_the_page(self):
+        page = (SOURCE / "docs/truth.md").read_text()
+
+        def keys(heading):
+            """Of the first column of the table behind some words: 'a.b', '.c' are ['a.b', 'a.c']."""
+            table = page[page.index(heading):].split("\n\n", 2)[1]
+            rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+            found = []
+            for row in rows:
+                first = ""
+                for name in re.findall(r"`([^`]+)`", row):
+                    first = first or name.rpartition(".")[0]
+                    found.append(first + name if name.startswith(".") else name)
+            return set(found)
+
+        def check(found, heading, where, optional=(), more=()):
+            wanted = keys(heading) | set(more)
+            self.assertGreater(len(wanted), 4, heading)
+            self.assertEqual(wanted - set(found) - set(optional), set(), where)
+            self.assertEqual(set(found) - wanted, set(), where)
+
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([HILCAM, "render", SCENARIO, "--out", f"{folder}/a.png", "--truth", folder],
+                           check=True, timeout=120)
+            line = json.loads(pathlib.Path(f"{folder}/a.truth.jsonl").read_text().splitlines()[1])
+        self.assertEqual(line["version"], 1)
+        nested = [f"{key}.{inner}" for key in ("image", "pose", "sun") for inner in line[key]]
+        check([key for key in line if key not in ("image", "pose", "sun")] + nested,
+              "After the first line there is", "a line",
+              {"height_above_ground_m", "craters", "boulders", "ground_left_out", "image.distortion_x",
+               "image.distortion_y"})
+        target, sun = line["objects"][0], line["bodies"][0]
+        of_bodies = {"equatorial_radius_m", "polar_radius_m"}
+        seen = keys("`visibility` (true by default) adds these:")
+        check(target, "An object or a body has these keys:", "an object", of_bodies, seen)
+        self.assertEqual(seen - set(target), set())
+        self.assertEqual(of_bodies - set(sun), set())
+        self.assertEqual(set(sun) - keys("An object or a body has these keys:") - seen, set())
+        if line["stars"]:
+            check(line["stars"][0], "A star has these keys:", "a star")
+
+    def test_a_frame_that_stale_poses_leave_dark_has_no_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for when_stale, frames in (("black", [1, 3]), ("hold", [1, 2, 3])):
+                truth = pathlib.Path(folder) / when_stale
+                process = subprocess.Popen([
+                    HILCAM, "run", SCENARIO, "--frames", "3", "--set", "mode=lockstep",
+                    "--set", f"outputs.truth.folder={truth}", "--set", f"commands.udp.port={PORT}",
+                    "--set", "commands.poses={stale_after_s: 0.5, when_stale: " + when_stale + "}",
+                ], stderr=subprocess.PIPE, text=True)
+                try:
+                    self.order_frames(process)
+                finally:
+                    process.kill()
+                    process.communicate(timeout=30)
+                lines = [json.loads(line) for line in (truth / "truth.jsonl").read_text().splitlines()[1:]]
+                self.assertEqual([line["frame"] for line in lines], frames, when_stale)
+
+    def order_frames(self, process):
+        """Two frames, the second one long after the only pose, and a third with a new one."""
+        with hilcam_client.Client(f"127.0.0.1:{PORT}", timeout_s=30) as client:
+            start = self.answered(process, client, hilcam_client.Ping()).simulated_tai_ns
+            for at_s, is_posed in ((0.1, True), (2, False), (3, True)):
+                time_ns = start + round(at_s * 1e9)
+                if is_posed:
+                    client.send(hilcam_client.Pose(0, time_ns, (22, 15, 7), attitude_wxyz=LOOKING))
+                client.send(hilcam_client.Expose(1, time_ns))
+        process.wait(timeout=60)
+
+    def answered(self, process, client, command):
+        for _ in range(600):
+            if process.poll() is not None:
+                self.fail(process.stderr.read())
+            try:
+                return client.send(command, timeout_s=0.1)
+            except hilcam_client.NoAnswer:
+                pass
+        self.fail("the camera does not answer")
+        return None
 
     def test_a_running_cameras_lines(self):
         with tempfile.TemporaryDirectory() as folder:

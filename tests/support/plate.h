@@ -70,6 +70,10 @@ class Collector : public FrameSink {
         const std::lock_guard lock(mutex_);
         return frames.size();
     }
+    bool has_event(CameraEvent::Kind kind) {
+        const std::lock_guard lock(mutex_);
+        return std::any_of(events.begin(), events.end(), [&](auto& e) { return e.kind == kind; });
+    }
     // False when they do not come within a minute.
     bool wait_for(std::size_t count) {
         std::unique_lock lock(mutex_);

@@ -12,6 +12,7 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
@@ -346,6 +347,26 @@ class Running(unittest.TestCase):
                 h.Client(endpoint)
 
 
+    def test_the_shells_sender_takes_its_first_number_from_its_clock(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as server:
+            server.bind(("127.0.0.1", 0))
+            server.settimeout(20)
+            numbers = []
+            for _ in range(4):  # a program of its own each
+                to = f"127.0.0.1:{server.getsockname()[1]}"
+                subprocess.run([HILCAM, "send", "--to", to, "--timeout-ms", "50", "ping"], capture_output=True)
+                numbers.append(struct.unpack(">I", server.recv(100)[10:14])[0])
+                server.setblocking(False)
+                try:
+                    while server.recv(100):  # it asks again
+                        pass
+                except BlockingIOError:
+                    server.settimeout(20)
+        self.assertNotIn(0, numbers)
+        # Each begins anew for who counts gaps: no step forwards by 2^20 or less.
+        steps = [b - a & 0xFFFFFFFF for a, b in zip(numbers, numbers[1:])]
+        self.assertGreater(min(steps), 1 << 20, numbers)
+
     def test_a_fault_of_some_frames_strikes_so_many_from_now_on(self):
         black = 1 << list(h.FAULTS).index("image_black")
         with pose_stream.running(HILCAM) as to, h.Client(to, timeout_s=10) as client:
@@ -417,6 +438,85 @@ class Time(unittest.TestCase):
             self.assertEqual(client.send(h.Pose(0, now_ns - 4_000_000_000)).reason, "")
             with self.assertRaisesRegex(h.Refused, "time out of range"):
                 client.send(h.Pose(0, now_ns - 3700 * 10**9))
+    def test_silence_and_tags_that_went_back_are_logged_and_counted(self):
+        stale = "commands.poses.stale_after_s=0.5"
+        with tempfile.TemporaryDirectory() as folder, \
+                pose_stream.Emulator(HILCAM, pose_stream.ADDRESS, folder, stale) as emulator, \
+                emulator.client() as client:
+            now_ns = client.clock().simulated_tai_ns(time.monotonic_ns())
+            for back_s in (0, 5, 10):  # two of them go back
+                client.send(h.Pose(0, now_ns - back_s * 10**9))
+            log, until = "", time.monotonic() + 20
+            while "no pose for" not in log and time.monotonic() < until:
+                log = emulator.log()
+                time.sleep(0.1)
+            time.sleep(1)  # it goes on to be silent
+            self.assertEqual(emulator.log().count("no pose for 0.5 s"), 1, emulator.log())
+            self.assertNotIn("poses come again", emulator.log())
+            until = time.monotonic() + 20
+            while "poses come again" not in emulator.log() and time.monotonic() < until:
+                client.send(h.Pose(0))
+                time.sleep(0.1)
+            for _ in range(5):
+                client.send(h.Pose(0))
+                time.sleep(0.1)
+            self.assertEqual(emulator.log().count("poses come again"), 1, emulator.log())
+            self.assertIn("time tags of", emulator.log())
+            self.assertEqual(emulator.stop()["poses"], {"went_back": 2})
+
+
+class Reports(unittest.TestCase):
+    """What telemetry says of the running program."""
+
+    def until(self, client, wanted):
+        """The first packet of telemetry that is wanted."""
+        until = time.monotonic() + 30
+        while time.monotonic() < until:
+            packet = client.receive(10)
+            if packet is not None and wanted(packet):
+                return packet
+        self.fail("there is none")
+        return None
+
+    def test_a_latency_is_of_the_first_frame_with_a_new_command(self):
+        with pose_stream.running(HILCAM) as to, h.Client(to, timeout_s=10) as client:
+            client.send(h.Subscribe(frame_reports=True))
+            before = self.until(client, lambda p: isinstance(p, h.FrameReport))
+            self.assertEqual((before.pose_sequence, before.latency_ns), (0, -1))
+            newest = client.send(h.Pose(0, 0, (22, 15, 7))).sequence
+            shown = [self.until(client, lambda p: isinstance(p, h.FrameReport) and p.pose_sequence == newest)
+                     for _ in range(5)]
+            self.assertGreater(shown[0].latency_ns, 0)
+            self.assertEqual([report.latency_ns for report in shown[1:]], [-1] * 4)
+
+    def test_housekeeping_is_of_all_cameras_once_a_second(self):
+        pair = pose_stream.SOURCE / "tests/protocol/pair_scenario.yaml"
+        with tempfile.TemporaryDirectory() as folder, \
+                pose_stream.Emulator(HILCAM, "127.0.23.15", folder, f"outputs.files.folder={folder}/left",
+                                     "more_cameras.0.outputs.gige.interface=127.0.23.16",
+                                     f"more_cameras.0.outputs.files.folder={folder}/right",
+                                     scenario=pair) as emulator, \
+                emulator.client() as client:
+            client.send(h.Subscribe(housekeeping=True))
+            client.send(h.Fault("frame_drop"), camera=2)
+            client.send(h.Fault("packet_drop"), camera=2)
+            client.send(h.Fault("packet_drop"), camera=1)
+            client.send(h.Stop(), camera=2)
+            is_housekeeping = lambda p: isinstance(p, h.Housekeeping)  # noqa: E731
+            told = [self.until(client, is_housekeeping) for _ in range(3)]
+            self.assertEqual((told[-1].mode, told[-1].running, told[-1].faults), (0, 1, 2))
+            for one, next_one in zip(told, told[1:]):
+                # Each at its second, or left out where the machine is too busy.
+                seconds = (next_one.monotonic_ns - one.monotonic_ns) * 1e-9
+                self.assertLess(abs(seconds - max(1, round(seconds))), 0.5, seconds)
+            client.send(h.Stop(), camera=1)
+            time.sleep(0.5)  # what had begun is out
+            self.until(client, is_housekeeping)
+            last = self.until(client, is_housekeeping)
+            self.assertEqual((last.running, last.frame_rate_hz), (0, 0))
+            cameras = [camera["frames"] for camera in emulator.stop()["cameras"]]
+            self.assertGreater(min(cameras), 0)
+            self.assertEqual(last.frames, sum(cameras))
 
 
 if __name__ == "__main__":

@@ -83,6 +83,30 @@ class Settings(CameraTest):
         features.set("UserSetSelector", "Default")
         features.execute("UserSetLoad")
 
+    def test_settings_and_chunks_stay_for_the_next_client(self):
+        first = self.controller()
+        features = Features(first)
+        names = ("PixelFormat", "Width", "ExposureTime", "ChunkModeActive")
+        start = [features.get(name) for name in names]
+        wanted = ["Mono8", 128, 321.0, True]
+        for name, value in zip(names, wanted):
+            features.set(name, value)
+        first.release()
+        second = Features(self.controller(OTHER))
+        self.assertEqual([second.get(name) for name in names], wanted)
+        self.assertGreater(second.get("PayloadSize"), 128 * second.get("Height"))
+        second.set("UserSetSelector", "Default")
+        second.execute("UserSetLoad")
+        self.assertEqual([second.get(name) for name in names], start)
+
+    def test_an_exposure_that_the_camera_chooses_is_locked(self):
+        features = self.features()
+        features.set("ExposureAuto", "Continuous")
+        self.refused((*LOCKED, g.INVALID_PARAMETER), features.set, "ExposureTime", 300.0)
+        features.set("ExposureAuto", "Off")
+        features.set("ExposureTime", 300.0)
+        self.assertEqual(features.get("ExposureTime"), 300.0)
+
     def test_the_timestamp_can_be_latched_by_features(self):
         client = self.controller()
         features = Features(client)

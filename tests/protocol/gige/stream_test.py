@@ -12,7 +12,7 @@ import gvcp_client as g
 from camera_case import CLIENT, OTHER, CameraTest, StreamTest
 from genicam_client import Features
 from gvsp_client import StreamReceiver
-from hilcam_client import Pose
+from hilcam_client import FrameReport, Pose, Subscribe
 
 CameraTest.hilcam = sys.argv[1]
 CameraTest.address = "127.0.23.4"
@@ -31,6 +31,11 @@ class Formats(StreamTest):
                     self.assertEqual(len(frame.data), self.feature.get("PayloadSize"))
                 self.stop()
                 stream.close()
+
+    def test_they_are_those_of_the_document(self):
+        self.assertEqual(set(self.feature.entries("PixelFormat")), {
+            "Mono8", "Mono10", "Mono12", "Mono14", "Mono16", "Mono10Packed", "Mono12Packed", "Mono10p",
+            "Mono12p", "RGB8"})
 
     def test_every_monochrome_format_is_byte_for_byte_the_file(self):
         formats = [name for name in self.feature.entries("PixelFormat") if name.startswith("Mono")]
@@ -67,6 +72,12 @@ class Colour(StreamTest):
     """The same through a colour filter array."""
     sets = ("camera.color_filter={{pattern: RG GB, filters: [{{name: R, transmission: [[0.4, 0.1], [0.9, 0.9]]}}, "
             "{{name: G, transmission: [[0.4, 0.5], [0.9, 0.5]]}}, {{name: B, transmission: [[0.4, 0.9], [0.9, 0.1]]}}]}}",)
+
+    def test_formats_and_features_are_those_of_the_document(self):
+        self.assertEqual(set(self.feature.entries("PixelFormat")), {
+            "BayerRG8", "BayerRG10", "BayerRG12", "BayerRG12Packed", "BayerRG16", "RGB8", "YUV422_8"})
+        for name in ("ReverseX", "ReverseY"):
+            self.assertNotIn(name, self.feature)
 
     def test_every_mosaic_format_is_byte_for_byte_the_file(self):
         formats = [name for name in self.feature.entries("PixelFormat") if name.startswith("Bayer")]
@@ -233,6 +244,45 @@ class Chunks(StreamTest):
         frame = stream.take(1)[0]
         self.assertEqual((frame.payload_type, len(frame.data)), (1, 256 * 192 * 2))
         self.stop()
+
+    def test_a_frames_number_is_the_runs_and_its_block_the_streams(self):
+        self.chunks_on("FrameID")
+        numbers = []
+        for _ in range(2):
+            stream = self.streaming()
+            frames = stream.take(3)
+            self.stop()
+            stream.close()
+            self.assertEqual([frame.block for frame in frames], [1, 2, 3])
+            numbers += [self.frame_id(frame) for frame in frames]
+        self.assertEqual(numbers, sorted(set(numbers)))
+        self.same_as_file(frames[-1])  # which goes by the same number
+
+    def test_chunks_say_what_the_frames_report_says(self):
+        self.chunks_on()
+        with self.emulator.client() as sender:
+            sender.send(Subscribe(frame_reports=True), tries=5)
+            tag_ns = sender.clock(1).reading.departure_tai_ns
+            sender.send(Pose(time_tai_ns=tag_ns, position_m=(22.0, 15, 7)), tries=5)
+            stream = self.streaming()
+            frames = [self.feature.chunk_values(frame) for frame in stream.take(5)]
+            self.stop()
+            reports = {}
+            while frames[-1]["ChunkFrameID"] not in reports:
+                report = sender.receive(10)
+                self.assertIsNotNone(report)
+                if isinstance(report, FrameReport):
+                    reports[report.frame] = report
+        for values in frames:
+            report = reports[values["ChunkFrameID"]]
+            self.assertEqual((values["ChunkExposureMid"], values["ChunkTimestamp"]),
+                             (report.exposure_mid_tai_ns, report.exposure_mid_monotonic_ns))
+            self.assertEqual((values["ChunkPoseSequence"], values["ChunkPoseTime"]),
+                             (report.pose_sequence, report.pose_time_tai_ns))
+            self.assertEqual(values["ChunkTriggerSequence"], report.trigger_sequence)
+            self.assertAlmostEqual(values["ChunkExposureTime"], report.exposure_s * 1e6)
+            self.assertEqual(values["ChunkFaults"], report.faults)
+        self.assertEqual(frames[-1]["ChunkPoseTime"], tag_ns)
 
     def test_a_frame_says_which_pose_it_shows(self):
         self.chunks_on()

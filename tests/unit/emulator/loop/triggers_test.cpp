@@ -84,6 +84,28 @@ TEST_F(FrameLoopTest, WhatIsDroppedKeepsNoTriggerOut) {
     rig.loop.stop();
 }
 
+TEST_F(FrameLoopTest, SixtyFourTriggersWaitAndNoMore) {
+    LoopRig rig(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]"), {0, true}, {"mode=triggered"});
+    for (std::int64_t i = 1; i <= 64; ++i)
+        ASSERT_EQ(rig.send(expose(rig.start + i * 1'000'000'000)), CommandStatus::kAccepted) << i;
+    EXPECT_EQ(rig.send(expose(rig.start + 65'000'000'000)), CommandStatus::kBusy);
+}
+
+TEST_F(FrameLoopTest, AStopWithinAnExposureDeliversItsFrame) {
+    LoopRig rig(scenario(", frame_rate_hz: 2, frame_rate_range_hz: [1, 50]"), {0, true},
+                {"mode=triggered", "camera.exposure_ms=400"});
+    rig.loop.start();
+    ASSERT_EQ(rig.send(expose({}, 3)), CommandStatus::kAccepted);
+    while (!rig.collector.has_event(CameraEvent::Kind::kExposureStart))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_EQ(rig.send(StopCommand{}), CommandStatus::kAccepted);
+    EXPECT_TRUE(rig.collector.wait_for(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));  // the burst's next would have been there
+    rig.loop.stop();
+    ASSERT_EQ(rig.collector.frames.size(), 1u);
+    EXPECT_EQ(rig.collector.frames[0].record.exposure_s, 0.4);
+}
+
 TEST_F(FrameLoopTest, ATriggeredCameraListensToItsSourceOnly) {
     LoopRig rig(scenario(), {0, true});
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // free-run

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "emulator/recording/recording_codec.h"
+#include "emulator/recording/recording_header.h"
 #include "emulator/recording/recording_reader.h"
 #include "emulator/recording/recording_text.h"
 #include "emulator/run/emulator.h"
@@ -109,6 +110,13 @@ TEST(Recording, EveryRecordComesBackBitByBit) {
 // By hand, from docs/recording.md; the CRC from Python's zlib.crc32.
 TEST(Recording, BytesAreThoseOfTheManual) {
     EXPECT_EQ(hex(bytes_of(RecordedLoss{12})), "00 00 00 09 8B DE 35 4C 07 00 00 00 00 00 00 00 0C");
+}
+
+// As the page reckons what a run takes.
+TEST(Recording, PosesAndFramesHaveTheSizesOfTheManual) {
+    EXPECT_EQ(bytes_of(RecordedCommand{1, odd_pose(), {}, false}).size(), 150u);
+    EXPECT_EQ(bytes_of(RecordedFrame{1, FrameUse{}}).size(), 141u);
+    EXPECT_EQ(bytes_of(RecordedShown{1, 0, 1}).size(), 23u);
 }
 
 TEST(Recording, AByteMoreOrLessOrAWordThatDoesNotExistIsNoRecord) {
@@ -289,6 +297,17 @@ TEST(ScenarioListing, HasNothingOfHowTheMachineIsUsed) {
     there.loop.levels_fixed = true;
     EXPECT_THAT(listing_difference(scenario_listing(there), scenario_listing(here)),
                 HasSubstr("loop.levels: 'fixed' there"));
+}
+
+TEST(RecordingWarnings, TerrainThatFramesDoNotWaitForIsOne) {
+    ScenarioConfig scenario;
+    EXPECT_TRUE(recording_warnings(scenario).empty());
+    scenario.terrain.emplace();
+    ASSERT_FALSE(scenario.terrain->wait);
+    ASSERT_EQ(recording_warnings(scenario).size(), 1u);
+    EXPECT_THAT(recording_warnings(scenario)[0], HasSubstr("'terrain.wait: true'"));
+    scenario.terrain->wait = true;
+    EXPECT_TRUE(recording_warnings(scenario).empty());
 }
 
 TEST(CheckRecording, NamesWhatIsAnother) {

@@ -91,6 +91,46 @@ TEST(CommandDispatch, ARefusalOfManyCamerasSaysWhichOne) {
     EXPECT_EQ(refused_by(SettingsCommand{0.002, {}, {}}, 0, CommandStatus::kBadArgument), 2);
 }
 
+TEST(CommandDispatch, AModeWithoutANumberOfFramesLeavesTheBurstAsItIs) {
+    CameraModel camera;
+    LiveSettings settings(camera);
+    const Motion initial = motion_at(0, 0);
+    WorldState world(std::span(&initial, 1), {});
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
+    FaultBoard faults;
+    CommandDispatch dispatch({{&world, &settings, &faults}}, clock);
+    EXPECT_EQ(dispatch.handle(TriggerModeCommand{true, 5}, {1, 0}), CommandStatus::kAccepted);
+    EXPECT_TRUE(settings.settings().triggered);
+    EXPECT_EQ(settings.settings().burst_frames, 5);
+    EXPECT_EQ(dispatch.handle(TriggerModeCommand{false, 0}, {2, 0}), CommandStatus::kAccepted);
+    EXPECT_FALSE(settings.settings().triggered);
+    EXPECT_EQ(settings.settings().burst_frames, 5);
+}
+
+TEST(CommandDispatch, AnOrderOfAFaultReplacesTheOneBeforeAndKindNoughtEndsAll) {
+    CameraModel camera;
+    LiveSettings left(camera), right(camera);
+    const Motion initial = motion_at(0, 0);
+    WorldState world(std::span(&initial, 1), {});
+    FaultBoard left_faults, right_faults;
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
+    CommandDispatch dispatch({{&world, &left, &left_faults}, {&world, &right, &right_faults}}, clock);
+    const auto order = [&](const FaultCommand& fault, std::uint16_t for_camera = 0) {
+        EXPECT_EQ(dispatch.handle(fault, {1, 0, for_camera}), CommandStatus::kAccepted);
+    };
+    order({{FaultKind::kPacketDrop, 0.5, 0, 0, 0, 0}, false});
+    order({{FaultKind::kPacketDelay, 1, 7, 0, 0, 0}, false});
+    order({{FaultKind::kPacketDrop, 0.25, 0, 0, 0, 0}, false}, 2);
+    EXPECT_EQ(left_faults.order_of(FaultKind::kPacketDrop)->rate, 0.5);
+    EXPECT_EQ(right_faults.order_of(FaultKind::kPacketDrop)->rate, 0.25);
+    order({{FaultKind::kPacketDrop, 0, 0, 0, 0, 0}, false});  // a rate of 0 ends this kind
+    EXPECT_FALSE(left_faults.order_of(FaultKind::kPacketDrop));
+    EXPECT_TRUE(left_faults.order_of(FaultKind::kPacketDelay));
+    order({{}, true});
+    for (const FaultBoard* board : {&left_faults, &right_faults})
+        EXPECT_FALSE(board->order_of(FaultKind::kPacketDelay));
+}
+
 TEST(CommandDispatch, ARefusedSettingNamesItsLimitsAndATriggerTheRunsEnd) {
     CameraModel camera;
     LiveSettings settings(camera, {.lockstep = true});

@@ -21,6 +21,44 @@ TEST(WorldState, PropagatesInterpolatesAndTakesAnyOrder) {
     EXPECT_NEAR(camera_x_m(world, 500'000'000), 5, 1e-9);  // backwards from the first command
 }
 
+// At a quarter of the way from rest to rest: 3/16 - 2/64 of it by the cubic, a quarter of the turn by slerp.
+TEST(WorldState, BetweenTwoTagsPlacesAndAnglesAreCubicAndAttitudesSlerp) {
+    const Motion initial[2] = {motion_at(0, 0), motion_at(0, 0)};
+    const Joint joint{0, {0, 0, 0}, {0, 0, 1}, 0, 0};
+    WorldState world(initial, {}, std::span(&joint, 1));
+    const std::int64_t from_ns = 1'000'000'000, to_ns = 3'000'000'000;
+    Motion end = motion_at(to_ns, 8);
+    end.pose.world_from_body = from_rotation_vector({0, 0, kPi / 2});
+    ASSERT_TRUE(world.set(0, motion_at(from_ns, 0), {1, 1}));
+    ASSERT_TRUE(world.set(0, end, {2, 2}));
+    ASSERT_TRUE(world.set_joint(1, 1, {{from_ns}, 0, 0}, {3, 3}));
+    ASSERT_TRUE(world.set_joint(1, 1, {{to_ns}, 0.8, 0}, {4, 4}));
+    WorldSnapshot snapshot;
+    snapshot.objects.resize(world.placed_objects());
+    ShownCommand shown;
+    world.sample({1'500'000'000}, snapshot, shown);
+    constexpr double kShare = 3.0 / 16 - 2.0 / 64;
+    EXPECT_NEAR(snapshot.camera.position_world_m.x, 8 * kShare, 1e-12);
+    const auto turned_about_z = [](const Quat& q) { return 2 * std::atan2(q.z, q.w); };
+    EXPECT_NEAR(turned_about_z(snapshot.camera.world_from_body), kPi / 8, 1e-12);
+    EXPECT_NEAR(turned_about_z(snapshot.objects[1].world_from_body), 0.8 * kShare, 1e-12);
+    // The velocities at both tags count as well.
+    WorldState moving(std::span(initial, 1), {});
+    moving.set(0, motion_at(from_ns, 0, 1), {1, 1});
+    moving.set(0, motion_at(to_ns, 8, 1), {2, 2});
+    EXPECT_NEAR(camera_x_m(moving, 1'500'000'000), 8 * kShare + 2 * (9.0 / 64 - 3.0 / 64), 1e-12);
+}
+
+TEST(WorldState, APoseWithAKnownTagReplacesTheOneThatHadIt) {
+    const Motion initial = motion_at(0, 0);
+    WorldState world(std::span(&initial, 1), {});
+    for (int i = 1; i <= 8; ++i) world.set(0, motion_at(i * 1'000'000'000LL, i, 1), {1, 1});
+    world.set(0, motion_at(5'000'000'000, 50), {2, 2});
+    EXPECT_EQ(camera_x_m(world, 5'000'000'000), 50);
+    EXPECT_NEAR(camera_x_m(world, 1'500'000'000), 1.5, 1e-9) << "the oldest of the eight is still there";
+    EXPECT_NEAR(camera_x_m(world, 8'000'000'000), 8, 1e-9);
+}
+
 TEST(WorldState, TellsTheNewestCommandItShows) {
     const Motion initial[2] = {motion_at(0, 0), motion_at(0, 0)};
     WorldState world(initial, {});

@@ -202,6 +202,57 @@ TEST_F(StationTest, ARetriedExposeIsAnsweredAndNotDoneAgain) {
     EXPECT_EQ(station.report().lost, 0u);
 }
 
+TEST_F(StationTest, ARetriedFaultOrStepIsNotDoneAgainAndAScaleIs) {
+    using Action = ClockCommand::Action;
+    FaultOrder three_frames{FaultKind::kImageBlack, 1, 0, 0, 3, 0};
+    std::uint32_t sequence = 5;
+    for (const Command& command :
+         {Command(FaultCommand{three_frames, false}), Command(ClockCommand{Action::kStep, 0, 1, 1000})}) {
+        const std::size_t before = recorder.commands().size();
+        const Bytes packet = encoded(command, sequence++);
+        EXPECT_EQ(answers(packet + packet, 0).size(), 2u);
+        EXPECT_EQ(recorder.commands().size(), before + 1);
+    }
+    // Another sender's are its own.
+    CommandStation::Sender& other = station.open("b");
+    PacketStream others = station.make_stream();
+    const Bytes step = encoded(ClockCommand{Action::kStep, 0, 1, 1000}, 6);
+    std::copy(step.begin(), step.end(), others.room().begin());
+    others.filled(step.size());
+    station.take(others, 0, other, [](std::span<const std::uint8_t>) {});
+    EXPECT_EQ(recorder.commands().size(), 3u);
+    // What comes to the same when it is done twice is done twice.
+    const Bytes scale = encoded(ClockCommand{Action::kScale, 0, 2, 0}, 7);
+    answers(scale + scale, 0);
+    EXPECT_EQ(recorder.commands().size(), 5u);
+}
+
+TEST_F(StationTest, CommandsAreCarriedOutAsTheyArriveWhateverTheirNumbers) {
+    const auto out = answers(encoded(some_pose(), 9) + encoded(StopCommand{}, 7) +
+                                 encoded(StartCommand{}, 8) + encoded(some_pose(), 2),
+                             0);
+    ASSERT_EQ(out.size(), 4u);
+    EXPECT_EQ(out[3].sequence, 2u);
+    EXPECT_THAT(recorder.sequences(), testing::ElementsAre(9, 7, 8, 2));
+}
+
+// From a packet too short to say what it is.
+TEST_F(StationTest, WhoseNumberIsNotThereIsAnsweredWithNoughts) {
+    std::vector<Acknowledgement> out;
+    const Bytes bytes = {0x19, 0x00, 0xC0, 0x05, 0x00, 0x01, 0x01};
+    std::copy(bytes.begin(), bytes.end(), stream.room().begin());
+    stream.filled(bytes.size());
+    station.take_all(stream, 0, sender, [&](std::span<const std::uint8_t> packet) {
+        EXPECT_TRUE(decode_acknowledgement(packet, out.emplace_back()));
+    });
+    ASSERT_EQ(out.size(), 1u);
+    EXPECT_NE(out[0].status, CommandStatus::kAccepted);
+    EXPECT_EQ(out[0].function, 0);
+    EXPECT_EQ(out[0].sequence, 0u);
+    EXPECT_EQ(recorder.commands().size(), 0u);
+    EXPECT_EQ(station.report().refused, 1u);
+}
+
 TEST_F(StationTest, CountsBySenderAndAnswersBrokenBytesOnce) {
     CommandStation::Sender& other = station.open("b");
     Bytes bad = encoded(some_pose(), 1);
@@ -260,6 +311,32 @@ TEST_F(StationTest, TelemetryGoesToSubscribersOfItsKindAlone) {
     answers(encoded(SubscribeCommand{}, 1), 0);
     station.notify(report, notify);
     EXPECT_EQ(told, 1);
+}
+
+// Who subscribes later begins at 0 as well, and each kind has a count of its own.
+TEST_F(StationTest, TelemetryIsCountedByReceiverAndKind) {
+    CommandStation::Sender& later = station.open("b");
+    station.subscribe(sender, {true, true});
+    std::vector<int> reports, housekeepings, of_later;
+    const auto send = [&](const Telemetry& telemetry, std::vector<int>& counts) {
+        station.notify(telemetry, [&](CommandStation::Sender& to, std::span<const std::uint8_t> packet) {
+            (&to == &sender ? counts : of_later).push_back((packet[2] & 0x3F) << 8 | packet[3]);
+        });
+    };
+    send(FrameReport{}, reports);
+    send(FrameReport{}, reports);
+    send(HousekeepingFigures{}, housekeepings);
+    station.subscribe(later, {true, false});
+    send(FrameReport{}, reports);
+    send(HousekeepingFigures{}, housekeepings);
+    EXPECT_THAT(reports, testing::ElementsAre(0, 1, 2));
+    EXPECT_THAT(housekeepings, testing::ElementsAre(0, 1));
+    EXPECT_THAT(of_later, testing::ElementsAre(0));
+    // 14 bits.
+    for (int i = 3; i < 16384; ++i) send(FrameReport{}, reports);
+    EXPECT_EQ(reports.back(), 16383);
+    send(FrameReport{}, reports);
+    EXPECT_EQ(reports.back(), 0);
 }
 
 }  // namespace

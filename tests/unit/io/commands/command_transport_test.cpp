@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
@@ -12,6 +13,7 @@
 #include "io/commands/commands_tcp.h"
 #include "io/commands/commands_udp.h"
 #include "io/commands/commands_unix.h"
+#include "io/commands/udp_peers.h"
 #include "io/system/allow_list.h"
 #include "render/vocabulary/check.h"
 #include "tests/support/commands.h"
@@ -252,6 +254,89 @@ TEST_P(CommandsUnix, AStaleFileIsReplacedALiveOneAndAnotherKindAreNot) {
     EXPECT_TRUE(std::filesystem::exists(path));
 }
 
+// Whatever the mask of the shell that started it: nobody but its owner and group may write, to send.
+TEST_P(CommandsUnix, ItsFileIsForOwnerAndGroup) {
+    for (const mode_t mask : {0077u, 0u}) {
+        const mode_t before = umask(mask);
+        const auto receiver = make();
+        receiver->start();
+        struct stat file {};
+        EXPECT_EQ(lstat(path.c_str(), &file), 0);
+        EXPECT_TRUE(S_ISSOCK(file.st_mode));
+        EXPECT_EQ(file.st_mode & 0777u, 0660u) << "mask " << mask;
+        umask(before);
+    }
+}
+
+// The kernel holds what a client of a Unix socket has not read, and says how much. All that waits beyond it
+// is in hilcam's own queue.
+TEST_P(CommandsUnix, TelemetryEndsAtHalfOfAQueueAndAnswersAtAll) {
+    constexpr std::size_t kTelemetryBytes = 128 * 1024, kAllBytes = 256 * 1024, kReportBytes = 88,
+                          kAnswerBytes = 34;
+    const auto receiver = make();
+    receiver->start();
+    Client deaf = Client::unix_path(path, type), other = Client::unix_path(path, type);
+    for (Client* client : {&deaf, &other}) {
+        client->send(encoded(SubscribeCommand{true, false}, 0));
+        client->answer();
+    }
+    // The other reads each report, so that the station has dealt with it.
+    const auto told = [&](std::uint64_t first, std::uint64_t count) {
+        for (std::uint64_t id = first; id < first + count; ++id) {
+            FrameReport report;
+            report.frame = id;
+            receiver->notify(report);
+            Bytes packet;
+            Telemetry telemetry;
+            if (!other.receive(packet) || !decode_telemetry(packet, telemetry) ||
+                std::get<FrameReport>(telemetry).frame != id)
+                return false;
+        }
+        return true;
+    };
+    constexpr std::uint64_t kReports = 6000;  // half a megabyte
+    ASSERT_TRUE(told(1, kReports));
+    EXPECT_EQ(receiver->report().clients, 2u) << "who only misses telemetry stays";
+    std::uint64_t pings = 0;
+    const auto ping = [&](std::size_t count) {
+        const std::uint64_t received = receiver->report().received;
+        for (std::size_t i = 0; i < count; ++i, ++pings) {
+            const Bytes packet = encoded(PingCommand{pings}, static_cast<std::uint32_t>(pings + 1));
+            ::send(deaf.fd.get(), packet.data(), packet.size(), MSG_NOSIGNAL);  // may be cut off meanwhile
+        }
+        while (receiver->report().received < received + count && receiver->report().cut_off == 0)
+            poll(nullptr, 0, 1);
+    };
+    // Answers have the other half.
+    ping((kAllBytes - kTelemetryBytes - kReportBytes) / kAnswerBytes - 1);
+    EXPECT_EQ(receiver->report().clients, 2u);
+    // What the kernel holds: of a stream FIONREAD says it; of messages it says the size of the next one.
+    int in_kernel = 0;
+    ASSERT_EQ(ioctl(deaf.fd.get(), FIONREAD, &in_kernel), 0);
+    std::uint64_t reports = 0, answers = 0;
+    Bytes packet;
+    while (answers < pings && deaf.receive(packet)) {
+        Telemetry telemetry;
+        decode_telemetry(packet, telemetry) ? ++reports : ++answers;
+    }
+    EXPECT_EQ(answers, pings);
+    EXPECT_LT(reports, kReports);
+    if (type == SOCK_STREAM) {
+        const std::size_t queued = reports * kReportBytes - static_cast<std::size_t>(in_kernel);
+        EXPECT_GE(queued, kTelemetryBytes);
+        EXPECT_LT(queued, kTelemetryBytes + kReportBytes);
+    }
+    // And they come again once it reads.
+    ASSERT_TRUE(told(kReports + 1, 1));
+    Telemetry telemetry;
+    ASSERT_TRUE(deaf.receive(packet) && decode_telemetry(packet, telemetry));
+    EXPECT_EQ(std::get<FrameReport>(telemetry).frame, kReports + 1);
+    // Without a reader again: half of the queue for telemetry and more than the rest for answers.
+    ASSERT_TRUE(told(kReports + 2, kReports));
+    ping((kAllBytes - kTelemetryBytes) / kAnswerBytes + 1);
+    EXPECT_EQ(receiver->report().cut_off, 1u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Types, CommandsUnix,
                          testing::Values(UnixCommandConfig::Type::kStream,
                                          UnixCommandConfig::Type::kSeqpacket));
@@ -300,6 +385,63 @@ TEST(CommandsUdp, TelemetryGoesToASubscriber) {
     Telemetry telemetry;
     ASSERT_TRUE(decode_telemetry(std::span(bytes).first(static_cast<std::size_t>(got)), telemetry));
     EXPECT_EQ(std::get<HousekeepingFigures>(telemetry).frames, 99u);
+}
+
+// --- senders by UDP are known by their addresses
+
+struct UdpPeersTest : testing::Test {
+    static constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    CommandRecorder recorder;
+    CommandStation station{recorder, {}};
+    UdpPeers peers{station};
+
+    static sockaddr_in sender(std::uint16_t port) { return socket_address(parse_ipv4(kAddress, ""), port); }
+    std::vector<std::string> names() const {
+        std::vector<std::string> out;
+        for (const SenderReport& report : station.senders()) out.push_back(report.name);
+        return out;
+    }
+};
+
+TEST_F(UdpPeersTest, EachIsForgottenAMinuteAfterItsLastPacket) {
+    peers.at(sender(1), 0);
+    peers.at(sender(2), 0);
+    peers.at(sender(2), 30 * kSecond_ns);
+    peers.forget_silent(60 * kSecond_ns);
+    EXPECT_THAT(names(), testing::ElementsAre("127.0.25.1:1", "127.0.25.1:2"));
+    peers.forget_silent(60 * kSecond_ns + 1);
+    EXPECT_THAT(names(), testing::ElementsAre("127.0.25.1:2"));
+    peers.forget_silent(90 * kSecond_ns);
+    EXPECT_THAT(names(), testing::ElementsAre("127.0.25.1:2"));
+    // Another's packet is an occasion to forget, too.
+    CommandStation::Sender& third = peers.at(sender(3), 90 * kSecond_ns + 1);
+    EXPECT_THAT(names(), testing::ElementsAre("127.0.25.1:3"));
+    ASSERT_NE(peers.address_of(third), nullptr);
+    EXPECT_EQ(ntohs(peers.address_of(third)->sin_port), 3);
+}
+
+TEST_F(UdpPeersTest, ASeventeenthTakesThePlaceOfTheOneThatWasSilentForLongest) {
+    for (std::uint16_t port = 1; port <= 16; ++port) peers.at(sender(port), port);
+    EXPECT_EQ(names().size(), 16u);
+    const CommandStation::Sender* const first = &peers.at(sender(1), 17);  // speaks again
+    peers.at(sender(17), 18);
+    EXPECT_EQ(names().size(), 16u);
+    EXPECT_THAT(names(), testing::Contains("127.0.25.1:1"));
+    EXPECT_THAT(names(), testing::Not(testing::Contains("127.0.25.1:2")));
+    EXPECT_EQ(&peers.at(sender(1), 19), first);
+}
+
+TEST_F(UdpPeersTest, WhoIsForgottenHasNoSubscription) {
+    station.subscribe(peers.at(sender(1), 0), {true, true});
+    int told = 0;
+    const CommandStation::Notify notify = [&](CommandStation::Sender&, std::span<const std::uint8_t>) {
+        ++told;
+    };
+    station.notify(FrameReport{}, notify);
+    EXPECT_EQ(told, 1);
+    peers.at(sender(1), 61 * kSecond_ns);  // is another sender now
+    station.notify(FrameReport{}, notify);
+    EXPECT_EQ(told, 1);
 }
 
 // What `hilcam send` does over each of them; a telemetry packet before an answer is kept.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -110,6 +111,78 @@ TEST(Shm, AReaderFindsTheFrameAndItsReport) {
     EXPECT_EQ(seen.pixels[0], 5);  // what is mapped stays
     hilcam_shm again;
     EXPECT_THAT(hilcam_shm_open(&again, own_name("report").c_str()), HasSubstr("no such shared memory"));
+    hilcam_shm_close(&ring);
+}
+
+// docs/shared_memory.md, "Layout".
+TEST(Shm, EveryFieldIsWhereThePageHasIt) {
+    EXPECT_EQ(offsetof(ShmHeader, magic), 0u);
+    EXPECT_EQ(offsetof(ShmHeader, version), 8u);
+    EXPECT_EQ(offsetof(ShmHeader, header_bytes), 12u);
+    EXPECT_EQ(offsetof(ShmHeader, slots), 16u);
+    EXPECT_EQ(offsetof(ShmHeader, slot_header_bytes), 20u);
+    EXPECT_EQ(offsetof(ShmHeader, slot_bytes), 24u);
+    EXPECT_EQ(offsetof(ShmHeader, segment_bytes), 32u);
+    EXPECT_EQ(offsetof(ShmHeader, max_width_px), 40u);
+    EXPECT_EQ(offsetof(ShmHeader, max_height_px), 44u);
+    EXPECT_EQ(offsetof(ShmHeader, pixel_bytes), 48u);
+    EXPECT_EQ(offsetof(ShmHeader, writer_pid), 52u);
+    EXPECT_EQ(offsetof(ShmHeader, camera), 64u);
+    EXPECT_EQ(offsetof(ShmHeader, colors), 128u);
+    EXPECT_EQ(offsetof(ShmHeader, published), 192u);
+    EXPECT_EQ(offsetof(ShmHeader, news), 200u);
+    EXPECT_EQ(offsetof(ShmHeader, ended), 204u);
+    EXPECT_EQ(offsetof(ShmSlot, sequence), 0u);
+    EXPECT_EQ(offsetof(ShmSlot, id), 8u);
+    EXPECT_EQ(offsetof(ShmSlot, exposure_mid_tai_ns), 16u);
+    EXPECT_EQ(offsetof(ShmSlot, exposure_mid_monotonic_ns), 24u);
+    EXPECT_EQ(offsetof(ShmSlot, published_monotonic_ns), 32u);
+    EXPECT_EQ(offsetof(ShmSlot, exposure_s), 40u);
+    EXPECT_EQ(offsetof(ShmSlot, gain_db), 48u);
+    EXPECT_EQ(offsetof(ShmSlot, black_level_dn), 56u);
+    EXPECT_EQ(offsetof(ShmSlot, bits), 64u);
+    EXPECT_EQ(offsetof(ShmSlot, width_px), 68u);
+    EXPECT_EQ(offsetof(ShmSlot, height_px), 72u);
+    EXPECT_EQ(offsetof(ShmSlot, row_bytes), 76u);
+    EXPECT_EQ(offsetof(ShmSlot, binning_x), 80u);
+    EXPECT_EQ(offsetof(ShmSlot, binning_y), 84u);
+    EXPECT_EQ(offsetof(ShmSlot, pose_sequence), 88u);
+    EXPECT_EQ(offsetof(ShmSlot, trigger_sequence), 92u);
+    EXPECT_EQ(offsetof(ShmSlot, pose_tai_ns), 96u);
+    EXPECT_EQ(offsetof(ShmSlot, faults), 104u);
+    EXPECT_EQ(offsetof(ShmSlot, quality_level), 112u);
+    EXPECT_EQ(offsetof(ShmSlot, flags), 116u);
+    EXPECT_EQ(offsetof(ShmSlot, command_arrival_monotonic_ns), 120u);
+    EXPECT_EQ(offsetof(ShmSlot, camera_position_m), 128u);
+    EXPECT_EQ(offsetof(ShmSlot, camera_attitude_wxyz), 152u);
+}
+
+// Whatever the mask of the shell that started it: readers of other users may map it, and only read.
+TEST(Shm, EverybodyMayReadItAndItsOwnerAloneWrites) {
+    for (const mode_t mask : {0077u, 0u}) {
+        const mode_t before = umask(mask);
+        ShmSink sink = shm_sink(own_name("mode"));
+        sink.start();
+        struct stat file {};
+        EXPECT_EQ(stat(path_of(own_name("mode")).c_str(), &file), 0);
+        EXPECT_EQ(file.st_mode & 0777u, 0644u) << "mask " << mask;
+        umask(before);
+    }
+}
+
+TEST(Shm, NumbersHaveNoGapsWhereIdsDo) {
+    ShmSink sink = shm_sink(own_name("gaps"), 3);
+    sink.start();
+    hilcam_shm ring;
+    ASSERT_EQ(hilcam_shm_open(&ring, own_name("gaps").c_str()), nullptr);
+    std::uint64_t number = 0;
+    for (const std::uint64_t id : {4u, 5u, 9u, 20u}) {
+        sink.publish(even_frame(static_cast<std::uint16_t>(id)), report_record(id));
+        EXPECT_EQ(hilcam_shm_newest(&ring), ++number);
+        hilcam_shm_frame seen;
+        ASSERT_EQ(hilcam_shm_get(&ring, number, &seen), 1);
+        EXPECT_EQ(seen.report.id, id);
+    }
     hilcam_shm_close(&ring);
 }
 

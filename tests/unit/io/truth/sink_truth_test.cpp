@@ -109,6 +109,11 @@ class Reader {
         const sockaddr_in to = socket_address(kHere, port);
         EXPECT_EQ(connect(socket_.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
     }
+    void send(std::string_view text) const {
+        EXPECT_EQ(::send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL),
+                  static_cast<ssize_t>(text.size()));
+    }
+    void end_its_side() const { EXPECT_EQ(shutdown(socket_.get(), SHUT_WR), 0); }
     // Empty: none came, or the connection has ended.
     std::string line() {
         while (text_.find('\n') == std::string::npos) {
@@ -208,6 +213,27 @@ TEST_F(TruthOut, WhoDoesNotReadIsCutOffAndTheOthersGoOn) {
     EXPECT_EQ(figure("clients"), 1);
     EXPECT_TRUE(frame(id + 1));
     EXPECT_EQ(json::parse(quick.line())["frame"].get<std::uint64_t>(), id + 1);
+}
+
+TEST_F(TruthOut, WhatAClientSendsIsIgnoredAndWhoEndsItsSideIsDisconnected) {
+    config.address = "127.83.9.1";
+    config.port = free_port();
+    make();
+    sink->start();
+    Reader talks(static_cast<std::uint16_t>(config.port)), leaves(static_cast<std::uint16_t>(config.port));
+    const auto wait_for_clients = [&](double clients) {
+        for (int i = 0; i < kPatience_ms && figure("clients") != clients; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_EQ(figure("clients"), clients);
+    };
+    wait_for_clients(2);
+    talks.send("GET / HTTP/1.1\r\n\r\n");
+    leaves.end_its_side();  // as `nc -N` does
+    wait_for_clients(1);
+    EXPECT_EQ(leaves.line(), "");
+    EXPECT_TRUE(frame(1));
+    EXPECT_EQ(json::parse(talks.line())["frame"].get<int>(), 1);
+    EXPECT_EQ(figure("cut_off"), 0) << "it was not too slow";
 }
 
 TEST_F(TruthOut, TruthIsDroppedAndCountedWhenNobodyWritesIt) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gige_bench.h"
+#include "io/gige/device/gige_features.h"
 
 namespace hilcam {
 namespace {
@@ -236,6 +237,34 @@ TEST(GigeSettings, ExposureIsFoundOnce) {
     for (int i = 0; i < 100; ++i) frame(0.05);
     EXPECT_EQ(b.read(reg::kExposureAuto), 1u);
     EXPECT_EQ(b.write(reg::kExposureAuto, 3), gvcp::kInvalidParameter);
+}
+
+// As of a sequence of settings, or a line scanner.
+TEST(GigeSettings, WhatTheCameraSetsItselfIsReadOnlyAndItsExposureIsNotSearchedFor) {
+    CameraLimits own = PlainCamera().l;
+    own.exposure_is_own = own.gain_is_own = own.frame_rate_is_own = true;
+    own.has_automatic_exposure = false;
+    GigeBench b(&own);
+    b.take_control();
+    EXPECT_EQ(b.write(reg::kExposureAuto, 0), gvcp::kSuccess);
+    for (const std::uint32_t mode : {1u, 2u})  // Continuous, Once
+        EXPECT_EQ(b.write(reg::kExposureAuto, mode), gvcp::kInvalidParameter);
+    EXPECT_FALSE(b.camera.s.automatic_exposure);
+    const CameraLimits settable = PlainCamera().l;
+    for (const CameraLimits* limits : std::initializer_list<const CameraLimits*>{&own, &settable}) {
+        const bool is_own = limits == &own;
+        int found = 0;
+        for (const Feature& f : gige_features(*limits, false).features) {
+            if (f.name == "ExposureTime" || f.name == "Gain" || f.name == "AcquisitionFrameRate") {
+                EXPECT_EQ(f.access, is_own ? Feature::Access::kRead : Feature::Access::kReadWrite) << f.name;
+                ++found;
+            }
+            if (f.name == "ExposureAuto") {
+                EXPECT_EQ(f.entries.size(), is_own ? 1u : 3u);
+            }
+        }
+        EXPECT_EQ(found, 3);
+    }
 }
 
 TEST(GigeSettings, TheResultingFrameRateIsWhatExposuresLeave) {
