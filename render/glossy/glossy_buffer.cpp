@@ -32,6 +32,7 @@ GlossyBuffer::GlossyBuffer(int width_px, int height_px, std::size_t parts, std::
       parts_(parts),
       points_(room_for<GlossyPoint>(parts * lobes)),
       rays_(room_for<GlossyRay>(parts * lobes * kRaysPerLobe)),
+      starts_(room_for<GlossyStart>(parts * lobes * kRaysPerLobe)),
       first_of_pixel_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), kNone) {
     HILCAM_CHECK(parts * lobes * kRaysPerLobe < kNone && parts * lobes < 1u << 31);
     for (std::size_t i = 0; i < parts; ++i) {
@@ -72,10 +73,14 @@ void GlossyBuffer::link(Part& part) {
     const int width = part.box_.x1 - part.box_.x0;
     for (std::size_t i = part.linked_; i < part.ray_count_; ++i) {
         GlossyRay& ray = part.rays_[i];
-        const auto pixel = static_cast<int>(points_[ray.point].pixel);
+        const GlossyPoint& of = points_[ray.point];
+        ray.light = of.per_light * ray.light;
+        const auto pixel = static_cast<int>(of.pixel);
         std::uint32_t& first =
             first_of_pixel_[index(part.box_.x0 + pixel % width, part.box_.y0 + pixel / width)];
-        ray.next = first, first = part.first_ray_ + static_cast<std::uint32_t>(i);
+        const std::size_t number = part.first_ray_ + i;
+        starts_[number] = {of.point_m, of.normal, of.object, of.surface, of.back, first};
+        first = static_cast<std::uint32_t>(number);
     }
     part.linked_ = part.ray_count_;
 }

@@ -49,20 +49,29 @@ struct GlossyPoint {
     float share;           // weight of what rays find against the cache, 0 to 1
     int reach_px;          // rays of pixels nearer than this are used: 8 or 4
     int sent = 0;          // rays along it, with those that would have gone below its surface
+};
 
-    bool same_surface(const GlossyPoint& other) const {
-        return object == other.object && surface == other.surface && back == other.back;
+// Where a ray starts: all that decides whether a lobe takes it, apart from the rest, as most are not taken.
+struct GlossyStart {
+    Vec3f point_m, normal;  // those of its lobe
+    std::uint32_t object;
+    std::uint16_t surface;
+    bool back;
+    std::uint32_t next;  // next ray of the same pixel, in the frame
+
+    bool on_surface_of(const GlossyPoint& lobe) const {
+        return object == lobe.object && surface == lobe.surface && back == lobe.back;
     }
 };
 
 // A ray along a lobe.
-struct GlossyRay {
-    Spectrum light;        // radiance of what it has met, divided by the per_light of its point
+struct alignas(64) GlossyRay {
+    // Radiance of what it has met; until it is linked, divided by the per_light of its point.
+    Spectrum light;
     Vec3f met_m;           // the place that it has met, ray space; its direction if it has met nothing
     float per_density_sr;  // 1 / density of its direction
     std::array<float, Planetshine::kMaxBodies>
         towards{};                 // radiance of each body along the ray, hidden or not
-    std::uint32_t next = 0;        // next ray of the same pixel, in the frame
     std::uint32_t point : 31 = 0;  // number of its point in the frame
     std::uint32_t free : 1 = 1;    // it has met nothing
 
@@ -116,12 +125,12 @@ class GlossyBuffer {
     // Connects a part's rays to their pixels; those that are new must be finished.
     void link(Part& part);
 
-    // Calls visit(ray, its point) for the rays of a pixel, in an order that depends only on the frame. Any
+    // Calls visit(start, ray) for the rays of a pixel, in an order that depends only on the frame. Any
     // thread, after link().
     template <class Visit>
     void for_each_ray(int x, int y, const Visit& visit) const {
-        for (std::uint32_t r = first_of_pixel_[index(x, y)]; r != kNone; r = rays_[r].next)
-            visit(rays_[r], points_[rays_[r].point]);
+        for (std::uint32_t r = first_of_pixel_[index(x, y)]; r != kNone; r = starts_[r].next)
+            visit(starts_[r], rays_[r]);
     }
     int width() const { return width_; }
     int height() const { return height_; }
@@ -137,6 +146,7 @@ class GlossyBuffer {
     };
     std::unique_ptr<GlossyPoint[], Unmap> points_;
     std::unique_ptr<GlossyRay[], Unmap> rays_;
+    std::unique_ptr<GlossyStart[], Unmap> starts_;  // by ray
     std::vector<std::uint32_t> first_of_pixel_;
 
     std::size_t index(int x, int y) const {

@@ -18,10 +18,10 @@ namespace hilcam {
 
 inline constexpr int kGlossyPattern_px = 8;
 
-// Returns the two numbers in [0, 1) that choose the direction of a pixel's ray, by its number. reach_px: 8 or
-// 4. Over any 8 x 8 pixels with one ray each, or 4 x 4 pixels with four, they are in 64 different squares, and
-// each coordinate is in 64 different strips (correlated multi-jittered: Kensler, Pixar Technical Memo 13-01,
-// 2013).
+// Returns the two numbers in [0, 1) that choose the direction of a pixel's ray, by its number. reach_px: 8
+// or 4. They follow Sobol's (0, 2)-sequence, of which 2 x 2 pixels have successive places, so over any 8 x 8
+// pixels with one ray each, or 4 x 4 pixels with four, they are in 64 different squares, and each coordinate
+// is in 64 different strips.
 struct GlossyPlace {
     float u1, u2;
 };

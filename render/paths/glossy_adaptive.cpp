@@ -29,9 +29,9 @@ float light_at_stake(const GlossyBuffer& buffer, const GlossyPoint& lobe, int x,
     float most = max_component(lobe.cached);
     for (const Spectrum& body : lobe.bodies) most += max_component(body);
     const float to_pixel = max_component(lobe.weight);
-    buffer.for_each_ray(x, y, [&](const GlossyRay& ray, const GlossyPoint& of) {
-        if (!ray.free && of.same_surface(lobe))
-            most = std::max(most, to_pixel * of.per_light * max_component(ray.light));
+    buffer.for_each_ray(x, y, [&](const GlossyStart& start, const GlossyRay& ray) {
+        if (!ray.free && start.on_surface_of(lobe))
+            most = std::max(most, to_pixel * max_component(ray.light));
     });
     return lobe.share * most;
 }

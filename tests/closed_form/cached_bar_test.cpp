@@ -85,6 +85,28 @@ TEST(IrradianceCache, ABarThatFewDirectionsMeetIsNoBrighterThanItIs) {
     }
 }
 
+// The plate is the same all along the bar, so its light changes along a column of pixels mostly by its error. Rays are added where few
+// meet the bar: without those the light changes by 0.139 (rms).
+TEST(IrradianceCache, MetalBesideABarHasRaysEnough) {
+    MaterialConfig metal = lambert(0.9);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.45;
+    const PlateAndBar seen("cached", metal, 0.2f, 4, {255}, "buffer");
+    constexpr std::size_t kSize = PlateAndBar::kSize_px, kFirst = kSize / 4, kLast = 3 * kSize / 4;
+    double squares = 0, lights = 0;
+    for (std::size_t x = 0; x < kSize; ++x) {
+        double sum = 0, of_column = 0;
+        for (std::size_t y = kFirst; y < kLast; ++y) {
+            const double light = seen.pixels[y * kSize + x];
+            sum += light, of_column += light * light;
+        }
+        const double mean = sum / (kLast - kFirst);
+        squares += of_column / (kLast - kFirst) - mean * mean, lights += mean * mean;
+    }
+    EXPECT_GT(lights, 0);
+    EXPECT_LT(std::sqrt(squares / lights), 0.11);
+}
+
 // Stripes on metal, a few pixels wide, beside a bar that few directions meet, so that rays follow lobes, and beside one that
 // many meet. Four pixels share what lobes meet, and yet each has its own colour: bright stripes are as much brighter than dark
 // ones as on paint.
@@ -110,7 +132,7 @@ TEST(IrradianceCache, PixelsOfMetalWithAPictureHaveTheirOwnColours) {
         return bright / dark;
     };
     EXPECT_GT(contrast(paint), 1.5);
-    for (const float bar_m : {0.02f, 0.6f})
+    for (const float bar_m : {0.2f, 0.6f})
         EXPECT_NEAR(contrast(columns(metal, bar_m)) / contrast(paint), 1, 0.03) << bar_m;
 }
 

@@ -14,7 +14,7 @@ GlossyRay& add_ray(GlossyBuffer::Part& part, std::uint32_t pixel) {
 }
 std::size_t rays_at(const GlossyBuffer& buffer, int x, int y) {
     std::size_t count = 0;
-    buffer.for_each_ray(x, y, [&](const GlossyRay&, const GlossyPoint&) { ++count; });
+    buffer.for_each_ray(x, y, [&](const GlossyStart&, const GlossyRay&) { ++count; });
     return count;
 }
 
@@ -27,6 +27,21 @@ TEST(GlossyBuffer, RaysAreFoundAtTheirPixelsWhenAllHaveComeBack) {
     buffer.link(right);
     EXPECT_EQ(rays_at(buffer, 6, 1), 2U);
     EXPECT_EQ(rays_at(buffer, 2, 1), 0U);
+}
+
+// Rays that come after others have been linked join them, and each light becomes a radiance once.
+TEST(GlossyBuffer, LaterRaysJoinThoseThatAreLinked) {
+    GlossyBuffer buffer(4, 4, 1, 16);
+    GlossyBuffer::Part& part = buffer.begin(0, {0, 0, 4, 4}, 1);
+    GlossyPoint* const point = part.add_point();
+    point->pixel = 5, point->per_light = 2;
+    for (int round = 1; round < 4; ++round) {
+        part.add_ray(*point)->light[0] = 3;
+        buffer.link(part);
+        EXPECT_EQ(rays_at(buffer, 1, 1), static_cast<std::size_t>(round));
+        buffer.for_each_ray(1, 1,
+                            [](const GlossyStart&, const GlossyRay& ray) { EXPECT_EQ(ray.light[0], 6); });
+    }
 }
 
 TEST(GlossyBuffer, APartThatBeginsAnewHasNothingOfTheFrameBefore) {

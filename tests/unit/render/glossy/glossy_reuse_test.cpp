@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "render/brdf/microfacet.h"
 
@@ -61,8 +62,12 @@ struct Plane {
         ray.per_density_sr = 1 / ggx_density(alpha, dot(point.normal, point.view_dir), facet.z);
         ray.towards[0] = met.towards;
     }
-    GlossyLight light(int x, int y) const {
-        return reused_light(buffer, part.points()[static_cast<std::size_t>(y * kSize + x)], x, y);
+    const GlossyPoint& point(int x, int y) const {
+        return buffer.part(0).points()[static_cast<std::size_t>(y * kSize + x)];
+    }
+    GlossyLight light(int x, int y) const { return reused_light(buffer, point(x, y), x, y); }
+    float error(int x, int y, const PixelBox& within = {0, 0, kSize, kSize}) const {
+        return glossy_error(buffer, point(x, y), x, y, within);
     }
 };
 
@@ -105,6 +110,49 @@ TEST(GlossyReuse, AnEdgeIsSmoothAndInPlace) {
     EXPECT_NEAR(least, expected, 0.08 * expected);
     EXPECT_NEAR(most, expected, 0.08 * expected);
     EXPECT_LT(most - least, 0.04f * most);
+}
+
+// Each ray meets light or none by chance: the error that a lobe's rays tell is the spread of its light between 200 pictures, which
+// is known to 5 %.
+TEST(GlossyReuse, TheErrorIsTheSpreadOfTheLight) {
+    constexpr int kPictures = 200;
+    double sum = 0, squares = 0, told = 0, told_by_some = 0;
+    for (int picture = 0; picture < kPictures; ++picture) {
+        std::mt19937 random(static_cast<std::uint32_t>(picture));
+        const Plane plane(0.2f, [&](Vec3f point, Vec3f dir) {
+            return Plane::Met{(random() & 1) != 0 ? 100.0f : 0.0f, false, point + 100.0f * dir};
+        });
+        const double light = static_cast<double>(plane.light(16, 16).surfaces[0]);
+        sum += light, squares += light * light;
+        told += static_cast<double>(plane.error(16, 16)) / kPictures;
+        told_by_some += static_cast<double>(plane.error(16, 16, {13, 13, 20, 20})) / kPictures;
+    }
+    const double mean = sum / kPictures, spread = std::sqrt(squares / kPictures - mean * mean);
+    EXPECT_NEAR(mean, 45, 3 * spread / std::sqrt(kPictures));
+    EXPECT_NEAR(told, spread, 0.15 * spread);
+    EXPECT_GT(told_by_some, 1.5 * told) << "49 of some 200 rays";
+}
+
+// The same for a body that half of the rays see.
+TEST(GlossyReuse, ABodyThatIsHiddenHereAndThereHasAnError) {
+    const auto error = [](std::uint32_t mask) {
+        std::mt19937 random(1);
+        const Plane plane(0.2f, [&](Vec3f point, Vec3f dir) {
+            const bool hidden = (random() & mask) != 0;
+            return Plane::Met{0, !hidden, hidden ? point + 100.0f * dir : Vec3f{}, 1};
+        });
+        return plane.error(16, 16);
+    };
+    // Half of 2, by the square root of some 100 rays; the cache's light of 5 counts as a ray.
+    EXPECT_NEAR(error(1), 0.11f, 0.04f);
+    EXPECT_LT(error(0), 0.06f);
+}
+
+TEST(GlossyReuse, EvenLightHasNoError) {
+    const Plane plane(0.2f, [](Vec3f point, Vec3f dir) {
+        return Plane::Met{5 / 0.9f, false, point + 100.0f * dir};
+    });
+    EXPECT_LT(plane.error(16, 16), 1e-2f);
 }
 
 TEST(GlossyReuse, OtherSurfacesAreNotAsked) {
