@@ -10,12 +10,13 @@ namespace {
 
 // The sensor has this full well [e-], which white paint in the Sun fills, and this noise in the dark [e-].
 constexpr float kFullWell_e = 15000, kReadNoise_e = 15;
-// Error of a lobe up to which it has no further rays [noises]. With 4, Hubble in the Sun is off by the same and
-// a sixth more blocks are off by a tenth.
+// Error of a lobe up to which it has no further rays [noises]. With 4, a fifth more of Hubble's blocks in the
+// Sun are off by a tenth.
 constexpr float kNoises = 3;
-// Lobes are not judged whose light is less than this multiple of that error. It saves half of the judging.
+// Lobes are not judged whose light is less than this multiple of that error. Without it errors of four scenes
+// are 1 % less, for the time of judging all lobes.
 constexpr float kLight = 3;
-constexpr int kMost = 8;  // 16 take twice the time for 2 % less error
+constexpr int kMost = 8;  // 16 take twice the time for 1 % less error
 
 // Returns the square of the error that a lobe may have: radiance times samples.
 float variance_allowed(const Tile& tile, const GlossyPoint& lobe) {

@@ -52,8 +52,8 @@ void add_in_narrow_lobe(const Tile& tile, const ShadingPoint& at, Vec3f mirror, 
 }
 
 // Returns the distance within which the rays of pixels serve a lobe. Where normals differ or lobes are narrow,
-// farther rays are worth less: with the whole pattern everywhere, a fifth more blocks of geo_inspection are off
-// by a tenth.
+// farther rays are worth less: with the whole pattern everywhere, a quarter more of geo_inspection's blocks
+// are off by a tenth.
 int reach_px(const ShadingPoint& at) {
     return at.clusters || at.surface.alpha < kMinCachedAlpha ? kGlossyPattern_px / 2 : kGlossyPattern_px;
 }

@@ -193,7 +193,7 @@ TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
                 ElementsAre(HasSubstr("faults: the fault 'packet_drop' (stream packets are not sent) has no "
                                       "effect without outputs.gige")));
     EXPECT_THAT(warnings({"faults=[{kind: image_black}]"}),
-                ElementsAre(HasSubstr("that takes any of outputs")));
+                ElementsAre(HasSubstr("has no effect without any of outputs")));
     EXPECT_THAT(
         warnings({"faults=[{kind: image_black}]", "outputs.files.folder=" + (folder_ / "x").string()}),
         IsEmpty());

@@ -117,7 +117,7 @@ const Mistake kMistakes[] = {
     {"NoSuchSection", 4, "camera: sheet.yaml\nterrain:", "4:9", "sheet.yaml: no such file"},
     // Attitudes.
     {"UpAlongTheSight", 19, "  up: [-1, 0, 0]", "19:7", "camera_pose.up: is parallel to the line of sight"},
-    {"LooksAtItself", 18, "  look_at_m: [4, 0, 0]", "18:14", "camera_pose.look_at_m: is where it stands"},
+    {"LooksAtItself", 18, "  look_at_m: [4, 0, 0]", "18:14", "camera_pose.look_at_m: is equal to position_m"},
     {"UpWithoutEffect", 17, "  attitude: nadir", "18:14",
      "camera_pose.look_at_m: has no effect with attitude: nadir; accepted: attitude: look_at"},
     {"TwoAttitudes", 17, "  attitude_wxyz: [1, 0, 0, 0]", "17:18", "has no effect with look_at_m and up"},
@@ -155,7 +155,7 @@ const Mistake kMistakes[] = {
     {"FallingEdges", 24, "spectrum_edges_um: [0.6, 0.4]", "24:20",
      "spectrum_edges_um: spectral bins: edge 0.4"},
     {"OneNameForTwo", 23, "  - {name: plate, mesh: plate.obj}", "", "another object is also named 'plate'"},
-    {"FaultForNobody", 24, "faults: [{kind: packet_drop}]", "", "that takes outputs.gige"},
+    {"FaultForNobody", 24, "faults: [{kind: packet_drop}]", "", "has no effect without outputs.gige"},
     {"Millimetres", 22, "    mesh: plate.obj\n    scale: 10000", "", "the file is probably in millimetres"},
     {"LooksAway", 18, "  look_at_m: [8, 0, 0]", "", "object 'plate' is behind the camera"},
     {"Kilometres", 22, "    mesh: plate.obj\n    scale: 0.001", "", "is its scale too small?"},

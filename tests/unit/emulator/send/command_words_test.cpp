@@ -115,7 +115,7 @@ TEST(CommandScript, MistakesNameTheLine) {
     EXPECT_THAT(error_of("ping\nfault nonsense\n"),
                 HasSubstr("a.txt:2: fault: found 'nonsense'; accepted: clear"));
     EXPECT_THAT(error_of("fault packet_delay --value -4\n"), HasSubstr("value is outside its kind's range"));
-    EXPECT_THAT(error_of("@1 ping\n@0.5 ping\n"), HasSubstr("a.txt:2: its time @0.5 lies before"));
+    EXPECT_THAT(error_of("@1 ping\n@0.5 ping\n"), HasSubstr("a.txt:2: its time @0.5 is before"));
     for (const char* wild : {"+x", "@-1", "@nan", "@inf", "@1e10", "+1e300"})
         EXPECT_THAT(error_of(wild + std::string(" ping\n")), HasSubstr("accepted: @SECONDS")) << wild;
     EXPECT_THAT(error_of("@9e8 ping\n+2e8 ping\n"), HasSubstr("a.txt:2: found '+2e8'"));
