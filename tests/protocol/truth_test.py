@@ -144,7 +144,7 @@ class Truth(unittest.TestCase):
         self.assertEqual(line["version"], 1)
         nested = [f"{key}.{inner}" for key in ("image", "pose", "sun") for inner in line[key]]
         check([key for key in line if key not in ("image", "pose", "sun")] + nested,
-              "After the first line there is", "a line",
+              "Each frame has one JSON object", "a line",
               {"height_above_ground_m", "craters", "boulders", "ground_left_out", "image.distortion_x",
                "image.distortion_y"})
         target, sun = line["objects"][0], line["bodies"][0]
