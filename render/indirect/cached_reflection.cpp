@@ -181,7 +181,8 @@ float IndirectCache::share_of_rays(const Tile& tile, const ShadingPoint& at, con
     for (std::size_t b = 0; b < planetshine_.bodies().size(); ++b)
         light += std::min(1.0f, kOfFree * (1 - place.free[b])) *
                  max_component(colored(at.surface, place.unhidden[b]));
-    const float least = kOfThreshold * tile.frame.contribution_threshold * tile.white_paint();
+    const float least = kOfThreshold * tile.frame.contribution_threshold *
+                        tile.white_paint(tile.frame.background->sun_irradiance_w_m2_um());
     return light > 0 ? std::clamp(at.weight_samples * light / least - 1, 0.0f, 1.0f) : 0.0f;
 }
 

@@ -86,10 +86,10 @@ struct Tile {
     void set_kind(std::uint32_t pixel, SubpixelKind kind) {
         if (!kinds.empty() && kinds[pixel] != SubpixelKind::kObject) kinds[pixel] = kind;
     }
-    // Returns the light of a pixel of white paint that faces the Sun, largest bin.
-    float white_paint() const {
-        return static_cast<float>(samples_per_axis * samples_per_axis) *
-               max_component(frame.background->sun_irradiance_w_m2_um()) / kPiF;
+    // Returns the light of a pixel of white paint under an irradiance: radiance times samples, largest bin.
+    float white_paint(const Spectrum& irradiance_w_m2_um) const {
+        return static_cast<float>(samples_per_axis * samples_per_axis) * max_component(irradiance_w_m2_um) /
+               kPiF;
     }
     std::uint32_t frame_pixel(int x, int y) const {
         return static_cast<std::uint32_t>(y * frame.geometry.padded_width() + x);

@@ -49,7 +49,7 @@ const PenumbraSampler::Asked* PenumbraSampler::layer_below(const Asked& a) const
 
 void PenumbraSampler::ask_again(Tile& tile, const SunSampler& sun) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
-    const float per_white = 1 / tile.white_paint();
+    const float per_white = 1 / tile.white_paint(tile.frame.background->sun_irradiance_w_m2_um());
     for (Asked& a : std::span(asked_).first(count_))
         a.whites = per_white * max_component(a.light), a.kind = kind_of(*a.at);
     const auto gets_through = [](const Use& use, const Spectrum*) {

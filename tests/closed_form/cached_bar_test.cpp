@@ -107,6 +107,25 @@ TEST(IrradianceCache, MetalBesideABarHasRaysEnough) {
     EXPECT_LT(std::sqrt(squares / lights), 0.11);
 }
 
+// Without the Sun nobody can say which error counts: a lobe of the plate then has two rays, not nine, as frames of an eclipse would take
+// twice their time.
+TEST(IrradianceCache, WithoutTheSunALobeHasTwoRays) {
+    Stage s = stage_above("cached", 2, 4, 48);
+    s.quality.visibility = "buffer";
+    s.models.radiance = "emissive";
+    s.scene.sun_irradiance_1au_w_m2_um = {};
+    MaterialConfig metal = lambert(0.9), hot = lambert(0);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.45;
+    hot.temperature_k = 1000;
+    const std::vector<Vec3f> bar{{1.2f, -1, 1}, {1.4f, -1, 1}, {1.4f, 1, 1}, {1.2f, 1, 1}};
+    s.add(joined(plate(metal, s.grid), object_of(bar, {{0, 1, 2}, {0, 2, 3}}, hot, s.grid)), {0, 0, 4});
+    s.render();
+    const auto pixels = static_cast<std::uint64_t>(s.radiance.plane(0).size());
+    EXPECT_GT(s.stats.secondary_rays, pixels);
+    EXPECT_LE(s.stats.secondary_rays, 2 * pixels);
+}
+
 // Stripes on metal, a few pixels wide, beside a bar that few directions meet, so that rays follow lobes, and beside one that
 // many meet. Four pixels share what lobes meet, and yet each has its own colour: bright stripes are as much brighter than dark
 // ones as on paint.

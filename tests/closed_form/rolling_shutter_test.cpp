@@ -72,8 +72,8 @@ double greatest_error_px(Stage& s) {
     return greatest;
 }
 
-// In each row an edge that leans is crossed by eight rows of samples an eighth of a pixel apart, so that a row's sum is right to a part
-// of a sample: 0.02 px.
+// A row of pixels has eight rows of samples. A slanted edge crosses each at another place, so the row's sum is right to a fraction of
+// a sample: 0.02 px.
 TEST(RollingShutter, AnEdgeLiesInEachRowWhereGeometryHasItAtThatRowsInstant) {
     struct Case {
         Vec3d velocity_m_s, rate_rad_s;

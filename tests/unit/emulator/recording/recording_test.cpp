@@ -112,7 +112,7 @@ TEST(Recording, BytesAreThoseOfTheManual) {
     EXPECT_EQ(hex(bytes_of(RecordedLoss{12})), "00 00 00 09 8B DE 35 4C 07 00 00 00 00 00 00 00 0C");
 }
 
-// As the page reckons what a run takes.
+// The manual computes the size of a recording from these figures.
 TEST(Recording, PosesAndFramesHaveTheSizesOfTheManual) {
     EXPECT_EQ(bytes_of(RecordedCommand{1, odd_pose(), {}, false}).size(), 150u);
     EXPECT_EQ(bytes_of(RecordedFrame{1, FrameUse{}}).size(), 141u);

@@ -8,19 +8,26 @@
 namespace hilcam {
 namespace {
 
-TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
+// A bench of one camera.
+struct OneCamera {
     CameraModel camera;
-    LiveSettings settings(camera);
-    const Motion initial = motion_at(0, 0);
-    WorldState world(std::span(&initial, 1), {});
-    SimulatedClock clock({1'000'000'000'000'000}, 0);
+    LiveSettings settings{camera};
+    Motion initial = motion_at(0, 0);
+    WorldState world{std::span(&initial, 1), {}};
+    SimulatedClock clock{{1'000'000'000'000'000}, 0};
     FaultBoard faults;
-    CommandDispatch dispatch({{&world, &settings, &faults}}, clock);
+    CommandDispatch dispatch{{{&world, &settings, &faults}}, clock};
+};
+
+TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
+    OneCamera one;
+    CommandDispatch& dispatch = one.dispatch;
+    LiveSettings& settings = one.settings;
     SettingsCommand command;
     command.gain_db = 3;
     command.exposure_s = 1e9;
     EXPECT_EQ(dispatch.handle(command, {1, 0}), CommandStatus::kBadArgument);
-    EXPECT_EQ(settings.settings().gain_db, camera.gain_db);
+    EXPECT_EQ(settings.settings().gain_db, one.camera.gain_db);
     PoseCommand pose;
     pose.motion.time.ns = std::numeric_limits<std::int64_t>::min();
     EXPECT_EQ(dispatch.handle(pose, {1, 0}), CommandStatus::kTimeOutOfRange);
@@ -92,13 +99,9 @@ TEST(CommandDispatch, ARefusalOfManyCamerasSaysWhichOne) {
 }
 
 TEST(CommandDispatch, AModeWithoutANumberOfFramesLeavesTheBurstAsItIs) {
-    CameraModel camera;
-    LiveSettings settings(camera);
-    const Motion initial = motion_at(0, 0);
-    WorldState world(std::span(&initial, 1), {});
-    SimulatedClock clock({1'000'000'000'000'000}, 0);
-    FaultBoard faults;
-    CommandDispatch dispatch({{&world, &settings, &faults}}, clock);
+    OneCamera one;
+    CommandDispatch& dispatch = one.dispatch;
+    LiveSettings& settings = one.settings;
     EXPECT_EQ(dispatch.handle(TriggerModeCommand{true, 5}, {1, 0}), CommandStatus::kAccepted);
     EXPECT_TRUE(settings.settings().triggered);
     EXPECT_EQ(settings.settings().burst_frames, 5);

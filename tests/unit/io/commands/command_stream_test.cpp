@@ -313,7 +313,7 @@ TEST_F(StationTest, TelemetryGoesToSubscribersOfItsKindAlone) {
     EXPECT_EQ(told, 1);
 }
 
-// Who subscribes later begins at 0 as well, and each kind has a count of its own.
+// Counts begin at 0 for each subscriber, and each kind of telemetry has its own count.
 TEST_F(StationTest, TelemetryIsCountedByReceiverAndKind) {
     CommandStation::Sender& later = station.open("b");
     station.subscribe(sender, {true, true});

@@ -89,11 +89,16 @@ struct TruthOut : FilesTest {
         sink->publish(DnImage(), record);
         return truth != nullptr;
     }
-    // Of the report; -1: there is none of that name.
+    // Returns a figure of the report; -1: there is none of that name.
     double figure(const std::string& wanted) const {
         for (const auto& [name, value] : sink->report().figures)
             if (name == wanted) return value;
         return -1;
+    }
+    void wait_for_clients(double clients) const {
+        for (int i = 0; i < kPatience_ms && figure("clients") != clients; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_EQ(figure("clients"), clients);
     }
     void wait_for(std::uint64_t frames) const {
         for (int i = 0; i < kPatience_ms && sink->report().frames < frames; ++i)
@@ -143,8 +148,7 @@ TEST_F(TruthOut, EveryClientGetsEachFramesLine) {
     make();
     sink->start();
     Reader first(static_cast<std::uint16_t>(config.port)), second(static_cast<std::uint16_t>(config.port));
-    for (int i = 0; i < kPatience_ms && figure("clients") < 2; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    wait_for_clients(2);
     EXPECT_TRUE(frame(1, 1));
     EXPECT_TRUE(frame(2));
     for (Reader* reader : {&first, &second}) {
@@ -199,8 +203,7 @@ TEST_F(TruthOut, WhoDoesNotReadIsCutOffAndTheOthersGoOn) {
     make();
     sink->start();
     Reader slow(static_cast<std::uint16_t>(config.port)), quick(static_cast<std::uint16_t>(config.port));
-    for (int i = 0; i < kPatience_ms && figure("clients") < 2; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    wait_for_clients(2);
     // Lines of half a megabyte: 8 MiB wait, and sockets hold some more.
     std::uint64_t id = 0;
     for (; id < 200 && figure("cut_off") < 1; ++id) {
@@ -208,9 +211,7 @@ TEST_F(TruthOut, WhoDoesNotReadIsCutOffAndTheOthersGoOn) {
         EXPECT_NE(quick.line(), "");
     }
     EXPECT_EQ(figure("cut_off"), 1);
-    for (int i = 0; i < kPatience_ms && figure("clients") > 1; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    EXPECT_EQ(figure("clients"), 1);
+    wait_for_clients(1);
     EXPECT_TRUE(frame(id + 1));
     EXPECT_EQ(json::parse(quick.line())["frame"].get<std::uint64_t>(), id + 1);
 }
@@ -221,11 +222,6 @@ TEST_F(TruthOut, WhatAClientSendsIsIgnoredAndWhoEndsItsSideIsDisconnected) {
     make();
     sink->start();
     Reader talks(static_cast<std::uint16_t>(config.port)), leaves(static_cast<std::uint16_t>(config.port));
-    const auto wait_for_clients = [&](double clients) {
-        for (int i = 0; i < kPatience_ms && figure("clients") != clients; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        EXPECT_EQ(figure("clients"), clients);
-    };
     wait_for_clients(2);
     talks.send("GET / HTTP/1.1\r\n\r\n");
     leaves.end_its_side();  // as `nc -N` does

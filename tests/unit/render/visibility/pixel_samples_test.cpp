@@ -13,7 +13,7 @@ double squared(Vec2f a, Vec2f b) {
     return x * x + y * y;
 }
 
-// The middle of a set is the place of one of its samples, and none of the others lies nearer to their mean.
+// The middle of a set of samples is the place of the sample nearest to their mean.
 TEST(PixelSamples, TheMiddleIsTheSampleNearestToIt) {
     std::mt19937_64 engine(3);
     for (const int across : {4, 8}) {

@@ -239,7 +239,7 @@ TEST(GigeSettings, ExposureIsFoundOnce) {
     EXPECT_EQ(b.write(reg::kExposureAuto, 3), gvcp::kInvalidParameter);
 }
 
-// As of a sequence of settings, or a line scanner.
+// A sequence of settings, or a line scanner, sets exposure, gain and frame rate itself.
 TEST(GigeSettings, WhatTheCameraSetsItselfIsReadOnlyAndItsExposureIsNotSearchedFor) {
     CameraLimits own = PlainCamera().l;
     own.exposure_is_own = own.gain_is_own = own.frame_rate_is_own = true;
