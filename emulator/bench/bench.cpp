@@ -13,7 +13,7 @@ namespace hilcam {
 namespace {
 
 struct Run {
-    double rate_hz, p50_ms, p99_ms, core_ms;
+    double rate_hz, p50_ms, p99_ms, core_ms, ahead_core_ms;
     StageTimes stages;
     Percentiles latency;
     RenderStats render;
@@ -80,9 +80,11 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options, std::a
             });
         emulator.run([] {});
     }
-    const std::int64_t processor = processor_ns() - emulator.loop().warm_processor_ns();
+    const auto now = FrameLoop::ProcessorTime::now(), warm = emulator.loop().warm_processor_time();
+    const double ms_per_frame = 1e-6 / static_cast<double>(options.frames);
     Run run;
-    run.core_ms = static_cast<double>(processor) * 1e-6 / static_cast<double>(options.frames);
+    run.ahead_core_ms = ms_per_frame * static_cast<double>(now.ahead_ns - warm.ahead_ns);
+    run.core_ms = ms_per_frame * static_cast<double>(now.all_ns - warm.all_ns) - run.ahead_core_ms;
     const StageMeters& meters = emulator.loop().meters();
     run.p50_ms = meters.interval.quantile_ms(0.5);
     run.p99_ms = meters.interval.quantile_ms(0.99);
@@ -131,6 +133,7 @@ Bench over_runs(const std::vector<Run>& runs) {
     out.p99_ms = median_of(runs, [](const Run& r) { return r.p99_ms; });
     for (const Run& run : runs) out.runs_p50_ms.push_back(run.p50_ms);
     out.core_ms_per_frame = median_of(runs, [](const Run& r) { return r.core_ms; });
+    out.ahead_core_ms_per_frame = median_of(runs, [](const Run& r) { return r.ahead_core_ms; });
     for (const auto& entry : last.stages)
         out.stages[entry.first] =
             median_percentiles(runs, [&](const Run& r) { return r.stages.at(entry.first); });
@@ -144,19 +147,43 @@ Bench over_runs(const std::vector<Run>& runs) {
 
 }  // namespace
 
+double Bench::spread_of_runs() const {
+    const auto [least, most] = std::minmax_element(runs_p50_ms.begin(), runs_p50_ms.end());
+    return runs_p50_ms.empty() ? 0 : *most / *least - 1;
+}
+
 Bench bench(const ScenarioConfig& scenario, const BenchOptions& options) {
-    std::vector<Run> runs;
+    return bench_variants({{scenario.name, scenario}}, options).front().bench;
+}
+
+std::vector<BenchVariant> bench_variants(const std::vector<NamedScenario>& scenarios,
+                                         const BenchOptions& options) {
+    std::vector<std::vector<Run>> runs(scenarios.size());
     std::atomic<double> done{0}, share{0};
-    const Progress progress("bench", options.runs, [&done, &share] { return done + share; });
-    for (int i = 0; i < options.runs; ++i) {
-        runs.push_back(run_once(scenario, options, share));
-        share = 0;
-        done = i + 1;
+    const double all = static_cast<double>(scenarios.size()) * options.runs;
+    const Progress progress("bench", all, [&done, &share] { return done + share; });
+    for (int i = 0; i < options.runs; ++i)
+        for (std::size_t k = 0; k < scenarios.size(); ++k) {
+            runs[k].push_back(run_once(scenarios[k].scenario, options, share));
+            share = 0;
+            done = done + 1;
+        }
+    std::vector<BenchVariant> out;
+    for (std::size_t k = 0; k < scenarios.size(); ++k) {
+        BenchVariant variant{scenarios[k].name, over_runs(runs[k])};
+        const ScenarioConfig& scenario = scenarios[k].scenario;
+        variant.bench.scenario = scenario.name;
+        variant.bench.width_px = scenario.camera.width_px,
+        variant.bench.height_px = scenario.camera.height_px;
+        variant.bench.options = options;
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < runs[k].size(); ++i)
+            ratios.push_back(runs[k][i].core_ms / runs[0][i].core_ms);
+        variant.ratio = median(ratios);
+        const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+        variant.least_ratio = *least, variant.most_ratio = *most;
+        out.push_back(std::move(variant));
     }
-    Bench out = over_runs(runs);
-    out.scenario = scenario.name;
-    out.width_px = scenario.camera.width_px, out.height_px = scenario.camera.height_px;
-    out.options = options;
     return out;
 }
 

@@ -46,6 +46,8 @@ json bench_json(const Bench& b) {
         {"frame_rate_hz", b.frame_rate_hz},
         {"frame_ms", {{"p50", b.p50_ms}, {"p99", b.p99_ms}, {"runs_p50", b.runs_p50_ms}}},
         {"core_ms_per_frame", b.core_ms_per_frame},
+        {"ahead_core_ms_per_frame", b.ahead_core_ms_per_frame},
+        {"runs_differ_by_fraction", b.spread_of_runs()},
         {"stages_ms", b.stages},
         {"latency_ms", b.latency},
         {"floor_ms", b.floor.sum_ms()},
@@ -71,7 +73,12 @@ std::string bench_text(const Bench& b) {
                                   b.height_px, b.triangles, 100 * r.coverage);
     out += fmt::format("{:.1f} frames/s; frame p50 {:.2f} ms, p99 {:.2f} ms; floor {:.2f} ms; ratio {:.2f}\n",
                        b.frame_rate_hz, b.p50_ms, b.p99_ms, b.floor.sum_ms(), b.ratio_to_floor());
-    out += fmt::format("{:.2f} core-ms a frame, of all threads\n", b.core_ms_per_frame);
+    out += fmt::format("{:.2f} core-ms a frame, and {:.2f} of threads that work ahead\n", b.core_ms_per_frame,
+                       b.ahead_core_ms_per_frame);
+    if (b.spread_of_runs() > Bench::kBusy)
+        out += fmt::format(
+            "the slowest run took {:.0f} % longer than the fastest: this machine has other work\n",
+            100 * b.spread_of_runs());
     out += fmt::format(
         "rays of the last frame: {} primary, {} shadow, {} shadow behind a bounce, {} to lamps and "
         "bodies, {} of paths\n",
@@ -83,6 +90,27 @@ std::string bench_text(const Bench& b) {
             "  path model {:<10} {:9} rays  {:8.1f} ms  {:6.2f} Mrays/s, bare Embree {:6.2f} Mrays/s, ratio "
             "{:.2f}\n",
             name, s.rays, s.frame_ms, mrays_s(s), bare_mrays_s(s), s.frame_ms / s.bare_ms);
+    return out;
+}
+
+// --- variants ---
+
+json bench_json(const std::vector<BenchVariant>& variants) {
+    json out = json::array();
+    for (const BenchVariant& v : variants) {
+        json entry = bench_json(v.bench);
+        entry["variant"] = v.name;
+        entry["core_ms_ratio"] = {{"median", v.ratio}, {"least", v.least_ratio}, {"most", v.most_ratio}};
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+std::string bench_text(const std::vector<BenchVariant>& variants) {
+    std::string out = "ratio (least, most)  core-ms  frames/s  variant\n";
+    for (const BenchVariant& v : variants)
+        out += fmt::format("{:5.3f} ({:5.3f}, {:5.3f}) {:8.2f} {:9.1f}  {}\n", v.ratio, v.least_ratio,
+                           v.most_ratio, v.bench.core_ms_per_frame, v.bench.frame_rate_hz, v.name);
     return out;
 }
 

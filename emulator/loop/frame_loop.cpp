@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "io/system/monotonic.h"
+#include "render/vocabulary/ahead_thread.h"
 
 namespace hilcam {
 
@@ -53,6 +54,10 @@ void FrameLoop::sense_frames() {
     finished_.store(true);
 }
 
+FrameLoop::ProcessorTime FrameLoop::ProcessorTime::now() {
+    return {processor_ns(), AheadThread::processor_ns()};
+}
+
 // Adds the processor time since the previous frame was published to this frame's level. Part of it was for
 // the next frame, which usually has the same level. Times of warm-up frames are not kept.
 void FrameLoop::count_frame(std::uint32_t level) {
@@ -65,7 +70,7 @@ void FrameLoop::count_frame(std::uint32_t level) {
     counted_processor_ns_ = now_ns;
     if (figures_.counters.frames.fetch_add(1, std::memory_order_relaxed) + 1 != limits_.warm_up) return;
     figures_.meters.clear();
-    warm_processor_ns_ = processor_ns();
+    warm_processor_time_ = ProcessorTime::now();
 }
 
 }  // namespace hilcam

@@ -45,9 +45,14 @@ class FrameLoop {
     bool take_level_change(LevelChange& change) noexcept { return render_.take_level_change(change); }
     // Returns figures of the last rendered frame. For benchmarks, when the loop is stopped.
     const RenderStats& render_stats() const { return render_.stats(); }
-    // Returns processor_ns() as it was after the last warm-up frame. For benchmarks, when the loop is
-    // stopped.
-    std::int64_t warm_processor_ns() const { return warm_processor_ns_; }
+    // The program's processor time: of all threads, and of those that work ahead (AheadThread).
+    struct ProcessorTime {
+        std::int64_t all_ns = 0, ahead_ns = 0;
+
+        static ProcessorTime now();
+    };
+    // Returns the time as it was after the last warm-up frame. For benchmarks, when the loop is stopped.
+    const ProcessorTime& warm_processor_time() const { return warm_processor_time_; }
 
   private:
     FrameSlot& slot_of(std::uint64_t turn) { return slots_[turn % slots_.size()]; }
@@ -62,7 +67,7 @@ class FrameLoop {
     SenseStage sense_;
     std::array<FrameSlot, 2> slots_;
     std::counting_semaphore<> free_, rendered_{0};
-    std::int64_t warm_processor_ns_ = 0;
+    ProcessorTime warm_processor_time_;
     std::int64_t counted_processor_ns_ = 0;  // processor time when the newest frame was counted; 0: none yet
     std::atomic<bool> stopping_{false}, finished_{false};
     std::mutex joining_;  // guards the joining of threads, as several may call stop()

@@ -24,6 +24,7 @@ struct BenchArguments {
     ConfigArguments config;
     bool json = false, sensor = false, error = false;
     BenchOptions speed;
+    std::vector<std::string> variants;  // each "KEY=VALUE; KEY=VALUE"
     SoakOptions soak;
     std::filesystem::path out;  // folder for the results of the soak
     ErrorBenchOptions errors;
@@ -44,6 +45,18 @@ int soak_and_write(const BenchArguments& o, const ScenarioConfig& scenario) {
     print_lines(soak_text(result) + "\n", report, o.json);
     write_soak(result, report, o.out);
     return 0;
+}
+
+// Returns the scenario and its variants.
+std::vector<NamedScenario> variants_of(const BenchArguments& o, const ScenarioConfig& scenario) {
+    std::vector<NamedScenario> out{{"(as it is)", scenario}};
+    for (const std::string& variant : o.variants) {
+        ConfigArguments config = o.config;
+        for (const std::string& change : CLI::detail::split(variant, ';'))
+            config.overrides.push_back(CLI::detail::trim_copy(change));
+        out.push_back({variant, load_and_warn(config)});
+    }
+    return out;
 }
 
 int measure_zoo(const BenchArguments& o) {
@@ -72,6 +85,9 @@ int carry_out(const BenchArguments& o) {
         return soak_and_write(o, scenario);
     } else if (o.sensor) {
         const SensorBench result = bench_sensor(scenario, static_cast<int>(o.speed.frames));
+        print_lines(bench_text(result), bench_json(result), o.json);
+    } else if (!o.variants.empty()) {
+        const std::vector<BenchVariant> result = bench_variants(variants_of(o, scenario), o.speed);
         print_lines(bench_text(result), bench_json(result), o.json);
     } else {
         const Bench result = bench(scenario, o.speed);
@@ -181,11 +197,20 @@ void add_bench_command(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 1000000));
     bench->add_option("--runs", o->speed.runs, "number of runs, of which the median is taken")
         ->check(CLI::Range(1, 1000));
+    CLI::Option* variant =
+        bench
+            ->add_option("--variant", o->variants,
+                         "measure the scenario beside one in which 'KEY=VALUE; KEY=VALUE' differ, in turns; "
+                         "may be repeated")
+            ->allow_extra_args(false)
+            ->excludes("--sensor", "--path-models");
     CLI::Option* views = nullptr;
     CLI::Option* errors = add_error_options(bench, *o, add_soak_options(bench, *o), views);
     add_zoo_options(bench, *o, errors, views);
+    variant->excludes(errors, bench->get_option("--soak"));
     set_examples(bench,
-                 {"hilcam bench small", "hilcam bench geo_inspection --soak 3600 --out soak",
+                 {"hilcam bench small", "hilcam bench geo_inspection --variant quality=fast",
+                  "hilcam bench geo_inspection --soak 3600 --out soak",
                   "hilcam bench geo_inspection --error --views 4", "hilcam bench --error --zoo meshes"});
     when_named(bench, action, o, carry_out);
 }

@@ -136,6 +136,20 @@ class Speed(unittest.TestCase):
         self.assertIn("core-ms a frame", text)
         self.assertIn("shadow behind a bounce", text)
 
+    def test_variants_take_turns(self):
+        arguments = (*SMALL, "--runs", 2, "--frames", 10, "--variant", "quality.path_model=direct; quality.buffer_samples=16")
+        result = hilcam("bench", SCENARIO, *arguments, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        first, cheaper = json.loads(result.stdout)
+        self.assertEqual(first["core_ms_ratio"], {"median": 1, "least": 1, "most": 1})
+        self.assertEqual(cheaper["variant"], "quality.path_model=direct; quality.buffer_samples=16")
+        self.assertEqual(cheaper["rays"]["path"], 0)
+        self.assertGreater(cheaper["core_ms_ratio"]["median"], 0)
+        self.assertLessEqual(cheaper["core_ms_ratio"]["least"], cheaper["core_ms_ratio"]["most"])
+        self.assertIn("(as it is)", hilcam("bench", SCENARIO, *arguments).stdout)
+        wrong = hilcam("bench", SCENARIO, *SMALL, "--variant", "quality.nonsense=1")
+        self.assertEqual(wrong.returncode, 2, wrong.stderr)
+        self.assertIn("nonsense", wrong.stderr)
 
     def test_a_camera_that_cannot_fly_around_is_bad_input(self):
         # Above the target along the axis of the circle.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <tbb/parallel_for.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -115,6 +116,29 @@ TEST(AheadThread, NeedsNoStart) {
     ahead.give_up();
     ahead.wait();
     ahead.stop();
+}
+
+// What it computes is counted while it runs, and when it is gone; what it waits for is not.
+TEST(AheadThread, ItsProcessorTimeIsThatOfItsWork) {
+    const std::int64_t before_ns = AheadThread::processor_ns();
+    const auto own_ns = [] {
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+    };
+    {
+        AheadThread ahead;
+        ahead.start([&] {
+            while (own_ns() < 50'000'000) {
+            }
+        });
+        ahead.ask();
+        ahead.wait();
+        EXPECT_GE(AheadThread::processor_ns() - before_ns, 50'000'000);
+    }
+    const std::int64_t all_ns = AheadThread::processor_ns() - before_ns;
+    EXPECT_GE(all_ns, 50'000'000);
+    EXPECT_LT(all_ns, 100'000'000) << "a thread that ends is not counted twice";
 }
 
 }  // namespace
