@@ -127,6 +127,10 @@ struct GigeSink::Implementation {
     bool change_address(std::uint32_t ip);
     void move_to_next_sockets();
 
+    std::uint64_t frames_dropped() const {
+        return writer.dropped().count() + writer.dropped_by_faults() +
+               sender.counts().frames_given_up.count();
+    }
     void serve_control();
     void notify_device(std::int64_t now_ns);
     void notify(const CameraEvent& event, std::uint64_t block) {
@@ -253,7 +257,7 @@ void GigeSink::Implementation::notify_device(std::int64_t now_ns) {
         device->acquisition_finished(static_cast<std::uint32_t>(last));
     const GigeSender::Counts& c = sender.counts();
     device->set_statistics({.frames = c.frames,
-                            .frames_dropped = writer.dropped() + c.frames_given_up,
+                            .frames_dropped = frames_dropped(),
                             .packets = c.packets,
                             .packets_dropped = c.packets_dropped,
                             .resend_requests = c.resend_requests,
@@ -333,14 +337,14 @@ SinkReport GigeSink::report() const {
     const auto n = [](std::uint64_t count) { return static_cast<double>(count); };
     return {.name = "gige " + format_ipv4(my.address.load()),
             .frames = c.frames,
-            .dropped = my.writer.dropped() + my.writer.of_other_size() + c.frames_given_up,
+            .dropped = my.frames_dropped() + my.writer.of_other_size().count(),
             .unwanted = my.writer.unwanted(),
             .figures = {{"clients", my.controlled ? 1.0 : 0.0},
                         {"acquisitions", n(my.acquisitions)},
                         {"packets_sent", n(c.packets)},
                         {"bytes_sent", n(c.bytes)},
                         {"packets_dropped_by_faults", n(c.packets_dropped)},
-                        {"packets_not_taken_by_kernel", n(c.packets_failed)},
+                        {"packets_not_taken_by_kernel", n(c.packets_failed.count())},
                         {"resend_requests", n(c.resend_requests)},
                         {"packets_resent", n(c.packets_resent)},
                         {"packets_refused", n(c.packets_refused)},
@@ -348,11 +352,17 @@ SinkReport GigeSink::report() const {
                         {"resend_requests_unanswered", n(c.requests_unanswered)},
                         {"resend_requests_from_others", n(my.foreign_resend_requests)},
                         {"frames_spaced", n(c.frames_spaced)},
-                        {"frames_given_up", n(c.frames_given_up)},
+                        {"frames_given_up", n(c.frames_given_up.count())},
                         {"test_packets", n(c.test_packets)},
+                        {"test_packets_not_taken_by_kernel", n(c.test_packets_failed)},
                         {"commands_from_other_interfaces", n(my.strange_datagrams)},
-                        {"frames_of_other_size", n(my.writer.of_other_size())},
-                        {"events_dropped", n(my.events_dropped)}}};
+                        {"frames_of_other_size", n(my.writer.of_other_size().count())},
+                        {"events_dropped", n(my.events_dropped)}},
+            .dropped_by_faults = my.writer.dropped_by_faults(),
+            .first_dropped = first_of(
+                {my.writer.dropped().first(), my.writer.of_other_size().first(), c.frames_given_up.first()}),
+            .packets_lost = c.packets_failed.count(),
+            .first_with_lost_packet = c.packets_failed.first()};
 }
 
 std::vector<ListeningPort> listening(const GigeConfig& c) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/contract/loss_count.h"
 #include "io/gige/stream/gige_blocks.h"
 #include "io/gige/stream/gige_ring.h"
 #include "io/gige/stream/stream_faults.h"
@@ -31,9 +32,10 @@ class GigeFrameWriter {
                   std::uint64_t block) noexcept;
 
     // Any thread.
-    std::uint64_t dropped() const { return dropped_.load(); }
+    const LossCount& dropped() const { return dropped_; }  // the ring was full
+    std::uint64_t dropped_by_faults() const { return dropped_by_faults_.load(); }
     std::uint64_t unwanted() const { return unwanted_.load(); }
-    std::uint64_t of_other_size() const { return of_other_size_.load(); }
+    const LossCount& of_other_size() const { return of_other_size_; }
 
   private:
     GigeRing& ring_;
@@ -45,7 +47,8 @@ class GigeFrameWriter {
     BlockIds ids_;
     StampClock clock_;
     const GigeSlot* before_ = nullptr;  // the previous frame of this acquisition
-    std::atomic<std::uint64_t> dropped_{0}, of_other_size_{0}, unwanted_{0};
+    LossCount dropped_, of_other_size_;
+    std::atomic<std::uint64_t> dropped_by_faults_{0}, unwanted_{0};
 };
 
 }  // namespace hilcam
