@@ -99,6 +99,9 @@ struct GigeSink::Implementation {
         std::uint64_t block = 0;  // block of the event's frame; 0: none, or not known yet
     };
     BoundedQueue<Event, 1024> events;
+    std::atomic<std::uint64_t> begun_frame{0};  // the newest frame whose exposure has begun
+    // The newest acquisition and its first frame; the control thread's.
+    std::uint64_t begun_acquisition = 0, first_frame = 0;
     std::optional<CameraEvent> exposure_end;  // the loop's; reported when publish() knows its frame's block
     std::atomic<std::uint64_t> events_dropped{0};
     std::atomic<bool> controlled{false};
@@ -179,7 +182,12 @@ GigeDevice::Effects GigeSink::Implementation::effects() {
 }
 
 void GigeSink::Implementation::set_stream(const GigeStreamState& state) {
-    const GigeStreamNow now{state, era << 32 | state.epoch};
+    const std::uint64_t acquisition = era << 32 | state.epoch;
+    if (acquisition != begun_acquisition) {
+        begun_acquisition = acquisition;
+        first_frame = begun_frame.load(std::memory_order_acquire) + 1;
+    }
+    const GigeStreamNow now{state, acquisition, first_frame};
     acquisitions.store(state.epoch);
     for_loop.write(now);
     sender.set_stream(now);
@@ -313,10 +321,13 @@ void GigeSink::on_event(const CameraEvent& event) noexcept {
     Implementation& my = *implementation_;
     // A frame gets its block id when it is published. Before that it is unknown whether the stream takes it,
     // so the event of an exposure's start has none.
-    if (event.kind == CameraEvent::Kind::kExposureEnd)
+    if (event.kind == CameraEvent::Kind::kExposureEnd) {
         my.exposure_end = event;
-    else
-        my.notify(event, 0);
+        return;
+    }
+    if (event.kind == CameraEvent::Kind::kExposureStart)
+        my.begun_frame.store(event.frame, std::memory_order_release);
+    my.notify(event, 0);
 }
 
 void GigeSink::stop() noexcept {

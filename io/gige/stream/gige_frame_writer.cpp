@@ -26,7 +26,7 @@ std::uint64_t GigeFrameWriter::admit(const DnImage& frame, const FrameRecord& re
         unwanted_.fetch_add(1, std::memory_order_relaxed);
         return std::uint64_t{0};
     };
-    if (!s.open || !s.acquiring) return unwanted();
+    if (!s.open || !s.acquiring || record.id < now.first_frame) return unwanted();
     if (now.acquisition != acquisition_) {
         acquisition_ = now.acquisition;
         frames_ = 0;

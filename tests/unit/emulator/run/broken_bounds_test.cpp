@@ -120,7 +120,7 @@ class BoundsOfARun : public PlateTest {};
 
 TEST_F(BoundsOfARun, MissedExposuresAreNamedByTheirIds) {
     const auto file =
-        scenario(", frame_rate_hz: 20000, frame_rate_range_hz: [1, 20000], exposure_range_ms: [0.01, 1]",
+        scenario(", frame_rate_hz: 10000, frame_rate_range_hz: [1, 10000], exposure_range_ms: [0.01, 1]",
                  "loop: {levels: fixed}\n");
     RunLimits limits;
     limits.frames = 30;

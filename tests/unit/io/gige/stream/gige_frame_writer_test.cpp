@@ -64,6 +64,16 @@ TEST_F(FrameWriter, OnlyWhileAClientAcquires) {
     EXPECT_EQ(sent(), (Sent{{1, 4}}));
 }
 
+// A camera does not send what it was exposing, or had not sent yet, when it was told to start.
+TEST_F(FrameWriter, FramesFromBeforeTheAcquisitionAreNotSent) {
+    now_.first_frame = 3;
+    EXPECT_FALSE(write().written);
+    EXPECT_FALSE(write().written);
+    EXPECT_TRUE(write().written);
+    EXPECT_EQ(sent(), (Sent{{1, 3}}));
+    EXPECT_EQ(writer_.unwanted(), 2u);
+}
+
 TEST_F(FrameWriter, ACountedAcquisitionEnds) {
     now_.state.frames = 2;
     write();
