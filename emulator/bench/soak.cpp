@@ -126,6 +126,7 @@ bool steady(const SoakCourse& c) {
 Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
     ScenarioConfig scenario = configured;
     scenario.mode = CameraMode::kFreeRun;
+    require_timed_output(scenario.loop.fail_on, options.outputs && have_live(scenario.outputs));
     Soak soak;
     soak.slices.resize(slices_of(options));
     soak.slice_s = options.seconds / static_cast<double>(soak.slices.size());
@@ -158,6 +159,7 @@ Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
     soak.slices.resize(watch->finished());
     if (!soak.slices.empty()) soak.whole = watch->whole();
     soak.triangles = emulator.renderer().triangles();
+    soak.broken = broken_bounds(emulator.stations());
     return soak;
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "emulator/bench/trend.h"
+#include "emulator/run/broken_bounds.h"
 #include "emulator/scenario/app_config.h"
 
 namespace hilcam {
@@ -42,11 +43,12 @@ struct SoakSlice {
 struct Soak {
     double slice_s = 0, round_s = 0;
     std::size_t triangles = 0;
-    std::vector<SoakSlice> slices;  // finished slices; fewer than asked for if a signal ended the run
-    SoakSlice whole;                // all slices together
+    std::vector<SoakSlice> slices;    // finished slices; fewer than asked for if a signal ended the run
+    SoakSlice whole;                  // all slices together
+    std::vector<BrokenBound> broken;  // bounds of loop.fail_on that the whole run broke, its warm-up included
 };
 
-// Throws what Emulator throws.
+// Throws what Emulator throws, and InputError for bounds on latency without outputs.
 Soak soak(const ScenarioConfig& scenario, const SoakOptions& options);
 
 // The course of a figure over the slices.

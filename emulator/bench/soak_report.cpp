@@ -84,6 +84,8 @@ json soak_json(const ScenarioConfig& scenario, const SoakOptions& options, const
             {"slices", slices},
             {"whole", slice_json(soak.whole)},
             {"verdict", verdict_json(judge(soak))},
+            {"fail_on", bounds_json(scenario.loop.fail_on)},
+            {"failed_on", failed_on_json(soak.broken)},
             {"text", soak_text(soak)},
             {"machine", machine_report()}};
 }

@@ -10,6 +10,7 @@ namespace hilcam {
 FrameLoop::FrameLoop(const LoopParts& parts)
     : clock_(parts.clock),
       limits_(parts.limits),
+      figures_{.missed = MissedExposures(parts.limits.counts_from_frame)},
       render_(parts, figures_),
       sense_(parts, figures_),
       free_(limits_.prefer == LoopPreference::kLatency ? 1 : 2) {

@@ -41,6 +41,8 @@ class FrameLoop {
     const SimulatedClock& clock() const { return clock_; }
     const LoopCounters& counters() const { return figures_.counters; }
     const StageMeters& meters() const { return figures_.meters; }
+    // Returns the exposures that were not made; read it when the loop is stopped.
+    const MissedExposures& missed() const { return figures_.missed; }
     // Takes the oldest change that has not been taken; false when there is none. One thread.
     bool take_level_change(LevelChange& change) noexcept { return render_.take_level_change(change); }
     // Returns figures of the last rendered frame. For benchmarks, when the loop is stopped.

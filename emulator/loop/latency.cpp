@@ -12,11 +12,15 @@ void DurationHistogram::record(std::int64_t ns) {
     buckets_[static_cast<std::size_t>(std::min(bucket, kPerOctave * kOctaves - 1))].fetch_add(
         1, std::memory_order_relaxed);
     count_.fetch_add(1, std::memory_order_relaxed);
+    std::int64_t max_ns = max_ns_.load(std::memory_order_relaxed);
+    while (ns > max_ns && !max_ns_.compare_exchange_weak(max_ns, ns, std::memory_order_relaxed)) {
+    }
 }
 
 void DurationHistogram::clear() {
     for (auto& bucket : buckets_) bucket.store(0, std::memory_order_relaxed);
     count_.store(0, std::memory_order_relaxed);
+    max_ns_.store(0, std::memory_order_relaxed);
 }
 
 void DurationHistogram::read(Counts& counts) const {
@@ -53,15 +57,6 @@ std::vector<DurationHistogram::Bucket> DurationHistogram::quarter_octaves() cons
     }
     while (!buckets.empty() && buckets.back().count == 0) buckets.pop_back();
     return buckets;
-}
-
-void DeliveryMeter::delivered(const FrameRecord& record, std::int64_t first_ns,
-                              std::int64_t last_ns) noexcept {
-    if (record.command_arrival_monotonic_ns != 0) {
-        command_to_first.record(first_ns - record.command_arrival_monotonic_ns);
-        command_to_last.record(last_ns - record.command_arrival_monotonic_ns);
-    }
-    exposure_to_last.record(last_ns - record.exposure_mid_monotonic_ns);
 }
 
 }  // namespace hilcam

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/contract/frame_sink.h"
-
 namespace hilcam {
 
 // Buckets grow by 1/32 of an octave, from 1 us to over an hour, so percentiles are right within 2.2 %.
@@ -18,6 +16,8 @@ class DurationHistogram {
     // Forgets all records. Any thread; a record made meanwhile may be kept or lost.
     void clear();
     std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }
+    // Returns the longest duration, exactly; 0 without records.
+    double max_ms() const { return 1e-6 * static_cast<double>(max_ns_.load(std::memory_order_relaxed)); }
     // Returns the duration [ms] that a share `q` of the records does not exceed; 0 without records.
     double quantile_ms(double q) const;
 
@@ -38,15 +38,7 @@ class DurationHistogram {
   private:
     std::array<std::atomic<std::uint32_t>, kPerOctave * kOctaves> buckets_{};
     std::atomic<std::uint64_t> count_{0};
-};
-
-// Latency of delivered frames: from the arrival of the newest command that a frame is the first to show, and
-// from the middle of its exposure.
-class DeliveryMeter : public DeliveryListener {
-  public:
-    void delivered(const FrameRecord& record, std::int64_t first_ns, std::int64_t last_ns) noexcept override;
-
-    DurationHistogram command_to_first, command_to_last, exposure_to_last;
+    std::atomic<std::int64_t> max_ns_{0};
 };
 
 }  // namespace hilcam

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "emulator/loop/latency.h"
+#include "emulator/loop/missed_exposures.h"
 #include "emulator/scenario/quality_ladder.h"
 
 namespace hilcam {
@@ -53,8 +54,9 @@ struct LoopCounters {
 };
 
 struct LoopFigures {
-    LoopCounters counters;
-    StageMeters meters;
+    LoopCounters counters{};
+    StageMeters meters{};
+    MissedExposures missed{};
 };
 
 }  // namespace hilcam

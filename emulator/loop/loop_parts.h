@@ -31,6 +31,7 @@ struct LoopLimits {
     bool paced = true;          // false: as fast as possible, for benchmarks
     GovernorSettings governor{};
     LoopPreference prefer = LoopPreference::kThroughput;
+    std::uint64_t counts_from_frame = 1;  // the first exposure that loop.fail_on counts when it is missed
 };
 
 // Any of these may be null. None of them changes a frame.

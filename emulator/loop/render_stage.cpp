@@ -20,6 +20,7 @@ RenderStage::RenderStage(const LoopParts& parts, LoopFigures& figures)
       observers_(parts.observers),
       counters_(figures.counters),
       meters_(figures.meters),
+      missed_(figures.missed),
       planner_(parts) {}
 
 void RenderStage::prepare(FrameSlot& slot) const {
@@ -58,6 +59,7 @@ bool RenderStage::begin(FrameSlot& slot, const std::atomic<bool>& stopping) {
     take_light(slot.use);
     counters_.deadline_misses.fetch_add(slot.use.skipped + (slot.use.late ? 1 : 0),
                                         std::memory_order_relaxed);
+    missed_.note(slot.use.id, slot.use.skipped, slot.use.late, slot.use.exposure_mid.ns);
     return true;
 }
 

@@ -61,6 +61,7 @@ class RenderStage {
     LoopObservers observers_;
     LoopCounters& counters_;
     StageMeters& meters_;
+    MissedExposures& missed_;
     FramePlanner planner_;
     RenderStats stats_;
     std::uint32_t level_ = 0;

@@ -78,14 +78,19 @@ void CameraStation::make_sinks() {
                             &run,
                             have_live(scenario_.outputs),
                             [this] { return status(); }};
-    const SinkContext context = sink_context();
     scenario_.outputs.for_each_given([&](const auto& config) {
         // The sink of truth is made when there is a renderer.
-        if constexpr (requires { make_sink(config, context, shape); })
-            sinks_.push_back(make_sink(config, context, shape));
+        if constexpr (requires(SinkContext context) { make_sink(config, context, shape); })
+            sinks_.push_back(make_sink(config, sink_context(), shape));
     });
     for (const auto& sink : sinks_)
         if (TruthListener* const listener = sink->truth_listener()) truth_listener_ = listener;
+}
+
+SinkContext CameraStation::sink_context() {
+    const bool clocked = scenario_.mode != CameraMode::kLockstep && !limits_.replay_fast;
+    OutputMeter& meter = output_meters_.emplace_back(delivery_, scenario_.loop.fail_on, clocked);
+    return {settings_, faults_, &meter, &fates_, &light_parts_};
 }
 
 std::string CameraStation::status() const {
@@ -149,7 +154,8 @@ void CameraStation::prepare(const StationLinks& links) {
         .poses = &links.poses,
         .sinks = sinks(),
         .seed = seed_of_camera(scenario_, number_ - 1),
-        .limits = {limits_.frames, limits_.warm_up, limits_.paced, governor(), scenario_.loop.prefer},
+        .limits = {limits_.frames, limits_.warm_up, limits_.paced, governor(), scenario_.loop.prefer,
+                   static_cast<std::uint64_t>(scenario_.loop.fail_on.from_frame)},
         .script = links.script,
         .observers = {.watcher = links.watcher,
                       .truth = truth_,

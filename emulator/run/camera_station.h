@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/loop/delivery_meter.h"
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/frame_loop.h"
 #include "emulator/loop/light_part_orders.h"
@@ -98,6 +99,8 @@ class CameraStation {
     // Returns the newest strikes of faults; the first of each frame and kind.
     const std::deque<FaultBoard::Entry>& fault_log() const { return fault_log_; }
     const DeliveryMeter& delivery() const { return delivery_; }
+    // Returns an OutputMeter for each output, in their order; read them when the outputs are stopped.
+    const std::deque<OutputMeter>& output_meters() const { return output_meters_; }
     // Returns what frames of each quality level cost before the run; empty without a governor.
     const std::vector<LevelCost>& level_costs() const { return level_costs_; }
     // Returns the time between exposures by the present settings [s of the machine].
@@ -108,7 +111,8 @@ class CameraStation {
     std::vector<std::string> new_faults();
     // Adds an output that other stations also feed (telemetry). Before prepare().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
-    SinkContext sink_context() { return {settings_, faults_, &delivery_, &fates_, &light_parts_}; }
+    // Returns what one more output works with, an OutputMeter of its own included.
+    SinkContext sink_context();
 
   private:
     void make_sinks();
@@ -126,6 +130,7 @@ class CameraStation {
     LiveSettings settings_;
     FaultBoard faults_;
     DeliveryMeter delivery_;
+    std::deque<OutputMeter> output_meters_;
     FrameFates fates_;
     LightPartOrders light_parts_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;

@@ -1,9 +1,12 @@
 #include "emulator/run/report.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "emulator/recording/machine_report.h"
+#include "emulator/run/broken_bounds.h"
+#include "emulator/run/latency_report.h"
 #include "emulator/run/output_summary.h"
 #include "emulator/run/picture_fault.h"
 #include "emulator/run/run_pace.h"
@@ -20,8 +23,9 @@ double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 }  // namespace
 
 Percentiles percentiles_of(const DurationHistogram& h) {
-    return {rounded(h.quantile_ms(0.5)), rounded(h.quantile_ms(0.99)), rounded(h.quantile_ms(0.999)),
-            rounded(h.quantile_ms(1))};
+    const double max_ms = h.max_ms();  // exact; a bucket's middle may be above it
+    const auto quantile = [&](double q) { return rounded(std::min(h.quantile_ms(q), max_ms)); };
+    return {quantile(0.5), quantile(0.99), quantile(0.999), rounded(max_ms)};
 }
 
 StageTimes stage_times(const StageMeters& meters) {
@@ -127,7 +131,6 @@ json quality_report(CameraStation& station) {
 
 json camera_report(CameraStation& station, double seconds) {
     const FrameLoop& loop = station.loop();
-    const DeliveryMeter& delivery = station.delivery();
     const auto frames = loop.counters().frames.load();
     return {
         {"camera", station.name()},
@@ -138,10 +141,9 @@ json camera_report(CameraStation& station, double seconds) {
         {"stale_frames", loop.counters().stale.load()},
         {"standing_frames", loop.counters().standing.load()},
         {"impossible_motion_frames", loop.counters().impossible.load()},
-        {"latency_ms",
-         {{"first_packet", percentiles_of(delivery.command_to_first)},
-          {"last_packet", percentiles_of(delivery.command_to_last)},
-          {"exposure_mid_to_last_packet", percentiles_of(delivery.exposure_to_last)}}},
+        {"missed_exposures", missed_json(loop.missed(), loop.counters().deadline_misses.load())},
+        {"latency_ms", latency_json(station.delivery())},
+        {"latest_frames", latest_frames_json(station)},
         {"outputs", outputs_report(station)},
         {"waited_for_outputs_s",
          rounded(static_cast<double>(loop.counters().waited_for_outputs_ns.load()) * 1e-9)},
@@ -156,7 +158,8 @@ json camera_report(CameraStation& station, double seconds) {
 
 RunOutcome run_outcome(const Emulator& emulator) {
     const LoopCounters& counters = emulator.first().loop().counters();
-    RunOutcome out{counters.frames.load(), counters.deadline_misses.load(), {}};
+    RunOutcome out{
+        counters.frames.load(), counters.deadline_misses.load(), {}, broken_bounds(emulator.stations())};
     for (const auto& station : emulator.stations())
         for (std::string& fault : faults_of(*station)) out.faults.push_back(std::move(fault));
     if (const Recorder* recorder = emulator.recorder())
@@ -176,7 +179,10 @@ json run_report(const Emulator& emulator) {
         {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};
     report["poses"] = {{"went_back", emulator.poses().went_back()}};
     report["machine"] = machine_report();
-    report["faults"] = run_outcome(emulator).faults;
+    const RunOutcome run = run_outcome(emulator);
+    report["faults"] = run.faults;
+    report["fail_on"] = bounds_json(emulator.first().scenario().loop.fail_on);
+    report["failed_on"] = failed_on_json(run.broken);
     if (const Recorder* recorder = emulator.recorder()) {
         const RecorderReport r = recorder->report();
         report["recording"] = {{"file", r.file},   {"frames", r.frames}, {"commands", r.commands},

@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "emulator/run/broken_bounds.h"
 #include "emulator/run/emulator.h"
 
 namespace hilcam {
 
-// Percentiles of durations, rounded to 0.1 us.
+// Percentiles of durations, rounded to 0.1 us. The maximum is exact, the others are right within 2.2 %.
 struct Percentiles {
     double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;
 };
@@ -27,6 +28,7 @@ nlohmann::json or_null(const std::optional<double>& value);
 struct RunOutcome {
     std::uint64_t frames = 0, deadline_misses = 0;
     std::vector<std::string> faults;  // faults of all outputs and of the recording, one line each
+    std::vector<BrokenBound> broken;  // bounds of loop.fail_on that cameras did not keep
 };
 RunOutcome run_outcome(const Emulator& emulator);
 // Reports the whole run: the first camera's figures at the top level; with several cameras, each one's

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/loop/delivery_meter.h"
 #include "emulator/loop/frame_loop.h"
 #include "emulator/scenario/app_config.h"
 #include "io/contract/command_receiver.h"

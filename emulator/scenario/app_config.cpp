@@ -247,7 +247,8 @@ void validate(const ScenarioConfig& s) {
     check_folders(s);
     check_listening_ports(s);
     if (s.commands.has_vizard) check_vizard(s);
-    if (s.mode == CameraMode::kLockstep) require_lockstep(s.clock), require_lockstep(s.commands.poses);
+    if (s.mode == CameraMode::kLockstep)
+        require_lockstep(s.clock), require_lockstep(s.commands.poses), require_lockstep(s.loop.fail_on);
 }
 
 namespace {

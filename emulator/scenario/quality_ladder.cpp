@@ -49,6 +49,10 @@ Fields fields(LoopConfig& l) {
                          "frame has `quality`, and the frame rate falls if necessary"),
                 "fixed", l.levels_fixed),
     };
+    list.push_back(beside_frames(section(
+        "fail_on", l.fail_on,
+        "bounds of `run` and `bench --soak`: when one is broken, the run goes on to its end, names it "
+        "there and exits with status 1 (docs/program.md)")));
     for (Field& field : fields(l.real_time)) list.push_back(beside_frames(std::move(field)));
     return list;
 }

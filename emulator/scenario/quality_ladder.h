@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/scenario/real_time.h"
+#include "emulator/scenario/run_bounds.h"
 #include "render/frame/render_quality.h"
 #include "render/vocabulary/config_field.h"
 #include "sensor/exposure.h"
@@ -37,6 +38,7 @@ struct LoopConfig {
     std::vector<QualityLevelConfig> levels;
     bool levels_fixed = false;  // true: every frame has the configured quality
     RealTime real_time;
+    RunBounds fail_on;
     // Not a key: true when the run's frames must come at the camera's rate, so that a budget derived from the
     // rate applies.
     bool holds_rate = false;

@@ -44,7 +44,8 @@ int soak_and_write(const BenchArguments& o, const ScenarioConfig& scenario) {
     const nlohmann::json report = soak_json(scenario, o.soak, result);
     print_lines(soak_text(result) + "\n", report, o.json);
     write_soak(result, report, o.out);
-    return 0;
+    for (const BrokenBound& broken : result.broken) spdlog::error("{}", text_of(broken));
+    return result.broken.empty() ? 0 : 1;
 }
 
 // Returns the scenario and its variants.

@@ -115,7 +115,15 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
             spdlog::info("{}: {}", station->name(), line);
     say_outputs(emulator);
     for (const std::string& fault : outcome.faults) spdlog::error("{}", fault);
-    return outcome.faults.empty() ? 0 : 1;
+    for (const BrokenBound& broken : outcome.broken) spdlog::error("{}", text_of(broken));
+    return outcome.faults.empty() && outcome.broken.empty() ? 0 : 1;
+}
+
+// Refuses bounds that nothing in this run could break.
+void require_measurable(const ScenarioConfig& scenario, const RunLimits& limits) {
+    if (!limits.replay.empty()) require_replay(scenario.loop.fail_on);
+    for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i)
+        require_timed_output(scenario.loop.fail_on, have_live(scenario_of_camera(scenario, i).outputs));
 }
 
 int carry_out(const RunArguments& o) {
@@ -125,6 +133,7 @@ int carry_out(const RunArguments& o) {
     ScenarioConfig scenario = load_scenario(config.file, config.overrides);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
+    require_measurable(scenario, limits);
     // With a limited number of frames, each must have its light. A replay may have frames of any level.
     limits.light_beside = limits.frames == 0;
     scenario.loop.holds_rate = limits.frames == 0 || !limits.replay.empty();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/contract/frame_sink.h"
+#include "io/contract/loss_count.h"
 
 namespace hilcam {
 
@@ -28,7 +29,7 @@ class FrameMailbox {
     bool put(const DnImage& frame, const FrameRecord& record) noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);
         if (head - tail_.load(std::memory_order_acquire) == items_.size()) {
-            dropped_.fetch_add(1, std::memory_order_relaxed);
+            dropped_.add(record.id);
             return false;
         }
         Item& item = items_[head % items_.size()];
@@ -57,12 +58,14 @@ class FrameMailbox {
         if (!open_.load(std::memory_order_relaxed)) return true;
         return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) < items_.size();
     }
-    std::uint64_t dropped() const { return dropped_.load(); }
+    std::uint64_t dropped() const { return dropped_.count(); }
+    // Returns the id of the first frame that was dropped; 0: none was.
+    std::uint64_t first_dropped() const { return dropped_.first(); }
 
   private:
     std::vector<Item> items_;
     std::atomic<std::size_t> head_{0}, tail_{0};
-    std::atomic<std::uint64_t> dropped_{0};
+    LossCount dropped_;
     std::atomic<bool> open_{false};
     std::counting_semaphore<> ready_{0};
 };

@@ -52,6 +52,12 @@ struct SinkReport {
     std::uint64_t unwanted = 0;  // frames that nobody took: no client, no host, no acquisition
     // Further figures by name: resent packets, clients, ...
     std::vector<std::pair<std::string, double>> figures{};
+    // The dropped frames that ordered faults took away, and the first frame that was dropped otherwise; 0:
+    // none, or not known.
+    std::uint64_t dropped_by_faults = 0, first_dropped = 0;
+    // Packets of frames that were to be sent and were not, without those that faults took away, and the first
+    // frame that lacks one.
+    std::uint64_t packets_lost = 0, first_with_lost_packet = 0;
 };
 
 // An event of the camera that comes before its frame does.

@@ -87,7 +87,7 @@ void FilesSink::run() {
             written_.fetch_add(1);
         } catch (const std::exception& error) {
             const std::lock_guard lock(mutex_);
-            if (failed_++ == 0) first_failure_ = plain_words(error);
+            if (failed_++ == 0) first_failure_ = plain_words(error), first_failed_ = item->record.id;
         }
         if (fates_) fates_->settle(item->record.id, written);
         mailbox_.done();
@@ -131,7 +131,8 @@ SinkReport FilesSink::report() const {
     return {.name = "files " + config_.folder.string(),
             .frames = written_.load(),
             .dropped = mailbox_.dropped() + failed_,
-            .fault = report_of_loss()};
+            .fault = report_of_loss(),
+            .first_dropped = first_of({mailbox_.first_dropped(), first_failed_})};
 }
 
 std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext& context,

@@ -75,7 +75,7 @@ class FilesSink : public FrameSink {
     std::uint64_t offered_ = 0;
     std::atomic<std::uint64_t> written_{0};
     mutable std::mutex mutex_;
-    std::uint64_t failed_ = 0;  // frames that could not be written
+    std::uint64_t failed_ = 0, first_failed_ = 0;  // frames that could not be written, id of the first
     std::string first_failure_;
 };
 

@@ -99,6 +99,9 @@ struct GigeSink::Implementation {
         std::uint64_t block = 0;  // block of the event's frame; 0: none, or not known yet
     };
     BoundedQueue<Event, 1024> events;
+    std::atomic<std::uint64_t> begun_frame{0};  // the newest frame whose exposure has begun
+    // The newest acquisition and its first frame; the control thread's.
+    std::uint64_t begun_acquisition = 0, first_frame = 0;
     std::optional<CameraEvent> exposure_end;  // the loop's; reported when publish() knows its frame's block
     std::atomic<std::uint64_t> events_dropped{0};
     std::atomic<bool> controlled{false};
@@ -127,6 +130,10 @@ struct GigeSink::Implementation {
     bool change_address(std::uint32_t ip);
     void move_to_next_sockets();
 
+    std::uint64_t frames_dropped() const {
+        return writer.dropped().count() + writer.dropped_by_faults() +
+               sender.counts().frames_given_up.count();
+    }
     void serve_control();
     void notify_device(std::int64_t now_ns);
     void notify(const CameraEvent& event, std::uint64_t block) {
@@ -175,7 +182,12 @@ GigeDevice::Effects GigeSink::Implementation::effects() {
 }
 
 void GigeSink::Implementation::set_stream(const GigeStreamState& state) {
-    const GigeStreamNow now{state, era << 32 | state.epoch};
+    const std::uint64_t acquisition = era << 32 | state.epoch;
+    if (acquisition != begun_acquisition) {
+        begun_acquisition = acquisition;
+        first_frame = begun_frame.load(std::memory_order_acquire) + 1;
+    }
+    const GigeStreamNow now{state, acquisition, first_frame};
     acquisitions.store(state.epoch);
     for_loop.write(now);
     sender.set_stream(now);
@@ -253,7 +265,7 @@ void GigeSink::Implementation::notify_device(std::int64_t now_ns) {
         device->acquisition_finished(static_cast<std::uint32_t>(last));
     const GigeSender::Counts& c = sender.counts();
     device->set_statistics({.frames = c.frames,
-                            .frames_dropped = writer.dropped() + c.frames_given_up,
+                            .frames_dropped = frames_dropped(),
                             .packets = c.packets,
                             .packets_dropped = c.packets_dropped,
                             .resend_requests = c.resend_requests,
@@ -309,10 +321,13 @@ void GigeSink::on_event(const CameraEvent& event) noexcept {
     Implementation& my = *implementation_;
     // A frame gets its block id when it is published. Before that it is unknown whether the stream takes it,
     // so the event of an exposure's start has none.
-    if (event.kind == CameraEvent::Kind::kExposureEnd)
+    if (event.kind == CameraEvent::Kind::kExposureEnd) {
         my.exposure_end = event;
-    else
-        my.notify(event, 0);
+        return;
+    }
+    if (event.kind == CameraEvent::Kind::kExposureStart)
+        my.begun_frame.store(event.frame, std::memory_order_release);
+    my.notify(event, 0);
 }
 
 void GigeSink::stop() noexcept {
@@ -333,14 +348,14 @@ SinkReport GigeSink::report() const {
     const auto n = [](std::uint64_t count) { return static_cast<double>(count); };
     return {.name = "gige " + format_ipv4(my.address.load()),
             .frames = c.frames,
-            .dropped = my.writer.dropped() + my.writer.of_other_size() + c.frames_given_up,
+            .dropped = my.frames_dropped() + my.writer.of_other_size().count(),
             .unwanted = my.writer.unwanted(),
             .figures = {{"clients", my.controlled ? 1.0 : 0.0},
                         {"acquisitions", n(my.acquisitions)},
                         {"packets_sent", n(c.packets)},
                         {"bytes_sent", n(c.bytes)},
                         {"packets_dropped_by_faults", n(c.packets_dropped)},
-                        {"packets_not_taken_by_kernel", n(c.packets_failed)},
+                        {"packets_not_taken_by_kernel", n(c.packets_failed.count())},
                         {"resend_requests", n(c.resend_requests)},
                         {"packets_resent", n(c.packets_resent)},
                         {"packets_refused", n(c.packets_refused)},
@@ -348,11 +363,17 @@ SinkReport GigeSink::report() const {
                         {"resend_requests_unanswered", n(c.requests_unanswered)},
                         {"resend_requests_from_others", n(my.foreign_resend_requests)},
                         {"frames_spaced", n(c.frames_spaced)},
-                        {"frames_given_up", n(c.frames_given_up)},
+                        {"frames_given_up", n(c.frames_given_up.count())},
                         {"test_packets", n(c.test_packets)},
+                        {"test_packets_not_taken_by_kernel", n(c.test_packets_failed)},
                         {"commands_from_other_interfaces", n(my.strange_datagrams)},
-                        {"frames_of_other_size", n(my.writer.of_other_size())},
-                        {"events_dropped", n(my.events_dropped)}}};
+                        {"frames_of_other_size", n(my.writer.of_other_size().count())},
+                        {"events_dropped", n(my.events_dropped)}},
+            .dropped_by_faults = my.writer.dropped_by_faults(),
+            .first_dropped = first_of(
+                {my.writer.dropped().first(), my.writer.of_other_size().first(), c.frames_given_up.first()}),
+            .packets_lost = c.packets_failed.count(),
+            .first_with_lost_packet = c.packets_failed.first()};
 }
 
 std::vector<ListeningPort> listening(const GigeConfig& c) {

@@ -114,7 +114,7 @@ void ShmSink::start() {
 void ShmSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
     const std::size_t bytes = sizeof(std::uint16_t) * frame.pixels();
     if (!segment_.data() || kShmSlotHeaderBytes + bytes > slot_bytes_) {
-        dropped_.fetch_add(1, std::memory_order_relaxed);
+        dropped_.add(record.id);
         return;
     }
     const std::int64_t begun_ns = monotonic_ns();
@@ -149,7 +149,10 @@ void ShmSink::stop() noexcept {
 }
 
 SinkReport ShmSink::report() const {
-    return {.name = "shm " + config_.name, .frames = published_.load(), .dropped = dropped_.load()};
+    return {.name = "shm " + config_.name,
+            .frames = published_.load(),
+            .dropped = dropped_.count(),
+            .first_dropped = dropped_.first()};
 }
 
 std::unique_ptr<FrameSink> make_sink(const ShmConfig& config, const SinkContext& context,

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "io/contract/frame_sink.h"
+#include "io/contract/loss_count.h"
 #include "io/contract/output_shape.h"
 #include "io/shm/shm_segment.h"
 #include "render/vocabulary/config_field.h"
@@ -52,7 +53,8 @@ class ShmSink : public FrameSink {
     std::size_t slot_bytes_;
     ShmSegment segment_;
     std::uint64_t count_ = 0;
-    std::atomic<std::uint64_t> published_{0}, dropped_{0};
+    LossCount dropped_;
+    std::atomic<std::uint64_t> published_{0};
 };
 
 }  // namespace hilcam

@@ -214,8 +214,10 @@ void UvcSink::feed() {
             const std::lock_guard lock(buffers_mutex_);
             if (!streaming_)
                 unwanted_.fetch_add(1);
+            else if (deliver(*item))
+                delivered_.fetch_add(1);
             else
-                (deliver(*item) ? delivered_ : late_).fetch_add(1);
+                late_.add(item->record.id);
         }
         mailbox_.done();
     }
@@ -259,13 +261,14 @@ SinkReport UvcSink::report() const {
     SinkReport report;
     report.name = "uvc " + gadget_.udc();
     report.frames = delivered_.load();
-    report.dropped = mailbox_.dropped() + late_.load();
+    report.dropped = mailbox_.dropped() + late_.count();
+    report.first_dropped = first_of({mailbox_.first_dropped(), late_.first()});
     report.unwanted = unwanted_.load();
     report.figures = {{"requests", static_cast<double>(requests_.load())},
                       {"settings_changed", static_cast<double>(changes_.load())},
                       {"requests_refused", static_cast<double>(refusals_.load())},
                       {"streams", static_cast<double>(streams_.load())},
-                      {"host_too_slow", static_cast<double>(late_.load())}};
+                      {"host_too_slow", static_cast<double>(late_.count())}};
     const std::lock_guard lock(mutex_);
     report.fault = fault_;
     return report;

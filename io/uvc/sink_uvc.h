@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/loss_count.h"
 #include "io/contract/output_shape.h"
 #include "io/system/fd.h"
 #include "io/uvc/uvc_gadget.h"
@@ -70,7 +71,8 @@ class UvcSink : public FrameSink {
     std::size_t queued_ = 0;
     bool streaming_ = false;
 
-    std::atomic<std::uint64_t> delivered_{0}, unwanted_{0}, late_{0}, requests_{0}, streams_{0};
+    LossCount late_;  // the host was too slow
+    std::atomic<std::uint64_t> delivered_{0}, unwanted_{0}, requests_{0}, streams_{0};
     std::atomic<std::uint64_t> changes_{0}, refusals_{0};
     mutable std::mutex mutex_;
     std::string fault_;

@@ -174,17 +174,23 @@ bool V4l2Sink::deliver(const FrameMailbox::Item& item) noexcept {
     return true;
 }
 
+// Delivers the frame when it is due; false when the device is not there or does not take it.
+bool V4l2Sink::takes(const FrameMailbox::Item& item) noexcept {
+    if (!device_.is_open()) return false;
+    pace();
+    return deliver(item);
+}
+
 void V4l2Sink::run() {
     while (const FrameMailbox::Item* item = mailbox_.wait()) {
         strike_faults(item->record.id);
         if (!device_.is_open() && monotonic_ns() >= retry_ns_) reopen();
         if (context_.faults.strikes(FaultKind::kV4l2Stall, item->record.id)) {
             counters_.stalled.fetch_add(1);
-        } else if (device_.is_open()) {
-            pace();
-            (deliver(*item) ? counters_.delivered : counters_.failed).fetch_add(1);
+        } else if (takes(*item)) {
+            counters_.delivered.fetch_add(1);
         } else {
-            counters_.failed.fetch_add(1);
+            counters_.failed.add(item->record.id);
         }
         mailbox_.done();
     }
@@ -207,7 +213,9 @@ SinkReport V4l2Sink::report() const {
     SinkReport report;
     report.name = "v4l2 " + config_.device;
     report.frames = counters_.delivered.load();
-    report.dropped = mailbox_.dropped() + counters_.failed.load() + counters_.stalled.load();
+    report.dropped = mailbox_.dropped() + counters_.failed.count() + counters_.stalled.load();
+    report.dropped_by_faults = counters_.stalled.load();
+    report.first_dropped = first_of({mailbox_.first_dropped(), counters_.failed.first()});
     report.figures = {{"stalled", static_cast<double>(counters_.stalled.load())},
                       {"reopened", static_cast<double>(counters_.reopened.load())},
                       {"format_flips_refused", static_cast<double>(counters_.flips_refused.load())},

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/loss_count.h"
 #include "io/contract/output_shape.h"
 #include "io/v4l2/v4l2_device.h"
 #include "io/v4l2/v4l2_formats.h"
@@ -57,7 +58,8 @@ class V4l2Sink : public FrameSink {
 
   private:
     struct Counters {
-        std::atomic<std::uint64_t> delivered{0}, failed{0}, stalled{0}, reopened{0}, flips_refused{0};
+        LossCount failed;
+        std::atomic<std::uint64_t> delivered{0}, stalled{0}, reopened{0}, flips_refused{0};
         std::atomic<std::size_t> buffers{0};
     };
 
@@ -68,6 +70,7 @@ class V4l2Sink : public FrameSink {
     void run();
     void strike_faults(std::uint64_t frame) noexcept;
     void pace() noexcept;
+    bool takes(const FrameMailbox::Item& item) noexcept;
     bool deliver(const FrameMailbox::Item& item) noexcept;
     void draw(const FrameMailbox::Item& item, std::span<std::uint8_t> out) noexcept;
     void note_fault(const std::string& text) noexcept;

@@ -26,7 +26,7 @@ std::uint64_t GigeFrameWriter::admit(const DnImage& frame, const FrameRecord& re
         unwanted_.fetch_add(1, std::memory_order_relaxed);
         return std::uint64_t{0};
     };
-    if (!s.open || !s.acquiring) return unwanted();
+    if (!s.open || !s.acquiring || record.id < now.first_frame) return unwanted();
     if (now.acquisition != acquisition_) {
         acquisition_ = now.acquisition;
         frames_ = 0;
@@ -35,7 +35,7 @@ std::uint64_t GigeFrameWriter::admit(const DnImage& frame, const FrameRecord& re
     }
     if (s.frames != 0 && frames_ >= s.frames) return unwanted();
     if (!fits(frame, record, s)) {
-        of_other_size_.fetch_add(1, std::memory_order_relaxed);
+        of_other_size_.add(record.id);
         return 0;
     }
     return ids_.take(s.long_ids(), faults_.strikes(FaultKind::kBlockIdWrap, record.id).has_value());
@@ -46,12 +46,12 @@ GigeFrameWriter::Outcome GigeFrameWriter::write(const DnImage& frame, const Fram
     const GigeStreamState& s = now.state;
     if (block == 0) return {};
     if (faults_.strikes(FaultKind::kFrameDrop, record.id)) {
-        dropped_.fetch_add(1, std::memory_order_relaxed);
+        dropped_by_faults_.fetch_add(1, std::memory_order_relaxed);
         return {.written = false, .finished = s.frames != 0 && ++frames_ == s.frames};
     }
     GigeSlot* const slot = ring_.claim();
     if (!slot) {
-        dropped_.fetch_add(1, std::memory_order_relaxed);
+        dropped_.add(record.id);
         return {};
     }
     slot->acquisition = now.acquisition;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/contract/loss_count.h"
 #include "io/gige/stream/gige_blocks.h"
 #include "io/gige/stream/gige_ring.h"
 #include "io/gige/stream/stream_faults.h"
@@ -23,7 +24,8 @@ class GigeFrameWriter {
         bool finished = false;  // the last frame of the acquisition will not be sent
     };
     // Returns the frame's block id; 0 when it will not be sent. A frame with another size than the stream's
-    // is not sent (the binning has just changed). Loop, once for each frame.
+    // is not sent (the binning has just changed), nor one whose exposure began before the acquisition did.
+    // Loop, once for each frame.
     std::uint64_t admit(const DnImage& frame, const FrameRecord& record, const GigeStreamNow& now) noexcept;
     // Writes the frame after admit(). When the ring is full or a fault drops the frame, its block id is a
     // gap. Loop: no lock, no allocation.
@@ -31,9 +33,10 @@ class GigeFrameWriter {
                   std::uint64_t block) noexcept;
 
     // Any thread.
-    std::uint64_t dropped() const { return dropped_.load(); }
+    const LossCount& dropped() const { return dropped_; }  // the ring was full
+    std::uint64_t dropped_by_faults() const { return dropped_by_faults_.load(); }
     std::uint64_t unwanted() const { return unwanted_.load(); }
-    std::uint64_t of_other_size() const { return of_other_size_.load(); }
+    const LossCount& of_other_size() const { return of_other_size_; }
 
   private:
     GigeRing& ring_;
@@ -45,7 +48,8 @@ class GigeFrameWriter {
     BlockIds ids_;
     StampClock clock_;
     const GigeSlot* before_ = nullptr;  // the previous frame of this acquisition
-    std::atomic<std::uint64_t> dropped_{0}, of_other_size_{0}, unwanted_{0};
+    LossCount dropped_, of_other_size_;
+    std::atomic<std::uint64_t> dropped_by_faults_{0}, unwanted_{0};
 };
 
 }  // namespace hilcam

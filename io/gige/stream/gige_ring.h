@@ -16,6 +16,7 @@ namespace hilcam {
 struct GigeStreamNow {
     GigeStreamState state;
     std::uint64_t acquisition = 0;
+    std::uint64_t first_frame = 0;  // the camera's frames before it had begun before the acquisition did
 };
 
 class GigeSlot {

@@ -134,7 +134,7 @@ void GigeSender::take_frame() {
 // frame has none behind it.
 void GigeSender::give_up_late_frames() {
     while (ring_.queued() > FrameSpacing::kMaxQueued && wanted(*next_)) {
-        counts_.frames_given_up.fetch_add(1, std::memory_order_relaxed);
+        counts_.frames_given_up.add(next_->record.id);
         ring_.done(*next_);
         next_ = ring_.next();
         next_->resent = 0;
@@ -164,7 +164,7 @@ void GigeSender::send_frame(GigeSlot& slot) {
         fill_batch(slot, order);
         if (first_ns == 0) first_ns = monotonic_ns();
         counts_.packets.fetch_add(batch_.count(), std::memory_order_relaxed);
-        transmit(s.packet_bytes, pacer_);
+        transmit(slot.record.id, s.packet_bytes, pacer_);
         last_ns = monotonic_ns();
         if (!order.done()) pause_until(pacer_.ready_ns());
     }
@@ -198,12 +198,13 @@ void GigeSender::fill_batch(const GigeSlot& slot, PacketOrder& order) {
     }
 }
 
-void GigeSender::transmit(std::uint32_t packet_bytes, Pacer& pacer, bool wait) {
+void GigeSender::transmit(std::uint64_t frame, std::uint32_t packet_bytes, Pacer& pacer, bool wait) {
     if (batch_.count() > 0) {
         if (wait)
             room_.wait(address_, batch_.to(), batch_.count() * ReceiverRoom::bytes_of(packet_bytes),
                        stopping_);
-        counts_.packets_failed.fetch_add(batch_.send(socket_.get()), std::memory_order_relaxed);
+        const std::size_t failed = batch_.send(socket_.get());
+        if (frame != 0) counts_.packets_failed.add(frame, failed);
         counts_.bytes.fetch_add(batch_.bytes(), std::memory_order_relaxed);
     }
     pacer.sent(batch_.count(), batch_.bytes(), monotonic_ns());
@@ -306,7 +307,7 @@ void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t m
     counts_.packets_resent.fetch_add(resent, std::memory_order_relaxed);
     counts_.packets_refused.fetch_add(refused, std::memory_order_relaxed);
     // The stream waits only for its own receiver; another requester has to read its buffer in time.
-    transmit(r.packet_bytes, resend_pacer_, r.to == slot.frame.stream.destination);
+    transmit(slot.record.id, r.packet_bytes, resend_pacer_, r.to == slot.frame.stream.destination);
 }
 
 // Refuses what resend_ asks for, up to `last`. Only its first packets get the answer, because clients then
@@ -317,7 +318,7 @@ void GigeSender::refuse(gvsp::Status reason, std::uint32_t last) {
     if (refusal_pacer_.ready_ns() <= monotonic_ns()) {
         for (std::uint32_t id = r.next; id <= last && id - r.next < 8; ++id)
             batch_.add(refusal_of(r.extended_ids, r.block, id, reason), {}, r.extended_ids);
-        transmit(r.packet_bytes, refusal_pacer_, false);
+        transmit(0, r.packet_bytes, refusal_pacer_, false);
     } else {
         counts_.requests_unanswered.fetch_add(1, std::memory_order_relaxed);
     }
@@ -334,7 +335,7 @@ void GigeSender::send_test_packet(const GigeOrder& order) {
                reinterpret_cast<const sockaddr*>(&to), sizeof to) >= 0)
         counts_.test_packets.fetch_add(1, std::memory_order_relaxed);
     else
-        counts_.packets_failed.fetch_add(1, std::memory_order_relaxed);
+        counts_.test_packets_failed.fetch_add(1, std::memory_order_relaxed);
 }
 
 GigeSlot* GigeSender::borrow(std::uint64_t acquisition, std::uint64_t block, std::uint64_t& oldest) {
@@ -384,7 +385,7 @@ void GigeSender::serve_delayed(std::int64_t now_ns) {
         batch_.add(packet_of(slot->frame, d.id, d.status), fate, s.long_ids());
         const bool fresh = d.status == gvsp::kFresh;
         if (fresh) counts_.packets.fetch_add(1, std::memory_order_relaxed);
-        transmit(s.packet_bytes, fresh ? pacer_ : resend_pacer_);
+        transmit(slot->record.id, s.packet_bytes, fresh ? pacer_ : resend_pacer_);
         give_back(slot);
     }
 }

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "io/contract/loss_count.h"
 #include "io/gige/stream/frame_spacing.h"
 #include "io/gige/stream/gige_blocks.h"
 #include "io/gige/stream/gige_ring.h"
@@ -54,15 +55,17 @@ class GigeSender {
     struct Counts {
         std::atomic<std::uint64_t> frames{0};           // delivered
         std::atomic<std::uint64_t> frames_spaced{0};    // late ones that waited for their turn
-        std::atomic<std::uint64_t> frames_given_up{0};  // late ones with newer ones behind them
+        LossCount frames_given_up;                      // late ones with newer ones behind them
         std::atomic<std::uint64_t> packets{0};          // sent for the first time
         std::atomic<std::uint64_t> packets_dropped{0};  // by faults
-        std::atomic<std::uint64_t> packets_failed{0};   // not accepted by the kernel
+        LossCount packets_failed;                       // packets of frames that the kernel did not accept
         std::atomic<std::uint64_t> bytes{0};            // all packets, with IP and UDP headers
         std::atomic<std::uint64_t> resend_requests{0}, packets_resent{0}, packets_refused{0};
         std::atomic<std::uint64_t> packets_over_limit{0};   // refused because their block had had its share
         std::atomic<std::uint64_t> requests_unanswered{0};  // too many requests, or too many that are refused
         std::atomic<std::uint64_t> test_packets{0};
+        // Test packets that the kernel did not accept: the client tries sizes until one is too large.
+        std::atomic<std::uint64_t> test_packets_failed{0};
     };
 
     // A client that loses a share p of all packets asks for each p / (1 - p) times on average: once when half
@@ -114,8 +117,9 @@ class GigeSender {
     void give_up_late_frames();
     void send_frame(GigeSlot& slot);
     void fill_batch(const GigeSlot& slot, PacketOrder& order);
-    // Sends the batch and charges it to `pacer`. wait: until the receiver's buffer has room for it.
-    void transmit(std::uint32_t packet_bytes, Pacer& pacer, bool wait = true);
+    // Sends the batch, which belongs to that frame (0: to none), and charges it to `pacer`. wait: until the
+    // receiver's buffer has room for it.
+    void transmit(std::uint64_t frame, std::uint32_t packet_bytes, Pacer& pacer, bool wait = true);
     void set_do_not_fragment(bool on);
     Pace pace_of(const GigeSlot& slot);
     void delay(const GigeSlot& slot, std::uint32_t id, gvsp::Status status, const PacketFate& fate,

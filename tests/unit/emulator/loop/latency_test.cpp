@@ -24,5 +24,16 @@ TEST(DurationHistogram, QuantilesAreRightWithinItsBuckets) {
     EXPECT_EQ(DurationHistogram().quantile_ms(0.5), 0);
 }
 
+TEST(DurationHistogram, ItsLongestIsExactAndItsBucketsCountEveryRecord) {
+    DurationHistogram histogram;
+    for (const std::int64_t ns : {1'000'123, 7'654'321, 3'000'000, 1'100'000}) histogram.record(ns);
+    EXPECT_DOUBLE_EQ(histogram.max_ms(), 7.654321);
+    std::uint64_t count = 0;
+    for (const DurationHistogram::Bucket& b : histogram.quarter_octaves()) count += b.count;
+    EXPECT_EQ(count, 4u);
+    histogram.clear();
+    EXPECT_EQ(histogram.max_ms(), 0);
+}
+
 }  // namespace
 }  // namespace hilcam

@@ -292,10 +292,11 @@ TEST(GigeSink, AnExposuresEndNamesItsFramesBlock) {
     };
     expose(7, 0);  // to nobody
     client.start(kCamera);
-    expose(8, 1);
-    faults.order({.kind = FaultKind::kFrameDrop, .rate = 1, .from_frame = 9, .frames = 1});
-    sink.publish(image, (record.id = 9, record));
-    expose(10, 3);
+    expose(8, 0);  // its exposure had begun before
+    expose(9, 1);
+    faults.order({.kind = FaultKind::kFrameDrop, .rate = 1, .from_frame = 10, .frames = 1});
+    sink.publish(image, (record.id = 10, record));
+    expose(11, 3);
     sink.stop();
 }
 

@@ -64,6 +64,16 @@ TEST_F(FrameWriter, OnlyWhileAClientAcquires) {
     EXPECT_EQ(sent(), (Sent{{1, 4}}));
 }
 
+// A camera does not send what it was exposing, or had not sent yet, when it was told to start.
+TEST_F(FrameWriter, FramesFromBeforeTheAcquisitionAreNotSent) {
+    now_.first_frame = 3;
+    EXPECT_FALSE(write().written);
+    EXPECT_FALSE(write().written);
+    EXPECT_TRUE(write().written);
+    EXPECT_EQ(sent(), (Sent{{1, 3}}));
+    EXPECT_EQ(writer_.unwanted(), 2u);
+}
+
 TEST_F(FrameWriter, ACountedAcquisitionEnds) {
     now_.state.frames = 2;
     write();
@@ -90,7 +100,7 @@ TEST_F(FrameWriter, FramesOfAnotherSizeAreNotSent) {
     EXPECT_FALSE(write().written);
     now_.state.width = 15, now_.state.offset_x = 2;
     EXPECT_FALSE(write().written);
-    EXPECT_EQ(writer_.of_other_size(), 3u);
+    EXPECT_EQ(writer_.of_other_size().count(), 3u);
     now_.state.offset_x = 1;
     EXPECT_TRUE(write().written);
     EXPECT_EQ(sent(), (Sent{{1, 4}}));  // they took no block ids
@@ -105,7 +115,9 @@ TEST_F(FrameWriter, LostFramesLeaveAGapInTheBlockIds) {
     EXPECT_EQ(sent(), (Sent{{4, 4}, {5, 5}, {6, 6}}));
     write();
     EXPECT_EQ(sent(), (Sent{{9, 9}}));
-    EXPECT_EQ(writer_.dropped(), 3u);
+    EXPECT_EQ(writer_.dropped().count(), 2u);
+    EXPECT_EQ(writer_.dropped().first(), 7u);
+    EXPECT_EQ(writer_.dropped_by_faults(), 1u);
 }
 
 TEST_F(FrameWriter, FaultsOfWholeFrames) {

@@ -271,9 +271,16 @@ class LateFrames : public Sender {
         sender_.frame_ready();
     }
     bool eventually(const std::atomic<std::uint64_t>& count, std::uint64_t wanted) {
-        for (int i = 0; i < kPatience_ms && count < wanted; ++i)
+        return eventually([&] { return count.load(); }, wanted);
+    }
+    bool eventually(const LossCount& count, std::uint64_t wanted) {
+        return eventually([&] { return count.count(); }, wanted);
+    }
+    template <class Count>
+    bool eventually(const Count& count, std::uint64_t wanted) {
+        for (int i = 0; i < kPatience_ms && count() < wanted; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return count == wanted;
+        return count() == wanted;
     }
 };
 
@@ -340,6 +347,37 @@ TEST_P(Sender, TestPacketsHaveTheSizeAskedFor) {
     EXPECT_EQ(sender_.counts().test_packets, 3u);
     faults_.order({.kind = FaultKind::kLinkDown, .rate = 1});
     EXPECT_EQ(test(4004), 0u);
+}
+
+// A client tries sizes until one is too long: that takes nothing away from a frame.
+TEST_P(Sender, ATestPacketThatTheKernelRefusesIsNoPacketOfAFrame) {
+    GigeOrder order;
+    order.kind = GigeOrder::Kind::kTestPacket;
+    order.to = now_.state.destination;
+    order.packet_bytes = 1500;
+    order.to.ip = 0xC6336401;  // 198.51.100.1 (RFC 5737): no way from a loopback address
+    sender_.order(order);
+    for (int i = 0; i < kPatience_ms && sender_.counts().test_packets_failed == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(sender_.counts().test_packets_failed, 1u);
+    EXPECT_EQ(sender_.counts().packets_failed.count(), 0u);
+}
+
+TEST_P(Sender, PacketsThatTheKernelRefusesAreCountedWithTheirFirstFrame) {
+    send_frame();
+    EXPECT_EQ(sender_.counts().packets_failed.count(), 0u);
+    now_.state.destination.ip = 0xC6336401;
+    sender_.set_stream(now_);
+    for (int i = 0; i < 2; ++i) {
+        ++record_.id;
+        ASSERT_TRUE(write().written);
+        sender_.frame_ready();
+    }
+    const std::uint64_t all = 2 * (std::uint64_t{trailer()} + 1);
+    for (int i = 0; i < kPatience_ms && sender_.counts().packets_failed.count() < all; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(sender_.counts().packets_failed.count(), all);
+    EXPECT_EQ(sender_.counts().packets_failed.first(), 2u);
 }
 
 // A camera that is to move opens what it will send from, or learns that it cannot, while it still sends from where it is.
