@@ -35,9 +35,10 @@ Fields fields(DeviceClockConfig& c) {
         flag("enable_ptp", c.enable_ptp, "true: PtpEnable is on from the start, without a client"),
         own_clock_only(c, number("ppm", c.rate, 1e-6, {-500, 500}, "error of the clock's rate")),
         own_clock_only(c, choice("start", c.start, {"zero", "machine"},
-                                 "what the clock shows at the start, before offset_s: 0, or the machine's "
-                                 "CLOCK_TAI")),
-        own_clock_only(c, number("offset_s", c.offset_s, 1, {-1e9, 1e9}, "added to the clock at the start")),
+                                 "reading of the clock at the start, before offset_s: 0 (zero), or the "
+                                 "machine's CLOCK_TAI (machine)")),
+        own_clock_only(c, number("offset_s", c.offset_s, 1, {-1e9, 1e9},
+                                 "time that is added to the clock at the start")),
         own_clock_only(c, number("wander_ppm", c.wander, 1e-6, {0, 1},
                                  "change of the rate from one second to the next, standard deviation of a "
                                  "random walk")),

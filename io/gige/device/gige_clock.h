@@ -3,14 +3,14 @@
 // from the source of the configuration (io/ptp/device_clock_config.h):
 //
 //  tai   CLOCK_MONOTONIC since the last reset of the time stamp or, with PTP enabled, the machine's
-//        CLOCK_TAI, which a daemon keeps (ptp4l with phc2sys, or chrony). The data set is the kernel's. PtpStatus:
+//        CLOCK_TAI, which a daemon keeps (ptp4l with phc2sys, or chrony). The clock steps when the machine's
+//        does. The data set is the kernel's. PtpStatus:
 //         Disabled      PTP is not enabled
 //         Listening     the kernel's clock is not synchronised (adjtimex: STA_UNSYNC)
 //         Uncalibrated  it is, but CLOCK_TAI has no offset to UTC: times are UTC, not TAI
 //         Slave         it is, and CLOCK_TAI is TAI
-//        The clock steps when the machine's does.
 //  ptp   a clock of the device's own, which a PTP slave steers with PTP enabled (io/ptp/ptp_port.h)
-//  free  such a clock without PTP; it cannot be enabled
+//  free  such a clock without PTP, which cannot be enabled
 //
 // A latched data set is of one instant.
 

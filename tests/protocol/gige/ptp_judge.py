@@ -65,6 +65,7 @@ def main():
             samples.append((time.monotonic() - begin, *sample(camera, CLOCKS[a.clock])))
             time.sleep(0.1)
         features.execute("PtpDataSetLatch")
+        camera.release()
         print(json.dumps({"took_s": took, "samples": samples, "features": {name: features.get(name) for name in LATCHED}}))
 
 
