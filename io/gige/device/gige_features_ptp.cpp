@@ -28,7 +28,7 @@ Feature clock_id(const char* name, std::uint32_t address, const char* meaning) {
     return f;
 }
 Feature nanoseconds(const char* name, std::uint32_t address, const char* meaning) {
-    Feature f = integer64(name, address, meaning).between(-kMax64, kMax64).unit("ns").read_only();
+    Feature f = integer64(name, address, meaning).unit("ns").read_only();
     f.is_signed = true;
     return f;
 }
@@ -75,7 +75,7 @@ void add_ptp_features(FeatureTable& t) {
                         "Latched: scale of the device's clock. Arbitrary: the master does not say TAI")
                 .read_only(),
             whole_seconds("PtpCurrentUtcOffset", r::kPtpUtcOffset_s,
-                          "Latched: TAI minus UTC as the master says; 0: not known"),
+                          "Latched: TAI minus UTC as the master says, valid or not; 0: no master"),
             integer("PtpSteps", r::kPtpSteps, "Latched: how often the clock has stepped")
                 .between(0, 4294967295.0)
                 .read_only(),
