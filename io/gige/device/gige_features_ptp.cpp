@@ -48,38 +48,38 @@ Feature whole_seconds(const char* name, std::uint32_t address, const char* meani
 }  // namespace
 
 void add_ptp_features(FeatureTable& t) {
-    t.add(
-        "PtpControl",
-        {
-            boolean("PtpEnable", b::kGvcpConfig,
-                    "The device's clock follows a PTP master or, with source tai, the machine's CLOCK_TAI")
-                .bit(19),
-            clock_accuracy(),
-            live_states("PtpStatus",
-                        "State of the port, now. With source tai what the machine's kernel says of its "
-                        "clock: Listening: not synchronised; Uncalibrated: no offset of TAI to UTC; Slave: "
-                        "both are there"),
-            command("PtpDataSetLatch", r::kPtpDataSetLatch, "Latches the values below, all of one instant"),
-            enumeration("PtpServoStatus", r::kPtpServoStatus, counted({"Unknown", "Locked"}),
-                        "Latched: whether the clock follows its master")
-                .read_only(),
-            nanoseconds("PtpOffsetFromMaster", r::kPtpOffset_ns,
-                        "Latched: device minus master, as measured last"),
-            nanoseconds("PtpMeanPropagationDelay", r::kPtpDelay_ns, "Latched: mean delay of the path"),
-            clock_id("PtpClockID", r::kPtpClockId, "Latched: identity of the device's clock"),
-            clock_id("PtpParentClockID", r::kPtpParentId, "Latched: of the master on this network; 0: none"),
-            clock_id("PtpGrandmasterClockID", r::kPtpGrandmasterId,
-                     "Latched: of the clock that the master follows; 0: none"),
-            enumeration("PtpTimeScale", r::kPtpTimeScale,
-                        counted({"Device", "Monotonic", "Arbitrary", "UTC", "TAI"}),
-                        "Latched: scale of the device's clock. Arbitrary: the master does not say TAI")
-                .read_only(),
-            whole_seconds("PtpCurrentUtcOffset", r::kPtpUtcOffset_s,
-                          "Latched: TAI minus UTC as the master says, valid or not; 0: no master"),
-            integer("PtpSteps", r::kPtpSteps, "Latched: how often the clock has stepped")
-                .between(0, 4294967295.0)
-                .read_only(),
-        });
+    t.add("PtpControl",
+          {
+              boolean("PtpEnable", b::kGvcpConfig,
+                      "The clock follows a PTP master or, with source tai, CLOCK_TAI")
+                  .bit(19),
+              clock_accuracy(),
+              live_states("PtpStatus",
+                          "State of the port, now. With source tai what the machine's kernel says of its "
+                          "clock: Listening: not synchronised; Uncalibrated: no offset of TAI to UTC; Slave: "
+                          "both are there"),
+              command("PtpDataSetLatch", r::kPtpDataSetLatch, "Latches the values below, all of one instant"),
+              enumeration("PtpServoStatus", r::kPtpServoStatus, counted({"Unknown", "Locked"}),
+                          "Latched: whether the clock follows its master")
+                  .read_only(),
+              nanoseconds("PtpOffsetFromMaster", r::kPtpOffset_ns,
+                          "Latched: device minus master, as measured last"),
+              nanoseconds("PtpMeanPropagationDelay", r::kPtpDelay_ns, "Latched: mean delay of the path"),
+              clock_id("PtpClockID", r::kPtpClockId, "Latched: identity of the device's clock"),
+              clock_id("PtpParentClockID", r::kPtpParentId,
+                       "Latched: identity of the master on this network; 0: none"),
+              clock_id("PtpGrandmasterClockID", r::kPtpGrandmasterId,
+                       "Latched: identity of the grandmaster; 0: none"),
+              enumeration("PtpTimeScale", r::kPtpTimeScale,
+                          counted({"Device", "Monotonic", "Arbitrary", "UTC", "TAI"}),
+                          "Latched: the clock's scale")
+                  .read_only(),
+              whole_seconds("PtpCurrentUtcOffset", r::kPtpUtcOffset_s,
+                            "Latched: TAI minus UTC by the master, valid or not"),
+              integer("PtpSteps", r::kPtpSteps, "Latched: how often the clock has stepped")
+                  .between(0, 4294967295.0)
+                  .read_only(),
+          });
     t.add("TransportLayerControl",
           {
               boolean("GevIEEE1588", b::kGvcpConfig, "As PtpEnable").bit(19),

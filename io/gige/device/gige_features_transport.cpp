@@ -147,7 +147,7 @@ void add_channels(FeatureTable& t) {
             integer("GevSCSP", b::kStreamSourcePort, "Where the stream comes from")
                 .between(0, 65535)
                 .read_only(),
-            integer("GevSCPSPacketSize", b::kPacketSize, "IP, UDP and GVSP headers included")
+            integer("GevSCPSPacketSize", b::kPacketSize, "IP, UDP, GVSP headers included")
                 .between(GigeTransport::kMinPacketBytes, GigeTransport::kMaxPacketBytes)
                 .every(GigeTransport::kPacketStep)
                 .unit("B")

@@ -15,14 +15,14 @@
 
 namespace hilcam {
 
-inline constexpr std::int64_t kMs = 1'000'000, kSec = 1'000'000'000;
+inline constexpr std::int64_t kSimMs = 1'000'000, kSimSecond = 1'000'000'000;
 
 struct SimMaster {
     ptp::PortIdentity identity{0x001122FFFE334455, 1};
     ptp::Announce announce{.utc_offset_s = 37, .grandmaster = 0x001122FFFE334455};
     std::uint16_t flags = ptp::flag::kPtpTimescale | ptp::flag::kUtcOffsetValid;
     std::uint8_t domain = 0;
-    std::int64_t ahead_ns = 1'700'000'000 * kSec;  // of CLOCK_MONOTONIC
+    std::int64_t ahead_ns = 1'700'000'000 * kSimSecond;  // of CLOCK_MONOTONIC
     bool alive = true, two_step = true, follow_up_first = false;
     std::int8_t log_sync = 0, log_announce = 1;
     std::int64_t correction_ns = 0;  // of a transparent clock on the way: added to the path and said
@@ -46,8 +46,8 @@ class PtpBench {
     // Masters begin to send when they are added; their addresses stay.
     SimMaster& add(const SimMaster& master) {
         SimMaster* const m = masters_.emplace_back(std::make_unique<SimMaster>(master)).get();
-        at(now_ns + 100 * kMs, [this, m] { send_announce(*m); });
-        at(now_ns + 130 * kMs, [this, m] { send_sync(*m); });
+        at(now_ns + 100 * kSimMs, [this, m] { send_announce(*m); });
+        at(now_ns + 130 * kSimMs, [this, m] { send_sync(*m); });
         return *m;
     }
     void run(double seconds) {
@@ -96,7 +96,7 @@ class PtpBench {
         return out;
     }
 
-    static constexpr std::int64_t kBegin_ns = 1000 * kSec;
+    static constexpr std::int64_t kBegin_ns = 1000 * kSimSecond;
     std::int64_t now_ns = kBegin_ns;
     DeviceClock clock;
     std::vector<PtpNote> notes;

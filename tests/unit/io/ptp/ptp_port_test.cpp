@@ -27,7 +27,7 @@ SimMaster other_master(std::uint8_t priority1 = 128) {
 
 TEST(PtpPort, From50PpmAnd1SItIsBelow1UsWithoutNoise) {
     SimMaster master;
-    PtpBench b(kDrifting, master.time_ns(PtpBench::kBegin_ns) + kSec);
+    PtpBench b(kDrifting, master.time_ns(PtpBench::kBegin_ns) + kSimSecond);
     const SimMaster& m = b.add(master);
     EXPECT_EQ(b.state(), PtpState::kListening);
     b.run(60);
@@ -40,7 +40,7 @@ TEST(PtpPort, From50PpmAnd1SItIsBelow1UsWithoutNoise) {
 
 TEST(PtpPort, From50PpmAnd1SItIsBelow100UsWith50UsOfJitter) {
     SimMaster master;
-    PtpBench b(kDrifting, master.time_ns(PtpBench::kBegin_ns) + kSec);
+    PtpBench b(kDrifting, master.time_ns(PtpBench::kBegin_ns) + kSimSecond);
     b.jitter_ns = 50'000;
     const SimMaster& m = b.add(master);
     b.run(60);
@@ -94,7 +94,7 @@ TEST(PtpPort, OutliersDoNotMoveTheClock) {
     const SimMaster& m = b.add({});
     b.run(40);
     int n = 0;
-    b.late = [&] { return ++n % 6 == 0 ? 20 * kMs : std::int64_t{0}; };  // one Sync in six waits 20 ms
+    b.late = [&] { return ++n % 6 == 0 ? 20 * kSimMs : std::int64_t{0}; };  // one Sync in six waits 20 ms
     const auto errors = b.errors(m, 120);
     EXPECT_LT(errors.back(), 20'000);
     EXPECT_EQ(b.count(Kind::kStep), 1);
@@ -114,9 +114,9 @@ TEST(PtpPort, AMastersStepIsFollowedByOneStep) {
     PtpBench b(kDrifting);
     SimMaster& m = b.add({});
     b.run(60);
-    m.ahead_ns += kSec;
+    m.ahead_ns += kSimSecond;
     b.run(2);
-    EXPECT_LT(b.error_ns(m), -900 * kMs);  // two Syncs could be outliers
+    EXPECT_LT(b.error_ns(m), -900 * kSimMs);  // two Syncs could be outliers
     b.run(12);
     EXPECT_LT(std::abs(b.error_ns(m)), 1'000);
     EXPECT_EQ(b.count(Kind::kStep), 2);

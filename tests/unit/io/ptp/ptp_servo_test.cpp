@@ -5,7 +5,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kServoSecond = 1'000'000'000;
 
 // A master whose time is CLOCK_MONOTONIC, 1 ms away.
 PathDelay a_millisecond() {
@@ -33,21 +33,22 @@ TEST(PathDelay, IsTheMedianOfTheLatestExchanges) {
 TEST(PathDelay, KnowsThatTheMastersClockGainsMeanwhile) {
     PathDelay delay;
     // One second passes here, 1.0001 s there: without the rate 50 us would be taken for delay.
-    delay.add({0, 0, kSecond, kSecond + 100'000 + 2'000});
+    delay.add({0, 0, kServoSecond, kServoSecond + 100'000 + 2'000});
     EXPECT_EQ(delay.median_ns(0), 51'000);
     EXPECT_EQ(delay.median_ns(100e-6), 1'000);
 }
 
 TEST(PtpServo, TwoSyncsGiveTheFrequencyAndOneStep) {
-    DeviceClock clock({.rate = 80e-6}, {0, 5 * kSecond, 0});
+    DeviceClock clock({.rate = 80e-6}, {0, 5 * kServoSecond, 0});
     PtpServo servo(clock);
     const PathDelay delay = a_millisecond();
-    servo.take(10 * kSecond, {10 * kSecond - 1'000'000, 10 * kSecond, 1}, delay);
+    servo.take(10 * kServoSecond, {10 * kServoSecond - 1'000'000, 10 * kServoSecond, 1}, delay);
     EXPECT_EQ(servo.steps(), 0u);
-    servo.take(12 * kSecond, {12 * kSecond - 1'000'000, 12 * kSecond, 1}, delay);
+    servo.take(12 * kServoSecond, {12 * kServoSecond - 1'000'000, 12 * kServoSecond, 1}, delay);
     EXPECT_EQ(servo.steps(), 1u);
     EXPECT_NEAR(servo.rate_correction(), -80e-6, 1e-9);
-    EXPECT_NEAR(static_cast<double>(clock.device_ns(100 * kSecond) - 100 * kSecond), 0, 600);  // 6.4e-9
+    EXPECT_NEAR(static_cast<double>(clock.device_ns(100 * kServoSecond) - 100 * kServoSecond), 0,
+                600);  // 6.4e-9
     EXPECT_FALSE(servo.locked());
 }
 
@@ -59,28 +60,29 @@ TEST(PtpServo, SmallOffsetsAreSlewedNotStepped) {
     for (std::int64_t t = 1; t <= 60; ++t) {
         // From the 20th second on, the master is 500 us ahead.
         const std::int64_t ahead_ns = t >= 20 ? 500'000 : 0;
-        servo.take(t * kSecond, {t * kSecond - 1'000'000 + ahead_ns, t * kSecond, 1}, delay);
+        servo.take(t * kServoSecond, {t * kServoSecond - 1'000'000 + ahead_ns, t * kServoSecond, 1}, delay);
         for (std::int64_t ms = 1; ms < 1000; ++ms) {
-            const std::int64_t now_ns = t * kSecond + ms * 1'000'000, device_ns = clock.device_ns(now_ns);
+            const std::int64_t now_ns = t * kServoSecond + ms * 1'000'000,
+                               device_ns = clock.device_ns(now_ns);
             servo.tick(now_ns);
             EXPECT_GT(device_ns, last_ns);
-            EXPECT_LT(device_ns - last_ns, last_ns == 0 ? 2 * kSecond : 2'003'000);
+            EXPECT_LT(device_ns - last_ns, last_ns == 0 ? 2 * kServoSecond : 2'003'000);
             last_ns = device_ns;
         }
     }
     EXPECT_EQ(servo.steps(), 0u);
     EXPECT_TRUE(servo.locked());
-    EXPECT_NEAR(static_cast<double>(clock.device_ns(61 * kSecond) - 61 * kSecond), 500'000, 50'000);
+    EXPECT_NEAR(static_cast<double>(clock.device_ns(61 * kServoSecond) - 61 * kServoSecond), 500'000, 50'000);
 }
 
 TEST(PtpServo, AMasterThatStepsBetweenTheFirstTwoSyncsIsNotAFrequency) {
     DeviceClock clock;
     PtpServo servo(clock);
     const PathDelay delay = a_millisecond();
-    servo.take(1 * kSecond, {1 * kSecond, 1 * kSecond, 1}, delay);
-    servo.take(2 * kSecond, {900 * kSecond, 2 * kSecond, 1}, delay);
+    servo.take(1 * kServoSecond, {1 * kServoSecond, 1 * kServoSecond, 1}, delay);
+    servo.take(2 * kServoSecond, {900 * kServoSecond, 2 * kServoSecond, 1}, delay);
     EXPECT_EQ(servo.steps(), 0u);
-    servo.take(3 * kSecond, {901 * kSecond, 3 * kSecond, 1}, delay);
+    servo.take(3 * kServoSecond, {901 * kServoSecond, 3 * kServoSecond, 1}, delay);
     EXPECT_EQ(servo.steps(), 1u);
     EXPECT_NEAR(servo.rate_correction(), 0, 1e-9);
 }
@@ -89,9 +91,10 @@ TEST(PtpServo, ResetForgetsTheRateAndCountsOn) {
     DeviceClock clock({.rate = 80e-6}, {0, 0, 0});
     PtpServo servo(clock);
     const PathDelay delay = a_millisecond();
-    for (std::int64_t t = 1; t < 10; ++t) servo.take(t * kSecond, {t * kSecond, t * kSecond, 1}, delay);
+    for (std::int64_t t = 1; t < 10; ++t)
+        servo.take(t * kServoSecond, {t * kServoSecond, t * kServoSecond, 1}, delay);
     EXPECT_TRUE(servo.locked());
-    servo.reset(10 * kSecond);
+    servo.reset(10 * kServoSecond);
     EXPECT_FALSE(servo.locked());
     EXPECT_EQ(servo.steps(), 1u);
     EXPECT_NEAR(clock.line().rate, 80e-6, 1e-12);
