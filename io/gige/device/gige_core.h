@@ -13,8 +13,8 @@
 #include "io/gige/device/gige_register_file.h"
 #include "io/gige/device/gvcp.h"
 #include "io/gige/stream/gige_stream.h"
-#include "io/ptp/device_clock_config.h"
 #include "io/ptp/device_clock.h"
+#include "io/ptp/device_clock_config.h"
 #include "io/ptp/ptp_data_set.h"
 
 namespace hilcam {
